@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace terrane {
+
+/// Many short lists in two flat arrays: list i is values[offsets[i], offsets[i + 1]).
+template <class T>
+struct Lists {
+    std::vector<std::uint32_t> offsets{0}; ///< size() + 1, ascending from 0
+    std::vector<T> values;                 ///< all lists, one after the other
+
+    [[nodiscard]] std::size_t size() const { return offsets.size() - 1; }
+    [[nodiscard]] std::span<const T> operator[](std::size_t i) const {
+        return {values.data() + offsets[i], values.data() + offsets[i + 1]};
+    }
+    /// Ends the list that was filled by values.push_back since the last call.
+    void close() { offsets.push_back(static_cast<std::uint32_t>(values.size())); }
+    void push_back(std::span<const T> list) {
+        values.insert(values.end(), list.begin(), list.end());
+        close();
+    }
+    friend bool operator==(const Lists&, const Lists&) = default;
+};
+
+} // namespace terrane
