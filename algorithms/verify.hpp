@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// The independent verifier: GMP rationals and value types only. It shares no predicate, no search
+// structure and no arrangement code with the producer; a test reads its includes.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <terrane/algorithms/lists.hpp>
+#include <terrane/algorithms/mesh.hpp>
+#include <terrane/algorithms/surface.hpp>
+#include <terrane/kernel/construction.hpp>
+
+namespace terrane {
+
+/// What an arrangement says of itself, in numbers that count through all input surfaces:
+/// input vertex k of surface s is (vertices of surfaces before s) + k; triangles likewise.
+struct ArrangementClaim {
+    std::vector<Construction> vertices;      ///< pairwise distinct points
+    std::vector<Triangle> triangles;         ///< indices into vertices; unique as sets
+    Lists<std::uint32_t> parents_of;         ///< per triangle: all input triangles that contain it
+                                             ///< (duplicates too), sorted, >= 1
+    std::vector<Edge> intersection_edges;    ///< sorted, unique; see rule R7
+    std::vector<std::uint32_t> degenerate;   ///< input triangles without area, sorted
+    std::vector<std::array<std::uint32_t, 2>> duplicates; ///< {triangle, the first one with the same
+                                                          ///< three points}, sorted
+};
+
+enum class Rule : std::uint8_t {
+    R1_indices,            ///< an index is out of range, a list unsorted or empty
+    R2_vertices,           ///< a construction is undefined (parallel line and plane, ...)
+    R3_distinct,           ///< two vertices are the same point, or a vertex belongs to no triangle
+    R4_triangles,          ///< a triangle without area, or two triangles with the same vertices
+    R5_contacts,           ///< two triangles meet other than in a shared vertex or edge
+    R6_parents,            ///< an input triangle is not exactly the union of the triangles that name
+                           ///< it: a child lies outside of it, or the areas do not add up
+    R7_intersection_edges, ///< listed but none, or one but not listed
+    R8_set_aside,          ///< degenerate or duplicate, but not listed as such, or the reverse
+};
+
+struct Violation {
+    Rule rule{};
+    std::vector<std::uint32_t> elements; ///< the vertices, edges or triangles at fault
+    std::string sentence;
+};
+
+/// All violations of the rules, sorted by rule and elements; none if the claim is true.
+/// An edge is an intersection edge iff more than two triangles meet in it, or two that do differ in
+/// the number of geometrically distinct parents that they have in some surface.
+/// Cost: a sweep over sorted boxes; O(n log n + pairs) rational tests.
+std::vector<Violation> verify_arrangement(std::span<const Surface> inputs,
+                                          const ArrangementClaim& claim);
+
+/// All violations of R4 and R5 in a mesh of doubles (and of R1, R3), judged by rationals.
+std::vector<Violation> verify_conforming(std::span<const Point3> vertices,
+                                         std::span<const Triangle> triangles);
+
+} // namespace terrane
