@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// The number types of the three stages: double with a bound, interval, exact.
+#pragma once
+
+#include <terrane/kernel/config.hpp>
+
+#include <CGAL/Interval_nt.h>
+#include <CGAL/Mpzf.h>
+
+#include <cstdint>
+#include <optional>
+
+#include <terrane/kernel/sign.hpp>
+
+namespace terrane {
+
+/// Encloses a real number; correct only under an UpwardRounding in the same thread.
+using Interval = CGAL::Interval_nt<false>;
+
+/// Sums, differences and products of doubles, exactly; no division. Full range of double.
+using Exact = CGAL::Mpzf;
+
+/// The rounding mode that Interval needs, for as long as it lives, in this thread. One per thread
+/// and stage: switching costs more than a predicate. Inside it, ordinary double arithmetic rounds
+/// upward too: only the static filters, whose bounds hold in any mode, may be used.
+using UpwardRounding = CGAL::Protect_FPU_rounding<true>;
+
+/// The sign if all numbers in the interval have it.
+inline std::optional<Sign> certain_sign(const Interval& i) {
+    if (i.inf() > 0) return Sign::Positive;
+    if (i.sup() < 0) return Sign::Negative;
+    if (i.inf() == 0 && i.sup() == 0) return Sign::Zero;
+    return std::nullopt;
+}
+
+inline Sign exact_sign(const Exact& e) { return static_cast<Sign>(static_cast<int>(CGAL::sign(e))); }
+
+/// Which stage decided how many predicates.
+struct PredicateCounts {
+    std::uint64_t static_filter = 0;
+    std::uint64_t interval = 0;
+    std::uint64_t exact = 0;
+
+    PredicateCounts& operator+=(const PredicateCounts& o) {
+        static_filter += o.static_filter;
+        interval += o.interval;
+        exact += o.exact;
+        return *this;
+    }
+    friend PredicateCounts operator-(PredicateCounts a, const PredicateCounts& b) {
+        a.static_filter -= b.static_filter;
+        a.interval -= b.interval;
+        a.exact -= b.exact;
+        return a;
+    }
+};
+
+/// What this thread has decided so far. Take differences; never reset. (Counted per thread since a
+/// parameter on every predicate would cost more than the easy predicates themselves.)
+inline PredicateCounts& predicate_counts() {
+    static thread_local PredicateCounts counts;
+    return counts;
+}
+
+} // namespace terrane
