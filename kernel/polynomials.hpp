@@ -72,6 +72,13 @@ N cross(const Vector2<N>& a, const Vector2<N>& b) {
     return a.u * b.v - a.v * b.u;
 }
 
+/// > 0 iff direction c d lies to the left of direction a b in the projection.
+template <class N, class W>
+N turn2d(Axis axis, const Coordinates<N, W>& a, const Coordinates<N, W>& b,
+         const Coordinates<N, W>& c, const Coordinates<N, W>& d) {
+    return cross(difference(axis, b, a), difference(axis, d, c));
+}
+
 /// > 0 iff a, b, c turn left in the projection.
 template <class N, class A, class B, class C>
 N orient2d(Axis axis, const Coordinates<N, A>& a, const Coordinates<N, B>& b,

@@ -65,8 +65,8 @@ Uv project(Axis axis, const Point3& p) {
 }
 
 // Two products of size U V, each off by 3 unit, and a subtraction: 8 unit U V; 9 covers the rest.
-std::optional<Sign> static_orient2d(const Uv& a, const Uv& b, const Uv& c) {
-    const double bu = b.u - a.u, bv = b.v - a.v, cu = c.u - a.u, cv = c.v - a.v;
+std::optional<Sign> static_turn2d(const Uv& a, const Uv& b, const Uv& c, const Uv& d) {
+    const double bu = b.u - a.u, bv = b.v - a.v, cu = d.u - c.u, cv = d.v - c.v;
     const double u = std::max(std::fabs(bu), std::fabs(cu));
     const double v = std::max(std::fabs(bv), std::fabs(cv));
     if (u == 0 || v == 0) return Sign::Zero;
@@ -130,14 +130,20 @@ Sign orient3d(const Point3& a, const Point3& b, const Point3& c, const Point3& d
     });
 }
 
-Sign orient2d(Axis axis, const Point3& a, const Point3& b, const Point3& c) {
-    if (const auto sign = static_orient2d(project(axis, a), project(axis, b), project(axis, c))) {
+Sign turn2d(Axis axis, const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
+    if (const auto sign = static_turn2d(project(axis, a), project(axis, b), project(axis, c),
+                                        project(axis, d))) {
         ++predicate_counts().static_filter;
         return *sign;
     }
     return filtered([&]<class N>(N) {
-        return polynomial::orient2d(axis, cartesian<N>(a), cartesian<N>(b), cartesian<N>(c));
+        return polynomial::turn2d(axis, cartesian<N>(a), cartesian<N>(b), cartesian<N>(c),
+                                  cartesian<N>(d));
     });
+}
+
+Sign orient2d(Axis axis, const Point3& a, const Point3& b, const Point3& c) {
+    return turn2d(axis, a, b, a, c);
 }
 
 Sign in_circle(Axis axis, const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
