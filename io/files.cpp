@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/io/files.hpp>
+
+#include <array>
+#include <utility>
+
+#include <terrane/io/atomic_file.hpp>
+#include <terrane/io/memory.hpp>
+#include <terrane/io/obj.hpp>
+#include <terrane/io/off.hpp>
+#include <terrane/io/text.hpp>
+#include <terrane/io/vtk.hpp>
+
+namespace terrane {
+
+namespace fs = std::filesystem;
+using namespace detail;
+
+namespace {
+
+/// A file has at least 3 bytes per vertex, so below this size 32-bit indices are enough.
+constexpr std::uint64_t max_bytes = 3 * (std::uint64_t(1) << 32) - 3;
+
+constexpr std::array<std::pair<std::string_view, Format>, 11> names{{
+    {"ts", Format::gocad},
+    {"ml", Format::gocad},
+    {"gp", Format::gocad},
+    {"mx", Format::gocad},
+    {"obj", Format::obj},
+    {"off", Format::off},
+    {"stl", Format::stl},
+    {"ply", Format::ply},
+    {"vtp", Format::vtp},
+    {"vtu", Format::vtu},
+    {"msh", Format::msh},
+}};
+
+std::string place_of(const fs::path& path, bool reading) {
+    if (path != "-") return path.string();
+    return reading ? "standard input" : "standard output";
+}
+
+Error unknown_format(const fs::path& path, bool reading) {
+    std::string sentence = path == "-" ? "the format must be given"
+                           : path.extension().empty()
+                               ? "the file name has no extension that tells the format"
+                               : "unknown format " + shown(path.extension().string());
+    return {ErrorCode::unknown_format, std::move(sentence), place_of(path, reading)};
+}
+
+Result<Format> choose_format(const fs::path& path, std::optional<Format> wanted, bool reading) {
+    const auto format = wanted ? wanted : format_of(path);
+    if (!format) return unknown_format(path, reading);
+    return *format;
+}
+
+Result<std::vector<Surface>> parse(std::string_view contents, std::string_view source,
+                                   Format format) {
+    const std::string place(source);
+    const auto name = fs::path(place).stem().string();
+    if (contents.size() > max_bytes)
+        return Error{ErrorCode::unsupported, "the file is larger than 12 GiB", place};
+    switch (format) {
+    case Format::gocad:
+        return read_gocad(contents, source, name);
+    case Format::obj:
+        return read_obj(contents, source, name);
+    case Format::off:
+        return read_off(contents, source, name);
+    default:
+        break;
+    }
+    return Error{ErrorCode::unsupported, "this format is written, not read", place};
+}
+
+Result<std::string> contents_of(const Mesh& mesh, Format format, const WriteOptions& options) {
+    switch (format) {
+    case Format::gocad:
+        return to_gocad(mesh);
+    case Format::obj:
+        return to_obj(mesh);
+    case Format::off:
+        return to_off(mesh);
+    case Format::vtp:
+        return to_vtp(mesh, options.compress, options.cells);
+    default:
+        break;
+    }
+    return Error{ErrorCode::unsupported, "this format is for tetrahedra, not for surfaces", ""};
+}
+
+Result<std::string> contents_of(const TetrahedralMesh& mesh, Format format,
+                                const WriteOptions& options) {
+    if (format == Format::vtu) return to_vtu(mesh, options.compress, options.cells);
+    return Error{ErrorCode::unsupported, "tetrahedra are written as .vtu or .msh", ""};
+}
+
+template <class AnyMesh>
+Status write(const AnyMesh& mesh, const fs::path& path, const WriteOptions& options) {
+    return guard_memory(place_of(path, false), [&]() -> Status {
+        const auto format = choose_format(path, options.format, false);
+        if (!format) return format.error();
+        const auto contents = contents_of(mesh, format.value(), options);
+        if (contents) return write_file(path, contents.value());
+        auto error = contents.error();
+        if (error.place.empty()) error.place = place_of(path, false);
+        return error;
+    });
+}
+
+} // namespace
+
+std::optional<Format> format_named(std::string_view name) {
+    for (const auto& [known, format] : names)
+        if (same_ignoring_case(name, known)) return format;
+    return std::nullopt;
+}
+
+std::optional<Format> format_of(const fs::path& path) {
+    const auto extension = path.extension().string();
+    return extension.empty() ? std::nullopt : format_named(std::string_view(extension).substr(1));
+}
+
+Result<std::vector<Surface>> parse_surfaces(std::string_view contents, std::string_view source,
+                                            Format format) {
+    return guard_memory(std::string(source), [&] { return parse(contents, source, format); });
+}
+
+Result<std::vector<Surface>> read_surfaces(const fs::path& path, std::optional<Format> format) {
+    const auto place = place_of(path, true);
+    return guard_memory(place, [&]() -> Result<std::vector<Surface>> {
+        const auto chosen = choose_format(path, format, true);
+        if (!chosen) return chosen.error();
+        const auto contents = read_file(path);
+        if (!contents) return contents.error();
+        return parse(contents.value(), place, chosen.value());
+    });
+}
+
+Result<GocadModel> read_model(const fs::path& path) {
+    const auto place = place_of(path, true);
+    return guard_memory(place, [&]() -> Result<GocadModel> {
+        const auto contents = read_file(path);
+        if (!contents) return contents.error();
+        return read_gocad_model(contents.value(), place, path.stem().string());
+    });
+}
+
+Status write_mesh(const Mesh& mesh, const fs::path& path, const WriteOptions& options) {
+    return write(mesh, path, options);
+}
+
+Status write_tetrahedra(const TetrahedralMesh& mesh, const fs::path& path,
+                        const WriteOptions& options) {
+    return write(mesh, path, options);
+}
+
+} // namespace terrane

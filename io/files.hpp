@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Any format, chosen by the extension of the file name.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <terrane/algorithms/mesh.hpp>
+#include <terrane/algorithms/result.hpp>
+#include <terrane/io/cell_array.hpp>
+#include <terrane/io/gocad.hpp>
+
+namespace terrane {
+
+enum class Format {
+    gocad, ///< .ts .ml .gp .mx
+    obj,   ///< .obj
+    off,   ///< .off
+    stl,   ///< .stl (float32)
+    ply,   ///< .ply
+    vtp,   ///< .vtp, written only
+    vtu,   ///< .vtu, written only: tetrahedra
+    msh,   ///< .msh, written only: MSH 4.1
+};
+
+/// By extension, in any case; none where it is not known.
+std::optional<Format> format_of(const std::filesystem::path& path);
+
+/// The format with a name as given by a user: "ts", "ml", "obj", ... (an extension without dot).
+std::optional<Format> format_named(std::string_view name);
+
+/// The surfaces of a file; "-" is standard input and needs a format. See the header of the format
+/// for what becomes a surface; a nameless one is called after the file.
+/// Errors: cannot_open, unknown_format, unsupported (also: a format that is only written),
+/// nothing_to_do, bad_syntax, bad_number, bad_index, out_of_memory; the place is "file:line", or
+/// "file, byte n" in binary files.
+Result<std::vector<Surface>> read_surfaces(const std::filesystem::path& path,
+                                           std::optional<Format> format = std::nullopt);
+
+/// The same for a file's contents; `source` is its name in messages and for nameless surfaces.
+/// Total: any bytes give surfaces or an error, in time and memory linear in their number.
+Result<std::vector<Surface>> parse_surfaces(std::string_view contents, std::string_view source,
+                                            Format format);
+
+/// A GOCAD model with its parts and regions. Errors: as read_surfaces.
+Result<GocadModel> read_model(const std::filesystem::path& path);
+
+struct WriteOptions {
+    std::optional<Format> format;       ///< none: by extension; needed for "-"
+    bool ascii = false;                 ///< STL only: text instead of binary
+    bool compress = true;               ///< VTP and VTU only: zlib
+    std::span<const CellArray> cells{}; ///< VTP and VTU only: further arrays, one value per cell
+};
+
+/// Writes the whole file or, where that fails, nothing. "-" is standard output.
+/// Errors: cannot_open, write_failed, unknown_format, unsupported (tetrahedra only), bad_number (a
+/// coordinate beyond float32 in STL), bad_option (a cell array of the wrong length), out_of_memory.
+Status write_mesh(const Mesh& mesh, const std::filesystem::path& path,
+                  const WriteOptions& options = {});
+
+/// .vtu or .msh. Errors: as write_mesh.
+Status write_tetrahedra(const TetrahedralMesh& mesh, const std::filesystem::path& path,
+                        const WriteOptions& options = {});
+
+} // namespace terrane

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/io/names.hpp>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace terrane::detail {
+
+namespace {
+
+std::string plain(std::string_view name) {
+    std::string result;
+    for (const char c : name) {
+        const auto code = static_cast<unsigned char>(c);
+        result += code <= ' ' || code == 127 || c == '#' || c == '\\' ? '_' : c;
+    }
+    return result.empty() ? "surface" : result;
+}
+
+} // namespace
+
+std::vector<std::string> plain_names(const std::vector<SurfaceInfo>& surfaces) {
+    std::vector<std::string> names;
+    std::set<std::string> taken;
+    std::map<std::string, unsigned> next_number;
+    for (const auto& surface : surfaces) {
+        const auto base = plain(surface.name);
+        auto name = base;
+        auto& number = next_number.try_emplace(base, 2).first->second;
+        while (!taken.insert(name).second) name = base + '_' + std::to_string(number++);
+        names.push_back(name);
+    }
+    return names;
+}
+
+std::string one_line(std::string_view name) {
+    std::string result(name);
+    std::replace_if(
+        result.begin(), result.end(),
+        [](char c) { return static_cast<unsigned char>(c) < ' ' || c == 127; }, ' ');
+    return result;
+}
+
+} // namespace terrane::detail

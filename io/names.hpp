@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <terrane/algorithms/mesh.hpp>
+
+namespace terrane::detail {
+
+/// Names that formats without quotes can carry: printable, no blank, no '#', no '\' (each becomes
+/// '_'), not empty ("surface"), and all different: a name met again gets _2, _3, ...
+[[nodiscard]] std::vector<std::string> plain_names(const std::vector<SurfaceInfo>& surfaces);
+
+/// `name` on one line: control characters become blanks.
+[[nodiscard]] std::string one_line(std::string_view name);
+
+} // namespace terrane::detail
