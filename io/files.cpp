@@ -5,9 +5,12 @@
 #include <utility>
 
 #include <terrane/io/atomic_file.hpp>
+#include <terrane/io/gmsh.hpp>
 #include <terrane/io/memory.hpp>
 #include <terrane/io/obj.hpp>
 #include <terrane/io/off.hpp>
+#include <terrane/io/ply.hpp>
+#include <terrane/io/stl.hpp>
 #include <terrane/io/text.hpp>
 #include <terrane/io/vtk.hpp>
 
@@ -67,6 +70,10 @@ Result<std::vector<Surface>> parse(std::string_view contents, std::string_view s
         return read_obj(contents, source, name);
     case Format::off:
         return read_off(contents, source, name);
+    case Format::stl:
+        return read_stl(contents, source, name);
+    case Format::ply:
+        return read_ply(contents, source, name);
     default:
         break;
     }
@@ -92,6 +99,7 @@ Result<std::string> contents_of(const Mesh& mesh, Format format, const WriteOpti
 Result<std::string> contents_of(const TetrahedralMesh& mesh, Format format,
                                 const WriteOptions& options) {
     if (format == Format::vtu) return to_vtu(mesh, options.compress, options.cells);
+    if (format == Format::msh) return to_msh(mesh);
     return Error{ErrorCode::unsupported, "tetrahedra are written as .vtu or .msh", ""};
 }
 

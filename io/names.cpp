@@ -15,23 +15,39 @@ std::string plain(std::string_view name) {
         const auto code = static_cast<unsigned char>(c);
         result += code <= ' ' || code == 127 || c == '#' || c == '\\' ? '_' : c;
     }
-    return result.empty() ? "surface" : result;
+    return result;
 }
 
-} // namespace
+std::string quotable(std::string_view name) {
+    auto result = one_line(name);
+    std::replace(result.begin(), result.end(), '"', '\'');
+    return result;
+}
 
-std::vector<std::string> plain_names(const std::vector<SurfaceInfo>& surfaces) {
+template <class Change>
+std::vector<std::string> different_names(const std::vector<SurfaceInfo>& surfaces, Change change) {
     std::vector<std::string> names;
     std::set<std::string> taken;
     std::map<std::string, unsigned> next_number;
     for (const auto& surface : surfaces) {
-        const auto base = plain(surface.name);
+        auto base = change(surface.name);
+        if (base.empty()) base = "surface";
         auto name = base;
         auto& number = next_number.try_emplace(base, 2).first->second;
         while (!taken.insert(name).second) name = base + '_' + std::to_string(number++);
         names.push_back(name);
     }
     return names;
+}
+
+} // namespace
+
+std::vector<std::string> plain_names(const std::vector<SurfaceInfo>& surfaces) {
+    return different_names(surfaces, plain);
+}
+
+std::vector<std::string> quotable_names(const std::vector<SurfaceInfo>& surfaces) {
+    return different_names(surfaces, quotable);
 }
 
 std::string one_line(std::string_view name) {

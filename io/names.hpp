@@ -13,6 +13,10 @@ namespace terrane::detail {
 /// '_'), not empty ("surface"), and all different: a name met again gets _2, _3, ...
 [[nodiscard]] std::vector<std::string> plain_names(const std::vector<SurfaceInfo>& surfaces);
 
+/// Names for formats that put them in double quotes: on one line, '"' becomes an apostrophe, not
+/// empty, and all different, as above.
+[[nodiscard]] std::vector<std::string> quotable_names(const std::vector<SurfaceInfo>& surfaces);
+
 /// `name` on one line: control characters become blanks.
 [[nodiscard]] std::string one_line(std::string_view name);
 

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/io/gmsh.hpp>
+
+#include <algorithm>
+#include <map>
+#include <span>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <terrane/io/names.hpp>
+#include <terrane/io/text.hpp>
+
+namespace terrane {
+
+using namespace detail;
+
+namespace {
+
+constexpr int triangle_type = 2;
+constexpr int tetrahedron_type = 4;
+
+/// A discrete entity of gmsh and the cells in it.
+struct Entity {
+    int dimension = 2;
+    std::size_t tag = 0;
+    std::vector<std::uint32_t> physical; ///< tags, ascending
+    std::vector<std::size_t> cells;      ///< indices, ascending
+    std::size_t first_element = 1;       ///< element of cell 0
+};
+
+/// One entity per set of surfaces that some triangle has; a single surface s gets tag s + 1.
+std::vector<Entity> surface_entities(const Lists<std::uint32_t>& surfaces_of,
+                                     std::size_t surface_count, std::size_t first_element) {
+    std::map<std::vector<std::uint32_t>, Entity> entity_of;
+    for (std::size_t i = 0; i < surfaces_of.size(); ++i) {
+        const auto list = surfaces_of[i];
+        entity_of[{list.begin(), list.end()}].cells.push_back(i);
+    }
+    std::vector<Entity> entities;
+    auto next_tag = surface_count + 1;
+    for (auto& [surfaces, entity] : entity_of) {
+        entity.tag = surfaces.size() == 1 ? surfaces[0] + 1 : next_tag++;
+        for (const auto surface : surfaces) entity.physical.push_back(surface + 1);
+        entity.first_element = first_element;
+        entities.push_back(std::move(entity));
+    }
+    return entities;
+}
+
+std::vector<Entity> volume_entities(const std::vector<std::uint32_t>& region_of) {
+    std::map<std::uint32_t, Entity> entity_of;
+    for (std::size_t i = 0; i < region_of.size(); ++i) entity_of[region_of[i]].cells.push_back(i);
+    std::vector<Entity> entities;
+    for (auto& [region, entity] : entity_of) {
+        entity.dimension = 3;
+        entity.tag = region + 1;
+        entity.physical = {region + 1};
+        entities.push_back(std::move(entity));
+    }
+    return entities;
+}
+
+class MshWriter {
+public:
+    explicit MshWriter(const std::vector<Point3>& vertices) : vertices_(vertices) {
+        out_ = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
+        out_.reserve(vertices.size() * 96);
+    }
+
+    void names(const std::vector<SurfaceInfo>& surfaces, std::span<const Entity> volumes) {
+        out_ += fmt::format("$PhysicalNames\n{}\n", surfaces.size() + volumes.size());
+        const auto names = quotable_names(surfaces);
+        for (std::size_t s = 0; s < names.size(); ++s)
+            out_ += fmt::format("2 {} \"{}\"\n", s + 1, names[s]);
+        for (const auto& volume : volumes)
+            out_ += volume.tag == 1
+                        ? "3 1 \"outside\"\n"
+                        : fmt::format("3 {} \"region {}\"\n", volume.tag, volume.tag - 1);
+        out_ += "$EndPhysicalNames\n";
+    }
+
+    template <class Cell>
+    void entities(std::span<const Entity> entities, const std::vector<Cell>& cells) {
+        for (const auto& entity : entities) {
+            append_number(out_, std::uint64_t(entity.tag));
+            append_box(entity, cells);
+            out_ += fmt::format(" {}", entity.physical.size());
+            for (const auto tag : entity.physical) out_ += fmt::format(" {}", tag);
+            out_ += " 0\n"; // bounding entities: none stated
+        }
+    }
+
+    /// All in one block: that of the given entity.
+    void nodes(const Entity& entity) {
+        const auto count = vertices_.size();
+        out_ += fmt::format("$Nodes\n1 {} 1 {}\n{} {} 0 {}\n", count, count, entity.dimension,
+                            entity.tag, count);
+        for (std::size_t v = 0; v < count; ++v) {
+            append_number(out_, std::uint64_t(v + 1));
+            out_ += '\n';
+        }
+        for (const auto& vertex : vertices_) {
+            append_point(out_, vertex);
+            out_ += '\n';
+        }
+        out_ += "$EndNodes\n";
+    }
+
+    template <class Cell>
+    void elements(std::span<const Entity> entities, const std::vector<Cell>& cells, int type) {
+        for (const auto& entity : entities) {
+            text(fmt::format("{} {} {} {}", entity.dimension, entity.tag, type,
+                             entity.cells.size()));
+            for (const auto cell : entity.cells) {
+                append_number(out_, std::uint64_t(entity.first_element + cell));
+                for (const auto vertex : cells[cell]) {
+                    out_ += ' ';
+                    append_number(out_, std::uint64_t(vertex) + 1);
+                }
+                out_ += '\n';
+            }
+        }
+    }
+
+    void text(std::string_view line) { out_.append(line).append("\n"); }
+    std::string take() { return std::move(out_); }
+
+private:
+    template <class Cell>
+    void append_box(const Entity& entity, const std::vector<Cell>& cells) {
+        auto low = vertices_[cells[entity.cells[0]][0]];
+        auto high = low;
+        for (const auto cell : entity.cells)
+            for (const auto vertex : cells[cell]) {
+                const auto& p = vertices_[vertex];
+                low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+                high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+            }
+        for (const auto& corner : {low, high}) {
+            out_ += ' ';
+            append_point(out_, corner);
+        }
+    }
+
+    std::string out_;
+    const std::vector<Point3>& vertices_;
+};
+
+} // namespace
+
+std::string to_msh(const Mesh& mesh) {
+    const auto surfaces = surface_entities(mesh.surfaces_of, mesh.surfaces.size(), 1);
+    MshWriter out(mesh.vertices);
+    out.names(mesh.surfaces, {});
+    out.text(fmt::format("$Entities\n0 0 {} 0", surfaces.size()));
+    out.entities<Triangle>(surfaces, mesh.triangles);
+    out.text("$EndEntities");
+    if (!surfaces.empty()) out.nodes(surfaces[0]);
+    const auto count = mesh.triangles.size();
+    out.text(fmt::format("$Elements\n{} {} 1 {}", surfaces.size(), count, count));
+    out.elements<Triangle>(surfaces, mesh.triangles, triangle_type);
+    out.text("$EndElements");
+    return out.take();
+}
+
+std::string to_msh(const TetrahedralMesh& mesh) {
+    const auto volumes = volume_entities(mesh.region_of);
+    const auto surfaces =
+        surface_entities(mesh.surfaces_of, mesh.surfaces.size(), mesh.tetrahedra.size() + 1);
+    MshWriter out(mesh.vertices);
+    out.names(mesh.surfaces, volumes);
+    out.text(fmt::format("$Entities\n0 0 {} {}", surfaces.size(), volumes.size()));
+    out.entities<Triangle>(surfaces, mesh.faces);
+    out.entities(std::span<const Entity>(volumes), mesh.tetrahedra);
+    out.text("$EndEntities");
+    if (!volumes.empty()) out.nodes(volumes[0]);
+    const auto count = mesh.tetrahedra.size() + mesh.faces.size();
+    out.text(fmt::format("$Elements\n{} {} 1 {}", volumes.size() + surfaces.size(), count, count));
+    out.elements(std::span<const Entity>(volumes), mesh.tetrahedra, tetrahedron_type);
+    out.elements<Triangle>(surfaces, mesh.faces, triangle_type);
+    out.text("$EndElements");
+    return out.take();
+}
+
+} // namespace terrane

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Gmsh, MSH 4.1 in ASCII.
+#pragma once
+
+#include <string>
+
+#include <terrane/algorithms/mesh.hpp>
+
+namespace terrane {
+
+/// Surface i is physical surface i + 1 and entity i + 1 of dimension 2. Triangles of several
+/// surfaces are in entities of their own, after those, with all physical tags. Element t + 1 is
+/// triangle t, node v + 1 is vertex v. Numbers read back as the same doubles.
+std::string to_msh(const Mesh& mesh);
+
+/// The same for faces; region r is volume entity r + 1 and physical volume r + 1, called "outside"
+/// and "region 1", ... Elements: tetrahedra first, then faces.
+std::string to_msh(const TetrahedralMesh& mesh);
+
+} // namespace terrane
