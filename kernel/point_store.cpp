@@ -25,6 +25,7 @@ struct PointStore::Cache {
 };
 
 PointStore::PointStore(std::vector<Point3> input) : input_(std::move(input)) {}
+PointStore::PointStore() = default;
 PointStore::~PointStore() = default;
 PointStore::PointStore(PointStore&&) noexcept = default;
 PointStore& PointStore::operator=(PointStore&&) noexcept = default;

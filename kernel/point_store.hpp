@@ -48,7 +48,7 @@ struct Enclosure {
 
 class PointStore {
 public:
-    PointStore() = default;
+    PointStore();
     explicit PointStore(std::vector<Point3> input);
     ~PointStore();
     PointStore(const PointStore& other);

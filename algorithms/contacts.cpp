@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/contacts.hpp>
+
+#include <algorithm>
+#include <numeric>
+#include <optional>
+
+#include <terrane/algorithms/construction_table.hpp>
+#include <terrane/algorithms/parallel.hpp>
+
+namespace terrane {
+namespace {
+
+struct PairContact {
+    CandidatePair pair;
+    Contact contact;
+};
+
+struct PairBlock {
+    std::vector<PairContact> contacts;
+    PredicateCounts predicates;
+};
+
+PairBlock test_pairs(const Soup& soup, std::span<const CandidatePair> pairs) {
+    PairBlock block;
+    const PredicateCounts before = predicate_counts();
+    for (const CandidatePair& p : pairs)
+        if (const auto contact = improper_contact(soup.points, soup.triangles[p.first],
+                                                  soup.triangles[p.second]))
+            block.contacts.push_back({p, *contact});
+    block.predicates = predicate_counts() - before;
+    return block;
+}
+
+void sort_by_face(std::vector<FacePiece>& pieces) {
+    std::stable_sort(pieces.begin(), pieces.end(),
+                     [](const FacePiece& a, const FacePiece& b) { return a.face < b.face; });
+}
+
+class Collector {
+public:
+    Collector(const Soup& soup, Contacts& contacts) :
+        table_(static_cast<PointIndex>(soup.points.size())), contacts_(contacts) {}
+
+    void add(const PairContact& found) {
+        const Contact& c = found.contact;
+        for (unsigned i = 0; i < c.point_count; ++i) index_[i] = table_.enter(c.points[i].how);
+        const std::array faces{found.pair.first, found.pair.second};
+        for (unsigned k = 0; k < 2; ++k) {
+            if (c.overlap) contacts_.overlapped[faces[k]] = true;
+            for (unsigned n = 0; n < c.piece_count[k]; ++n)
+                add_piece(c, k, c.pieces[k][n], faces[k], faces[1 - k]);
+        }
+    }
+
+    std::span<const Construction> constructions() const { return table_.constructions(); }
+
+private:
+    void add_piece(const Contact& c, unsigned k, const ContactPiece& piece, std::uint32_t face,
+                   std::uint32_t other) {
+        const auto place = [&](unsigned e) { return c.points[piece.ends[e]].place[k]; };
+        contacts_.pieces.push_back({face,
+                                    {other, piece.support},
+                                    {place(0), place(1)},
+                                    {index_[piece.ends[0]], index_[piece.ends[1]]}});
+    }
+
+    ConstructionTable table_;
+    Contacts& contacts_;
+    std::array<PointIndex, 9> index_{};
+};
+
+bool on_closed_edge(Place p, unsigned e) {
+    if (is_edge(p)) return edge_of(p) == e;
+    return is_corner(p) && (corner_of(p) == e || corner_of(p) == (e + 1) % 3);
+}
+
+} // namespace
+
+bool FacePiece::is_inner_segment() const {
+    if (ends[0] == ends[1]) return false;
+    for (unsigned e = 0; e < 3; ++e)
+        if (on_closed_edge(place[0], e) && on_closed_edge(place[1], e)) return false;
+    return true;
+}
+
+Contacts find_contacts(const Soup& soup, std::span<const CandidatePair> candidates,
+                       const Run& run) {
+    const auto blocks =
+        for_blocks<PairBlock>(candidates.size(), 16384, run, [&](std::size_t a, std::size_t b) {
+            return test_pairs(soup, candidates.subspan(a, b - a));
+        });
+    Contacts contacts;
+    contacts.candidates = candidates.size();
+    contacts.overlapped.assign(soup.triangles.size(), false);
+    Collector collector(soup, contacts);
+    for (const PairBlock& block : blocks) {
+        contacts.predicates += block.predicates;
+        contacts.improper += block.contacts.size();
+        for (const PairContact& c : block.contacts) collector.add(c);
+    }
+    sort_by_face(contacts.pieces);
+    contacts.points = PointStore(soup.points);
+    contacts.points.append(collector.constructions());
+    return contacts;
+}
+
+PointOrder order_points(const Soup& soup, const Contacts& contacts) {
+    const PointStore& store = contacts.points;
+    const auto inputs = static_cast<PointIndex>(store.input_count());
+    std::vector<PointIndex> used;
+    for (const FacePiece& p : contacts.pieces) {
+        const Triangle& t = soup.triangles[p.face];
+        used.insert(used.end(), t.begin(), t.end());
+        for (const PointIndex e : p.ends)
+            if (e < inputs) used.push_back(e);
+    }
+    std::sort(used.begin(), used.end());
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    for (PointIndex p = inputs; p < store.size(); ++p) used.push_back(p);
+
+    const UpwardRounding guard;
+    std::sort(used.begin(), used.end(),
+              [&](PointIndex a, PointIndex b) { return store.compare(a, b) < 0; });
+    PointOrder order;
+    order.same_as.resize(store.size());
+    std::iota(order.same_as.begin(), order.same_as.end(), PointIndex{0});
+    order.rank.assign(store.size(), 0);
+    const auto stands_before = [&](PointIndex a, PointIndex b) {
+        if (a < inputs || b < inputs) return a < b;
+        return store.construction(a) < store.construction(b);
+    };
+    std::uint32_t rank = 0;
+    for (std::size_t i = 0; i < used.size();) {
+        std::size_t end = i + 1;
+        while (end < used.size() && store.equal(used[i], used[end])) ++end;
+        const PointIndex best =
+            *std::min_element(used.begin() + static_cast<std::ptrdiff_t>(i),
+                              used.begin() + static_cast<std::ptrdiff_t>(end), stands_before);
+        for (; i < end; ++i) {
+            order.same_as[used[i]] = best;
+            order.rank[used[i]] = rank;
+        }
+        if (best >= inputs) order.ascending.push_back(best);
+        ++rank;
+    }
+    return order;
+}
+
+} // namespace terrane
