@@ -22,9 +22,9 @@ constexpr std::size_t header_size = 80;
 constexpr std::size_t facets_begin = header_size + 4;
 constexpr std::size_t facet_size = 50;
 
-/// The length that the count of triangles calls for; 0 where the file is too short for a count.
+/// The length that the count of triangles calls for; no length at all where there is no count.
 std::uint64_t binary_size(std::string_view contents) {
-    if (contents.size() < facets_begin) return 0;
+    if (contents.size() < facets_begin) return UINT64_MAX;
     const auto count = load<std::uint32_t>(contents.data() + header_size);
     return facets_begin + std::uint64_t(count) * facet_size;
 }
