@@ -396,7 +396,7 @@ struct EdgeUse {
     Edge edge;
     std::uint32_t triangle;
 
-    friend auto operator<=>(const EdgeUse&, const EdgeUse&) = default;
+    friend bool operator==(const EdgeUse&, const EdgeUse&) = default;
 };
 
 /// All edges of all triangles, sorted and unique.
@@ -409,7 +409,9 @@ std::vector<EdgeUse> edge_uses(std::span<const Triangle> triangles) {
             uses.push_back({{low, high}, t});
         }
     }
-    std::sort(uses.begin(), uses.end());
+    std::sort(uses.begin(), uses.end(), [](const EdgeUse& a, const EdgeUse& b) {
+        return std::tie(a.edge, a.triangle) < std::tie(b.edge, b.triangle);
+    });
     uses.erase(std::unique(uses.begin(), uses.end()), uses.end()); // of a triangle without area
     return uses;
 }

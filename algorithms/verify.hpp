@@ -21,24 +21,24 @@ namespace terrane {
 /// What an arrangement says of itself, in numbers that count through all input surfaces:
 /// input vertex k of surface s is (vertices of surfaces before s) + k; triangles likewise.
 struct ArrangementClaim {
-    std::vector<Construction> vertices;      ///< pairwise distinct points
-    std::vector<Triangle> triangles;         ///< indices into vertices; unique as sets
-    Lists<std::uint32_t> parents_of;         ///< per triangle: all input triangles that contain it
-                                             ///< (duplicates too), sorted, >= 1
-    std::vector<Edge> intersection_edges;    ///< sorted, unique; see rule R7
-    std::vector<std::uint32_t> degenerate;   ///< input triangles without area, sorted
-    std::vector<std::array<std::uint32_t, 2>> duplicates; ///< {triangle, the first one with the same
-                                                          ///< three points}, sorted
+    std::vector<Construction> vertices;    ///< pairwise distinct points
+    std::vector<Triangle> triangles;       ///< indices into vertices; unique as sets
+    Lists<std::uint32_t> parents_of;       ///< per triangle: all input triangles that contain it
+                                           ///< (duplicates too), sorted, >= 1
+    std::vector<Edge> intersection_edges;  ///< sorted, unique; see rule R7
+    std::vector<std::uint32_t> degenerate; ///< input triangles without area, sorted
+    std::vector<std::array<std::uint32_t, 2>> duplicates; ///< {triangle, the first one with the
+                                                          ///< same three points}, sorted
 };
 
 enum class Rule : std::uint8_t {
-    R1_indices,            ///< an index is out of range, a list unsorted or empty
-    R2_vertices,           ///< a construction is undefined (parallel line and plane, ...)
-    R3_distinct,           ///< two vertices are the same point, or a vertex belongs to no triangle
-    R4_triangles,          ///< a triangle without area, or two triangles with the same vertices
-    R5_contacts,           ///< two triangles meet other than in a shared vertex or edge
-    R6_parents,            ///< an input triangle is not exactly the union of the triangles that name
-                           ///< it: a child lies outside of it, or the areas do not add up
+    R1_indices,   ///< an index is out of range, a list unsorted or empty
+    R2_vertices,  ///< a construction is undefined (parallel line and plane, ...)
+    R3_distinct,  ///< two vertices are the same point, or a vertex belongs to no triangle
+    R4_triangles, ///< a triangle without area, or two triangles with the same vertices
+    R5_contacts,  ///< two triangles meet other than in a shared vertex or edge
+    R6_parents,   ///< an input triangle is not exactly the union of the triangles that name
+                  ///< it: a child lies outside of it, or the areas do not add up
     R7_intersection_edges, ///< listed but none, or one but not listed
     R8_set_aside,          ///< degenerate or duplicate, but not listed as such, or the reverse
 };
@@ -57,12 +57,16 @@ struct Violation {
 inline constexpr std::size_t most_contacts_listed = 100'000;
 
 /// All violations of the rules, sorted by rule and elements; none if the claim is true.
-/// After a violation of R1 the others are not judged, and after one of R2 neither: the vertices that
-/// the claim speaks of do not exist. Whatever the claim holds, the answer is a list of violations.
-/// An edge is an intersection edge iff more than two triangles meet in it, or two that do differ in
-/// the number of geometrically distinct parents that they have in some surface.
-/// Two triangles meet improperly (R5) unless what they share, as closed sets, is the convex hull of
-/// the vertices they share. Degenerate input triangles (R8) are not compared for duplicates.
+/// (1) Whatever the claim holds, the answer is a list of violations. After one of R1 the other
+/// rules
+///     are not judged; after one of R2 those that follow are not.
+/// (2) R5: two triangles may share, as closed sets, exactly the convex hull of the vertices they
+///     share: nothing, a vertex or an edge.
+/// (3) R7: an edge is an intersection edge iff more than two triangles meet in it, or two that do
+///     differ in the number of geometrically distinct parents that they have in some surface.
+/// (4) R8: triangles without area are degenerate, and not compared for duplicates; equal points are
+///     equal coordinates, whatever their indices.
+///
 /// Cost: O(n log n + k) for k pairs of triangles whose boxes touch, an exact test each; 100 000
 /// triangles take about a second.
 std::vector<Violation> verify_arrangement(std::span<const Surface> inputs,

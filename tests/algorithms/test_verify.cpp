@@ -50,6 +50,21 @@ TEST_CASE("verify_arrangement: a duplicate within its surface makes no intersect
     CHECK(verdict(c).empty());
 }
 
+TEST_CASE("verify_arrangement: parents are counted surface by surface") {
+    // Both triangles at the diagonal 0, 2 have two parents: one of each surface, two of the first.
+    Case c;
+    c.inputs = {surface({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {-1, 1, 0}},
+                        {{0, 1, 2}, {0, 2, 3}, {0, 2, 4}}),
+                surface({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, {{0, 1, 2}})};
+    c.claim.vertices = input_vertices(5);
+    add_triangle(c.claim, {0, 1, 2}, {0, 3});
+    add_triangle(c.claim, {0, 2, 3}, {1, 2});
+    add_triangle(c.claim, {0, 3, 4}, {2});
+    c.claim.duplicates = {{3, 0}};
+    c.claim.intersection_edges = {{0, 2}, {0, 3}};
+    CHECK(verdict(c).empty());
+}
+
 TEST_CASE("verify_arrangement is invariant under powers of two and permuted axes") {
     for (const Case& original : {crossing(), three_planes_meet(), twins()}) {
         for (const double factor : {0x1p-1060, 0x1p-300, 0.125, 0x1p300, 0x1p1000}) {

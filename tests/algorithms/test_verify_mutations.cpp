@@ -152,6 +152,12 @@ TEST_CASE("verify_arrangement refutes wrong vertices and triangles") {
              c.claim.triangles[1] = {4, 2, 3};
          },
          "R3 R5 R7"},
+        {"one point, two constructions", crossing_with_spare_vertex,
+         [](Case& c) {
+             c.claim.vertices.push_back(line_plane({4, 6, 0, 1, 2}));
+             c.claim.triangles[5] = {5, 8, 7};
+         },
+         "R3 R5"},
         {"distinct points merged", crossing,
          [](Case& c) {
              for (Triangle& t : c.claim.triangles) {
@@ -230,6 +236,12 @@ TEST_CASE("verify_arrangement refutes wrong parents") {
              set_parents(c.claim, 5, {0});
          },
          "R6 R7"},
+        {"swapped parents in one plane, of equal area", square_in_one,
+         [](Case& c) {
+             set_parents(c.claim, 0, {1});
+             set_parents(c.claim, 1, {0});
+         },
+         "R6"},
         {"parent not listed", overlap, [](Case& c) { set_parents(c.claim, 0, {0}); }, "R6 R7"},
         {"parent too many", overlap,
          [](Case& c) {
