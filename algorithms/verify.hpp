@@ -57,9 +57,8 @@ struct Violation {
 inline constexpr std::size_t most_contacts_listed = 100'000;
 
 /// All violations of the rules, sorted by rule and elements; none if the claim is true.
-/// (1) Whatever the claim holds, the answer is a list of violations. After one of R1 the other
-/// rules
-///     are not judged; after one of R2 those that follow are not.
+/// (1) Whatever the claim holds, the answer is a list of violations. After one of R1 or R2 the
+///     rules that follow are not judged.
 /// (2) R5: two triangles may share, as closed sets, exactly the convex hull of the vertices they
 ///     share: nothing, a vertex or an edge.
 /// (3) R7: an edge is an intersection edge iff more than two triangles meet in it, or two that do
