@@ -2,34 +2,17 @@
 #include <terrane/algorithms/arrangement.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <new>
-#include <numeric>
 #include <stdexcept>
-#include <unordered_map>
 #include <utility>
 
-#include <terrane/algorithms/contacts.hpp>
-#include <terrane/algorithms/edges.hpp>
-#include <terrane/algorithms/parallel.hpp>
+#include <terrane/algorithms/division.hpp>
 #include <terrane/algorithms/soup.hpp>
-#include <terrane/algorithms/triangulation.hpp>
-#include <terrane/kernel/predicates.hpp>
+#include <terrane/algorithms/stopwatch.hpp>
 
 namespace terrane {
 namespace {
-
-class Stopwatch {
-public:
-    double lap() {
-        const auto now = std::chrono::steady_clock::now();
-        return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
-    }
-
-private:
-    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
 
 std::string place_in(const Surface& s, const char* what, std::size_t k) {
     return "surface " + s.name + ", " + what + " " + std::to_string(k);
@@ -57,302 +40,47 @@ Status validate(std::span<const Surface> surfaces) {
     return Done{};
 }
 
-/// A part of a divided triangle; corners by point.
-struct Part {
-    std::uint32_t face;
-    std::array<PointIndex, 3> corners;
-};
-
-struct PartBlock {
-    std::vector<Part> parts;
-    PredicateCounts predicates;
-};
-
-/// Step (e): gathers what each face must contain and triangulates it.
-class Divider {
-public:
-    Divider(const Soup& soup, const Contacts& contacts, const PointOrder& order) :
-        soup_(soup), contacts_(contacts), order_(order) {}
-
-    /// One face: its pieces and crossings.
-    void operator()(std::span<const FacePiece> pieces, std::uint32_t first_piece,
-                    std::span<const FaceCrossing> crossings, std::vector<Part>& out) {
-        face_.clear();
-        const std::uint32_t f = pieces.front().face;
-        const Triangle& t = soup_.triangles[f];
-        face_.corners = t;
-        face_.axis = projection_axis(soup_.points[t[0]], soup_.points[t[1]], soup_.points[t[2]]);
-        chains_.assign(pieces.size(), {});
-        for (const FacePiece& p : pieces)
-            for (unsigned e = 0; e < 2; ++e) add_point(p.ends[e], p.place[e]);
-        for (const FaceCrossing& c : crossings) {
-            const PointIndex p = order_.same_as[c.point];
-            face_.inner_points.push_back(p);
-            for (const std::uint32_t k : c.pieces) chains_[k - first_piece].push_back(p);
+/// Parents are input triangles: those that became the faces, and their duplicates.
+Lists<std::uint32_t> parents_of_faces(const Soup& soup, const Lists<std::uint32_t>& faces_of) {
+    auto by_first = soup.duplicates;
+    std::sort(by_first.begin(), by_first.end(), [](const auto& a, const auto& b) {
+        return std::pair{a[1], a[0]} < std::pair{b[1], b[0]};
+    });
+    const auto first_before = [](const auto& d, std::uint32_t first) { return d[1] < first; };
+    Lists<std::uint32_t> parents;
+    parents.offsets.reserve(faces_of.offsets.size());
+    parents.values.reserve(faces_of.values.size() + soup.duplicates.size());
+    for (std::size_t t = 0; t < faces_of.size(); ++t) {
+        const auto begin = static_cast<std::ptrdiff_t>(parents.values.size());
+        for (const std::uint32_t f : faces_of[t]) {
+            const std::uint32_t first = soup.input_of[f];
+            parents.values.push_back(first);
+            if (by_first.empty()) continue;
+            auto d = std::lower_bound(by_first.begin(), by_first.end(), first, first_before);
+            for (; d != by_first.end() && (*d)[1] == first; ++d) parents.values.push_back((*d)[0]);
         }
-        for (std::size_t k = 0; k < pieces.size(); ++k)
-            if (pieces[k].is_inner_segment()) add_chain(pieces[k], chains_[k]);
-        finish_points();
-        for (const auto& part : triangulate_(contacts_.points, order_.rank, face_))
-            out.push_back({f, part});
+        std::sort(parents.values.begin() + begin, parents.values.end());
+        parents.close();
     }
-
-private:
-    bool by_rank(PointIndex a, PointIndex b) const { return order_.rank[a] < order_.rank[b]; }
-
-    void add_point(PointIndex point, Place place) {
-        const PointIndex p = order_.same_as[point];
-        if (is_edge(place)) face_.edge_points[edge_of(place)].push_back(p);
-        if (place == Place::face) face_.inner_points.push_back(p);
-    }
-
-    void sort_unique(std::vector<PointIndex>& points) const {
-        std::sort(points.begin(), points.end(),
-                  [&](PointIndex a, PointIndex b) { return by_rank(a, b); });
-        points.erase(std::unique(points.begin(), points.end()), points.end());
-    }
-
-    void add_chain(const FacePiece& piece, std::vector<PointIndex>& chain) {
-        for (const PointIndex e : piece.ends) chain.push_back(order_.same_as[e]);
-        sort_unique(chain);
-        for (std::size_t i = 0; i + 1 < chain.size(); ++i)
-            face_.segments.push_back({chain[i], chain[i + 1]});
-    }
-
-    // Along a line, points are in lexicographic order, forwards or backwards.
-    void finish_points() {
-        for (unsigned e = 0; e < 3; ++e) {
-            sort_unique(face_.edge_points[e]);
-            if (by_rank(face_.corners[(e + 1) % 3], face_.corners[e]))
-                std::reverse(face_.edge_points[e].begin(), face_.edge_points[e].end());
-        }
-        sort_unique(face_.inner_points);
-        std::sort(face_.segments.begin(), face_.segments.end());
-        face_.segments.erase(std::unique(face_.segments.begin(), face_.segments.end()),
-                             face_.segments.end());
-    }
-
-    const Soup& soup_;
-    const Contacts& contacts_;
-    const PointOrder& order_;
-    FaceInput face_;
-    std::vector<std::vector<PointIndex>> chains_;
-    FaceTriangulation triangulate_;
-};
-
-std::vector<Part> divide_faces(const Soup& soup, const Contacts& contacts, const PointOrder& order,
-                               const Run& run, ArrangeStatistics& statistics) {
-    struct Range {
-        std::uint32_t piece, piece_end, crossing, crossing_end;
-    };
-    std::vector<Range> faces;
-    const auto count = [](const auto& v) { return static_cast<std::uint32_t>(v.size()); };
-    for (std::uint32_t p = 0, c = 0; p < count(contacts.pieces);) {
-        Range r{p, p, c, c};
-        const std::uint32_t f = contacts.pieces[p].face;
-        while (r.piece_end < count(contacts.pieces) && contacts.pieces[r.piece_end].face == f)
-            ++r.piece_end;
-        while (r.crossing_end < count(contacts.crossings) &&
-               contacts.crossings[r.crossing_end].face == f)
-            ++r.crossing_end;
-        faces.push_back(r);
-        p = r.piece_end;
-        c = r.crossing_end;
-    }
-    statistics.divided = faces.size();
-    const std::span pieces(contacts.pieces);
-    const std::span crossings(contacts.crossings);
-    const auto blocks =
-        for_blocks<PartBlock>(faces.size(), 256, run, [&](std::size_t first, std::size_t last) {
-            PartBlock block;
-            const PredicateCounts before = predicate_counts();
-            Divider divide(soup, contacts, order);
-            for (std::size_t i = first; i < last; ++i) {
-                const Range& r = faces[i];
-                divide(pieces.subspan(r.piece, r.piece_end - r.piece), r.piece,
-                       crossings.subspan(r.crossing, r.crossing_end - r.crossing), block.parts);
-            }
-            block.predicates = predicate_counts() - before;
-            return block;
-        });
-    std::vector<Part> parts;
-    for (const PartBlock& b : blocks) {
-        parts.insert(parts.end(), b.parts.begin(), b.parts.end());
-        statistics.predicates += b.predicates;
-    }
-    return parts;
+    return parents;
 }
 
-/// Step (f): one list of unique triangles with parents, undivided ones included.
-class Stitcher {
-public:
-    Stitcher(const Soup& soup, const Contacts& contacts, const PointOrder& order,
-             const std::vector<Part>& parts, Arrangement& out) :
-        soup_(soup), contacts_(contacts), order_(order), parts_(parts), out_(out) {}
-
-    void operator()() {
-        collect_repeated();
-        index_duplicates();
-        for (std::uint32_t f = 0, p = 0; f < soup_.triangles.size(); ++f) {
-            const bool divided = p < parts_.size() && parts_[p].face == f;
-            if (!divided && !is_divided(f)) add(soup_.triangles[f], {&f, 1});
-            for (; p < parts_.size() && parts_[p].face == f; ++p) add_part(p);
-        }
-        name_vertices();
-    }
-
-private:
-    using Corners = std::array<PointIndex, 3>;
-    struct Hash {
-        std::size_t operator()(const Corners& c) const {
-            return (c[0] * 0x9e3779b97f4a7c15u ^ c[1]) * 0x9e3779b97f4a7c15u ^ c[2];
-        }
+/// Points in use become vertices: input ones by number, constructed ones in lexicographic order.
+void name_vertices(Arrangement& a, std::span<const PointIndex> ascending) {
+    const auto inputs = static_cast<PointIndex>(a.points.input_count());
+    constexpr std::uint32_t unused = UINT32_MAX;
+    std::vector<std::uint32_t> vertex_of(a.points.size(), unused);
+    for (const Triangle& t : a.triangles)
+        for (const PointIndex p : t) vertex_of[p] = 0;
+    const auto name = [&](PointIndex p) {
+        if (vertex_of[p] == unused) return;
+        vertex_of[p] = static_cast<std::uint32_t>(a.vertices.size());
+        a.vertices.push_back(p);
     };
-
-    bool is_divided(std::uint32_t f) const { return !divided_.empty() && divided_[f]; }
-
-    static Corners sorted(Corners c) {
-        std::sort(c.begin(), c.end());
-        return c;
-    }
-
-    // Only triangles that some coplanar one overlaps can have a part in common with another.
-    void collect_repeated() {
-        divided_.assign(soup_.triangles.size(), false);
-        for (std::uint32_t p = 0; p < parts_.size(); ++p) {
-            divided_[parts_[p].face] = true;
-            if (contacts_.overlapped[parts_[p].face])
-                faces_of_[sorted(parts_[p].corners)].push_back(parts_[p].face);
-        }
-    }
-
-    void index_duplicates() {
-        by_first_ = soup_.duplicates;
-        std::sort(by_first_.begin(), by_first_.end(), [](const auto& a, const auto& b) {
-            return std::pair{a[1], a[0]} < std::pair{b[1], b[0]};
-        });
-    }
-
-    void add_part(std::uint32_t p) {
-        const Part& part = parts_[p];
-        if (!contacts_.overlapped[part.face]) return add(part.corners, {&part.face, 1});
-        const auto& faces = faces_of_[sorted(part.corners)];
-        if (faces.front() == part.face) add(part.corners, faces);
-    }
-
-    void add(const Corners& corners, std::span<const std::uint32_t> faces) {
-        out_.triangles.push_back(corners);
-        auto& parents = out_.parents_of.values;
-        auto& surfaces = out_.surfaces_of.values;
-        const std::size_t first_parent = parents.size(), first_surface = surfaces.size();
-        for (const std::uint32_t f : faces) {
-            add_parent(soup_.input_of[f]);
-            surfaces.push_back(soup_.surface_of[f]);
-        }
-        if (!by_first_.empty())
-            for (const std::uint32_t f : faces) add_duplicates(soup_.input_of[f]);
-        const auto tidy = [](std::vector<std::uint32_t>& v, std::size_t first) {
-            if (v.size() == first + 1) return;
-            const auto begin = v.begin() + static_cast<std::ptrdiff_t>(first);
-            std::sort(begin, v.end());
-            v.erase(std::unique(begin, v.end()), v.end());
-        };
-        tidy(parents, first_parent);
-        tidy(surfaces, first_surface);
-        out_.parents_of.close();
-        out_.surfaces_of.close();
-    }
-
-    void add_parent(std::uint32_t input) { out_.parents_of.values.push_back(input); }
-
-    void add_duplicates(std::uint32_t first) {
-        auto it = std::lower_bound(by_first_.begin(), by_first_.end(), first,
-                                   [](const auto& d, std::uint32_t f) { return d[1] < f; });
-        for (; it != by_first_.end() && (*it)[1] == first; ++it) {
-            add_parent((*it)[0]);
-            out_.surfaces_of.values.push_back(surface_of_input((*it)[0]));
-        }
-    }
-
-    std::uint32_t surface_of_input(std::uint32_t input) const {
-        const auto& first = soup_.first_input_triangle;
-        return static_cast<std::uint32_t>(std::upper_bound(first.begin(), first.end(), input) -
-                                          first.begin() - 1);
-    }
-
-    // Points in use become vertices: input ones by number, constructed ones by rank.
-    void name_vertices() {
-        const auto inputs = static_cast<PointIndex>(soup_.points.size());
-        std::vector<std::uint32_t> vertex_of(contacts_.points.size(), UINT32_MAX);
-        for (const Triangle& t : out_.triangles)
-            for (const PointIndex p : t) vertex_of[p] = 0;
-        const auto name = [&](PointIndex p) {
-            if (vertex_of[p] == UINT32_MAX) return;
-            vertex_of[p] = static_cast<std::uint32_t>(out_.vertices.size());
-            out_.vertices.push_back(p);
-        };
-        for (PointIndex p = 0; p < inputs; ++p) name(p);
-        for (const PointIndex p : order_.ascending) name(p);
-        for (Triangle& t : out_.triangles)
-            for (PointIndex& p : t) p = vertex_of[p];
-    }
-
-    const Soup& soup_;
-    const Contacts& contacts_;
-    const PointOrder& order_;
-    const std::vector<Part>& parts_;
-    Arrangement& out_;
-    std::vector<bool> divided_;
-    std::unordered_map<Corners, std::vector<std::uint32_t>, Hash> faces_of_;
-    std::vector<std::array<std::uint32_t, 2>> by_first_;
-};
-
-/// Per triangle and surface, the number of distinct parents: what must agree across an edge that is
-/// no intersection.
-class Signatures {
-public:
-    explicit Signatures(const Arrangement& a) : a_(a) {
-        for (const auto& d : a.duplicates) first_of_.emplace(d[0], d[1]);
-    }
-
-    bool agree(std::uint32_t s, std::uint32_t t) const {
-        const auto p = a_.parents_of[s], q = a_.parents_of[t];
-        if (p.size() == 1 && q.size() == 1) return a_.surfaces_of[s][0] == a_.surfaces_of[t][0];
-        return signature(s) == signature(t);
-    }
-
-private:
-    // Sorted {surface, distinct triangle} with the triangle forgotten.
-    std::vector<std::uint32_t> signature(std::uint32_t t) const {
-        std::vector<std::array<std::uint32_t, 2>> distinct;
-        for (const std::uint32_t p : a_.parents_of[t]) {
-            const auto& first = a_.first_input_triangle;
-            const auto s = std::upper_bound(first.begin(), first.end(), p) - first.begin() - 1;
-            const auto d = first_of_.find(p);
-            distinct.push_back({static_cast<std::uint32_t>(s),
-                                d == first_of_.end() ? p : d->second});
-        }
-        std::sort(distinct.begin(), distinct.end());
-        distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
-        std::vector<std::uint32_t> surfaces;
-        for (const auto& d : distinct) surfaces.push_back(d[0]);
-        return surfaces;
-    }
-
-    const Arrangement& a_;
-    std::unordered_map<std::uint32_t, std::uint32_t> first_of_;
-};
-
-void find_intersection_edges(Arrangement& a) {
-    const Signatures signatures(a);
-    const auto is_intersection = [&](std::span<const EdgeSides::Side> sides) {
-        if (sides.size() > 2) return true;
-        return sides.size() == 2 && !signatures.agree(sides[0].triangle, sides[1].triangle);
-    };
-    group_edges(a.triangles, a.vertices.size())
-        .for_each([&](std::uint32_t low, std::uint32_t high, auto sides) {
-            if (is_intersection(sides)) a.intersection_edges.push_back({low, high});
-        });
+    for (PointIndex p = 0; p < inputs; ++p) name(p);
+    for (const PointIndex p : ascending) name(p);
+    for (Triangle& t : a.triangles)
+        for (PointIndex& p : t) p = vertex_of[p];
 }
 
 Error interrupted() { return {ErrorCode::interrupted, "stopped on request", ""}; }
@@ -378,32 +106,30 @@ Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
     report(0.3);
     if (run.stop.stop_requested()) return interrupted();
 
-    // (c) contacts, crossings inside triangles, (d) equal points merged
-    Contacts contacts = find_contacts(soup, candidates, run);
-    find_crossings(soup, contacts, run);
+    // (c) contacts, (d) equal points merged, (e) triangulation of what is touched, (f) one mesh
+    Division division = divide({soup.points, soup.triangles}, candidates, run);
     if (run.stop.stop_requested()) return interrupted();
-    const PointOrder order = order_points(soup, contacts);
-    a.statistics.seconds_intersect = watch.lap();
-    report(0.6);
+    const DivisionStatistics& d = division.statistics;
+    a.statistics.candidates = candidates.size();
+    a.statistics.improper_contacts = d.improper_contacts;
+    a.statistics.divided = d.divided;
+    a.statistics.constructed_points = division.ascending.size();
+    a.statistics.predicates = d.predicates;
+    a.statistics.seconds_intersect = d.seconds_intersect;
+    a.statistics.seconds_triangulate = d.seconds_triangulate;
+    watch.lap();
 
-    // (e) each triangle that anything touches is triangulated
-    const auto parts = divide_faces(soup, contacts, order, run, a.statistics);
-    if (run.stop.stop_requested()) return interrupted();
-    a.statistics.seconds_triangulate = watch.lap();
-    report(0.9);
-
-    // (f) one mesh
-    a.first_input_triangle = soup.first_input_triangle;
+    a.inputs = {soup.first_input_triangle, soup.duplicates};
     a.degenerate = soup.degenerate;
-    a.duplicates = soup.duplicates;
-    Stitcher(soup, contacts, order, parts, a)();
-    find_intersection_edges(a);
-    a.statistics.candidates = contacts.candidates;
-    a.statistics.improper_contacts = contacts.improper;
-    a.statistics.predicates += contacts.predicates;
-    a.statistics.constructed_points = order.ascending.size();
-    a.points = std::move(contacts.points);
-    a.statistics.seconds_stitch = watch.lap();
+    a.parents_of = parents_of_faces(soup, division.faces_of);
+    a.surfaces_of = surfaces_of_parents(a.inputs, a.parents_of);
+    a.points = std::move(division.points);
+    a.triangles = std::move(division.triangles);
+    name_vertices(a, division.ascending);
+    report(0.9);
+    a.edges = group_edges(a.triangles, a.vertices.size());
+    a.intersection_edges = find_intersection_edges(a.edges, a.inputs, a.parents_of);
+    a.statistics.seconds_stitch = d.seconds_stitch + watch.lap();
     report(1);
     return a;
 }

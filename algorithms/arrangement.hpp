@@ -14,6 +14,8 @@
 #include <span>
 #include <vector>
 
+#include <terrane/algorithms/edges.hpp>
+#include <terrane/algorithms/intersection_edges.hpp>
 #include <terrane/algorithms/mesh.hpp>
 #include <terrane/algorithms/result.hpp>
 #include <terrane/algorithms/run.hpp>
@@ -42,7 +44,7 @@ struct ArrangeStatistics {
 /// (vertices of the surfaces before s) + k; triangles likewise.
 struct Arrangement {
     std::vector<SurfaceInfo> surfaces;       ///< order of the input
-    std::vector<std::uint32_t> first_input_triangle; ///< per surface, and the total at the end
+    InputTriangles inputs;                   ///< how input triangles are counted; duplicates
     PointStore points;                       ///< all input vertices, and all constructed points
     std::vector<PointIndex> vertices;        ///< the points in use: input ones by number, then
                                              ///< constructed ones in lexicographic order
@@ -56,8 +58,7 @@ struct Arrangement {
                                              ///< surface; sorted, unique. The parents of an edge
                                              ///< are those of the triangles at it
     std::vector<std::uint32_t> degenerate;   ///< input triangles without area, ascending
-    std::vector<std::array<std::uint32_t, 2>> duplicates; ///< {input triangle, the first with the
-                                                          ///< same three points}, ascending
+    EdgeSides edges;                         ///< sides of the triangles by edge, for what follows
     ArrangeStatistics statistics;
 };
 

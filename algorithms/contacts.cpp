@@ -21,7 +21,7 @@ struct PairBlock {
     PredicateCounts predicates;
 };
 
-PairBlock test_pairs(const Soup& soup, std::span<const CandidatePair> pairs) {
+PairBlock test_pairs(const TriangleSoup& soup, std::span<const CandidatePair> pairs) {
     PairBlock block;
     const PredicateCounts before = predicate_counts();
     for (const CandidatePair& p : pairs)
@@ -39,7 +39,7 @@ void sort_by_face(std::vector<FacePiece>& pieces) {
 
 class Collector {
 public:
-    Collector(const Soup& soup, Contacts& contacts) :
+    Collector(const TriangleSoup& soup, Contacts& contacts) :
         table_(static_cast<PointIndex>(soup.points.size())), contacts_(contacts) {}
 
     void add(const PairContact& found) {
@@ -84,7 +84,7 @@ bool FacePiece::is_inner_segment() const {
     return true;
 }
 
-Contacts find_contacts(const Soup& soup, std::span<const CandidatePair> candidates,
+Contacts find_contacts(const TriangleSoup& soup, std::span<const CandidatePair> candidates,
                        const Run& run) {
     const auto blocks =
         for_blocks<PairBlock>(candidates.size(), 16384, run, [&](std::size_t a, std::size_t b) {
@@ -100,12 +100,12 @@ Contacts find_contacts(const Soup& soup, std::span<const CandidatePair> candidat
         for (const PairContact& c : block.contacts) collector.add(c);
     }
     sort_by_face(contacts.pieces);
-    contacts.points = PointStore(soup.points);
+    contacts.points = PointStore({soup.points.begin(), soup.points.end()});
     contacts.points.append(collector.constructions());
     return contacts;
 }
 
-PointOrder order_points(const Soup& soup, const Contacts& contacts) {
+PointOrder order_points(const TriangleSoup& soup, const Contacts& contacts) {
     const PointStore& store = contacts.points;
     const auto inputs = static_cast<PointIndex>(store.input_count());
     std::vector<PointIndex> used;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Steps (b), (c) and (d) of the arrangement: all improper contacts of a soup, sorted by triangle,
+// Steps (b), (c) and (d) of the arrangement: all improper contacts of a soup of triangles, sorted by triangle,
 // with their points in one store, equal points merged.
 #pragma once
 
@@ -11,10 +11,16 @@
 #include <terrane/algorithms/intersection.hpp>
 #include <terrane/algorithms/run.hpp>
 #include <terrane/algorithms/search/search.hpp>
-#include <terrane/algorithms/soup.hpp>
 #include <terrane/kernel/point_store.hpp>
 
 namespace terrane {
+
+/// Distinct triangles with area over distinct points (a triangle's corners differ, no two triangles
+/// have the same three; points that no triangle uses may repeat others).
+struct TriangleSoup {
+    std::span<const Point3> points;
+    std::span<const Triangle> triangles;
+};
 
 /// The line that carries a segment within its triangle's plane: the plane of triangle `other`, or
 /// edge 0..2 of `other` where the two are coplanar.
@@ -54,10 +60,10 @@ struct Contacts {
 };
 
 /// Step (b), (c): the pieces. `groups` as in candidate_pairs.
-Contacts find_contacts(const Soup& soup, std::span<const CandidatePair> candidates, const Run& run);
+Contacts find_contacts(const TriangleSoup& soup, std::span<const CandidatePair> candidates, const Run& run);
 
 /// Where segments cross inside a face: fills in crossings and appends their points.
-void find_crossings(const Soup& soup, Contacts& contacts, const Run& run);
+void find_crossings(const TriangleSoup& soup, Contacts& contacts, const Run& run);
 
 /// Equal points by name, and their order.
 struct PointOrder {
@@ -69,6 +75,6 @@ struct PointOrder {
 };
 
 /// Step (d): orders all constructed points and the corners of all faces with pieces, exactly.
-PointOrder order_points(const Soup& soup, const Contacts& contacts);
+PointOrder order_points(const TriangleSoup& soup, const Contacts& contacts);
 
 } // namespace terrane

@@ -64,7 +64,7 @@ bool is_on_by_name(const Construction& how, const InnerSegment& s) {
 /// All crossings in one face.
 class FaceSweep {
 public:
-    FaceSweep(const Soup& soup, const Contacts& contacts, std::vector<NewCrossing>& out) :
+    FaceSweep(const TriangleSoup& soup, const Contacts& contacts, std::vector<NewCrossing>& out) :
         soup_(soup), contacts_(contacts), out_(out) {}
 
     /// Pieces [first, last) of one face.
@@ -145,7 +145,7 @@ private:
         return three_planes(soup_.triangles[face_], a.plane, b.plane);
     }
 
-    const Soup& soup_;
+    const TriangleSoup& soup_;
     const Contacts& contacts_;
     std::vector<NewCrossing>& out_;
     std::vector<InnerSegment> segments_;
@@ -155,7 +155,7 @@ private:
 
 } // namespace
 
-void find_crossings(const Soup& soup, Contacts& contacts, const Run& run) {
+void find_crossings(const TriangleSoup& soup, Contacts& contacts, const Run& run) {
     std::vector<std::uint32_t> starts; // of each face's pieces
     for (std::uint32_t p = 0; p < contacts.pieces.size(); ++p)
         if (p == 0 || contacts.pieces[p].face != contacts.pieces[p - 1].face) starts.push_back(p);

@@ -3,7 +3,6 @@
 // Its own library, terrane::tetgen, since TetGen's licence (AGPL) is not that of the core.
 #pragma once
 
-#include <array>
 #include <optional>
 
 #include <terrane/algorithms/mesh.hpp>
@@ -18,19 +17,37 @@ struct Box3 {
 };
 
 struct TetrahedraOptions {
-    std::optional<Box3> box;       ///< closes the domain; must contain the mesh strictly inside
-    double margin = 0.1;           ///< without a box: the bounding box, enlarged on each side by this
-                                   ///< share of its longest edge
-    std::optional<double> edge_length; ///< wanted length, unit of the mesh; none: as few as possible
-    std::optional<double> radius_edge_ratio; ///< TetGen's quality bound (>= 1.1); none: no bound
-    std::optional<double> max_volume; ///< of a tetrahedron, cubic unit
+    std::optional<Box3> box{}; ///< closes the domain; must contain the mesh strictly inside
+    double margin = 0.1;       ///< without a box: the bounding box, enlarged on each side by this
+                               ///< share of its longest edge
+    std::optional<double> edge_length{};       ///< wanted length, unit of the mesh; none: as few
+                                               ///< tetrahedra as possible
+    std::optional<double> radius_edge_ratio{}; ///< TetGen's quality bound (>= 1.1); none: no bound,
+                                               ///< or 2 with edge_length or max_volume
+    std::optional<double> max_volume{};        ///< of a tetrahedron, cubic unit
 };
 
 /// Tetrahedra of a box in which every triangle of the mesh is a union of faces.
-/// The mesh must be conforming (see check): TetGen gets nothing else.
-/// Errors: improper_contact with the place, bad_option, out_of_memory, internal.
-/// Source: TetGen 1.5 (H. Si), called in process; its thrown ints become errors here.
-/// TetGen keeps static state: calls are serialised by a mutex.
+///
+/// (1) Without edge_length, radius_edge_ratio and max_volume the faces on the mesh are its
+///     triangles, undivided, unless TetGen can't do without more vertices on them. Vertices added
+///     on a triangle are rounded to doubles next to it.
+/// (2) Vertices: those of the mesh that are in use, in its order and bit by bit, then the eight
+///     corners of the box, then added ones.
+/// (3) Proven for each result, exactly: all tetrahedra have positive volume, each face has a
+///     tetrahedron on either side or lies on the box, so they fill the box without overlap.
+/// (4) Faces come in the order of their triangles and wound like them; faces on the box last,
+///     counterclockwise seen from outside.
+/// (5) Regions are what the mesh parts the box into; 1, 2, ... in the order of their lowest
+///     tetrahedra, by the sorted positions of the four vertices.
+/// (6) The same arguments give the same result.
+///
+/// The mesh must be conforming (see check); that is tested, exactly, since TetGen may crash or run
+/// forever on another. TetGen runs in a child process: nothing is printed, a crash is an error like
+/// others, a stop request ends it at once, and calls from several threads do not disturb each
+/// other. Errors: improper_contact with the place, bad_index, bad_number, bad_option, nothing_to_do
+/// (no triangle and no box), interrupted, out_of_memory, unsupported (too large for TetGen),
+/// internal. Source: TetGen 1.5 (H. Si).
 Result<TetrahedralMesh> tetrahedralize(const Mesh& mesh, const TetrahedraOptions& options,
                                        const Run& run);
 

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/division.hpp>
+
+#include <algorithm>
+#include <unordered_map>
+#include <utility>
+
+#include <terrane/algorithms/parallel.hpp>
+#include <terrane/algorithms/stopwatch.hpp>
+#include <terrane/algorithms/triangulation.hpp>
+#include <terrane/kernel/predicates.hpp>
+
+namespace terrane {
+namespace {
+
+/// A part of a divided triangle; corners by point.
+struct Part {
+    std::uint32_t face;
+    std::array<PointIndex, 3> corners;
+};
+
+struct PartBlock {
+    std::vector<Part> parts;
+    PredicateCounts predicates;
+};
+
+/// Step (e): gathers what each face must contain and triangulates it.
+class Divider {
+public:
+    Divider(const TriangleSoup& soup, const Contacts& contacts, const PointOrder& order) :
+        soup_(soup), contacts_(contacts), order_(order) {}
+
+    /// One face: its pieces and crossings.
+    void operator()(std::span<const FacePiece> pieces, std::uint32_t first_piece,
+                    std::span<const FaceCrossing> crossings, std::vector<Part>& out) {
+        face_.clear();
+        const std::uint32_t f = pieces.front().face;
+        const Triangle& t = soup_.triangles[f];
+        face_.corners = t;
+        face_.axis = projection_axis(soup_.points[t[0]], soup_.points[t[1]], soup_.points[t[2]]);
+        chains_.assign(pieces.size(), {});
+        for (const FacePiece& p : pieces)
+            for (unsigned e = 0; e < 2; ++e) add_point(p.ends[e], p.place[e]);
+        for (const FaceCrossing& c : crossings) {
+            const PointIndex p = order_.same_as[c.point];
+            face_.inner_points.push_back(p);
+            for (const std::uint32_t k : c.pieces) chains_[k - first_piece].push_back(p);
+        }
+        for (std::size_t k = 0; k < pieces.size(); ++k)
+            if (pieces[k].is_inner_segment()) add_chain(pieces[k], chains_[k]);
+        finish_points();
+        for (const auto& part : triangulate_(contacts_.points, order_.rank, face_))
+            out.push_back({f, part});
+    }
+
+private:
+    bool by_rank(PointIndex a, PointIndex b) const { return order_.rank[a] < order_.rank[b]; }
+
+    void add_point(PointIndex point, Place place) {
+        const PointIndex p = order_.same_as[point];
+        if (is_edge(place)) face_.edge_points[edge_of(place)].push_back(p);
+        if (place == Place::face) face_.inner_points.push_back(p);
+    }
+
+    void sort_unique(std::vector<PointIndex>& points) const {
+        std::sort(points.begin(), points.end(),
+                  [&](PointIndex a, PointIndex b) { return by_rank(a, b); });
+        points.erase(std::unique(points.begin(), points.end()), points.end());
+    }
+
+    void add_chain(const FacePiece& piece, std::vector<PointIndex>& chain) {
+        for (const PointIndex e : piece.ends) chain.push_back(order_.same_as[e]);
+        sort_unique(chain);
+        for (std::size_t i = 0; i + 1 < chain.size(); ++i)
+            face_.segments.push_back({chain[i], chain[i + 1]});
+    }
+
+    // Along a line, points are in lexicographic order, forwards or backwards.
+    void finish_points() {
+        for (unsigned e = 0; e < 3; ++e) {
+            sort_unique(face_.edge_points[e]);
+            if (by_rank(face_.corners[(e + 1) % 3], face_.corners[e]))
+                std::reverse(face_.edge_points[e].begin(), face_.edge_points[e].end());
+        }
+        sort_unique(face_.inner_points);
+        std::sort(face_.segments.begin(), face_.segments.end());
+        face_.segments.erase(std::unique(face_.segments.begin(), face_.segments.end()),
+                             face_.segments.end());
+    }
+
+    const TriangleSoup& soup_;
+    const Contacts& contacts_;
+    const PointOrder& order_;
+    FaceInput face_;
+    std::vector<std::vector<PointIndex>> chains_;
+    FaceTriangulation triangulate_;
+};
+
+std::vector<Part> divide_faces(const TriangleSoup& soup, const Contacts& contacts, const PointOrder& order,
+                               const Run& run, DivisionStatistics& statistics) {
+    struct Range {
+        std::uint32_t piece, piece_end, crossing, crossing_end;
+    };
+    std::vector<Range> faces;
+    const auto count = [](const auto& v) { return static_cast<std::uint32_t>(v.size()); };
+    for (std::uint32_t p = 0, c = 0; p < count(contacts.pieces);) {
+        Range r{p, p, c, c};
+        const std::uint32_t f = contacts.pieces[p].face;
+        while (r.piece_end < count(contacts.pieces) && contacts.pieces[r.piece_end].face == f)
+            ++r.piece_end;
+        while (r.crossing_end < count(contacts.crossings) &&
+               contacts.crossings[r.crossing_end].face == f)
+            ++r.crossing_end;
+        faces.push_back(r);
+        p = r.piece_end;
+        c = r.crossing_end;
+    }
+    statistics.divided = faces.size();
+    const std::span pieces(contacts.pieces);
+    const std::span crossings(contacts.crossings);
+    const auto blocks =
+        for_blocks<PartBlock>(faces.size(), 256, run, [&](std::size_t first, std::size_t last) {
+            PartBlock block;
+            const PredicateCounts before = predicate_counts();
+            Divider divide(soup, contacts, order);
+            for (std::size_t i = first; i < last; ++i) {
+                const Range& r = faces[i];
+                divide(pieces.subspan(r.piece, r.piece_end - r.piece), r.piece,
+                       crossings.subspan(r.crossing, r.crossing_end - r.crossing), block.parts);
+            }
+            block.predicates = predicate_counts() - before;
+            return block;
+        });
+    std::vector<Part> parts;
+    for (const PartBlock& b : blocks) {
+        parts.insert(parts.end(), b.parts.begin(), b.parts.end());
+        statistics.predicates += b.predicates;
+    }
+    return parts;
+}
+
+/// Step (f): one list of unique triangles, undivided ones included.
+class Stitcher {
+public:
+    Stitcher(const TriangleSoup& soup, const Contacts& contacts, std::span<const Part> parts,
+             Division& out) :
+        soup_(soup), contacts_(contacts), parts_(parts), out_(out) {}
+
+    void operator()() {
+        collect_repeated();
+        const std::size_t expected = soup_.triangles.size() + parts_.size();
+        out_.triangles.reserve(expected);
+        out_.faces_of.values.reserve(expected);
+        out_.faces_of.offsets.reserve(expected + 1);
+        for (std::uint32_t f = 0, p = 0; f < soup_.triangles.size(); ++f) {
+            if (p == parts_.size() || parts_[p].face != f) add(soup_.triangles[f], {&f, 1});
+            for (; p < parts_.size() && parts_[p].face == f; ++p) add_part(parts_[p]);
+        }
+    }
+
+private:
+    struct Hash {
+        std::size_t operator()(const Triangle& c) const {
+            const std::uint64_t h = (c[0] * 0x9e3779b97f4a7c15u ^ c[1]) * 0x9e3779b97f4a7c15u;
+            return (h ^ c[2]) * 0x9e3779b97f4a7c15u >> 7;
+        }
+    };
+
+    static Triangle sorted(Triangle c) {
+        std::sort(c.begin(), c.end());
+        return c;
+    }
+
+    // Only triangles that some coplanar one overlaps can have a part in common with another.
+    void collect_repeated() {
+        for (const Part& p : parts_)
+            if (contacts_.overlapped[p.face]) faces_of_[sorted(p.corners)].push_back(p.face);
+    }
+
+    void add_part(const Part& part) {
+        if (!contacts_.overlapped[part.face]) return add(part.corners, {&part.face, 1});
+        const auto& faces = faces_of_[sorted(part.corners)];
+        if (faces.front() == part.face) add(part.corners, faces);
+    }
+
+    void add(const Triangle& corners, std::span<const std::uint32_t> faces) {
+        out_.triangles.push_back(corners);
+        out_.faces_of.push_back(faces);
+    }
+
+    const TriangleSoup& soup_;
+    const Contacts& contacts_;
+    std::span<const Part> parts_;
+    Division& out_;
+    std::unordered_map<Triangle, std::vector<std::uint32_t>, Hash> faces_of_;
+};
+
+} // namespace
+
+Division divide(const TriangleSoup& soup, std::span<const CandidatePair> candidates,
+                const Run& run) {
+    Stopwatch watch;
+    Division out;
+    Contacts contacts = find_contacts(soup, candidates, run);
+    find_crossings(soup, contacts, run);
+    if (run.stop.stop_requested()) return out;
+    PointOrder order = order_points(soup, contacts);
+    out.statistics.improper_contacts = contacts.improper;
+    out.statistics.predicates += contacts.predicates;
+    out.statistics.seconds_intersect = watch.lap();
+
+    const auto parts = divide_faces(soup, contacts, order, run, out.statistics);
+    if (run.stop.stop_requested()) return out;
+    out.statistics.seconds_triangulate = watch.lap();
+
+    Stitcher(soup, contacts, parts, out)();
+    out.points = std::move(contacts.points);
+    out.ascending = std::move(order.ascending);
+    out.statistics.seconds_stitch = watch.lap();
+    return out;
+}
+
+} // namespace terrane

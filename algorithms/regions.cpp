@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/regions.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace terrane {
+namespace {
+
+/// Union-find; the lowest element stands for its set.
+class Sets {
+public:
+    explicit Sets(std::size_t n) : parent_(n) {
+        std::iota(parent_.begin(), parent_.end(), std::uint32_t{0});
+    }
+    std::uint32_t find(std::uint32_t i) {
+        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+        return i;
+    }
+    void join(std::uint32_t a, std::uint32_t b) {
+        a = find(a);
+        b = find(b);
+        parent_[std::max(a, b)] = std::min(a, b);
+    }
+
+private:
+    std::vector<std::uint32_t> parent_;
+};
+
+double area_of(std::span<const Point3> v, const Triangle& t) {
+    const Point3 &a = v[t[0]], &b = v[t[1]], &c = v[t[2]];
+    const double ux = b.x - a.x, uy = b.y - a.y, uz = b.z - a.z;
+    const double wx = c.x - a.x, wy = c.y - a.y, wz = c.z - a.z;
+    return 0.5 * std::hypot(uy * wz - uz * wy, uz * wx - ux * wz, ux * wy - uy * wx);
+}
+
+/// A slot is a triangle in one of its surfaces.
+class Diffusion {
+public:
+    Diffusion(std::span<const Triangle> triangles, const Lists<std::uint32_t>& surfaces_of,
+              std::span<const Edge> stops) :
+        triangles_(triangles), surfaces_of_(surfaces_of), stops_(stops),
+        sets_(surfaces_of.values.size()) {}
+
+    /// Spreads over all edges that are no stops; lists the sides of the others.
+    void spread(const EdgeSides& edges) {
+        auto stop = stops_.begin();
+        edges.for_each([&](std::uint32_t low, std::uint32_t high, auto sides) {
+            while (stop != stops_.end() && *stop < Edge{low, high}) ++stop;
+            if (stop != stops_.end() && *stop == Edge{low, high}) {
+                for (const auto& s : sides) at_stop_.values.push_back(s.triangle);
+                at_stop_.close();
+            } else if (sides.size() == 2) {
+                join(sides[0].triangle, sides[1].triangle);
+            }
+        });
+    }
+
+    Regions number(std::span<const Point3> vertices) {
+        Regions out;
+        const auto& surfaces = surfaces_of_;
+        std::vector<std::uint32_t> order; // first slots of regions, by surface then by triangle
+        std::vector<std::uint32_t> triangle_of(surfaces.values.size());
+        for (std::uint32_t t = 0; t < surfaces.size(); ++t)
+            for (std::uint32_t s = surfaces.offsets[t]; s < surfaces.offsets[t + 1]; ++s) {
+                triangle_of[s] = t;
+                if (sets_.find(s) == s) order.push_back(s);
+            }
+        std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+            return surfaces.values[a] < surfaces.values[b];
+        });
+        std::vector<std::uint32_t> number_of(surfaces.values.size());
+        for (const std::uint32_t s : order) {
+            number_of[s] = static_cast<std::uint32_t>(out.regions.size());
+            out.regions.push_back({surfaces.values[s], triangle_of[s], 0, 0, {}});
+        }
+        out.regions_of = surfaces;
+        for (std::uint32_t s = 0; s < surfaces.values.size(); ++s) {
+            const std::uint32_t r = out.regions_of.values[s] = number_of[sets_.find(s)];
+            ++out.regions[r].triangles;
+            out.regions[r].area += area_of(vertices, triangles_[triangle_of[s]]);
+        }
+        find_neighbours(out);
+        return out;
+    }
+
+private:
+    // Two triangles of an edge that is no stop lie in the same surfaces.
+    void join(std::uint32_t t, std::uint32_t u) {
+        const std::uint32_t a = surfaces_of_.offsets[t], b = surfaces_of_.offsets[u];
+        const auto n = surfaces_of_[t].size();
+        for (std::uint32_t k = 0; k < n; ++k) sets_.join(a + k, b + k);
+    }
+
+    void find_neighbours(Regions& out) const {
+        std::vector<std::uint32_t> here;
+        for (std::size_t e = 0; e < at_stop_.size(); ++e) {
+            here.clear();
+            for (const std::uint32_t t : at_stop_[e]) {
+                const auto regions = out.regions_of[t];
+                here.insert(here.end(), regions.begin(), regions.end());
+            }
+            for (const std::uint32_t r : here)
+                for (const std::uint32_t q : here)
+                    if (q != r && (out.regions[r].neighbours.empty() ||
+                                   out.regions[r].neighbours.back() != q))
+                        out.regions[r].neighbours.push_back(q);
+        }
+        for (Region& r : out.regions) {
+            std::sort(r.neighbours.begin(), r.neighbours.end());
+            r.neighbours.erase(std::unique(r.neighbours.begin(), r.neighbours.end()),
+                               r.neighbours.end());
+        }
+    }
+
+    std::span<const Triangle> triangles_;
+    const Lists<std::uint32_t>& surfaces_of_;
+    std::span<const Edge> stops_;
+    Sets sets_;
+    Lists<std::uint32_t> at_stop_; ///< per stop: the triangles at it
+};
+
+} // namespace
+
+Regions find_regions(std::span<const Point3> vertices, std::span<const Triangle> triangles,
+                     const Lists<std::uint32_t>& surfaces_of, const EdgeSides& edges,
+                     std::span<const Edge> intersection_edges) {
+    Diffusion diffusion(triangles, surfaces_of, intersection_edges);
+    diffusion.spread(edges);
+    return diffusion.number(vertices);
+}
+
+} // namespace terrane

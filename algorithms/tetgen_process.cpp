@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// This file is LGPL, but calls TetGen, which is AGPL: what is linked from both is AGPL as a whole.
+#include <terrane/algorithms/tetgen_process.hpp>
+
+#include <algorithm>
+#include <cerrno>
+#include <cfenv>
+#include <csignal>
+#include <cstdlib>
+#include <limits>
+#include <mutex>
+#include <new>
+#include <string>
+#include <type_traits>
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#define TETLIBRARY
+#include <tetgen.h>
+
+namespace terrane {
+namespace {
+
+static_assert(sizeof(Point3) == 3 * sizeof(double) && std::is_trivially_copyable_v<Point3>);
+static_assert(sizeof(int) == sizeof(std::uint32_t));
+
+/// First bytes of the child's message; the arrays follow if status is 0.
+struct Header {
+    int status = 0; ///< 0, or the code that TetGen threw
+    int points = 0;
+    int tetrahedra = 0;
+    int faces = 0;
+};
+
+// Codes of our own, beside those of TetGen (1 memory, 2 internal, 3 self-intersection, 4 feature
+// too small, 5 facets too close, 10 input).
+constexpr int unknown_exception = 100;
+
+constexpr int poll_milliseconds = 50; // how soon a stop request is seen
+
+// ---- In the child -----------------------------------------------------------------------------
+
+void write_all(int fd, const void* data, std::size_t size) {
+    const char* bytes = static_cast<const char*>(data);
+    while (size > 0) {
+        const ssize_t written = write(fd, bytes, size);
+        if (written < 0 && errno == EINTR) continue;
+        if (written <= 0) _exit(1); // the parent is gone
+        bytes += written;
+        size -= static_cast<std::size_t>(written);
+    }
+}
+
+void set_facet(tetgenio::facet& facet, std::span<const std::uint32_t> corners) {
+    facet.numberofholes = 0;
+    facet.holelist = nullptr;
+    facet.numberofpolygons = 1;
+    facet.polygonlist = new tetgenio::polygon[1];
+    tetgenio::polygon& polygon = facet.polygonlist[0];
+    polygon.numberofvertices = static_cast<int>(corners.size());
+    polygon.vertexlist = new int[corners.size()];
+    std::copy(corners.begin(), corners.end(), polygon.vertexlist);
+}
+
+void fill(tetgenio& io, const TetgenInput& input) {
+    io.firstnumber = 0;
+    io.numberofpoints = static_cast<int>(input.points.size());
+    io.pointlist = new double[3 * input.points.size()];
+    double* next = io.pointlist;
+    for (const Point3& p : input.points) {
+        *next++ = p.x;
+        *next++ = p.y;
+        *next++ = p.z;
+    }
+    const std::size_t facets = input.facets.size();
+    io.numberoffacets = static_cast<int>(facets);
+    io.facetlist = new tetgenio::facet[facets];
+    io.facetmarkerlist = new int[facets];
+    for (std::size_t i = 0; i < facets; ++i) {
+        set_facet(io.facetlist[i], input.facets[i]);
+        io.facetmarkerlist[i] = static_cast<int>(i) + 1; // 0 means "no marker" to TetGen
+    }
+    if (!input.max_area) return;
+    io.numberoffacetconstraints = static_cast<int>(facets);
+    io.facetconstraintlist = new double[2 * facets];
+    for (std::size_t i = 0; i < facets; ++i) {
+        io.facetconstraintlist[2 * i] = static_cast<double>(i + 1);
+        io.facetconstraintlist[2 * i + 1] = *input.max_area;
+    }
+}
+
+/// p: facets are given. z: count from 0. J: keep all points. M: merge neither coplanar facets (each
+/// has its own marker) nor close vertices. Q: quiet. Y: split no facet.
+tetgenbehavior behavior_for(const TetgenInput& input) {
+    const bool refine = input.max_volume || input.max_area || input.radius_edge_ratio;
+    tetgenbehavior behavior;
+    std::string switches = "pzJMQ";
+    if (input.keep_facets) switches += "Y";
+    if (refine) switches += "q";
+    if (input.max_volume) switches += "a1";
+    behavior.parse_commandline(switches.data());
+    if (input.max_volume) behavior.maxvolume = *input.max_volume; // exact, not through text
+    if (input.radius_edge_ratio) behavior.minratio = *input.radius_edge_ratio;
+    return behavior;
+}
+
+/// Silent, without a core file, and gone when the parent is.
+void become_child(pid_t parent) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent) _exit(1);
+    const rlimit no_core{0, 0};
+    setrlimit(RLIMIT_CORE, &no_core);
+    for (const int fatal : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGTERM})
+        std::signal(fatal, SIG_DFL);
+    std::signal(SIGINT, SIG_IGN); // the parent decides
+    const int null = open("/dev/null", O_WRONLY);
+    if (null < 0 || dup2(null, STDOUT_FILENO) < 0 || dup2(null, STDERR_FILENO) < 0) _exit(1);
+    std::fesetround(FE_TONEAREST);
+    std::srand(1);
+}
+
+int call_tetgen(const TetgenInput& input, tetgenio& out) {
+    try {
+        tetgenio in;
+        fill(in, input);
+        tetgenbehavior behavior = behavior_for(input);
+        tetrahedralize(&behavior, &in, &out);
+        return 0;
+    } catch (int code) {
+        return code;
+    } catch (const std::bad_alloc&) {
+        return 1;
+    } catch (...) {
+        return unknown_exception;
+    }
+}
+
+[[noreturn]] void child(const TetgenInput& input, int fd) {
+    tetgenio out;
+    Header header;
+    header.status = call_tetgen(input, out);
+    if (header.status != 0) {
+        write_all(fd, &header, sizeof header);
+        _exit(0);
+    }
+    header.points = out.numberofpoints;
+    header.tetrahedra = out.numberoftetrahedra;
+    header.faces = out.numberoftrifaces;
+    const auto size = [](int count, std::size_t each) {
+        return static_cast<std::size_t>(count) * each;
+    };
+    write_all(fd, &header, sizeof header);
+    write_all(fd, out.pointlist, size(out.numberofpoints, sizeof(Point3)));
+    write_all(fd, out.tetrahedronlist, size(out.numberoftetrahedra, 4 * sizeof(int)));
+    write_all(fd, out.trifacelist, size(out.numberoftrifaces, 3 * sizeof(int)));
+    write_all(fd, out.trifacemarkerlist, size(out.numberoftrifaces, sizeof(int)));
+    _exit(0);
+}
+
+// ---- In the parent ----------------------------------------------------------------------------
+
+Error from_tetgen(int code) {
+    switch (code) {
+    case 1:
+        return {ErrorCode::out_of_memory, "TetGen ran out of memory", ""};
+    case 3:
+        return {ErrorCode::improper_contact, "TetGen found two surfaces that cross", ""};
+    case 4:
+        return {ErrorCode::improper_contact,
+                "TetGen found vertices or edges too close to tell apart", ""};
+    case 5:
+        return {ErrorCode::improper_contact, "TetGen found triangles too close to tell apart", ""};
+    case 10:
+        return {ErrorCode::internal, "TetGen did not accept its input", ""};
+    default:
+        return {ErrorCode::internal, fmt::format("TetGen failed with code {}", code), ""};
+    }
+}
+
+/// The running child and the end of the pipe that its message comes from.
+class ChildProcess {
+public:
+    explicit ChildProcess(const TetgenInput& input) {
+        // A child that another thread forks now would keep our pipe open, and hide a crash.
+        static std::mutex mutex;
+        const std::lock_guard lock(mutex);
+        int ends[2];
+        if (pipe2(ends, O_CLOEXEC) != 0) return;
+        const pid_t parent = getpid();
+        pid_ = fork();
+        if (pid_ == 0) {
+            close(ends[0]);
+            become_child(parent);
+            child(input, ends[1]);
+        }
+        close(ends[1]);
+        fd_ = ends[0];
+    }
+    ~ChildProcess() {
+        if (fd_ >= 0) close(fd_);
+        if (pid_ <= 0) return;
+        kill(pid_, SIGKILL);
+        wait();
+    }
+    ChildProcess(const ChildProcess&) = delete;
+    ChildProcess& operator=(const ChildProcess&) = delete;
+
+    [[nodiscard]] bool started() const { return pid_ > 0; }
+
+    /// Fills the memory from the pipe.
+    Status read_all(void* data, std::size_t size, const std::stop_token& stop) {
+        char* bytes = static_cast<char*>(data);
+        while (size > 0) {
+            if (stop.stop_requested())
+                return Error{ErrorCode::interrupted, "stopped while TetGen ran", ""};
+            pollfd waiting{fd_, POLLIN, 0};
+            if (poll(&waiting, 1, poll_milliseconds) <= 0) continue;
+            const ssize_t got = read(fd_, bytes, size);
+            if (got < 0 && errno == EINTR) continue;
+            if (got <= 0) return why_it_ended();
+            bytes += got;
+            size -= static_cast<std::size_t>(got);
+        }
+        return Done{};
+    }
+
+private:
+    int wait() {
+        int status = 0;
+        while (waitpid(pid_, &status, 0) < 0)
+            if (errno != EINTR) return 0; // the program ignores SIGCHLD: nothing left to wait for
+        pid_ = -1;
+        return status;
+    }
+
+    Error why_it_ended() {
+        const int status = wait();
+        const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+        if (signal == SIGKILL)
+            return {ErrorCode::out_of_memory, "TetGen was killed, most likely for want of memory",
+                    ""};
+        return {ErrorCode::internal,
+                signal != 0 ? fmt::format("TetGen crashed (signal {})", signal) : "TetGen gave up",
+                ""};
+    }
+
+    pid_t pid_ = -1;
+    int fd_ = -1;
+};
+
+template <class T>
+Status read_array(ChildProcess& process, int length, std::vector<T>& array,
+                  const std::stop_token& stop) {
+    if (length < 0) return Error{ErrorCode::internal, "TetGen returned a negative length", ""};
+    array.resize(static_cast<std::size_t>(length));
+    return process.read_all(array.data(), array.size() * sizeof(T), stop);
+}
+
+} // namespace
+
+Result<TetgenOutput> run_tetgen(const TetgenInput& input, const std::stop_token& stop) {
+    constexpr auto most = static_cast<std::size_t>(std::numeric_limits<int>::max()) / 4;
+    if (input.points.size() > most || input.facets.size() > most)
+        return Error{ErrorCode::unsupported, "too many triangles for TetGen", ""};
+    ChildProcess process(input);
+    if (!process.started())
+        return Error{ErrorCode::out_of_memory, "no process could be started for TetGen", ""};
+
+    Header header;
+    if (Status read = process.read_all(&header, sizeof header, stop); !read) return read.error();
+    if (header.status != 0) return from_tetgen(header.status);
+    TetgenOutput out;
+    Status read = read_array(process, header.points, out.points, stop);
+    if (read) read = read_array(process, header.tetrahedra, out.tetrahedra, stop);
+    if (read) read = read_array(process, header.faces, out.faces, stop);
+    if (read) read = read_array(process, header.faces, out.face_facet, stop);
+    if (!read) return read.error();
+    for (std::uint32_t& facet : out.face_facet) --facet; // markers count from 1
+    return out;
+}
+
+} // namespace terrane

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// TetGen at arm's length: run in a child process, so that its asserts, its crashes and what it
+// prints cost the caller nothing, and so that it can be stopped. Private to terrane::tetgen.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <stop_token>
+#include <vector>
+
+#include <terrane/algorithms/lists.hpp>
+#include <terrane/algorithms/result.hpp>
+#include <terrane/algorithms/surface.hpp>
+
+namespace terrane {
+
+/// What TetGen gets: convex planar facets that meet in shared vertices and edges only.
+struct TetgenInput {
+    std::vector<Point3> points;       ///< pairwise distinct, all used
+    Lists<std::uint32_t> facets;      ///< per facet its corners, in order around it
+    bool keep_facets = true;          ///< split none: not with any of the following three
+    std::optional<double> max_volume; ///< of a tetrahedron
+    std::optional<double> max_area;   ///< of a face on a facet
+    std::optional<double> radius_edge_ratio;
+};
+
+/// What TetGen says. Nothing is checked but the array lengths.
+struct TetgenOutput {
+    std::vector<Point3> points; ///< those of the input, then added ones
+    std::vector<std::array<std::uint32_t, 4>> tetrahedra;
+    std::vector<Triangle> faces;           ///< faces of tetrahedra on a facet
+    std::vector<std::uint32_t> face_facet; ///< per face: its facet
+};
+
+/// Errors: improper_contact, out_of_memory, interrupted (the child is killed), internal.
+/// The same input gives the same output: each child starts from the same state.
+Result<TetgenOutput> run_tetgen(const TetgenInput& input, const std::stop_token& stop);
+
+} // namespace terrane

@@ -1,0 +1,50 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: LGPL-3.0-or-later
+#
+# Installs what a Debian 12 needs to build and test Terrane. Safe to run again: with everything in
+# place it needs neither network nor root.
+set -euo pipefail
+
+packages=(
+    ca-certificates git g++ clang-14 libclang-rt-14-dev clang-format-14 clang-tidy-14
+    cmake ninja-build ccache
+    libcgal-dev libgmp-dev libmpfr-dev libeigen3-dev libnanoflann-dev libtbb-dev
+    libcli11-dev libfmt-dev nlohmann-json3-dev libpugixml-dev zlib1g-dev
+    libtet1.5-dev catch2 libbenchmark-dev
+)
+
+is_installed() {
+    [[ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null)" == installed ]]
+}
+
+fail() {
+    echo "setup: $1" >&2
+    echo "setup: please install by hand: ${missing[*]}" >&2
+    exit 1
+}
+
+missing=()
+command -v dpkg-query >/dev/null || { missing=("${packages[@]}"); fail "this is no Debian system"; }
+for package in "${packages[@]}"; do
+    is_installed "$package" || missing+=("$package")
+done
+if [[ ${#missing[@]} -eq 0 ]]; then
+    echo "setup: everything is installed"
+    exit 0
+fi
+
+as_root=()
+if [[ $EUID -ne 0 ]]; then
+    command -v sudo >/dev/null || fail "not root, and there is no sudo"
+    as_root=(sudo)
+    [[ -t 0 ]] || as_root=(sudo -n) # nobody there to type a password
+fi
+
+echo "setup: installing ${missing[*]}"
+apt_get() { "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get "$@"; }
+apt_get update || fail "apt-get update failed"
+apt_get install -y --no-install-recommends "${missing[@]}" || fail "apt-get install failed"
+for package in "${packages[@]}"; do
+    is_installed "$package" || fail "$package is still not installed"
+done
+echo "setup: done"
