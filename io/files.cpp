@@ -88,6 +88,13 @@ Result<std::string> contents_of(const Mesh& mesh, Format format, const WriteOpti
         return to_obj(mesh);
     case Format::off:
         return to_off(mesh);
+    case Format::stl:
+        if (options.ascii) return to_stl_ascii(mesh);
+        return to_stl(mesh);
+    case Format::ply:
+        return to_ply(mesh);
+    case Format::msh:
+        return to_msh(mesh);
     case Format::vtp:
         return to_vtp(mesh, options.compress, options.cells);
     default:

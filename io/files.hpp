@@ -51,7 +51,7 @@ Result<std::vector<Surface>> parse_surfaces(std::string_view contents, std::stri
 Result<GocadModel> read_model(const std::filesystem::path& path);
 
 struct WriteOptions {
-    std::optional<Format> format;       ///< none: by extension; needed for "-"
+    std::optional<Format> format{};     ///< none: by extension; needed for "-"
     bool ascii = false;                 ///< STL only: text instead of binary
     bool compress = true;               ///< VTP and VTU only: zlib
     std::span<const CellArray> cells{}; ///< VTP and VTU only: further arrays, one value per cell

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Readers are total: any bytes give surfaces that keep their promises, or an error with a sentence.
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <random>
+
+#include <terrane/io/atomic_file.hpp>
+#include <terrane/io/files.hpp>
+#include <terrane/io/gmsh.hpp>
+#include <terrane/io/obj.hpp>
+#include <terrane/io/off.hpp>
+#include <terrane/io/ply.hpp>
+#include <terrane/io/stl.hpp>
+
+#include "samples.hpp"
+
+using namespace terrane;
+using namespace terrane::test;
+
+namespace {
+
+constexpr Format readable[] = {Format::gocad, Format::obj, Format::off, Format::stl, Format::ply};
+
+bool keeps_its_promises(const std::vector<Surface>& surfaces) {
+    bool any = false;
+    for (const auto& surface : surfaces) {
+        for (const auto& p : surface.vertices)
+            if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) return false;
+        for (const auto& triangle : surface.triangles)
+            for (const auto v : triangle)
+                if (v >= surface.vertices.size()) return false;
+        any = any || !surface.triangles.empty();
+    }
+    return any;
+}
+
+void check_total(std::string_view bytes) {
+    for (const auto format : readable) {
+        const auto result = parse_surfaces(bytes, "a", format);
+        if (result ? !keeps_its_promises(result.value())
+                   : result.error().sentence.empty() || result.error().place.empty()) {
+            INFO(bytes);
+            CHECK(false);
+        }
+    }
+    (void)read_gocad_model(bytes, "a", "a");
+}
+
+/// One to four random edits: a byte, a cut, a piece moved, a token that provokes.
+std::string mutated(std::string text, std::mt19937& random) {
+    static const char* const tokens[] = {" 4294967296 ", "-1 ",  "\n",   "{",     "}",
+                                         "1e999 ",       "nan ", "\\\n", "END\n", "GOCAD TSurf 1\n",
+                                         " 0 ",          "/"};
+    for (auto edits = 1 + random() % 4; edits > 0 && !text.empty(); --edits) {
+        const auto at = random() % text.size();
+        const auto length = random() % std::min<std::size_t>(text.size() - at, 40);
+        switch (random() % 5) {
+        case 0:
+            text[at] = static_cast<char>(random());
+            break;
+        case 1:
+            text.erase(at, length);
+            break;
+        case 2:
+            text.insert(random() % text.size(), text.substr(at, length));
+            break;
+        case 3:
+            text.insert(at, tokens[random() % std::size(tokens)]);
+            break;
+        default:
+            text.resize(at);
+            break;
+        }
+    }
+    return text;
+}
+
+} // namespace
+
+TEST_CASE("readers are total", "[io][files]") {
+    const auto mesh = float_mesh();
+    std::vector<std::string> seeds{to_gocad(mesh), to_obj(mesh),       to_off(mesh),
+                                   to_ply(mesh),   to_stl_ascii(mesh), to_stl(mesh).value()};
+    seeds.push_back(read_file(std::string(TERRANE_TEST_DATA) + "/ringmesh/split_cube.ml").value());
+    std::mt19937 random(20240501);
+    check_total("");
+    for (const auto& seed : seeds) {
+        check_total(seed);
+        for (int i = 0; i < 500; ++i) check_total(mutated(seed, random));
+    }
+}

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <catch2/catch.hpp>
+
+#include <terrane/io/gmsh.hpp>
+
+#include "samples.hpp"
+
+using namespace terrane;
+using namespace terrane::test;
+
+TEST_CASE("MSH: a triangle of several surfaces is in an entity of its own", "[io][gmsh]") {
+    auto mesh = awkward_mesh();
+    mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {9, 9, 9}, {1, 1, 0.5}, {0, 0, -1}};
+    CHECK(to_msh(mesh) == "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n"
+                          "$PhysicalNames\n3\n2 1 \"top reservoir\"\n2 2 \"main 'A' fault\"\n"
+                          "2 3 \"top reservoir_2\"\n$EndPhysicalNames\n"
+                          "$Entities\n0 0 4 0\n1 0 0 0 1 1 0 1 1 0\n4 0 0 0 1 1 0.5 2 1 2 0\n"
+                          "2 0 0 -1 1 1 0.5 1 2 0\n3 0 0 -1 0 0 0 1 3 0\n$EndEntities\n"
+                          "$Nodes\n1 6 1 6\n2 1 0 6\n1\n2\n3\n4\n5\n6\n0 0 0\n1 0 0\n0 1 0\n"
+                          "9 9 9\n1 1 0.5\n0 0 -1\n$EndNodes\n"
+                          "$Elements\n4 4 1 4\n2 1 2 1\n1 1 2 3\n2 4 2 1\n2 2 5 3\n"
+                          "2 2 2 1\n3 6 5 1\n2 3 2 1\n4 1 1 6\n$EndElements\n");
+}
+
+TEST_CASE("MSH: tetrahedra by region, then faces", "[io][gmsh]") {
+    const auto text = to_msh(two_tetrahedra());
+    CHECK(text.find("$PhysicalNames\n5\n2 1 \"fault & <co>\"\n2 2 \"base\"\n2 3 \"box\"\n"
+                    "3 1 \"outside\"\n3 3 \"region 2\"\n$EndPhysicalNames\n") != text.npos);
+    CHECK(text.find("$Elements\n4 4 1 4\n3 1 4 1\n1 1 2 3 4\n3 3 4 1\n2 1 3 2 5\n"
+                    "2 4 2 1\n3 1 2 3\n2 3 2 1\n4 1 2 4\n$EndElements\n") != text.npos);
+}
