@@ -42,8 +42,6 @@ struct TetFace {
 struct MarkedFace {
     Triangle key;
     std::uint32_t facet = 0;
-
-    friend auto operator<=>(const MarkedFace&, const MarkedFace&) = default;
 };
 
 /// Sorts the corners; returns whether that is an even permutation.

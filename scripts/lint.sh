@@ -1,0 +1,23 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: LGPL-3.0-or-later
+#
+# Format and names: scripts/lint.sh [since]
+# clang-format over all sources; clang-tidy over the library and the program, or only over the
+# files that changed since a commit, if one is given. Changes nothing.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+git ls-files -z '*.hpp' '*.cpp' | xargs -0 -r clang-format-14 --dry-run -Werror
+echo "lint: formatted"
+
+tidied=('kernel/*.cpp' 'algorithms/*.cpp' 'io/*.cpp' 'cli/*.cpp')
+if [[ $# -gt 0 ]]; then
+    mapfile -t files < <(git diff --name-only --diff-filter=d "$1" -- "${tidied[@]}")
+else
+    mapfile -t files < <(git ls-files "${tidied[@]}")
+fi
+if [[ ${#files[@]} -gt 0 ]]; then
+    cmake --preset tidy >/dev/null
+    printf '%s\0' "${files[@]}" | xargs -0 -n1 -P2 clang-tidy-14 --quiet -p build/tidy
+fi
+echo "lint: ${#files[@]} files tidied"
