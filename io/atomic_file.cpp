@@ -104,8 +104,13 @@ int fill(Descriptor& file, std::string_view contents) {
 
 Status replace(const fs::path& path, const fs::path& target, mode_t mode,
                std::string_view contents) {
-    const auto temporary = temporary_name(target);
-    Descriptor file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+    fs::path temporary;
+    int number = -1;
+    do {
+        temporary = temporary_name(target);
+        number = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    } while (number < 0 && errno == EEXIST);
+    Descriptor file(number);
     if (file.number() < 0)
         return Error{ErrorCode::cannot_open, "cannot be written: " + reason(errno), path.string()};
     int code = fill(file, contents);
@@ -139,6 +144,8 @@ Status write_file(const fs::path& path, std::string_view contents) {
     if (S_ISDIR(info.st_mode))
         return Error{ErrorCode::cannot_open, "cannot be written: it is a folder", path.string()};
     if (!S_ISREG(info.st_mode)) return write_to_device(path, contents);
+    if (::access(path.c_str(), W_OK) != 0) // renaming would replace even a protected file
+        return Error{ErrorCode::cannot_open, "cannot be written: " + reason(errno), path.string()};
     std::error_code failed;
     const auto target = fs::canonical(path, failed);
     return replace(path, failed ? path : target, info.st_mode & 07777u, contents);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -8,6 +9,10 @@
 #include <terrane/algorithms/mesh.hpp>
 
 namespace terrane::detail {
+
+/// How files spell a Role, by its number.
+inline constexpr std::array<std::string_view, 4> role_names{"unknown", "horizon", "fault",
+                                                            "boundary"};
 
 /// Names that formats without quotes can carry: printable, no blank, no '#', no '\' (each becomes
 /// '_'), not empty ("surface"), and all different: a name met again gets _2, _3, ...

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -20,7 +21,6 @@ using namespace detail;
 namespace {
 
 constexpr std::size_t max_surfaces = 256; ///< of one face: keeps the output linear in the input
-constexpr std::array<std::string_view, 4> role_names{"unknown", "horizon", "fault", "boundary"};
 
 enum class Type { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 
@@ -137,7 +137,7 @@ private:
         element.name = tokens.next();
         if (!parse_integer(tokens.next(), element.count) || element.count < 0)
             return in_.error(ErrorCode::bad_syntax, "element needs a name and a count");
-        if (header_.find(element.name))
+        if (!names_.insert(element.name).second)
             return in_.error(ErrorCode::bad_syntax,
                              fmt::format("element {} is there twice", shown(element.name)));
         header_.elements.push_back(std::move(element));
@@ -207,6 +207,7 @@ private:
 
     LineParser& in_;
     Header& header_;
+    std::set<std::string> names_; ///< of the elements so far
 };
 
 /// The values after the header, one after the other.

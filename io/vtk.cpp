@@ -2,7 +2,6 @@
 #include <terrane/io/vtk.hpp>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstring>
 #include <new>
@@ -10,6 +9,8 @@
 
 #include <fmt/format.h>
 #include <zlib.h>
+
+#include <terrane/io/names.hpp>
 
 namespace terrane {
 
@@ -44,7 +45,7 @@ Bytes deflated(std::string_view bytes) {
     uLongf size = compressBound(bytes.size());
     Bytes result(size, '\0');
     const int code = compress2(reinterpret_cast<Bytef*>(result.data()), &size,
-                               reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), 6);
+                               reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), 1);
     if (code != Z_OK) throw std::bad_alloc(); // the only way it can fail with a buffer this large
     result.resize(size);
     return result;
@@ -93,11 +94,6 @@ std::string xml_escaped(std::string_view text) {
     return result;
 }
 
-std::string_view name_of(Role role) {
-    constexpr std::array<std::string_view, 4> names{"unknown", "horizon", "fault", "boundary"};
-    return names[static_cast<std::size_t>(role)];
-}
-
 /// Writes the elements of one VTK file.
 class VtkWriter {
 public:
@@ -142,7 +138,7 @@ public:
         std::vector<std::string_view> names, roles;
         for (const auto& surface : surfaces) {
             names.push_back(surface.name);
-            roles.push_back(name_of(surface.role));
+            roles.push_back(detail::role_names[static_cast<std::size_t>(surface.role)]);
         }
         strings("surface_name", names);
         strings("surface_role", roles);

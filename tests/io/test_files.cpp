@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <catch2/catch.hpp>
 
-#include <fstream>
+#include <csignal>
+#include <cstdio>
 #include <new>
 #include <stdexcept>
 
+#include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -117,6 +120,47 @@ TEST_CASE("files: a full disk is noticed", "[io][files]") {
     CHECK(fs::is_character_file("/dev/full"));
 }
 
+TEST_CASE("files: a write cut short leaves what was there", "[io][files]") {
+    TemporaryFolder folder;
+    REQUIRE(write_file(folder / "a.obj", "old"));
+    struct rlimit before {};
+    REQUIRE(::getrlimit(RLIMIT_FSIZE, &before) == 0);
+    auto limit = before;
+    limit.rlim_cur = 100; // bytes: stands for a disk that fills up half way
+    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+    REQUIRE(::setrlimit(RLIMIT_FSIZE, &limit) == 0);
+    const auto status = write_mesh(awkward_mesh(), folder / "a.obj");
+    REQUIRE(::setrlimit(RLIMIT_FSIZE, &before) == 0);
+    std::signal(SIGXFSZ, handler);
+    CHECK(code_of(status) == ErrorCode::write_failed);
+    CHECK(read_file(folder / "a.obj").value() == "old");
+    CHECK(entries(folder.path()) == 1);
+}
+
+TEST_CASE("files: - is standard input and output", "[io][files]") {
+    TemporaryFolder folder;
+    const auto file = (folder / "stream").string();
+    std::fflush(stdout);
+    const int out = ::dup(STDOUT_FILENO);
+    const int in = ::dup(STDIN_FILENO);
+    const int stream = ::open(file.c_str(), O_RDWR | O_CREAT, 0600);
+    REQUIRE(stream >= 0);
+    ::dup2(stream, STDOUT_FILENO);
+    const auto written = write_mesh(awkward_mesh(), "-", {.format = Format::off});
+    const auto nameless = write_mesh(awkward_mesh(), "-");
+    ::dup2(out, STDOUT_FILENO);
+    ::lseek(stream, 0, SEEK_SET);
+    ::dup2(stream, STDIN_FILENO);
+    const auto result = read_surfaces("-", Format::off);
+    ::dup2(in, STDIN_FILENO);
+    for (const int descriptor : {out, in, stream}) ::close(descriptor);
+    CHECK(message_of(written) == "no error");
+    CHECK(message_of(nameless) == "standard output: the format must be given");
+    REQUIRE(message_of(result) == "no error");
+    CHECK(result.value()[0].triangles == awkward_mesh().triangles);
+    CHECK(result.value()[0].name == "standard input");
+}
+
 TEST_CASE("files: replacing keeps permissions and follows links", "[io][files]") {
     TemporaryFolder folder;
     REQUIRE(write_file(folder / "a", "old"));
@@ -131,12 +175,17 @@ TEST_CASE("files: replacing keeps permissions and follows links", "[io][files]")
     CHECK(entries(folder.path()) == 2);
 }
 
-TEST_CASE("files: a failed rename removes the temporary file", "[io][files]") {
+TEST_CASE("files: protected folders and files stay as they are", "[io][files]") {
     if (::geteuid() == 0) return; // nothing is forbidden to root
     TemporaryFolder folder;
     fs::permissions(folder.path(), fs::perms::owner_read | fs::perms::owner_exec);
     CHECK(code_of(write_file(folder / "a", "x")) == ErrorCode::cannot_open);
     fs::permissions(folder.path(), fs::perms::owner_all);
+    REQUIRE(write_file(folder / "b", "old"));
+    fs::permissions(folder / "b", fs::perms::owner_read);
+    CHECK(code_of(write_file(folder / "b", "x")) == ErrorCode::cannot_open);
+    CHECK(read_file(folder / "b").value() == "old");
+    fs::remove(folder / "b");
     CHECK(entries(folder.path()) == 0);
 }
 
