@@ -2,43 +2,17 @@
 #include <terrane/algorithms/arrangement.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <new>
 #include <stdexcept>
 #include <utility>
 
+#include <terrane/algorithms/check.hpp>
 #include <terrane/algorithms/division.hpp>
 #include <terrane/algorithms/soup.hpp>
 #include <terrane/algorithms/stopwatch.hpp>
 
 namespace terrane {
 namespace {
-
-std::string place_in(const Surface& s, const char* what, std::size_t k) {
-    return "surface " + s.name + ", " + what + " " + std::to_string(k);
-}
-
-Status validate(std::span<const Surface> surfaces) {
-    std::size_t vertices = 0, triangles = 0;
-    for (const Surface& s : surfaces) {
-        vertices += s.vertices.size();
-        triangles += s.triangles.size();
-        for (std::size_t v = 0; v < s.vertices.size(); ++v) {
-            const Point3& p = s.vertices[v];
-            if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-                return Error{ErrorCode::bad_number, "a coordinate is not finite",
-                             place_in(s, "vertex", v)};
-        }
-        for (std::size_t t = 0; t < s.triangles.size(); ++t)
-            for (const std::uint32_t v : s.triangles[t])
-                if (v >= s.vertices.size())
-                    return Error{ErrorCode::bad_index, "a corner names no vertex",
-                                 place_in(s, "triangle", t)};
-    }
-    if (vertices >= UINT32_MAX / 2 || triangles >= UINT32_MAX / 4)
-        return Error{ErrorCode::unsupported, "more than 2^30 triangles or 2^31 vertices", ""};
-    return Done{};
-}
 
 /// Parents are input triangles: those that became the faces, and their duplicates.
 Lists<std::uint32_t> parents_of_faces(const Soup& soup, const Lists<std::uint32_t>& faces_of) {

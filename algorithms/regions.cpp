@@ -3,30 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+
+#include <terrane/algorithms/sets.hpp>
 
 namespace terrane {
 namespace {
-
-/// Union-find; the lowest element stands for its set.
-class Sets {
-public:
-    explicit Sets(std::size_t n) : parent_(n) {
-        std::iota(parent_.begin(), parent_.end(), std::uint32_t{0});
-    }
-    std::uint32_t find(std::uint32_t i) {
-        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-        return i;
-    }
-    void join(std::uint32_t a, std::uint32_t b) {
-        a = find(a);
-        b = find(b);
-        parent_[std::max(a, b)] = std::min(a, b);
-    }
-
-private:
-    std::vector<std::uint32_t> parent_;
-};
 
 double area_of(std::span<const Point3> v, const Triangle& t) {
     const Point3 &a = v[t[0]], &b = v[t[1]], &c = v[t[2]];

@@ -101,6 +101,14 @@ Point3 round(const ExactPoint& p) {
     return {nearest_quotient(p.x, p.w), nearest_quotient(p.y, p.w), nearest_quotient(p.z, p.w)};
 }
 
+ExactPoint construct_exactly(std::span<const Point3> input, const Construction& how) {
+    const auto at = [&](std::uint32_t v) -> const Point3& { return input[v]; };
+    auto h = polynomial::construct<Exact>(how, at);
+    if (exact_sign(h.w) == Sign::Negative) h = {-h.x, -h.y, -h.z, -h.w};
+    const Point3& base = input[how.v[0]];
+    return {h.x + Exact(base.x) * h.w, h.y + Exact(base.y) * h.w, h.z + Exact(base.z) * h.w, h.w};
+}
+
 } // namespace
 
 Enclosure PointStore::make_enclosure(const Construction& how) const {
@@ -116,11 +124,7 @@ Enclosure PointStore::make_enclosure(const Construction& how) const {
 }
 
 ExactPoint PointStore::make_exact(const Construction& how) const {
-    const auto at = [&](std::uint32_t v) -> const Point3& { return input_[v]; };
-    auto h = polynomial::construct<Exact>(how, at);
-    if (exact_sign(h.w) == Sign::Negative) h = {-h.x, -h.y, -h.z, -h.w};
-    const Point3& base = input_[how.v[0]];
-    return {h.x + Exact(base.x) * h.w, h.y + Exact(base.y) * h.w, h.z + Exact(base.z) * h.w, h.w};
+    return construct_exactly(input_, how);
 }
 
 const ExactPoint& PointStore::cached_exact(std::size_t k) const {
@@ -213,6 +217,11 @@ Sign PointStore::in_circle(Axis axis, PointIndex a, PointIndex b, PointIndex c,
     return filtered([axis](const auto& p, const auto& q, const auto& r,
                            const auto& s) { return polynomial::in_circle(axis, p, q, r, s); },
                     a, b, c, d);
+}
+
+Point3 nearest(std::span<const Point3> input, const Construction& how) {
+    if (how.kind == Construction::Kind::input) return input[how.v[0]];
+    return round(construct_exactly(input, how));
 }
 
 Sign PointStore::side_of_plane(PointIndex a, PointIndex b, PointIndex c, PointIndex p) const {

@@ -103,4 +103,7 @@ private:
     std::unique_ptr<Cache> cache_;      ///< exact coordinates of the constructed points
 };
 
+/// The doubles nearest to a single construction's point.
+Point3 nearest(std::span<const Point3> input, const Construction& how);
+
 } // namespace terrane

@@ -26,7 +26,36 @@ std::vector<CandidatePair> all_pairs(std::span<const Box> boxes,
     return pairs;
 }
 
+template <class Method>
+std::vector<CandidatePair> active_pairs(std::span<const Box> boxes, std::span<const Box> chosen,
+                                        std::span<const std::uint32_t> active) {
+    const Method method(chosen);
+    std::vector<CandidatePair> pairs;
+    auto next = active.begin();
+    for (std::uint32_t i = 0; i < boxes.size(); ++i) {
+        const bool is_active = next != active.end() && *next == i;
+        if (is_active) ++next;
+        method.query(boxes[i], [&](std::uint32_t k) {
+            const std::uint32_t j = active[k];
+            if (j == i || (is_active && j < i)) return; // found from the other one
+            pairs.push_back({std::min(i, j), std::max(i, j)});
+        });
+    }
+    std::sort(pairs.begin(), pairs.end());
+    return pairs;
+}
+
 } // namespace
+
+std::vector<CandidatePair> candidate_pairs_of(std::span<const Box> boxes,
+                                              std::span<const std::uint32_t> active) {
+    std::vector<Box> chosen;
+    chosen.reserve(active.size());
+    for (const std::uint32_t i : active) chosen.push_back(boxes[i]);
+    if (choose(chosen) == Search::grid)
+        return active_pairs<search::Grid>(boxes, chosen, active);
+    return active_pairs<search::AbTree>(boxes, chosen, active);
+}
 
 std::string_view name_of(Search method) {
     switch (method) {

@@ -47,6 +47,11 @@ constexpr std::uint32_t no_group = UINT32_MAX;
 std::vector<CandidatePair> candidate_pairs(std::span<const Box> boxes,
                                            std::span<const std::uint32_t> groups, Search method);
 
+/// All pairs of overlapping boxes of which at least one is active; sorted, unique.
+/// active: ascending indices of boxes. Cost: an index of the active boxes, one query per box.
+std::vector<CandidatePair> candidate_pairs_of(std::span<const Box> boxes,
+                                              std::span<const std::uint32_t> active);
+
 /// What `automatic` stands for: grid, unless the largest box extent exceeds 16 times the mean one
 /// along some axis.
 Search choose(std::span<const Box> boxes);

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/rounding_state.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <unordered_map>
+#include <utility>
+
+#include <terrane/kernel/predicates.hpp>
+
+namespace terrane {
+namespace {
+
+constexpr std::uint32_t none = UINT32_MAX;
+
+// The few roundings of a distance, in any mode, are covered by the last factor.
+double length_bound(double x, double y, double z) {
+    const double most = std::max({x, y, z});
+    if (most == 0) return 0;
+    const double u = x / most, v = y / most, w = z / most;
+    return most * std::sqrt(u * u + v * v + w * w) * (1 + 0x1p-48);
+}
+
+Triangle sorted(Triangle t) {
+    std::sort(t.begin(), t.end());
+    return t;
+}
+
+} // namespace
+
+double distance_bound(const Enclosure& e, const Point3& p) {
+    const auto farther = [&](unsigned k, double x) {
+        return std::max(std::fabs(e.low[k] - x), std::fabs(e.high[k] - x));
+    };
+    return length_bound(farther(0, p.x), farther(1, p.y), farther(2, p.z));
+}
+
+std::size_t PointHash::operator()(const Point3& p) const {
+    const auto bits = [](double d) { return std::bit_cast<std::uint64_t>(d + 0.0); }; // -0 is 0
+    std::uint64_t h = bits(p.x) * 0x9e3779b97f4a7c15u;
+    h = (h ^ (h >> 31) ^ bits(p.y)) * 0x9e3779b97f4a7c15u;
+    h = (h ^ (h >> 31) ^ bits(p.z)) * 0x9e3779b97f4a7c15u;
+    return h ^ (h >> 31);
+}
+
+std::vector<std::uint32_t> RoundingState::dirty_triangles() const {
+    std::vector<std::uint32_t> dirty;
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+        const Triangle& c = triangles[t];
+        if (is_dirty[c[0]] || is_dirty[c[1]] || is_dirty[c[2]]) dirty.push_back(t);
+    }
+    return dirty;
+}
+
+void RoundingState::add_point(const Point3& p, double moved) {
+    points.push_back(p);
+    move.push_back(moved);
+    is_dirty.push_back(true);
+    largest_move_ = std::max(largest_move_, moved);
+}
+
+void RoundingState::move_point(std::size_t v, const Point3& to) {
+    const Point3& from = points[v];
+    const double d = length_bound(std::fabs(to.x - from.x), std::fabs(to.y - from.y),
+                                  std::fabs(to.z - from.z));
+    points[v] = to;
+    move[v] = (move[v] + d) * (1 + 0x1p-52);
+    is_dirty[v] = true;
+    largest_move_ = std::max(largest_move_, d);
+}
+
+void RoundingState::end_round() {
+    if (deviation == 0 && largest_move_ == 0)
+        for (const double m : move) largest_move_ = std::max(largest_move_, m);
+    deviation = (deviation + std::exchange(largest_move_, 0)) * (1 + 0x1p-52);
+}
+
+/// Equal points get one name: the lowest. Only a dirty point can have become equal to another.
+bool RoundingState::merge_points() {
+    std::unordered_map<Point3, std::uint32_t, PointHash> first;
+    for (std::uint32_t v = 0; v < points.size(); ++v)
+        if (is_dirty[v]) first.emplace(points[v], none);
+    std::vector<std::uint32_t> name;
+    for (std::uint32_t v = 0; v < points.size(); ++v) {
+        const auto it = first.find(points[v]);
+        if (it == first.end()) continue;
+        if (it->second == none) {
+            it->second = v;
+            is_dirty[v] = true;
+            continue;
+        }
+        if (name.empty()) {
+            name.resize(points.size());
+            std::iota(name.begin(), name.end(), 0u);
+        }
+        name[v] = it->second;
+    }
+    if (name.empty()) return false;
+    for (Triangle& t : triangles)
+        for (std::uint32_t& v : t) {
+            if (name[v] == v) continue;
+            move[name[v]] = std::max(move[name[v]], move[v]);
+            v = name[v];
+        }
+    return true;
+}
+
+bool RoundingState::tidy() {
+    bool changed = merge_points();
+    std::map<Triangle, std::uint32_t> seen; // dirty triangles kept, by sorted corners
+    std::vector<std::uint32_t> joined_to(triangles.size(), none);
+    std::vector<bool> gone(triangles.size(), false);
+    const auto has_area = [&](const Triangle& t) {
+        if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return false;
+        return !collinear(points[t[0]], points[t[1]], points[t[2]]);
+    };
+    bool any = false;
+    for (const std::uint32_t t : dirty_triangles()) {
+        if (!has_area(triangles[t])) {
+            gone[t] = any = true;
+            ++collapsed;
+            continue;
+        }
+        const auto [it, fresh] = seen.emplace(sorted(triangles[t]), t);
+        if (!fresh) {
+            gone[t] = any = true;
+            joined_to[t] = it->second;
+        }
+    }
+    if (!any) return changed;
+    std::map<std::uint32_t, std::vector<std::uint32_t>> extra;
+    for (std::uint32_t t = 0; t < triangles.size(); ++t)
+        if (joined_to[t] != none) {
+            auto& list = extra[joined_to[t]];
+            list.insert(list.end(), parents_of[t].begin(), parents_of[t].end());
+        }
+    Lists<std::uint32_t> parents;
+    std::size_t kept = 0;
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+        if (gone[t]) continue;
+        std::vector<std::uint32_t> list(parents_of[t].begin(), parents_of[t].end());
+        if (const auto more = extra.find(t); more != extra.end()) {
+            list.insert(list.end(), more->second.begin(), more->second.end());
+            std::sort(list.begin(), list.end());
+            list.erase(std::unique(list.begin(), list.end()), list.end());
+        }
+        parents.push_back(list);
+        triangles[kept++] = triangles[t];
+    }
+    triangles.resize(kept);
+    parents_of = std::move(parents);
+    return true;
+}
+
+void RoundingState::replace_triangles(std::vector<Triangle> fresh,
+                                      const Lists<std::uint32_t>& faces_of) {
+    Lists<std::uint32_t> parents;
+    parents.offsets.reserve(fresh.size() + 1);
+    std::vector<std::uint32_t> list;
+    for (std::size_t t = 0; t < fresh.size(); ++t) {
+        list.clear();
+        for (const std::uint32_t f : faces_of[t])
+            list.insert(list.end(), parents_of[f].begin(), parents_of[f].end());
+        std::sort(list.begin(), list.end());
+        list.erase(std::unique(list.begin(), list.end()), list.end());
+        parents.push_back(list);
+    }
+    triangles = std::move(fresh);
+    parents_of = std::move(parents);
+}
+
+void RoundingState::drop_unused_points() {
+    std::vector<std::uint32_t> name(points.size(), none);
+    for (const Triangle& t : triangles)
+        for (const std::uint32_t v : t) name[v] = 0;
+    std::uint32_t kept = 0;
+    for (std::size_t v = 0; v < points.size(); ++v) {
+        if (name[v] == none) continue;
+        name[v] = kept;
+        points[kept++] = points[v];
+    }
+    merged += points.size() - kept;
+    points.resize(kept);
+    for (Triangle& t : triangles)
+        for (std::uint32_t& v : t) v = name[v];
+}
+
+} // namespace terrane

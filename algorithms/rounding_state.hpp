@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <unordered_set>
+#include <vector>
+
+#include <terrane/algorithms/lists.hpp>
+#include <terrane/algorithms/surface.hpp>
+#include <terrane/kernel/point_store.hpp>
+
+namespace terrane {
+
+/// The mesh of doubles between rounds of snapping.
+///
+/// A vertex is dirty when it has moved since its triangles were known to be conforming. Two
+/// triangles without a dirty corner meet properly.
+struct RoundingState {
+    std::vector<Point3> points;
+    std::vector<double> move;         ///< per point: at most this far from its exact point
+    std::vector<bool> is_dirty;       ///< per point
+    std::vector<Triangle> triangles;
+    Lists<std::uint32_t> parents_of;  ///< per triangle, sorted
+    std::size_t input_vertices = 0;   ///< the first points are input vertices
+    std::size_t merged = 0;           ///< points that became another one
+    std::size_t collapsed = 0;        ///< triangles that lost their area
+    double deviation = 0;             ///< sum over the ended rounds of the largest move
+
+    [[nodiscard]] std::vector<std::uint32_t> dirty_triangles() const;
+
+    /// Appends a dirty point that is at most `moved` from its exact place.
+    void add_point(const Point3& p, double moved);
+
+    /// Moves each point whose snap(point) is one of `cells` there.
+    template <class Snap>
+    void move_into(std::span<const Point3> cells, const Snap& snap);
+
+    /// Merges equal points, drops triangles without area, joins equal triangles. True if anything
+    /// changed. Cost: a pass over all points, exact tests for triangles with dirty corners only.
+    bool tidy();
+
+    /// Takes new triangles, each contained in the triangles faces_of names.
+    void replace_triangles(std::vector<Triangle> fresh, const Lists<std::uint32_t>& faces_of);
+
+    void drop_unused_points();
+
+    /// Adds the largest move since the last call to the deviation.
+    void end_round();
+
+private:
+    void move_point(std::size_t v, const Point3& to);
+    bool merge_points();
+
+    double largest_move_ = 0;
+};
+
+/// At least the distance between the point enclosed and p; in the unit of the points.
+double distance_bound(const Enclosure& e, const Point3& p);
+
+struct PointHash {
+    std::size_t operator()(const Point3& p) const;
+};
+
+template <class Snap>
+void RoundingState::move_into(std::span<const Point3> cells, const Snap& snap) {
+    const std::unordered_set<Point3, PointHash> wanted(cells.begin(), cells.end());
+    for (std::size_t v = 0; v < points.size(); ++v) {
+        const Point3 cell = snap(points[v]);
+        if (cell != points[v] && wanted.contains(cell)) move_point(v, cell);
+    }
+}
+
+} // namespace terrane
