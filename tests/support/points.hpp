@@ -31,13 +31,15 @@ enum class Family {
     float_range,   ///< about 3.4e38
     mixed,         ///< each coordinate of any exponent
     mixed_axes,    ///< each axis of its own scale
+    edge_of_range, ///< as one_ulp, so small or large that products under- or overflow
     coplanar,      ///< nearly coplanar integers times a power of two
 };
 
 inline constexpr std::array all_families{
-    Family::uniform,     Family::lattice,  Family::decimals,      Family::one_ulp, Family::utm,
-    Family::tiny,        Family::denormal, Family::around_normal, Family::huge,    Family::largest,
-    Family::float_range, Family::mixed,    Family::mixed_axes,    Family::coplanar};
+    Family::uniform,    Family::lattice,       Family::decimals,    Family::one_ulp,
+    Family::utm,        Family::tiny,          Family::denormal,    Family::around_normal,
+    Family::huge,       Family::largest,       Family::float_range, Family::mixed,
+    Family::mixed_axes, Family::edge_of_range, Family::coplanar};
 
 inline int random_int(Random& random, int low, int high) {
     return std::uniform_int_distribution<int>(low, high)(random);
@@ -99,6 +101,17 @@ inline std::vector<Point3> one_ulp_points(Random& random, std::size_t count) {
     return points;
 }
 
+/// Products of two, three or four differences are about the smallest or largest doubles.
+inline std::vector<Point3> edge_of_range_points(Random& random, std::size_t count) {
+    const int degree = random_int(random, 2, 4);
+    const int exponent = random_int(random, 0, 1) ? 1020 / degree + random_int(random, -3, 6)
+                                                  : -1075 / degree + random_int(random, -3, 20);
+    auto points = one_ulp_points(random, count);
+    for (Point3& p : points)
+        p = {std::ldexp(p.x, exponent), std::ldexp(p.y, exponent), std::ldexp(p.z, exponent)};
+    return points;
+}
+
 inline double lattice_number(Random& random) {
     return random_int(random, -2, 2);
 }
@@ -143,6 +156,7 @@ inline std::vector<Point3> points_of(Random& random, Family family, std::size_t 
     if (family == Family::coplanar)
         return nearly_coplanar(random, count, random_int(random, -300, 300));
     if (family == Family::one_ulp) return one_ulp_points(random, count);
+    if (family == Family::edge_of_range) return edge_of_range_points(random, count);
     std::vector<Point3> points;
     if (family == Family::mixed_axes) {
         const int ex = random_int(random, -1000, 1000), ey = random_int(random, -1000, 1000),
