@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include <terrane/kernel/numbers.hpp>
 #include <terrane/kernel/predicates.hpp>
 
 namespace terrane {
@@ -84,7 +85,7 @@ public:
         for (const auto step :
              {&Assembly::check_indices, &Assembly::check_points, &Assembly::take_vertices,
               &Assembly::take_tetrahedra, &Assembly::take_faces, &Assembly::match_faces,
-              &Assembly::number_regions, &Assembly::check_triangles})
+              &Assembly::check_volume, &Assembly::number_regions, &Assembly::check_triangles})
             if (Status done = (this->*step)(); !done) return done.error();
         return std::move(out_);
     }
@@ -158,10 +159,11 @@ private:
         return Done{};
     }
 
-    /// Faces on the mesh's triangles in their order, wound like them; those on the box last,
-    /// counterclockwise seen from outside (match_faces turns them).
+    /// Faces on the mesh's triangles, in their order. Those on the box are left to match_faces:
+    /// TetGen loses track of some when it improves tetrahedra there.
     Status take_faces() {
         for (std::size_t i = 0; i < in_.faces.size(); ++i) {
+            if (on_box(in_.face_facet[i])) continue;
             MarkedFace face{in_.faces[i], in_.face_facet[i]};
             sort_corners(face.key);
             marked_.push_back(face);
@@ -169,16 +171,13 @@ private:
         std::sort(marked_.begin(), marked_.end(), [](const MarkedFace& a, const MarkedFace& b) {
             return std::tie(a.facet, a.key) < std::tie(b.facet, b.key);
         });
+        for (const MarkedFace& face : marked_) {
+            out_.faces.push_back(wound_like_triangle(face));
+            out_.face_triangle.push_back(face.facet);
+            out_.surfaces_of.push_back(mesh_.surfaces_of[face.facet]);
+        }
         out_.surfaces = mesh_.surfaces;
         out_.surfaces.push_back({"box", Role::boundary});
-        const std::array box{static_cast<std::uint32_t>(mesh_.surfaces.size())};
-        for (const MarkedFace& face : marked_) {
-            const bool box_face = on_box(face.facet);
-            out_.faces.push_back(box_face ? face.key : wound_like_triangle(face));
-            out_.face_triangle.push_back(box_face ? none : face.facet);
-            out_.surfaces_of.push_back(box_face ? std::span<const std::uint32_t>(box)
-                                                : mesh_.surfaces_of[face.facet]);
-        }
         return Done{};
     }
 
@@ -196,36 +195,76 @@ private:
     /// all volumes positive it follows that the tetrahedra fill the box and none overlap.
     Status match_faces() {
         const std::vector<TetFace> faces = faces_of_tetrahedra();
-        std::vector<std::uint32_t> by_key(marked_.size()); // marked faces, by corners
-        std::iota(by_key.begin(), by_key.end(), 0U);
-        std::sort(by_key.begin(), by_key.end(), [&](std::uint32_t i, std::uint32_t j) {
-            return marked_[i].key < marked_[j].key;
-        });
+        std::vector<Triangle> barriers; // faces on the mesh
+        for (const MarkedFace& face : marked_) barriers.push_back(face.key);
+        std::sort(barriers.begin(), barriers.end());
+        if (std::adjacent_find(barriers.begin(), barriers.end()) != barriers.end())
+            return broken("TetGen put a face on two triangles");
+
         UnionFind groups(out_.tetrahedra.size());
-        touches_box_.assign(out_.tetrahedra.size(), false);
-        auto next = by_key.begin();
-        for (std::size_t i = 0; i < faces.size();) {
+        auto barrier = barriers.begin();
+        for (std::size_t i = 0; i < faces.size(); ++i) {
             const TetFace& face = faces[i];
-            const std::size_t twins = i + 1 < faces.size() && faces[i + 1].key == face.key ? 2 : 1;
-            const bool marked = next != by_key.end() && marked_[*next].key == face.key;
-            if (marked && (next + 1) != by_key.end() && marked_[*(next + 1)].key == face.key)
-                return broken("TetGen put a face on two facets");
-            const bool box_face = marked && on_box(marked_[*next].facet);
-            if (box_face != (twins == 1)) return broken("TetGen left a hole");
-            if (twins == 2 && faces[i].even == faces[i + 1].even)
-                return broken("TetGen returned tetrahedra that overlap");
-            if (twins == 2 && !marked) groups.join(face.tetrahedron, faces[i + 1].tetrahedron);
-            if (box_face) {
-                touches_box_[face.tetrahedron] = true;
-                if (!face.even) std::swap(out_.faces[*next][1], out_.faces[*next][2]);
+            const bool barred = barrier != barriers.end() && *barrier == face.key;
+            if (barred) ++barrier;
+            if (i + 1 == faces.size() || faces[i + 1].key != face.key) {
+                if (barred || !on_side_of_box(face.key)) return broken("TetGen left a hole");
+                take_box_face(face);
+                continue;
             }
-            if (marked) ++next;
-            i += twins;
+            const TetFace& twin = faces[++i];
+            if (face.even == twin.even) return broken("TetGen returned tetrahedra that overlap");
+            if (!barred) groups.join(face.tetrahedron, twin.tetrahedron);
         }
-        if (next != by_key.end()) return broken("TetGen returned a face of no tetrahedron");
-        group_of_.resize(out_.tetrahedra.size());
-        for (std::uint32_t t = 0; t < group_of_.size(); ++t) group_of_[t] = groups.find(t);
+        if (barrier != barriers.end()) return broken("TetGen returned a face of no tetrahedron");
+        for (std::uint32_t t = 0; t < out_.tetrahedra.size(); ++t)
+            group_of_.push_back(groups.find(t));
         return Done{};
+    }
+
+    [[nodiscard]] bool on_side_of_box(const Triangle& face) const {
+        const auto& [low, high] = domain_.box;
+        const auto all_at = [&](double Point3::*coordinate, double value) {
+            return std::all_of(face.begin(), face.end(), [&](std::uint32_t v) {
+                return out_.vertices[v].*coordinate == value;
+            });
+        };
+        return all_at(&Point3::x, low.x) || all_at(&Point3::x, high.x) ||
+               all_at(&Point3::y, low.y) || all_at(&Point3::y, high.y) ||
+               all_at(&Point3::z, low.z) || all_at(&Point3::z, high.z);
+    }
+
+    void take_box_face(const TetFace& face) {
+        Triangle outward = face.key;
+        if (!face.even) std::swap(outward[1], outward[2]);
+        out_.faces.push_back(outward);
+        out_.face_triangle.push_back(none);
+        out_.surfaces_of.push_back(std::array{static_cast<std::uint32_t>(mesh_.surfaces.size())});
+        at_box_.push_back(face.tetrahedron);
+    }
+
+    /// With the above, this leaves no room for covering the box twice.
+    Status check_volume() {
+        Exact sum = 0.0;
+        for (const auto& [a, b, c, d] : out_.tetrahedra) sum += six_volumes(a, b, c, d);
+        const Point3 &low = domain_.box.low, &high = domain_.box.high;
+        const Exact box =
+            (Exact(high.x) - low.x) * (Exact(high.y) - low.y) * (Exact(high.z) - low.z);
+        if (sum != box * 6) return broken("TetGen's volumes do not add up to the box");
+        return Done{};
+    }
+
+    [[nodiscard]] Exact six_volumes(std::uint32_t a, std::uint32_t b, std::uint32_t c,
+                                    std::uint32_t d) const {
+        const Point3& origin = out_.vertices[a];
+        const auto from_origin = [&](std::uint32_t v) {
+            const Point3& p = out_.vertices[v];
+            return std::array<Exact, 3>{Exact(p.x) - origin.x, Exact(p.y) - origin.y,
+                                        Exact(p.z) - origin.z};
+        };
+        const auto u = from_origin(b), v = from_origin(c), w = from_origin(d);
+        return u[0] * (v[1] * w[2] - v[2] * w[1]) - u[1] * (v[0] * w[2] - v[2] * w[0]) +
+               u[2] * (v[0] * w[1] - v[1] * w[0]);
     }
 
     [[nodiscard]] std::vector<TetFace> faces_of_tetrahedra() const {
@@ -249,7 +288,7 @@ private:
     Status number_regions() {
         using Position = std::array<Point3, 4>;
         const std::size_t count = out_.tetrahedra.size();
-        std::vector<std::uint32_t> outside, lowest(count, none);
+        std::vector<std::uint32_t> lowest(count, none);
         const auto position = [&](std::uint32_t t) {
             Position p;
             for (std::size_t k = 0; k < 4; ++k) p[k] = out_.vertices[out_.tetrahedra[t][k]];
@@ -266,14 +305,13 @@ private:
                 lowest[group] = t;
                 lowest_position[group] = here;
             }
-            if (touches_box_[t]) outside.push_back(group);
         }
-        if (std::adjacent_find(outside.begin(), outside.end(), std::not_equal_to<>()) !=
-            outside.end())
-            return broken("the outside fell apart");
+        const std::uint32_t outside = group_of_[at_box_.front()];
+        for (const std::uint32_t t : at_box_)
+            if (group_of_[t] != outside) return broken("the outside fell apart");
         std::sort(groups.begin(), groups.end(), [&](std::uint32_t a, std::uint32_t b) {
-            return std::pair(a != outside[0], lowest_position[a]) <
-                   std::pair(b != outside[0], lowest_position[b]);
+            return std::pair(a != outside, lowest_position[a]) <
+                   std::pair(b != outside, lowest_position[b]);
         });
         std::vector<std::uint32_t> region(count, none);
         for (std::uint32_t r = 0; r < groups.size(); ++r) region[groups[r]] = r;
@@ -306,8 +344,8 @@ private:
     const TetgenDomain& domain_;
     TetgenOutput in_;
     TetrahedralMesh out_;
-    std::vector<MarkedFace> marked_;      ///< parallel to out_.faces
-    std::vector<bool> touches_box_;       ///< per tetrahedron: has a face on the box
+    std::vector<MarkedFace> marked_;      ///< those on the mesh, parallel to out_.faces
+    std::vector<std::uint32_t> at_box_;   ///< tetrahedra with a face on the box
     std::vector<std::uint32_t> group_of_; ///< per tetrahedron: the same number within a region
 };
 

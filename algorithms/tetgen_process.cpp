@@ -99,11 +99,13 @@ void fill(tetgenio& io, const TetgenInput& input) {
 
 /// p: facets are given. z: count from 0. J: keep all points. M: merge neither coplanar facets (each
 /// has its own marker) nor close vertices. Q: quiet. Y: split no facet.
+/// O0: leave shapes as they are.
 tetgenbehavior behavior_for(const TetgenInput& input) {
     const bool refine = input.max_volume || input.max_area || input.radius_edge_ratio;
     tetgenbehavior behavior;
     std::string switches = "pzJMQ";
     if (input.keep_facets) switches += "Y";
+    if (!input.improve) switches += "O0";
     if (refine) switches += "q";
     if (input.max_volume) switches += "a1";
     behavior.parse_commandline(switches.data());
@@ -112,7 +114,7 @@ tetgenbehavior behavior_for(const TetgenInput& input) {
     return behavior;
 }
 
-/// Silent, without a core file, and gone when the parent is.
+/// Silent, without a core file, first to go when memory runs out, and gone when the parent is.
 void become_child(pid_t parent) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent) _exit(1);
@@ -121,6 +123,8 @@ void become_child(pid_t parent) {
     for (const int fatal : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGTERM})
         std::signal(fatal, SIG_DFL);
     std::signal(SIGINT, SIG_IGN); // the parent decides
+    const int score = open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC);
+    if (score >= 0) write_all(score, "1000", 4);
     const int null = open("/dev/null", O_WRONLY);
     if (null < 0 || dup2(null, STDOUT_FILENO) < 0 || dup2(null, STDERR_FILENO) < 0) _exit(1);
     std::fesetround(FE_TONEAREST);
@@ -172,12 +176,9 @@ Error from_tetgen(int code) {
     case 1:
         return {ErrorCode::out_of_memory, "TetGen ran out of memory", ""};
     case 3:
-        return {ErrorCode::improper_contact, "TetGen found two surfaces that cross", ""};
     case 4:
-        return {ErrorCode::improper_contact,
-                "TetGen found vertices or edges too close to tell apart", ""};
-    case 5:
-        return {ErrorCode::improper_contact, "TetGen found triangles too close to tell apart", ""};
+    case 5: // what is given to TetGen does not cross: this is its tolerance
+        return {ErrorCode::unsupported, "the surfaces come too close to each other for TetGen", ""};
     case 10:
         return {ErrorCode::internal, "TetGen did not accept its input", ""};
     default:

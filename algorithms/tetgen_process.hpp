@@ -20,7 +20,8 @@ namespace terrane {
 struct TetgenInput {
     std::vector<Point3> points;       ///< pairwise distinct, all used
     Lists<std::uint32_t> facets;      ///< per facet its corners, in order around it
-    bool keep_facets = true;          ///< split none: not with any of the following three
+    bool keep_facets = true;          ///< split none: not with any of the last three
+    bool improve = true;              ///< flip and smooth where shapes are bad
     std::optional<double> max_volume; ///< of a tetrahedron
     std::optional<double> max_area;   ///< of a face on a facet
     std::optional<double> radius_edge_ratio;
@@ -34,8 +35,9 @@ struct TetgenOutput {
     std::vector<std::uint32_t> face_facet; ///< per face: its facet
 };
 
-/// Errors: improper_contact, out_of_memory, interrupted (the child is killed), internal.
-/// The same input gives the same output: each child starts from the same state.
+/// Errors: unsupported (too many, or too close to tell apart), out_of_memory, interrupted (the
+/// child is killed), internal. The same input gives the same output: each child starts from the
+/// same state.
 Result<TetgenOutput> run_tetgen(const TetgenInput& input, const std::stop_token& stop);
 
 } // namespace terrane

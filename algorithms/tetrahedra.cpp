@@ -250,27 +250,42 @@ Status set_sizes(const TetgenDomain& domain, const TetrahedraOptions& options, c
     return Done{};
 }
 
-/// Asked to keep all facets, TetGen may fail where it succeeds if it may split them.
-Result<TetgenOutput> call_tetgen(TetgenInput& input, const std::stop_token& stop) {
-    Result<TetgenOutput> out = run_tetgen(input, stop);
-    if (out || !input.keep_facets) return out;
-    const ErrorCode code = out.error().code;
-    if (code == ErrorCode::interrupted || code == ErrorCode::out_of_memory) return out;
-    input.keep_facets = false;
-    return run_tetgen(input, stop);
-}
-
-Result<TetgenOutput> tetrahedra_of(const TetgenDomain& domain, const TetrahedraOptions& options,
-                                   const std::stop_token& stop) {
+Result<TetgenInput> tetgen_input(const TetgenDomain& domain, const TetrahedraOptions& options,
+                                 const Scale& scale) {
     TetgenInput input;
-    const Scale scale(domain.points);
     for (const Point3& p : domain.points) input.points.push_back(scale.down(p));
     add_facets(domain, input);
     if (Status sizes = set_sizes(domain, options, scale, input); !sizes) return sizes.error();
-    Result<TetgenOutput> out = call_tetgen(input, stop);
-    if (!out) return out;
-    for (Point3& p : out.value().points) p = scale.up(p);
-    return out;
+    return input;
+}
+
+/// Where TetGen fails, or fails the checks, it is asked again: to leave out its last step, the
+/// improvement of shapes, and then to split facets.
+Result<TetrahedralMesh> try_in_turn(const Mesh& mesh, const TetgenDomain& domain,
+                                    TetgenInput& input, const Scale& scale, const Run& run) {
+    struct Way {
+        bool keep_facets, improve;
+    };
+    std::vector<Way> ways{{false, true}, {false, false}};
+    if (input.keep_facets) ways = {{true, true}, {true, false}, {false, true}, {false, false}};
+    std::optional<Error> first;
+    for (const auto& [keep_facets, improve] : ways) {
+        input.keep_facets = keep_facets;
+        input.improve = improve;
+        Result<TetgenOutput> output = run_tetgen(input, run.stop);
+        if (output) {
+            for (Point3& p : output.value().points) p = scale.up(p);
+            Result<TetrahedralMesh> result = assemble(mesh, domain, std::move(output).value());
+            if (result) return result;
+            if (!first) first = result.error();
+            continue;
+        }
+        const ErrorCode code = output.error().code;
+        if (code == ErrorCode::interrupted || code == ErrorCode::out_of_memory)
+            return output.error();
+        if (!first) first = output.error();
+    }
+    return *first;
 }
 
 // ---- 5. The stage -----------------------------------------------------------------------------
@@ -294,11 +309,11 @@ Result<TetrahedralMesh> tetrahedralize(const Mesh& mesh, const TetrahedraOptions
     if (!domain) return domain.error();
     if (Status go = proceed(run, 0.1); !go) return go.error();
 
-    Result<TetgenOutput> output = tetrahedra_of(domain.value(), options, run.stop);
-    if (!output) return output.error();
-    if (Status go = proceed(run, 0.8); !go) return go.error();
-
-    Result<TetrahedralMesh> result = assemble(mesh, domain.value(), std::move(output).value());
+    const Scale scale(domain.value().points);
+    Result<TetgenInput> input = tetgen_input(domain.value(), options, scale);
+    if (!input) return input.error();
+    Result<TetrahedralMesh> result = try_in_turn(mesh, domain.value(), input.value(), scale, run);
+    if (!result) return result;
     if (Status go = proceed(run, 1); !go) return go.error();
     return result;
 }

@@ -34,20 +34,25 @@ struct TetrahedraOptions {
 ///     on a triangle are rounded to doubles next to it.
 /// (2) Vertices: those of the mesh that are in use, in its order and bit by bit, then the eight
 ///     corners of the box, then added ones.
-/// (3) Proven for each result, exactly: all tetrahedra have positive volume, each face has a
-///     tetrahedron on either side or lies on the box, so they fill the box without overlap.
+/// (3) Proven for each result, exactly: all tetrahedra have positive volume, the volumes add up to
+///     the box's, each face has a tetrahedron on either side or lies on the box. So they fill the
+///     box without overlap.
 /// (4) Faces come in the order of their triangles and wound like them; faces on the box last,
 ///     counterclockwise seen from outside.
 /// (5) Regions are what the mesh parts the box into; 1, 2, ... in the order of their lowest
 ///     tetrahedra, by the sorted positions of the four vertices.
 /// (6) The same arguments give the same result.
 ///
-/// The mesh must be conforming (see check); that is tested, exactly, since TetGen may crash or run
-/// forever on another. TetGen runs in a child process: nothing is printed, a crash is an error like
-/// others, a stop request ends it at once, and calls from several threads do not disturb each
-/// other. Errors: improper_contact with the place, bad_index, bad_number, bad_option, nothing_to_do
-/// (no triangle and no box), interrupted, out_of_memory, unsupported (too large for TetGen),
-/// internal. Source: TetGen 1.5 (H. Si).
+/// The mesh must be conforming (see check.hpp); that is tested, exactly, since TetGen may crash or
+/// run forever on another. TetGen runs in a child process: nothing is printed, a crash is an error
+/// like others, a stop request ends it at once, and calls from several threads do not disturb each
+/// other. Where it fails, or (3) does not hold, it is asked again in other ways.
+///
+/// Errors: improper_contact with the place, bad_index, bad_number, bad_option, nothing_to_do (no
+/// triangle and no box), interrupted, out_of_memory, unsupported (too large for TetGen, or surfaces
+/// too close for its tolerance), internal.
+///
+/// Source: TetGen 1.5 (H. Si).
 Result<TetrahedralMesh> tetrahedralize(const Mesh& mesh, const TetrahedraOptions& options,
                                        const Run& run);
 

@@ -2,14 +2,24 @@
 #include <terrane/algorithms/tetrahedra.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
 #include <stop_token>
+#include <thread>
+#include <vector>
+
+#include <unistd.h>
 
 #include <catch2/catch.hpp>
 
+#include <terrane/algorithms/arrangement.hpp>
+#include <terrane/algorithms/rounding.hpp>
+#include <terrane/io/files.hpp>
 #include <terrane/kernel/predicates.hpp>
 
 using namespace terrane;
@@ -370,7 +380,7 @@ TEST_CASE("tetrahedra: each option that makes no sense is an error", "[tetrahedr
     }
 }
 
-TEST_CASE("tetrahedra: a stop request ends the work, also while TetGen runs", "[tetrahedra]") {
+TEST_CASE("tetrahedra: a stop request ends the work, before and between steps", "[tetrahedra]") {
     std::stop_source source;
     Run run{.stop = source.get_token()};
     run.progress = [&](std::string_view, double share) {
@@ -380,6 +390,83 @@ TEST_CASE("tetrahedra: a stop request ends the work, also while TetGen runs", "[
     CHECK(late.code == ErrorCode::interrupted);
     run.progress = {};
     CHECK(must_fail(cube(), {}, run).code == ErrorCode::interrupted);
+}
+
+TEST_CASE("tetrahedra: a stop request ends TetGen while it runs", "[tetrahedra]") {
+    std::stop_source source;
+    const auto start = std::chrono::steady_clock::now();
+    std::jthread later([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(200));
+        source.request_stop();
+    });
+    const Run run{.stop = source.get_token()};
+    // Tens of millions of tetrahedra: minutes, if nothing stopped it.
+    const Error error = must_fail(cube(), {.box = unit_box, .edge_length = 0.01}, run);
+    CHECK(error.code == ErrorCode::interrupted);
+    CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(20));
+}
+
+TEST_CASE("tetrahedra: calls from several threads do not disturb each other", "[tetrahedra]") {
+    const TetrahedralMesh alone = must(uneven_sheet(6), {.edge_length = 0.25});
+    std::vector<std::optional<TetrahedralMesh>> made(4);
+    {
+        std::vector<std::jthread> threads;
+        for (auto& slot : made)
+            threads.emplace_back([&slot] {
+                auto result = tetrahedralize(uneven_sheet(6), {.edge_length = 0.25}, Run{});
+                if (result) slot = std::move(result).value();
+            });
+    }
+    for (const auto& one : made) {
+        REQUIRE(one.has_value());
+        CHECK(one->vertices == alone.vertices);
+        CHECK(one->tetrahedra == alone.tetrahedra);
+    }
+}
+
+TEST_CASE("tetrahedra: nothing is printed, also where TetGen would", "[tetrahedra]") {
+    // Steps of one part in 10^12: TetGen warns of angles and distances.
+    MeshBuilder builder;
+    const std::uint32_t s = builder.surface("thin");
+    builder.quad(s, {0, 0, 0}, {1, 0, 0}, {1, 1, 1e-12}, {0, 1, 0});
+    builder.quad(s, {0, 0, 1e-12}, {1, 0, 1e-12}, {1, 1, 2e-12}, {0, 1, 1e-12});
+    std::fflush(stdout);
+    const int kept = dup(STDOUT_FILENO);
+    std::FILE* file = std::tmpfile();
+    REQUIRE(file != nullptr);
+    dup2(fileno(file), STDOUT_FILENO);
+    const Result<TetrahedralMesh> result = tetrahedralize(builder.mesh(), {}, Run{});
+    std::fflush(stdout);
+    dup2(kept, STDOUT_FILENO);
+    close(kept);
+    CHECK(std::fseek(file, 0, SEEK_END) == 0);
+    CHECK(std::ftell(file) == 0);
+    std::fclose(file);
+    if (!result) CHECK(result.error().code == ErrorCode::unsupported);
+}
+
+TEST_CASE("tetrahedra: real models, arranged and rounded", "[tetrahedra]") {
+    struct Model {
+        std::vector<std::string> files;
+        std::uint32_t regions;
+    };
+    // The second one makes TetGen lose a face when it improves shapes.
+    const Model models[] = {{{"ringmesh/modelA1.ml"}, 5},
+                            {{"arch-platform/mnt.ts", "arch-platform/faults.ts"}, 5}};
+    for (const auto& [files, regions] : models) {
+        std::vector<Surface> surfaces;
+        for (const std::string& file : files) {
+            auto read = read_surfaces(std::string(TERRANE_TEST_DATA) + "/" + file);
+            REQUIRE(read.ok());
+            surfaces.insert(surfaces.end(), read.value().begin(), read.value().end());
+        }
+        const auto arrangement = arrange(surfaces);
+        REQUIRE(arrangement.ok());
+        const auto rounded = round_to_doubles(arrangement.value());
+        REQUIRE(rounded.ok());
+        REQUIRE(rounded.value().report.clean);
+        CHECK(must(rounded.value().mesh, {}).region_count == regions);
+    }
 }
 
 TEST_CASE("tetrahedra: progress goes from 0 to 1", "[tetrahedra]") {
