@@ -26,9 +26,7 @@
 namespace terrane {
 
 struct RoundingOptions {
-    unsigned max_rounds = 14; ///< of snapping; 0: to the nearest double and no further. The grid of
-                              ///< round r is 2^(2 r + 2) units in the last place of the largest
-                              ///< coordinate on each axis
+    unsigned max_rounds = 8; ///< of snapping, at most 8; 0: to the nearest double and no further
 };
 
 struct RoundingReport {

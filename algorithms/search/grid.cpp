@@ -44,9 +44,11 @@ Grid::Grid(std::span<const Box> boxes) {
         origin_[k] = low[k];
         const double extent = high[k] - low[k];
         size_[k] = extent > 0 && extent < infinity ? extent / cells[k] : 1;
-        // Half of the largest box, not of a cell; the last bits cover the rounding of the centre.
+        // Half of the largest box, not of a cell; the last bits cover the rounding of the centre,
+        // the smallest normal number that of halves of denormals.
         widening_[k] = largest[k] * 0.5 * (1 + 0x1p-40) +
-                       0x1p-50 * std::max(std::fabs(low[k]), std::fabs(high[k]));
+                       0x1p-50 * std::max(std::fabs(low[k]), std::fabs(high[k])) +
+                       std::numeric_limits<double>::min();
     }
     starts_.assign(std::size_t{counts_[0]} * counts_[1] * counts_[2] + 1, 0);
     for (const Box& b : boxes) ++starts_[cell_of(b) + 1];

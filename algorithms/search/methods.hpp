@@ -108,4 +108,48 @@ private:
     std::vector<Node> nodes_;
 };
 
+/// A bounding volume hierarchy: ranges of boxes halved at the median of their centres along the axis
+/// on which these are spread most, down to a few boxes.
+class Hierarchy {
+public:
+    explicit Hierarchy(std::span<const Box> boxes);
+
+    template <class Report>
+    void query(const Box& q, const Report& report) const {
+        if (nodes_.empty()) return;
+        std::array<std::uint32_t, 64> stack; // NOLINT: filled as far as used
+        unsigned top = 0;
+        stack[top++] = 0;
+        while (top > 0) {
+            const Node& node = nodes_[stack[--top]];
+            if (!node.box.overlaps(q)) continue;
+            if (node.second_child != 0) {
+                stack[top++] = node.second_child;
+                stack[top++] = static_cast<std::uint32_t>(&node - nodes_.data()) + 1;
+                continue;
+            }
+            for (std::uint32_t i = node.first; i < node.last; ++i)
+                if (stored_[i].box.overlaps(q)) report(stored_[i].index);
+        }
+    }
+
+private:
+    static constexpr std::uint32_t leaf_size = 6;
+
+    struct Node {
+        Box box;
+        std::uint32_t first, last;   ///< range of stored_
+        std::uint32_t second_child;  ///< 0: a leaf; the first child follows its parent
+    };
+    struct Stored {
+        Box box;
+        std::uint32_t index;
+    };
+
+    void build(std::uint32_t first, std::uint32_t last);
+
+    std::vector<Node> nodes_;
+    std::vector<Stored> stored_;
+};
+
 } // namespace terrane::search

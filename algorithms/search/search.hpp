@@ -13,13 +13,14 @@
 namespace terrane {
 
 enum class Search : std::uint8_t {
-    automatic,   ///< grid, or ab_balanced where box sizes differ too much for one grid (see choose)
+    automatic,   ///< grid, or hierarchy where box sizes differ too much for one grid (see choose)
     grid,        ///< structured search, paper 2.1
     ab_balanced, ///< alternating binary tree balanced by quantiles, paper 2.2 and Table 1
+    hierarchy,   ///< bounding volume hierarchy: boxes of boxes, for any mixture of sizes
     brute,       ///< every box against every box
 };
 
-/// "auto", "grid", "ab-balanced", "brute".
+/// "auto", "grid", "ab-balanced", "hierarchy", "brute".
 std::string_view name_of(Search method);
 
 /// Axis-aligned and closed: boxes that touch overlap. low <= high.
@@ -52,8 +53,8 @@ std::vector<CandidatePair> candidate_pairs(std::span<const Box> boxes,
 std::vector<CandidatePair> candidate_pairs_of(std::span<const Box> boxes,
                                               std::span<const std::uint32_t> active);
 
-/// What `automatic` stands for: grid, unless the largest box extent exceeds 16 times the mean one
-/// along some axis.
+/// What `automatic` stands for: grid, unless the largest box extent exceeds 4 times the mean one
+/// along some axis: a grid's cells are as large as the largest box, and so hold too many others.
 Search choose(std::span<const Box> boxes);
 
 } // namespace terrane
