@@ -152,10 +152,7 @@ public:
         out_.triangles.reserve(expected);
         out_.faces_of.values.reserve(expected);
         out_.faces_of.offsets.reserve(expected + 1);
-        for (std::uint32_t f = 0, p = 0; f < soup_.triangles.size(); ++f) {
-            if (p == parts_.size() || parts_[p].face != f) add(soup_.triangles[f], {&f, 1});
-            for (; p < parts_.size() && parts_[p].face == f; ++p) add_part(parts_[p]);
-        }
+        for_each_part([&](const Part& part) { add_part(part); });
     }
 
 private:
@@ -171,10 +168,20 @@ private:
         return c;
     }
 
+    // In the order of the soup; an undivided triangle is its own part (another may have it as one).
+    template <class Visit>
+    void for_each_part(const Visit& visit) const {
+        for (std::uint32_t f = 0, p = 0; f < soup_.triangles.size(); ++f) {
+            if (p == parts_.size() || parts_[p].face != f) visit(Part{f, soup_.triangles[f]});
+            for (; p < parts_.size() && parts_[p].face == f; ++p) visit(parts_[p]);
+        }
+    }
+
     // Only triangles that some coplanar one overlaps can have a part in common with another.
     void collect_repeated() {
-        for (const Part& p : parts_)
+        for_each_part([&](const Part& p) {
             if (contacts_.overlapped[p.face]) faces_of_[sorted(p.corners)].push_back(p.face);
+        });
     }
 
     void add_part(const Part& part) {
