@@ -57,7 +57,9 @@ void name_vertices(Arrangement& a, std::span<const PointIndex> ascending) {
         for (PointIndex& p : t) p = vertex_of[p];
 }
 
-Error interrupted() { return {ErrorCode::interrupted, "stopped on request", ""}; }
+Error interrupted() {
+    return {ErrorCode::interrupted, "stopped on request", ""};
+}
 
 Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
                                     const ArrangeOptions& options, const Run& run) {
@@ -69,7 +71,7 @@ Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
     for (const Surface& s : surfaces) a.surfaces.push_back({s.name, s.role});
 
     // (a) one soup of distinct points and triangles
-    const Soup soup = merge_surfaces(surfaces);
+    Soup soup = merge_surfaces(surfaces);
     a.statistics.seconds_prepare = watch.lap();
     report(0.1);
 
@@ -93,7 +95,8 @@ Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
     a.statistics.seconds_triangulate = d.seconds_triangulate;
     watch.lap();
 
-    a.inputs = {soup.first_input_triangle, soup.duplicates};
+    a.inputs = {soup.first_input_triangle, soup.first_input_vertex, std::move(soup.input_corners),
+                soup.duplicates};
     a.degenerate = soup.degenerate;
     a.parents_of = parents_of_faces(soup, division.faces_of);
     a.surfaces_of = surfaces_of_parents(a.inputs, a.parents_of);

@@ -43,22 +43,22 @@ struct ArrangeStatistics {
 /// Input vertices and triangles are counted through all surfaces: vertex k of surface s is
 /// (vertices of the surfaces before s) + k; triangles likewise.
 struct Arrangement {
-    std::vector<SurfaceInfo> surfaces;       ///< order of the input
-    InputTriangles inputs;                   ///< how input triangles are counted; duplicates
-    PointStore points;                       ///< all input vertices, and all constructed points
-    std::vector<PointIndex> vertices;        ///< the points in use: input ones by number, then
-                                             ///< constructed ones in lexicographic order
-    std::vector<Triangle> triangles;         ///< indices into vertices; unique; oriented as the first
-                                             ///< parent
-    Lists<std::uint32_t> parents_of;         ///< per triangle: all input triangles that contain it,
-                                             ///< duplicates too; sorted, >= 1 (> 1: coplanar overlap)
-    Lists<std::uint32_t> surfaces_of;        ///< per triangle: surfaces of its parents, sorted, >= 1
-    std::vector<Edge> intersection_edges;    ///< in which more than two triangles meet, or two that
-                                             ///< differ in their number of distinct parents in some
-                                             ///< surface; sorted, unique. The parents of an edge
-                                             ///< are those of the triangles at it
-    std::vector<std::uint32_t> degenerate;   ///< input triangles without area, ascending
-    EdgeSides edges;                         ///< sides of the triangles by edge, for what follows
+    std::vector<SurfaceInfo> surfaces;     ///< order of the input
+    InputTriangles inputs;                 ///< how input triangles are counted; duplicates
+    PointStore points;                     ///< all input vertices, and all constructed points
+    std::vector<PointIndex> vertices;      ///< the points in use: input ones by number, then
+                                           ///< constructed ones in lexicographic order
+    std::vector<Triangle> triangles;       ///< indices into vertices; unique; oriented as the first
+                                           ///< parent
+    Lists<std::uint32_t> parents_of;       ///< per triangle: all input triangles that contain it,
+                                           ///< duplicates too; sorted, >= 1 (> 1: coplanar overlap)
+    Lists<std::uint32_t> surfaces_of;      ///< per triangle: surfaces of its parents, sorted, >= 1
+    std::vector<Edge> intersection_edges;  ///< in which more than two triangles meet, or two that
+                                           ///< differ in their number of distinct parents in some
+                                           ///< surface; sorted, unique. The parents of an edge
+                                           ///< are those of the triangles at it
+    std::vector<std::uint32_t> degenerate; ///< input triangles without area, ascending
+    EdgeSides edges;                       ///< sides of the triangles by edge, for what follows
     ArrangeStatistics statistics;
 };
 

@@ -27,8 +27,8 @@ bool is_finite(const Point3& p) {
 std::vector<ImproperContact> contacts_of(const Soup& soup, std::span<const CandidatePair> pairs) {
     std::vector<ImproperContact> found;
     for (const CandidatePair& p : pairs) {
-        const auto contact = improper_contact(soup.points, soup.triangles[p.first],
-                                              soup.triangles[p.second]);
+        const auto contact =
+            improper_contact(soup.points, soup.triangles[p.first], soup.triangles[p.second]);
         if (!contact) continue;
         ImproperContact c;
         c.triangles = {soup.input_of[p.first], soup.input_of[p.second]};
@@ -97,10 +97,8 @@ Result<CheckReport> check_valid(std::span<const Surface> surfaces, const Run& ru
         candidates.size(), 16384, run, [&](std::size_t a, std::size_t b) {
             return contacts_of(soup, std::span(candidates).subspan(a, b - a));
         });
-    if (run.stop.stop_requested())
-        return Error{ErrorCode::interrupted, "stopped on request", ""};
-    for (const auto& b : blocks)
-        report.contacts.insert(report.contacts.end(), b.begin(), b.end());
+    if (run.stop.stop_requested()) return Error{ErrorCode::interrupted, "stopped on request", ""};
+    for (const auto& b : blocks) report.contacts.insert(report.contacts.end(), b.begin(), b.end());
     return report;
 }
 
@@ -122,13 +120,20 @@ ContactKind kind_of_point(const ContactPoint& p) {
 
 std::string_view name_of(ContactKind kind) {
     switch (kind) {
-    case ContactKind::vertex_on_edge: return "vertex on edge";
-    case ContactKind::vertex_on_face: return "vertex on face";
-    case ContactKind::edges_cross: return "edges cross";
-    case ContactKind::edges_overlap: return "edges overlap";
-    case ContactKind::edge_on_face: return "edge on face";
-    case ContactKind::crossing: return "crossing";
-    default: return "coplanar overlap";
+    case ContactKind::vertex_on_edge:
+        return "vertex on edge";
+    case ContactKind::vertex_on_face:
+        return "vertex on face";
+    case ContactKind::edges_cross:
+        return "edges cross";
+    case ContactKind::edges_overlap:
+        return "edges overlap";
+    case ContactKind::edge_on_face:
+        return "edge on face";
+    case ContactKind::crossing:
+        return "crossing";
+    default:
+        return "coplanar overlap";
     }
 }
 

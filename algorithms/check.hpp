@@ -44,17 +44,17 @@ struct ImproperContact {
 /// Triangles and vertices are counted through all surfaces, in order.
 struct CheckReport {
     std::size_t surfaces = 0, triangles = 0;
-    std::size_t vertices = 0;                    ///< distinct points in use
-    std::vector<std::uint32_t> first_triangle;   ///< per surface, and the total at the end
-    std::vector<ImproperContact> contacts;       ///< of distinct triangles with area; sorted
-    std::vector<std::uint32_t> degenerate;       ///< triangles without area, ascending
+    std::size_t vertices = 0;                           ///< distinct points in use
+    std::vector<std::uint32_t> first_triangle;          ///< per surface, and the total at the end
+    std::vector<ImproperContact> contacts;              ///< of distinct triangles with area; sorted
+    std::vector<std::uint32_t> degenerate;              ///< triangles without area, ascending
     std::vector<std::array<std::uint32_t, 2>> repeated; ///< {triangle, first with the same points},
                                                         ///< both in one surface
-    std::vector<std::array<std::uint32_t, 2>> shared;   ///< the same, in different surfaces: no flaw
+    std::vector<std::array<std::uint32_t, 2>> shared; ///< the same, in different surfaces: no flaw
     std::vector<std::array<Point3, 2>> non_manifold_edges; ///< of one surface, with more than two
                                                            ///< triangles: no flaw by itself
-    std::size_t free_border_edges = 0;           ///< edges with one triangle of a surface
-    std::size_t components = 0;                  ///< connected over edges, whatever the surface
+    std::size_t free_border_edges = 0;                     ///< edges with one triangle of a surface
+    std::size_t components = 0; ///< connected over edges, whatever the surface
 
     /// Conforming: no improper contact, no degenerate and no repeated triangle.
     [[nodiscard]] bool clean() const {

@@ -25,8 +25,8 @@ PairBlock test_pairs(const TriangleSoup& soup, std::span<const CandidatePair> pa
     PairBlock block;
     const PredicateCounts before = predicate_counts();
     for (const CandidatePair& p : pairs)
-        if (const auto contact = improper_contact(soup.points, soup.triangles[p.first],
-                                                  soup.triangles[p.second]))
+        if (const auto contact =
+                improper_contact(soup.points, soup.triangles[p.first], soup.triangles[p.second]))
             block.contacts.push_back({p, *contact});
     block.predicates = predicate_counts() - before;
     return block;

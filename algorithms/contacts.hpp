@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Steps (b), (c) and (d) of the arrangement: all improper contacts of a soup of triangles, sorted by triangle,
-// with their points in one store, equal points merged.
+// Steps (b), (c) and (d) of the arrangement: all improper contacts of a soup of triangles, sorted
+// by triangle, with their points in one store, equal points merged.
 #pragma once
 
 #include <cstdint>
@@ -35,7 +35,7 @@ struct Support {
 struct FacePiece {
     std::uint32_t face;
     Support support;
-    std::array<Place, 2> place; ///< of the ends, on the face
+    std::array<Place, 2> place;     ///< of the ends, on the face
     std::array<PointIndex, 2> ends; ///< equal for a point
 
     /// Not a point, and not along an edge of the face.
@@ -60,18 +60,19 @@ struct Contacts {
 };
 
 /// Step (b), (c): the pieces. `groups` as in candidate_pairs.
-Contacts find_contacts(const TriangleSoup& soup, std::span<const CandidatePair> candidates, const Run& run);
+Contacts find_contacts(const TriangleSoup& soup, std::span<const CandidatePair> candidates,
+                       const Run& run);
 
 /// Where segments cross inside a face: fills in crossings and appends their points.
 void find_crossings(const TriangleSoup& soup, Contacts& contacts, const Run& run);
 
 /// Equal points by name, and their order.
 struct PointOrder {
-    std::vector<PointIndex> same_as;    ///< per point: the one that stands for it (an input point, or
-                                        ///< the one with the smallest construction)
-    std::vector<std::uint32_t> rank;    ///< per point in use: place in the lexicographic order
-    std::vector<PointIndex> ascending;  ///< the constructed points that stand for themselves, in
-                                        ///< lexicographic order
+    std::vector<PointIndex> same_as; ///< per point: the one that stands for it (an input point, or
+                                     ///< the one with the smallest construction)
+    std::vector<std::uint32_t> rank; ///< per point in use: place in the lexicographic order
+    std::vector<PointIndex> ascending; ///< the constructed points that stand for themselves, in
+                                       ///< lexicographic order
 };
 
 /// Step (d): orders all constructed points and the corners of all faces with pieces, exactly.

@@ -32,8 +32,8 @@ Triangle sorted(Triangle t) {
 /// An inner segment with what the tests need.
 struct InnerSegment {
     std::uint32_t piece;
-    Triangle plane;             ///< of the supporting triangle, sorted
-    Line line{};                ///< the supporting edge, sorted, where is_line
+    Triangle plane; ///< of the supporting triangle, sorted
+    Line line{};    ///< the supporting edge, sorted, where is_line
     bool is_line = false;
     std::array<double, 2> low, high; ///< box in the projection
 };
@@ -134,8 +134,8 @@ private:
     void test(const InnerSegment& a, const InnerSegment& b) {
         if (a.high[1] < b.low[1] || b.high[1] < a.low[1]) return;
         if (!separates(a, b) || !separates(b, a)) return;
-        out_.push_back({face_, {std::min(a.piece, b.piece), std::max(a.piece, b.piece)},
-                        crossing(a, b)});
+        out_.push_back(
+            {face_, {std::min(a.piece, b.piece), std::max(a.piece, b.piece)}, crossing(a, b)});
     }
 
     Construction crossing(const InnerSegment& a, const InnerSegment& b) const {
@@ -174,7 +174,8 @@ void find_crossings(const TriangleSoup& soup, Contacts& contacts, const Run& run
 
     // Some crossings have names that contacts have given already (two edges of coplanar triangles).
     ConstructionTable table(static_cast<PointIndex>(soup.points.size()));
-    for (PointIndex p = static_cast<PointIndex>(soup.points.size()); p < contacts.points.size(); ++p)
+    for (PointIndex p = static_cast<PointIndex>(soup.points.size()); p < contacts.points.size();
+         ++p)
         table.enter(contacts.points.construction(p));
     const std::size_t known = table.constructions().size();
     for (const CrossingBlock& block : blocks) {

@@ -96,8 +96,9 @@ private:
     FaceTriangulation triangulate_;
 };
 
-std::vector<Part> divide_faces(const TriangleSoup& soup, const Contacts& contacts, const PointOrder& order,
-                               const Run& run, DivisionStatistics& statistics) {
+std::vector<Part> divide_faces(const TriangleSoup& soup, const Contacts& contacts,
+                               const PointOrder& order, const Run& run,
+                               DivisionStatistics& statistics) {
     struct Range {
         std::uint32_t piece, piece_end, crossing, crossing_end;
     };
@@ -144,7 +145,8 @@ class Stitcher {
 public:
     Stitcher(const TriangleSoup& soup, const Contacts& contacts, std::span<const Part> parts,
              Division& out) :
-        soup_(soup), contacts_(contacts), parts_(parts), out_(out) {}
+        soup_(soup),
+        contacts_(contacts), parts_(parts), out_(out) {}
 
     void operator()() {
         collect_repeated();

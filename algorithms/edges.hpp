@@ -12,12 +12,13 @@ namespace terrane {
 /// The sides of all triangles, grouped by edge.
 struct EdgeSides {
     struct Side {
-        std::uint32_t high;     ///< larger vertex of the edge
+        std::uint32_t high; ///< larger vertex of the edge
         std::uint32_t triangle;
-        std::uint32_t corner;   ///< the edge runs from this corner to the next one
+        std::uint32_t corner; ///< the edge runs from this corner to the next one
     };
-    std::vector<std::uint32_t> starts; ///< per vertex, and the total: sides whose smaller vertex it is
-    std::vector<Side> sides;           ///< by smaller vertex, then larger vertex, then triangle
+    std::vector<std::uint32_t>
+        starts;              ///< per vertex, and the total: sides whose smaller vertex it is
+    std::vector<Side> sides; ///< by smaller vertex, then larger vertex, then triangle
 
     /// Calls visit(low, high, sides of this edge) for each edge, ascending.
     template <class Visit>

@@ -8,9 +8,15 @@
 namespace terrane {
 namespace {
 
-constexpr Place corner(unsigned i) { return static_cast<Place>(i); }
-constexpr Place edge(unsigned i) { return static_cast<Place>(3 + i); }
-constexpr unsigned next(unsigned i) { return i == 2 ? 0 : i + 1; }
+constexpr Place corner(unsigned i) {
+    return static_cast<Place>(i);
+}
+constexpr Place edge(unsigned i) {
+    return static_cast<Place>(3 + i);
+}
+constexpr unsigned next(unsigned i) {
+    return i == 2 ? 0 : i + 1;
+}
 
 using Signs = std::array<Sign, 3>;
 
@@ -22,7 +28,9 @@ bool all_zero(const Signs& s) {
     return s[0] == Sign::Zero && s[1] == Sign::Zero && s[2] == Sign::Zero;
 }
 
-bool opposite(Sign a, Sign b) { return a * b == Sign::Negative; }
+bool opposite(Sign a, Sign b) {
+    return a * b == Sign::Negative;
+}
 
 /// Where a point lies on a triangle, from its sides with respect to the three directed edges
 /// (positive inside); none if outside.
@@ -77,8 +85,8 @@ private:
     std::span<const Point3> points_;
     std::array<Triangle, 2> t_;
     // Per corner: the same vertex's corner of the other triangle, or `face` for none.
-    std::array<std::array<Place, 3>, 2> shared_{{{Place::face, Place::face, Place::face},
-                                                 {Place::face, Place::face, Place::face}}};
+    std::array<std::array<Place, 3>, 2> shared_{
+        {{Place::face, Place::face, Place::face}, {Place::face, Place::face, Place::face}}};
     unsigned shared_count_ = 0;
     std::array<Signs, 2> sides_{}; // of the corners of k with respect to the other's plane
     std::array<bool, 2> axis_known_{};
@@ -90,8 +98,7 @@ private:
 Signs TrianglePair::sides(unsigned k) const {
     Signs s{};
     for (unsigned i = 0; i < 3; ++i)
-        if (!is_shared(k, i))
-            s[i] = orient3d(at(1 - k, 0), at(1 - k, 1), at(1 - k, 2), at(k, i));
+        if (!is_shared(k, i)) s[i] = orient3d(at(1 - k, 0), at(1 - k, 1), at(1 - k, 2), at(k, i));
     return s;
 }
 
@@ -186,9 +193,9 @@ void TrianglePair::overlap_in_plane() {
             const unsigned o = 1 - k;
             for (unsigned i = 0; i < 3; ++i) {
                 const bool on_edge = shared_[k][i] == corner(j) || shared_[k][i] == corner(next(j));
-                inside[k][j][i] = on_edge ? Sign::Zero
-                                          : turn_[o] * orient2d(axis_[o], at(o, j), at(o, next(j)),
-                                                                at(k, i));
+                inside[k][j][i] =
+                    on_edge ? Sign::Zero
+                            : turn_[o] * orient2d(axis_[o], at(o, j), at(o, next(j)), at(k, i));
             }
             if (inside[k][j] == Signs{Sign::Negative, Sign::Negative, Sign::Negative}) return;
         }

@@ -21,26 +21,35 @@ namespace terrane {
 /// the open face.
 enum class Place : std::uint8_t { corner0, corner1, corner2, edge0, edge1, edge2, face };
 
-constexpr bool is_corner(Place p) { return p <= Place::corner2; }
-constexpr bool is_edge(Place p) { return p >= Place::edge0 && p <= Place::edge2; }
-constexpr unsigned corner_of(Place p) { return static_cast<unsigned>(p); }
-constexpr unsigned edge_of(Place p) { return static_cast<unsigned>(p) - 3; }
+constexpr bool is_corner(Place p) {
+    return p <= Place::corner2;
+}
+constexpr bool is_edge(Place p) {
+    return p >= Place::edge0 && p <= Place::edge2;
+}
+constexpr unsigned corner_of(Place p) {
+    return static_cast<unsigned>(p);
+}
+constexpr unsigned edge_of(Place p) {
+    return static_cast<unsigned>(p) - 3;
+}
 
 /// A point that two triangles share.
 struct ContactPoint {
-    Construction how; ///< of kind input where it is a vertex of one of them
+    Construction how;             ///< of kind input where it is a vertex of one of them
     std::array<Place, 2> place{}; ///< on the first and on the second triangle
 };
 
 /// A point or a segment that two triangles share.
 struct ContactPiece {
     std::array<std::uint8_t, 2> ends{}; ///< indices into points; equal for a point
-    /// The line it lies on in the plane of triangle k: the plane of the other triangle (3), or, where
-    /// the two are coplanar, edge 0..2 of the other triangle.
+    /// The line it lies on in the plane of triangle k: the plane of the other triangle (3), or,
+    /// where the two are coplanar, edge 0..2 of the other triangle.
     std::uint8_t support = 3;
 };
 
-/// What two triangles share, their common vertices included, as points and the segments between them.
+/// What two triangles share, their common vertices included, as points and the segments between
+/// them.
 struct Contact {
     bool coplanar = false;
     bool overlap = false; ///< coplanar and the common part has an area

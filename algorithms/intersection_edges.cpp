@@ -11,9 +11,8 @@ std::uint32_t InputTriangles::surface_of(std::uint32_t triangle) const {
 }
 
 std::uint32_t InputTriangles::first_same(std::uint32_t triangle) const {
-    const auto it =
-        std::lower_bound(duplicates.begin(), duplicates.end(), triangle,
-                         [](const auto& d, std::uint32_t t) { return d[0] < t; });
+    const auto it = std::lower_bound(duplicates.begin(), duplicates.end(), triangle,
+                                     [](const auto& d, std::uint32_t t) { return d[0] < t; });
     return it != duplicates.end() && (*it)[0] == triangle ? (*it)[1] : triangle;
 }
 

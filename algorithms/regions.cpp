@@ -21,8 +21,8 @@ class Diffusion {
 public:
     Diffusion(std::span<const Triangle> triangles, const Lists<std::uint32_t>& surfaces_of,
               std::span<const Edge> stops) :
-        triangles_(triangles), surfaces_of_(surfaces_of), stops_(stops),
-        sets_(surfaces_of.values.size()) {}
+        triangles_(triangles),
+        surfaces_of_(surfaces_of), stops_(stops), sets_(surfaces_of.values.size()) {}
 
     /// Spreads over all edges that are no stops; lists the sides of the others.
     void spread(const EdgeSides& edges) {

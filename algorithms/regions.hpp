@@ -20,7 +20,7 @@ namespace terrane {
 
 struct Region {
     std::uint32_t surface = 0;
-    std::uint32_t first_triangle = 0;      ///< the lowest
+    std::uint32_t first_triangle = 0; ///< the lowest
     std::size_t triangles = 0;
     double area = 0;                       ///< squared unit; in floating point
     std::vector<std::uint32_t> neighbours; ///< regions of any surface across an intersection edge,
@@ -36,6 +36,5 @@ struct Regions {
 Regions find_regions(std::span<const Point3> vertices, std::span<const Triangle> triangles,
                      const Lists<std::uint32_t>& surfaces_of, const EdgeSides& edges,
                      std::span<const Edge> intersection_edges);
-
 
 } // namespace terrane

@@ -41,8 +41,8 @@ struct Error {
 template <class T>
 class [[nodiscard]] Result {
 public:
-    Result(T value) : state_(std::move(value)) {}       // NOLINT: implicit on purpose
-    Result(Error error) : state_(std::move(error)) {}   // NOLINT: implicit on purpose
+    Result(T value) : state_(std::move(value)) {}     // NOLINT: implicit on purpose
+    Result(Error error) : state_(std::move(error)) {} // NOLINT: implicit on purpose
 
     [[nodiscard]] bool ok() const { return state_.index() == 0; }
     explicit operator bool() const { return ok(); }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <new>
 #include <stdexcept>
+#include <unordered_set>
 #include <utility>
 
 #include <terrane/algorithms/division.hpp>
@@ -29,13 +30,16 @@ private:
     static double snap(double x, double s) { return s > 0 ? std::nearbyint(x / s) * s : x; }
 };
 
-/// Cells of round r (from 1), in binary digits of the last place of the largest coordinate. The
-/// first round is for single mishaps; after it the grid must be much coarser than the doubles, so
-/// that what is divided again has room between them. Measured on touching_ridges_turned: grids of
-/// 2^2 to 2^18 multiply the contacts, from 2^20 on they vanish in three or four rounds.
-constexpr std::array<int, 8> grid_of_rounds{6, 20, 24, 27, 29, 30, 31, 32};
+/// Sizes of cells, in binary digits of the last place of the largest coordinate on each axis.
+/// First what crosses is snapped where it lies, with fine grids, so that as little as possible
+/// moves. That is enough for single mishaps; sheets that are nearly coplanar over an area multiply
+/// under it (touching_ridges_turned), so where the contacts do not shrink to a quarter in a round,
+/// the input triangles concerned are snapped instead and arranged anew.
+constexpr std::array fine_digits{4, 8, 12};
+constexpr std::array coarse_digits{16, 20, 24, 28, 32};
+constexpr unsigned widenings = 3; ///< how often more input triangles join before a coarser grid
 
-SnapGrid grid_of_round(std::span<const Point3> points, unsigned round) {
+SnapGrid grid_of_digits(std::span<const Point3> points, int digits) {
     std::array<double, 3> largest{};
     for (const Point3& p : points) {
         largest[0] = std::max(largest[0], std::fabs(p.x));
@@ -46,7 +50,7 @@ SnapGrid grid_of_round(std::span<const Point3> points, unsigned round) {
     for (unsigned k = 0; k < 3; ++k)
         if (largest[k] > 0) {
             const int ulp = std::ilogb(largest[k]) - 52;
-            grid.step[k] = std::ldexp(1.0, std::max(ulp + grid_of_rounds[round - 1], -1074));
+            grid.step[k] = std::ldexp(1.0, std::max(ulp + digits, -1074));
         }
     return grid;
 }
@@ -61,13 +65,7 @@ public:
         if (const auto finite = all_finite(); !finite) return finite.error();
         auto pairs = contacts();
         out_.report.naive_contacts = pairs.size();
-        unsigned& round = out_.report.rounds;
-        while (!pairs.empty() && round < std::min<std::size_t>(options_.max_rounds, grid_of_rounds.size()) && !run_.stop.stop_requested()) {
-            ++round;
-            snap_round(pairs, grid_of_round(state_.points, round));
-            pairs = contacts();
- if(getenv("DBG")) fprintf(stderr,"round %u: %zu pairs, %zu triangles, %zu points\n", round, pairs.size(), state_.triangles.size(), state_.points.size());
-        }
+        if (!pairs.empty()) repair(pairs);
         if (run_.stop.stop_requested())
             return Error{ErrorCode::interrupted, "stopped on request", ""};
         finish(pairs);
@@ -75,6 +73,7 @@ public:
     }
 
 private:
+    void repair(std::vector<CandidatePair>& pairs);
     void to_nearest();
     Status all_finite() const;
     std::vector<CandidatePair> contacts();
@@ -120,6 +119,22 @@ void Rounding::to_nearest() {
         state_.is_dirty[v] = state_.move[v] > 0;
     state_.end_round();
     changed_ = state_.tidy();
+}
+
+/// Rounds of local snapping, as long as they help; the mesh with fewest contacts stays.
+void Rounding::repair(std::vector<CandidatePair>& pairs) {
+    for (const int digits : fine_digits) {
+        if (out_.report.rounds == options_.max_rounds || run_.stop.stop_requested()) return;
+        ++out_.report.rounds;
+        const RoundingState before = state_;
+        auto left = (snap_round(pairs, grid_of_digits(state_.points, digits)), contacts());
+        const bool helps = 4 * left.size() <= pairs.size();
+        if (left.size() < pairs.size())
+            pairs = std::move(left);
+        else
+            state_ = before;
+        if (pairs.empty() || !helps) return;
+    }
 }
 
 Status Rounding::all_finite() const {
@@ -236,10 +251,127 @@ void Rounding::finish(std::span<const CandidatePair> pairs) {
 
 } // namespace
 
-Result<RoundedMesh> round_to_doubles(const Arrangement& arrangement,
-                                     const RoundingOptions& options, const Run& run) {
+namespace {
+
+/// Input vertices moved to a grid where their triangles cannot be rounded otherwise.
+class SnappedInput {
+public:
+    explicit SnappedInput(const Arrangement& a) :
+        arrangement_(a), chosen_(a.points.input_count(), false) {}
+
+    /// Chooses the corners of all parents of the triangles in contact. False if no corner is new.
+    bool choose(const RoundedMesh& rounded) {
+        bool any = false;
+        for (const ImproperContact& c : rounded.report.contacts)
+            for (const std::uint32_t t : c.triangles)
+                for (const std::uint32_t parent : rounded.mesh.parents_of[t])
+                    for (const std::uint32_t v : arrangement_.inputs.corners[parent]) {
+                        any = any || !chosen_[v];
+                        chosen_[v] = true;
+                    }
+        return any;
+    }
+
+    /// The surfaces with the chosen vertices, and all that share their cells, on the grid.
+    std::vector<Surface> surfaces(int digits) {
+        const auto inputs = arrangement_.points.inputs();
+        const SnapGrid grid = grid_of_digits(inputs, digits);
+        std::unordered_set<Point3, PointHash> cells;
+        for (std::size_t v = 0; v < inputs.size(); ++v)
+            if (chosen_[v]) cells.insert(grid.snap(inputs[v]));
+        std::vector<Surface> out;
+        moved_ = 0;
+        largest_ = 0;
+        const InputTriangles& in = arrangement_.inputs;
+        for (std::size_t s = 0; s + 1 < in.first.size(); ++s) {
+            Surface& surface = out.emplace_back();
+            for (std::uint32_t v = in.first_vertex[s]; v < in.first_vertex[s + 1]; ++v)
+                surface.vertices.push_back(place(inputs[v], grid, cells));
+        }
+        // Corners count through all surfaces and may name a vertex of an earlier one with the same
+        // coordinates: each triangle gets its own corners' coordinates back.
+        for (std::size_t s = 0; s + 1 < in.first.size(); ++s)
+            for (std::uint32_t t = in.first[s]; t < in.first[s + 1]; ++t)
+                out[s].triangles.push_back(own_corners(s, in.corners[t], out));
+        return out;
+    }
+
+    [[nodiscard]] double largest_move() const { return largest_; }
+    [[nodiscard]] std::size_t moved() const { return moved_; }
+
+private:
+    Point3 place(const Point3& p, const SnapGrid& grid,
+                 const std::unordered_set<Point3, PointHash>& cells) {
+        const Point3 cell = grid.snap(p);
+        if (cell == p || !cells.contains(cell)) return p;
+        ++moved_;
+        largest_ = std::max(largest_, distance_bound({{p.x, p.y, p.z}, {p.x, p.y, p.z}}, cell));
+        return cell;
+    }
+
+    /// Corners as indices into surface s; vertices of other surfaces are added to it.
+    Triangle own_corners(std::size_t s, Triangle corners, std::vector<Surface>& surfaces) const {
+        const auto& first = arrangement_.inputs.first_vertex;
+        for (std::uint32_t& v : corners) {
+            if (v >= first[s] && v < first[s + 1]) {
+                v -= first[s];
+                continue;
+            }
+            const auto owner = static_cast<std::size_t>(
+                std::upper_bound(first.begin(), first.end(), v) - first.begin() - 1);
+            surfaces[s].vertices.push_back(surfaces[owner].vertices[v - first[owner]]);
+            v = static_cast<std::uint32_t>(surfaces[s].vertices.size() - 1);
+        }
+        return corners;
+    }
+
+    const Arrangement& arrangement_;
+    std::vector<bool> chosen_; ///< per input vertex
+    double largest_ = 0;
+    std::size_t moved_ = 0;
+};
+
+/// What the snapped input moved, on top of what its rounding did.
+void add_to_report(const SnappedInput& snapped, const RoundingReport& first, unsigned rounds,
+                   RoundingReport& report) {
+    report.naive_contacts = first.naive_contacts;
+    report.rounds += rounds;
+    report.max_move += snapped.largest_move();
+    report.deviation = (report.deviation + snapped.largest_move()) * (1 + 0x1p-52);
+    report.moved_input_vertices += snapped.moved();
+}
+
+/// Arranges the input anew with snapped vertices, ever coarser, until the doubles are conforming.
+Result<RoundedMesh> snap_input(const Arrangement& a, RoundedMesh first,
+                               const RoundingOptions& options, const Run& run) {
+    SnappedInput snapped(a);
+    snapped.choose(first);
+    unsigned rounds = first.report.rounds;
+    for (const int digits : coarse_digits)
+        for (unsigned w = 0; w < widenings && rounds < options.max_rounds; ++w) {
+            auto again = arrange(snapped.surfaces(digits), {}, run);
+            if (!again) return again.error();
+            again.value().surfaces = a.surfaces;
+            auto rounded = Rounding(again.value(), options, run)();
+            if (!rounded) return rounded;
+            ++rounds;
+            if (rounded.value().report.clean) {
+                add_to_report(snapped, first.report, rounds, rounded.value().report);
+                return rounded;
+            }
+            if (!snapped.choose(rounded.value())) break;
+        }
+    return first;
+}
+
+} // namespace
+
+Result<RoundedMesh> round_to_doubles(const Arrangement& arrangement, const RoundingOptions& options,
+                                     const Run& run) {
     try {
-        return Rounding(arrangement, options, run)();
+        auto rounded = Rounding(arrangement, options, run)();
+        if (!rounded || rounded.value().report.clean || options.max_rounds == 0) return rounded;
+        return snap_input(arrangement, std::move(rounded).value(), options, run);
     } catch (const std::bad_alloc&) {
         return Error{ErrorCode::out_of_memory, "not enough memory for the rounding", ""};
     } catch (const std::logic_error& broken) {

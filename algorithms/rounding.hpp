@@ -30,19 +30,19 @@ struct RoundingOptions {
 };
 
 struct RoundingReport {
-    bool clean = false;                ///< conforming, by exact check of the doubles
-    unsigned rounds = 0;               ///< of snapping
-    std::size_t naive_contacts = 0;    ///< pairs that met improperly when all was nearest
+    bool clean = false;                    ///< conforming, by exact check of the doubles
+    unsigned rounds = 0;                   ///< of snapping
+    std::size_t naive_contacts = 0;        ///< pairs that met improperly when all was nearest
     std::vector<ImproperContact> contacts; ///< left at the end; triangles of the mesh
-    double max_move = 0;               ///< no vertex is farther from its exact point; unit of the
-                                       ///< input
-    double deviation = 0;              ///< no point of the mesh is farther from the exact surfaces,
-                                       ///< nor the reverse, but for vanished parts; >= max_move
-    std::array<std::size_t, 32> moves{}; ///< vertices by move: [0] none, [k] from 10^(k - 24) on
-    std::size_t moved_input_vertices = 0;  ///< input vertices that had to give way
-    std::size_t merged_vertices = 0;       ///< distinct points that became one
-    std::size_t collapsed_triangles = 0;   ///< lost their area
-    std::vector<std::uint32_t> vanished;   ///< input triangles of which nothing is left, ascending
+    double max_move = 0;  ///< no vertex is farther from its exact point; unit of the
+                          ///< input
+    double deviation = 0; ///< no point of the mesh is farther from the exact surfaces,
+                          ///< nor the reverse, but for vanished parts; >= max_move
+    std::array<std::size_t, 32> moves{};  ///< vertices by move: [0] none, [k] from 10^(k - 24) on
+    std::size_t moved_input_vertices = 0; ///< input vertices that had to give way
+    std::size_t merged_vertices = 0;      ///< distinct points that became one
+    std::size_t collapsed_triangles = 0;  ///< lost their area
+    std::vector<std::uint32_t> vanished;  ///< input triangles of which nothing is left, ascending
 };
 
 /// The mesh of doubles, with regions, parents and intersection edges, and how it came about.
@@ -52,7 +52,8 @@ struct RoundedMesh {
     RoundingReport report;
 };
 
-/// Errors: interrupted, out_of_memory, bad_number (a constructed point is beyond the largest double).
+/// Errors: interrupted, out_of_memory, bad_number (a constructed point is beyond the largest
+/// double).
 Result<RoundedMesh> round_to_doubles(const Arrangement& arrangement,
                                      const RoundingOptions& options = {}, const Run& run = {});
 

@@ -64,8 +64,8 @@ void RoundingState::add_point(const Point3& p, double moved) {
 
 void RoundingState::move_point(std::size_t v, const Point3& to) {
     const Point3& from = points[v];
-    const double d = length_bound(std::fabs(to.x - from.x), std::fabs(to.y - from.y),
-                                  std::fabs(to.z - from.z));
+    const double d =
+        length_bound(std::fabs(to.x - from.x), std::fabs(to.y - from.y), std::fabs(to.z - from.z));
     points[v] = to;
     move[v] = (move[v] + d) * (1 + 0x1p-52);
     is_dirty[v] = true;

@@ -19,14 +19,14 @@ namespace terrane {
 /// triangles without a dirty corner meet properly.
 struct RoundingState {
     std::vector<Point3> points;
-    std::vector<double> move;         ///< per point: at most this far from its exact point
-    std::vector<bool> is_dirty;       ///< per point
+    std::vector<double> move;   ///< per point: at most this far from its exact point
+    std::vector<bool> is_dirty; ///< per point
     std::vector<Triangle> triangles;
-    Lists<std::uint32_t> parents_of;  ///< per triangle, sorted
-    std::size_t input_vertices = 0;   ///< the first points are input vertices
-    std::size_t merged = 0;           ///< points that became another one
-    std::size_t collapsed = 0;        ///< triangles that lost their area
-    double deviation = 0;             ///< sum over the ended rounds of the largest move
+    Lists<std::uint32_t> parents_of; ///< per triangle, sorted
+    std::size_t input_vertices = 0;  ///< the first points are input vertices
+    std::size_t merged = 0;          ///< points that became another one
+    std::size_t collapsed = 0;       ///< triangles that lost their area
+    double deviation = 0;            ///< sum over the ended rounds of the largest move
 
     [[nodiscard]] std::vector<std::uint32_t> dirty_triangles() const;
 

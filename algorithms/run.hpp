@@ -9,8 +9,8 @@ namespace terrane {
 
 /// How a stage is carried out; never what it computes. Passed down by const&.
 struct Run {
-    unsigned threads = 1;    ///< >= 1; the result does not depend on it
-    std::stop_token stop{};  ///< requested: the stage ends with ErrorCode::interrupted
+    unsigned threads = 1;   ///< >= 1; the result does not depend on it
+    std::stop_token stop{}; ///< requested: the stage ends with ErrorCode::interrupted
     /// Called from the calling thread between steps: stage name and its share done, in [0, 1].
     std::function<void(std::string_view stage, double share)> progress{};
 };

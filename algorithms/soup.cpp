@@ -104,6 +104,7 @@ Soup merge_surfaces(std::span<const Surface> surfaces) {
 
     const auto first = first_at_same_place(soup.points);
     soup.triangles.reserve(triangles);
+    soup.input_corners.reserve(triangles);
     soup.input_of.reserve(triangles);
     soup.surface_of.reserve(triangles);
     for (std::uint32_t s = 0; s < surfaces.size(); ++s) {
@@ -111,6 +112,7 @@ Soup merge_surfaces(std::span<const Surface> surfaces) {
         std::uint32_t input = soup.first_input_triangle[s];
         for (const Triangle& t : surfaces[s].triangles) {
             const Triangle merged{first[base + t[0]], first[base + t[1]], first[base + t[2]]};
+            soup.input_corners.push_back(merged);
             if (has_area(soup.points, merged)) {
                 soup.triangles.push_back(merged);
                 soup.input_of.push_back(input);
@@ -130,10 +132,9 @@ std::vector<Box> boxes_of(std::span<const Point3> points, std::span<const Triang
     boxes.reserve(triangles.size());
     for (const Triangle& t : triangles) {
         const Point3 &a = points[t[0]], &b = points[t[1]], &c = points[t[2]];
-        boxes.push_back({{std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}),
-                          std::min({a.z, b.z, c.z})},
-                         {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}),
-                          std::max({a.z, b.z, c.z})}});
+        boxes.push_back(
+            {{std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::min({a.z, b.z, c.z})},
+             {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}), std::max({a.z, b.z, c.z})}});
     }
     return boxes;
 }

@@ -9,8 +9,12 @@
 namespace terrane {
 namespace {
 
-constexpr unsigned next(unsigned i) { return i == 2 ? 0 : i + 1; }
-constexpr unsigned previous(unsigned i) { return i == 0 ? 2 : i - 1; }
+constexpr unsigned next(unsigned i) {
+    return i == 2 ? 0 : i + 1;
+}
+constexpr unsigned previous(unsigned i) {
+    return i == 0 ? 2 : i - 1;
+}
 
 } // namespace
 
@@ -236,8 +240,8 @@ bool FaceTriangulation::must_flip(Side s) const {
 // Ties: as if the point of highest rank were lifted by an infinitesimal amount, the next one by an
 // infinitely smaller one, and so on. The first that matters decides.
 bool FaceTriangulation::in_perturbed_circle(const Cell& c, Local d) const {
-    const Sign s = store_->in_circle(axis_, points_[c.v[0]], points_[c.v[1]], points_[c.v[2]],
-                                     points_[d]);
+    const Sign s =
+        store_->in_circle(axis_, points_[c.v[0]], points_[c.v[1]], points_[c.v[2]], points_[d]);
     if (s != Sign::Zero) return s == Sign::Positive;
     std::array<Local, 4> order{c.v[0], c.v[1], c.v[2], d};
     std::sort(order.begin(), order.end(),

@@ -21,13 +21,13 @@ using Segment = std::array<PointIndex, 2>;
 
 /// What one triangle must be divided by. Points are distinct; equal indices are equal points.
 struct FaceInput {
-    Axis axis = Axis::z;                                 ///< see projection_axis
-    std::array<PointIndex, 3> corners{};                 ///< of either orientation
-    std::array<std::vector<PointIndex>, 3> edge_points;  ///< on the open edge i, from corner i to
-                                                         ///< corner i + 1, in this order
-    std::vector<PointIndex> inner_points;                ///< inside, in any order, each once
-    std::vector<Segment> segments;                       ///< between points named above; they do not
-                                                         ///< cross other than in these points
+    Axis axis = Axis::z;                                ///< see projection_axis
+    std::array<PointIndex, 3> corners{};                ///< of either orientation
+    std::array<std::vector<PointIndex>, 3> edge_points; ///< on the open edge i, from corner i to
+                                                        ///< corner i + 1, in this order
+    std::vector<PointIndex> inner_points;               ///< inside, in any order, each once
+    std::vector<Segment> segments;                      ///< between points named above; they do not
+                                                        ///< cross other than in these points
 
     void clear();
 };
@@ -48,8 +48,8 @@ private:
     static constexpr Local none = UINT32_MAX;
 
     struct Cell {
-        std::array<Local, 3> v{}; ///< counterclockwise in the projection
-        std::array<Local, 3> n{}; ///< neighbour across the edge opposite to v[i], or none
+        std::array<Local, 3> v{};    ///< counterclockwise in the projection
+        std::array<Local, 3> n{};    ///< neighbour across the edge opposite to v[i], or none
         std::array<bool, 3> fixed{}; ///< that edge is a constraint
     };
     struct Side { ///< the edge of a cell opposite to v[i]

@@ -6,8 +6,9 @@
 
 namespace terrane {
 
-/// The coordinate that a projection drops: x projects (x, y, z) to (y, z), y to (z, x), z to (x, y).
-/// So a triangle whose normal has a positive coordinate `axis` is counterclockwise in the projection.
+/// The coordinate that a projection drops: x projects (x, y, z) to (y, z), y to (z, x), z to (x,
+/// y). So a triangle whose normal has a positive coordinate `axis` is counterclockwise in the
+/// projection.
 enum class Axis : std::uint8_t { x, y, z };
 
 /// How a point follows from input vertices, in one step (depth one): an implicit point.
@@ -26,8 +27,8 @@ struct Construction {
     enum class Kind : std::uint8_t { input, line_plane, three_planes, line_line };
 
     Kind kind = Kind::input;
-    Axis axis = Axis::x;                ///< line_line only
-    std::array<std::uint32_t, 9> v{};   ///< input vertices
+    Axis axis = Axis::x;              ///< line_line only
+    std::array<std::uint32_t, 9> v{}; ///< input vertices
 
     friend bool operator==(const Construction&, const Construction&) = default;
     friend auto operator<=>(const Construction&, const Construction&) = default;

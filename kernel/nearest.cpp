@@ -4,7 +4,6 @@
 #include <gmp.h>
 #include <mpfr.h>
 
-
 namespace terrane {
 namespace {
 

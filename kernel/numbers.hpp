@@ -34,7 +34,9 @@ inline std::optional<Sign> certain_sign(const Interval& i) {
     return std::nullopt;
 }
 
-inline Sign exact_sign(const Exact& e) { return static_cast<Sign>(static_cast<int>(CGAL::sign(e))); }
+inline Sign exact_sign(const Exact& e) {
+    return static_cast<Sign>(static_cast<int>(CGAL::sign(e)));
+}
 
 /// Which stage decided how many predicates.
 struct PredicateCounts {

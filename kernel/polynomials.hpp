@@ -14,9 +14,13 @@ namespace terrane::polynomial {
 struct One {
     friend One operator*(One, One) { return {}; }
     template <class N>
-    friend const N& operator*(const N& n, One) { return n; }
+    friend const N& operator*(const N& n, One) {
+        return n;
+    }
     template <class N>
-    friend const N& operator*(One, const N& n) { return n; }
+    friend const N& operator*(One, const N& n) {
+        return n;
+    }
 };
 
 /// N: number type, W: type of the weight (N or One).
@@ -51,9 +55,12 @@ Vector<N> difference(const Coordinates<N, V>& a, const Coordinates<N, W>& b) {
 template <class N, class V, class W>
 Vector2<N> difference(Axis axis, const Coordinates<N, V>& a, const Coordinates<N, W>& b) {
     switch (axis) {
-    case Axis::x: return {a.y * b.w - b.y * a.w, a.z * b.w - b.z * a.w};
-    case Axis::y: return {a.z * b.w - b.z * a.w, a.x * b.w - b.x * a.w};
-    default: return {a.x * b.w - b.x * a.w, a.y * b.w - b.y * a.w};
+    case Axis::x:
+        return {a.y * b.w - b.y * a.w, a.z * b.w - b.z * a.w};
+    case Axis::y:
+        return {a.z * b.w - b.z * a.w, a.x * b.w - b.x * a.w};
+    default:
+        return {a.x * b.w - b.x * a.w, a.y * b.w - b.y * a.w};
     }
 }
 
@@ -131,9 +138,12 @@ template <class N>
 Vector<N> normal_along(Axis axis, const Vector<N>& d) {
     const N zero(0.0);
     switch (axis) {
-    case Axis::x: return {zero, d.z, -d.y};
-    case Axis::y: return {-d.z, zero, d.x};
-    default: return {d.y, -d.x, zero};
+    case Axis::x:
+        return {zero, d.z, -d.y};
+    case Axis::y:
+        return {-d.z, zero, d.x};
+    default:
+        return {d.y, -d.x, zero};
     }
 }
 
@@ -169,7 +179,8 @@ Homogeneous<N> construct(const Construction& how, const Input& input) {
                                           at(5), at(6), at(7), at(8)};
         return planes_meet(c);
     }
-    default: return {N(0.0), N(0.0), N(0.0), N(1.0)};
+    default:
+        return {N(0.0), N(0.0), N(0.0), N(1.0)};
     }
 }
 

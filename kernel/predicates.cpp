@@ -58,9 +58,12 @@ struct Uv {
 
 Uv project(Axis axis, const Point3& p) {
     switch (axis) {
-    case Axis::x: return {p.y, p.z};
-    case Axis::y: return {p.z, p.x};
-    default: return {p.x, p.y};
+    case Axis::x:
+        return {p.y, p.z};
+    case Axis::y:
+        return {p.z, p.x};
+    default:
+        return {p.x, p.y};
     }
 }
 
@@ -75,9 +78,9 @@ std::optional<Sign> static_turn2d(const Uv& a, const Uv& b, const Uv& c, const U
 }
 
 // With m the largest difference: a minor is at most 2 m^2 and off by 8 unit m^2, a lifted
-// coordinate at most 2 m^2 and off by 8 unit m^2 (two squares off by 3 each, a sum of size 2); their
-// product at most 4 m^4, off by 36 unit m^4; three of them 108, two additions (8 + 12). 128 in all;
-// 132 covers the rest.
+// coordinate at most 2 m^2 and off by 8 unit m^2 (two squares off by 3 each, a sum of size 2);
+// their product at most 4 m^4, off by 36 unit m^4; three of them 108, two additions (8 + 12). 128
+// in all; 132 covers the rest.
 std::optional<Sign> static_in_circle(const Uv& a, const Uv& b, const Uv& c, const Uv& d) {
     const double au = a.u - d.u, av = a.v - d.v, bu = b.u - d.u, bv = b.v - d.v;
     const double cu = c.u - d.u, cv = c.v - d.v;
@@ -131,8 +134,8 @@ Sign orient3d(const Point3& a, const Point3& b, const Point3& c, const Point3& d
 }
 
 Sign turn2d(Axis axis, const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
-    if (const auto sign = static_turn2d(project(axis, a), project(axis, b), project(axis, c),
-                                        project(axis, d))) {
+    if (const auto sign =
+            static_turn2d(project(axis, a), project(axis, b), project(axis, c), project(axis, d))) {
         ++predicate_counts().static_filter;
         return *sign;
     }

@@ -29,8 +29,8 @@ Sign orient3d(const Point3& a, const Point3& b, const Point3& c, const Point3& d
 /// Positive iff a, b, c turn left in the projection along `axis`.
 Sign orient2d(Axis axis, const Point3& a, const Point3& b, const Point3& c);
 
-/// Positive iff direction c d lies to the left of direction a b in the projection; Zero iff they are
-/// parallel there. turn2d(axis, a, b, a, c) = orient2d(axis, a, b, c).
+/// Positive iff direction c d lies to the left of direction a b in the projection; Zero iff they
+/// are parallel there. turn2d(axis, a, b, a, c) = orient2d(axis, a, b, c).
 Sign turn2d(Axis axis, const Point3& a, const Point3& b, const Point3& c, const Point3& d);
 
 /// Positive iff d lies inside the circle through a, b, c (counterclockwise in the projection).

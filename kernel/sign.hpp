@@ -8,7 +8,9 @@ namespace terrane {
 /// The sign of an exact real number. "Not sure" is std::optional<Sign>, never Zero.
 enum class Sign : std::int8_t { Negative = -1, Zero = 0, Positive = 1 };
 
-constexpr Sign operator-(Sign s) { return static_cast<Sign>(-static_cast<int>(s)); }
+constexpr Sign operator-(Sign s) {
+    return static_cast<Sign>(-static_cast<int>(s));
+}
 constexpr Sign operator*(Sign a, Sign b) {
     return static_cast<Sign>(static_cast<int>(a) * static_cast<int>(b));
 }

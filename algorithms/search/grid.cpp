@@ -8,7 +8,9 @@
 namespace terrane::search {
 namespace {
 
-double centre(const Box& b, unsigned k) { return b.low[k] / 2 + b.high[k] / 2; }
+double centre(const Box& b, unsigned k) {
+    return b.low[k] / 2 + b.high[k] / 2;
+}
 
 // Cells are capped at twice the number of boxes: halving the largest axis count costs time only.
 void cap(std::array<double, 3>& cells, double most) {

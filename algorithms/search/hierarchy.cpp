@@ -6,7 +6,9 @@
 namespace terrane::search {
 namespace {
 
-double centre(const Box& b, unsigned k) { return b.low[k] / 2 + b.high[k] / 2; }
+double centre(const Box& b, unsigned k) {
+    return b.low[k] / 2 + b.high[k] / 2;
+}
 
 } // namespace
 

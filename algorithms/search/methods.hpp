@@ -28,10 +28,10 @@ private:
     std::span<const Box> boxes_;
 };
 
-/// Paper 2.1: cells as large as the largest box (equation 3), each box stored in the one cell of its
-/// centre (7, 8). A query looks in all cells that the query box, widened by half a cell, overlaps:
-/// a box that overlaps the query box has its centre no farther from it than half its own size, and
-/// no box is larger than a cell.
+/// Paper 2.1: cells as large as the largest box (equation 3), each box stored in the one cell of
+/// its centre (7, 8). A query looks in all cells that the query box, widened by half a cell,
+/// overlaps: a box that overlaps the query box has its centre no farther from it than half its own
+/// size, and no box is larger than a cell.
 class Grid {
 public:
     explicit Grid(std::span<const Box> boxes);
@@ -66,8 +66,8 @@ private:
     std::vector<Stored> stored_;        ///< by cell
 };
 
-/// Paper 2.2, Table 1: a binary tree over v = (low x, low y, low z, high x, high y, high z), level j
-/// split at the median of v[j mod 6]. Implicit in one array: the subtree of [first, last) has its
+/// Paper 2.2, Table 1: a binary tree over v = (low x, low y, low z, high x, high y, high z), level
+/// j split at the median of v[j mod 6]. Implicit in one array: the subtree of [first, last) has its
 /// root at the middle, the left part before it, the right one behind.
 class AbTree {
 public:
@@ -108,8 +108,8 @@ private:
     std::vector<Node> nodes_;
 };
 
-/// A bounding volume hierarchy: ranges of boxes halved at the median of their centres along the axis
-/// on which these are spread most, down to a few boxes.
+/// A bounding volume hierarchy: ranges of boxes halved at the median of their centres along the
+/// axis on which these are spread most, down to a few boxes.
 class Hierarchy {
 public:
     explicit Hierarchy(std::span<const Box> boxes);
@@ -138,8 +138,8 @@ private:
 
     struct Node {
         Box box;
-        std::uint32_t first, last;   ///< range of stored_
-        std::uint32_t second_child;  ///< 0: a leaf; the first child follows its parent
+        std::uint32_t first, last;  ///< range of stored_
+        std::uint32_t second_child; ///< 0: a leaf; the first child follows its parent
     };
     struct Stored {
         Box box;

@@ -52,18 +52,22 @@ std::vector<CandidatePair> candidate_pairs_of(std::span<const Box> boxes,
     std::vector<Box> chosen;
     chosen.reserve(active.size());
     for (const std::uint32_t i : active) chosen.push_back(boxes[i]);
-    if (choose(chosen) == Search::grid)
-        return active_pairs<search::Grid>(boxes, chosen, active);
+    if (choose(chosen) == Search::grid) return active_pairs<search::Grid>(boxes, chosen, active);
     return active_pairs<search::Hierarchy>(boxes, chosen, active);
 }
 
 std::string_view name_of(Search method) {
     switch (method) {
-    case Search::grid: return "grid";
-    case Search::ab_balanced: return "ab-balanced";
-    case Search::hierarchy: return "hierarchy";
-    case Search::brute: return "brute";
-    default: return "auto";
+    case Search::grid:
+        return "grid";
+    case Search::ab_balanced:
+        return "ab-balanced";
+    case Search::hierarchy:
+        return "hierarchy";
+    case Search::brute:
+        return "brute";
+    default:
+        return "auto";
     }
 }
 
@@ -83,10 +87,14 @@ Search choose(std::span<const Box> boxes) {
 std::vector<CandidatePair> candidate_pairs(std::span<const Box> boxes,
                                            std::span<const std::uint32_t> groups, Search method) {
     switch (method == Search::automatic ? choose(boxes) : method) {
-    case Search::brute: return all_pairs<search::Brute>(boxes, groups);
-    case Search::hierarchy: return all_pairs<search::Hierarchy>(boxes, groups);
-    case Search::ab_balanced: return all_pairs<search::AbTree>(boxes, groups);
-    default: return all_pairs<search::Grid>(boxes, groups);
+    case Search::brute:
+        return all_pairs<search::Brute>(boxes, groups);
+    case Search::hierarchy:
+        return all_pairs<search::Hierarchy>(boxes, groups);
+    case Search::ab_balanced:
+        return all_pairs<search::AbTree>(boxes, groups);
+    default:
+        return all_pairs<search::Grid>(boxes, groups);
     }
 }
 
