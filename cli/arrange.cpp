@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <memory>
+
+#include <fmt/format.h>
+
+#include <terrane/algorithms/stopwatch.hpp>
+#include <terrane/cli/command.hpp>
+#include <terrane/cli/pipeline.hpp>
+
+namespace terrane::cli {
+namespace {
+
+constexpr std::size_t most_pairs = 20; ///< named on the terminal
+
+struct ArrangeCommand {
+    FileOptions files;
+    ArrangeSettings settings;
+    bool keep_unverified = false;
+};
+
+constexpr auto footer =
+    R"(Writes .vtp .obj .ts .ply .off .stl .msh; -o may be repeated. The mesh is written only if its
+doubles are conforming, by an exact check of the doubles themselves. Otherwise the pairs of
+triangles in the way are named, and the exit status is 1.
+
+Examples:
+  terrane arrange horizons.ts faults.ts -o model.vtp
+  terrane arrange *.obj -o model.obj -o model.vtp --stats model.json
+  terrane arrange --format ts --output-format obj - -o - < in.ts > out.obj)";
+
+/// Binary STL holds other numbers than those that were verified: they are checked as well.
+Result<bool> stl_is_conforming(const Mesh& mesh, const FileOptions& files,
+                               const std::vector<Output>& outputs, Session& session) {
+    for (const Output& output : outputs) {
+        if (output.format != Format::stl || files.ascii) continue;
+        session.begin("check float32", Phase::computing);
+        const auto flaws = float32_flaws(mesh, session.run());
+        session.end_stage();
+        if (!flaws) return flaws.error();
+        if (flaws.value() == 0) continue;
+        warn(fmt::format("{}: in float32, all that binary STL holds, the mesh has {}; --ascii or "
+                         "another format keeps the doubles",
+                         output.path, counted(flaws.value(), "flaw")));
+        return false;
+    }
+    return true;
+}
+
+Result<ExitStatus> arrange_files(const ArrangeCommand& command, Session& session) {
+    Stopwatch total;
+    const FileOptions& files = command.files;
+    const auto outputs = plan_outputs(files, OutputKind::surfaces);
+    if (!outputs) return outputs.error();
+    const auto inputs = read_inputs(files, session);
+    if (!inputs) return inputs.error();
+    Json statistics = statistics_of(inputs.value());
+
+    const auto arranged = arrange_and_round(inputs.value(), command.settings, session, statistics);
+    if (!arranged) return arranged.error();
+    print(summary_stream(files), summary(inputs.value(), arranged.value()));
+    const Mesh& mesh = arranged.value().rounded.mesh;
+    bool clean = arranged.value().rounded.report.clean;
+    if (!clean) print(stderr, offending_pairs(inputs.value(), arranged.value(), most_pairs));
+    if (clean) {
+        const auto narrow = stl_is_conforming(mesh, files, outputs.value(), session);
+        if (!narrow) return narrow.error();
+        clean = narrow.value();
+    }
+    if (session.stopped()) return Error{ErrorCode::interrupted, "", ""};
+
+    Stopwatch writing;
+    const bool keep = clean || command.keep_unverified;
+    for (const Output& output : outputs.value()) {
+        if (!keep) break;
+        const auto written = write_output(mesh, output, files.ascii, session);
+        if (!written) return written.error();
+        print(summary_stream(files), output.path == "-" ? "" : "wrote " + output.path + "\n");
+    }
+    if (!keep) print(stderr, "terrane: nothing written (see --keep-unverified)\n");
+    statistics["seconds"]["write"] = writing.lap();
+    const auto status = write_statistics(statistics, files.stats, total.lap());
+    if (!status) return status.error();
+    return clean ? ExitStatus::done : ExitStatus::negative;
+}
+
+} // namespace
+
+Command arrange_command(CLI::App& program) {
+    auto options = std::make_shared<ArrangeCommand>();
+    auto* app =
+        program.add_subcommand("arrange", "Make one conforming mesh of surfaces that cross");
+    add_inputs(*app, options->files);
+    add_output(*app, options->files, "File for the mesh; - is standard output");
+    add_settings(*app, options->settings);
+    app->add_flag(
+        "--keep-unverified", options->keep_unverified,
+        "Write the mesh even where its doubles are not conforming (status 1 all the same)");
+    app->add_flag("--ascii", options->files.ascii, "STL as text, with doubles, not float32");
+    add_threads(*app, options->files);
+    add_stats(*app, options->files);
+    app->footer(footer);
+    return {app, [options] {
+                Session session(options->files.threads);
+                const auto status = arrange_files(*options, session);
+                return status ? status.value() : fail(status.error());
+            }};
+}
+
+} // namespace terrane::cli

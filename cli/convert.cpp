@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <memory>
+
+#include <terrane/cli/command.hpp>
+#include <terrane/cli/files.hpp>
+
+namespace terrane::cli {
+namespace {
+
+struct ConvertCommand {
+    FileOptions files;
+    std::string input, output;
+};
+
+constexpr auto footer =
+    R"(Nothing is arranged, merged or repaired: the same triangles with the same coordinates, bit by bit.
+Binary STL holds float32 only, which is said. Reads .ts .ml .obj .off .stl .ply, writes .vtp .obj
+.ts .ply .off .stl .msh.
+
+Examples:
+  terrane convert faults.ts faults.obj
+  terrane convert --format ts --output-format vtp - - < faults.ts > faults.vtp)";
+
+/// The surfaces one after the other: each triangle in one surface, no vertex shared between two.
+Mesh concatenate(const std::vector<Surface>& surfaces) {
+    Mesh mesh;
+    for (const Surface& s : surfaces) {
+        const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+        const auto number = static_cast<std::uint32_t>(mesh.surfaces.size());
+        mesh.surfaces.push_back({s.name, s.role});
+        mesh.vertices.insert(mesh.vertices.end(), s.vertices.begin(), s.vertices.end());
+        for (const Triangle& t : s.triangles) {
+            mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+            mesh.surfaces_of.push_back(std::array{number});
+        }
+    }
+    return mesh;
+}
+
+bool loses_digits(const Mesh& mesh) {
+    const auto narrow = [](double x) { return static_cast<double>(static_cast<float>(x)) != x; };
+    for (const Point3& p : mesh.vertices)
+        if (narrow(p.x) || narrow(p.y) || narrow(p.z)) return true;
+    return false;
+}
+
+Result<ExitStatus> convert_file(const ConvertCommand& command, Session& session) {
+    FileOptions files = command.files;
+    files.inputs = {command.input};
+    files.outputs = {command.output};
+    const auto outputs = plan_outputs(files, OutputKind::surfaces);
+    if (!outputs) return outputs.error();
+    const auto inputs = read_inputs(files, session);
+    if (!inputs) return inputs.error();
+    const Mesh mesh = concatenate(inputs.value().surfaces);
+    const Output& output = outputs.value().front();
+    const auto written = write_output(mesh, output, files.ascii, session);
+    if (!written) return written.error();
+    if (output.format == Format::stl && !files.ascii && loses_digits(mesh))
+        warn(output.path + ": coordinates were rounded to float32, all that binary STL holds; "
+                           "--ascii or another format keeps them");
+    return ExitStatus::done;
+}
+
+} // namespace
+
+Command convert_command(CLI::App& program) {
+    auto options = std::make_shared<ConvertCommand>();
+    auto* app = program.add_subcommand("convert", "Write surfaces in another format, unchanged");
+    app->add_option("IN", options->input, "File with surfaces; - is standard input")
+        ->required()
+        ->type_name("FILE");
+    app->add_option("OUT", options->output, "File to write; - is standard output")
+        ->required()
+        ->type_name("FILE");
+    app->add_option("--format", options->files.format,
+                    "Format of whatever is -: ts, ml, obj, off, stl, ply, vtp, msh")
+        ->type_name("FORMAT");
+    app->add_option("--output-format", options->files.output_format,
+                    "Format of OUT, where its extension does not tell")
+        ->type_name("FORMAT");
+    app->add_flag("--ascii", options->files.ascii, "STL as text, with doubles, not float32");
+    app->footer(footer);
+    return {app, [options] {
+                Session session(1);
+                const auto status = convert_file(*options, session);
+                return status ? status.value() : fail(status.error());
+            }};
+}
+
+} // namespace terrane::cli

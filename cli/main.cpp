@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <array>
+#include <csignal>
+#include <cstdlib>
+#include <exception>
+#include <new>
+#include <string>
+
+#include <gmp.h>
+#include <unistd.h>
+
+#include <terrane/cli/command.hpp>
+
+namespace terrane::cli {
+namespace {
+
+constexpr auto description =
+    "Terrane: exact conforming meshes of geological surfaces that cross, touch and overlap.";
+
+constexpr auto footer =
+    R"(Exit status: 0 done; 1 the answer is "no" (findings, or no conforming mesh of doubles); 2 bad
+input or usage, cannot read or write, interrupted; 3 internal, out of memory. Where a file is not
+written completely, it is not written at all.
+
+Start here:
+  terrane arrange horizons.ts faults.ts -o model.vtp   (look at it in ParaView)
+  terrane COMMAND --help)";
+
+#ifdef TERRANE_HAS_TETGEN
+constexpr auto licence = "contains TetGen: under the AGPL-3.0-or-later as a whole";
+#else
+constexpr auto licence = "LGPL-3.0-or-later; built without TetGen";
+#endif
+
+/// GMP ends the process by abort() where memory is short; here with a word and a status.
+[[noreturn]] void out_of_memory() {
+    constexpr std::string_view message = "terrane: out of memory\n";
+    [[maybe_unused]] const auto written = write(STDERR_FILENO, message.data(), message.size());
+    _exit(static_cast<int>(ExitStatus::internal));
+}
+
+void* gmp_allocate(std::size_t size) {
+    void* const memory = std::malloc(size);
+    if (memory == nullptr) out_of_memory();
+    return memory;
+}
+
+void* gmp_reallocate(void* old, std::size_t, std::size_t size) {
+    void* const memory = std::realloc(old, size);
+    if (memory == nullptr) out_of_memory();
+    return memory;
+}
+
+void gmp_free(void* memory, std::size_t) {
+    std::free(memory);
+}
+
+ExitStatus run(int argc, char** argv) {
+    CLI::App program(description, "terrane");
+    program.set_version_flag("--version", std::string("terrane " TERRANE_VERSION "\n") + licence);
+    program.require_subcommand(1);
+    program.footer(footer);
+    const std::array commands{arrange_command(program), check_command(program),
+                              tetrahedralize_command(program), convert_command(program)};
+    try {
+        program.parse(argc, argv);
+    } catch (const CLI::ParseError& stop) {
+        const bool asked = program.exit(stop) == 0; // --help, --version
+        return asked ? ExitStatus::done : ExitStatus::bad_input;
+    }
+    for (const Command& command : commands)
+        if (command.options->parsed()) return command.run();
+    return ExitStatus::bad_input;
+}
+
+ExitStatus run_guarded(int argc, char** argv) {
+    try {
+        return finish(run(argc, argv));
+    } catch (const std::bad_alloc&) {
+        return fail({ErrorCode::out_of_memory, "out of memory", ""});
+    } catch (const std::exception& broken) {
+        return fail({ErrorCode::internal, broken.what(), "internal error"});
+    }
+}
+
+} // namespace
+} // namespace terrane::cli
+
+int main(int argc, char** argv) {
+    std::signal(SIGPIPE, SIG_IGN); // a closed pipe is a write that fails
+    mp_set_memory_functions(terrane::cli::gmp_allocate, terrane::cli::gmp_reallocate,
+                            terrane::cli::gmp_free);
+    return static_cast<int>(terrane::cli::run_guarded(argc, argv));
+}

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/cli/pipeline.hpp>
+
+#include <algorithm>
+#include <map>
+
+#include <fmt/format.h>
+
+#include <terrane/algorithms/check.hpp>
+#include <terrane/algorithms/stopwatch.hpp>
+#include <terrane/cli/console.hpp>
+
+namespace terrane::cli {
+namespace {
+
+constexpr unsigned most_rounds = 8;
+constexpr std::size_t most_areas = 6; ///< printed per surface
+
+/// What the summary says of one surface.
+struct SurfaceTally {
+    std::size_t triangles = 0; ///< of the output
+    std::vector<double> areas; ///< of its regions
+};
+
+std::vector<SurfaceTally> tally(const Inputs& inputs, const RoundedMesh& rounded) {
+    std::vector<SurfaceTally> tallies(inputs.surfaces.size());
+    for (const auto s : rounded.mesh.surfaces_of.values) ++tallies[s].triangles;
+    for (const Region& r : rounded.regions) tallies[r.surface].areas.push_back(r.area);
+    for (auto& t : tallies) std::sort(t.areas.rbegin(), t.areas.rend());
+    return tallies;
+}
+
+std::string areas_text(const std::vector<double>& areas) {
+    std::string text;
+    for (std::size_t i = 0; i < std::min(areas.size(), most_areas); ++i)
+        text += fmt::format("{}{:.4g}", i > 0 ? ", " : "", areas[i]);
+    return areas.size() > most_areas ? text + ", ..." : text;
+}
+
+std::string surface_table(const Inputs& inputs, const RoundedMesh& rounded) {
+    std::size_t width = 7;
+    for (const auto& label : inputs.labels) width = std::max(width, label.size());
+    auto text = fmt::format("  {:<{}}  {:>9}  {:>9}  {:>7}  areas of the regions\n", "surface",
+                            width, "triangles", "-> output", "regions");
+    const auto tallies = tally(inputs, rounded);
+    for (std::size_t s = 0; s < tallies.size(); ++s)
+        text += fmt::format("  {:<{}}  {:>9}  {:>9}  {:>7}  {}\n", inputs.labels[s], width,
+                            inputs.surfaces[s].triangles.size(), tallies[s].triangles,
+                            tallies[s].areas.size(), areas_text(tallies[s].areas));
+    return text;
+}
+
+std::string set_aside(const Arrangement& a) {
+    if (a.degenerate.empty() && a.inputs.duplicates.empty()) return {};
+    return fmt::format("set aside: {} without area, {} that repeat another\n",
+                       counted(a.degenerate.size(), "triangle"), a.inputs.duplicates.size());
+}
+
+std::string rounding_text(const RoundingReport& r) {
+    auto text =
+        fmt::format("doubles: no vertex is more than {:.3g} from its exact place", r.max_move);
+    if (r.rounds > 0)
+        text += fmt::format("; {} of snapping, for {} that met improperly",
+                            counted(r.rounds, "round"), counted(r.naive_contacts, "pair"));
+    text += '\n';
+    if (r.moved_input_vertices > 0)
+        text += fmt::format("doubles: {} had to give way\n",
+                            r.moved_input_vertices == 1
+                                ? std::string("1 input vertex")
+                                : fmt::format("{} input vertices", r.moved_input_vertices));
+    if (!r.vanished.empty())
+        text += fmt::format("doubles: {} vanished, thinner than the doubles\n",
+                            counted(r.vanished.size(), "input triangle"));
+    text += r.clean ? "verified: the doubles are a conforming mesh, by exact check\n"
+                    : fmt::format("NOT verified: {} of triangles still meet improperly\n",
+                                  counted(r.contacts.size(), "pair"));
+    return text;
+}
+
+Point3 narrowed(const Point3& p) {
+    const auto narrow = [](double x) { return static_cast<double>(static_cast<float>(x)); };
+    return {narrow(p.x), narrow(p.y), narrow(p.z)};
+}
+
+} // namespace
+
+void add_settings(CLI::App& command, ArrangeSettings& settings) {
+    static const std::map<std::string, Search> methods = [] {
+        std::map<std::string, Search> all;
+        for (const auto m : {Search::automatic, Search::grid, Search::ab_balanced,
+                             Search::hierarchy, Search::brute})
+            all.emplace(name_of(m), m);
+        return all;
+    }();
+    command
+        .add_option("--search", settings.search,
+                    "How triangles that may meet are found; the result is the same: "
+                    "auto, grid, ab-balanced, hierarchy, brute (default: auto)")
+        ->transform(CLI::Transformer(methods, CLI::ignore_case).description(""))
+        ->type_name("METHOD");
+    command
+        .add_option("--rounds", settings.rounds,
+                    "At most so many rounds of snapping until the doubles are a conforming mesh; "
+                    "0: only to the nearest double (default: 8)")
+        ->check(CLI::Range(0U, most_rounds).description(""))
+        ->type_name("N");
+}
+
+Result<Arranged> arrange_and_round(const Inputs& inputs, const ArrangeSettings& settings,
+                                   Session& session, Json& statistics) {
+    session.begin("arrange", Phase::computing);
+    auto exact = arrange(inputs.surfaces, {.search = settings.search}, session.run());
+    session.end_stage();
+    if (!exact) return exact.error();
+    add_statistics(statistics, exact.value(), settings.search);
+
+    Stopwatch watch;
+    session.begin("round", Phase::computing);
+    auto rounded = round_to_doubles(exact.value(), {.max_rounds = settings.rounds}, session.run());
+    session.end_stage();
+    if (!rounded) return rounded.error();
+    add_statistics(statistics, rounded.value(), watch.lap());
+    return Arranged{std::move(exact).value(), std::move(rounded).value()};
+}
+
+std::string summary(const Inputs& inputs, const Arranged& arranged) {
+    const Mesh& m = arranged.rounded.mesh;
+    auto text = fmt::format("{}: {} -> {}, {}, {}\n", counted(inputs.surfaces.size(), "surface"),
+                            counted(inputs.triangles, "triangle"), m.triangles.size(),
+                            counted(m.intersection_edges.size(), "intersection edge"),
+                            counted(arranged.rounded.regions.size(), "region"));
+    text += surface_table(inputs, arranged.rounded);
+    text += set_aside(arranged.exact);
+    text += rounding_text(arranged.rounded.report);
+    return text;
+}
+
+std::string offending_pairs(const Inputs& inputs, const Arranged& arranged, std::size_t most) {
+    const auto& first = arranged.exact.inputs.first;
+    const auto& contacts = arranged.rounded.report.contacts;
+    const auto name = [&](std::uint32_t t) {
+        const auto parents = arranged.rounded.mesh.parents_of[t];
+        return fmt::format("output triangle {} (part of {})", t,
+                           triangle_name(parents.front(), first, inputs.labels));
+    };
+    std::string text;
+    for (std::size_t i = 0; i < std::min(most, contacts.size()); ++i) {
+        const ImproperContact& c = contacts[i];
+        text += fmt::format("  {} and {}: {} at {}\n", name(c.triangles[0]), name(c.triangles[1]),
+                            name_of(c.kind), text_of(c.place));
+    }
+    if (contacts.size() > most) text += fmt::format("  and {} more\n", contacts.size() - most);
+    return text;
+}
+
+Result<std::size_t> float32_flaws(const Mesh& mesh, const Run& run) {
+    std::vector<Surface> one(1);
+    for (const Point3& p : mesh.vertices) one[0].vertices.push_back(narrowed(p));
+    one[0].triangles = mesh.triangles;
+    const auto report = check(one, run);
+    if (!report) return report.error();
+    const CheckReport& r = report.value();
+    return r.contacts.size() + r.degenerate.size() + r.repeated.size();
+}
+
+} // namespace terrane::cli

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// What arrange and tetrahedralize share: files to a mesh of doubles, and what is said about it.
+#pragma once
+
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include <terrane/algorithms/arrangement.hpp>
+#include <terrane/algorithms/rounding.hpp>
+#include <terrane/cli/files.hpp>
+#include <terrane/cli/session.hpp>
+#include <terrane/cli/statistics.hpp>
+
+namespace terrane::cli {
+
+struct ArrangeSettings {
+    Search search = Search::automatic;
+    unsigned rounds = RoundingOptions{}.max_rounds;
+};
+
+void add_settings(CLI::App& command, ArrangeSettings& settings);
+
+struct Arranged {
+    Arrangement exact;
+    RoundedMesh rounded;
+};
+
+/// Adds to `statistics`. Errors: those of arrange and round_to_doubles.
+Result<Arranged> arrange_and_round(const Inputs& inputs, const ArrangeSettings& settings,
+                                   Session& session, Json& statistics);
+
+/// Surfaces with their triangles, regions and areas; what was set aside; how the rounding went.
+std::string summary(const Inputs& inputs, const Arranged& arranged);
+
+/// The pairs of triangles that the rounding left in improper contact, by name; at most `most`.
+std::string offending_pairs(const Inputs& inputs, const Arranged& arranged, std::size_t most);
+
+/// How many flaws the mesh has once its coordinates are float32, as in binary STL; by exact check.
+Result<std::size_t> float32_flaws(const Mesh& mesh, const Run& run);
+
+} // namespace terrane::cli
