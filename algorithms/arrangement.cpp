@@ -8,6 +8,7 @@
 
 #include <terrane/algorithms/check.hpp>
 #include <terrane/algorithms/division.hpp>
+#include <terrane/algorithms/patches.hpp>
 #include <terrane/algorithms/soup.hpp>
 #include <terrane/algorithms/stopwatch.hpp>
 
@@ -37,6 +38,16 @@ Lists<std::uint32_t> parents_of_faces(const Soup& soup, const Lists<std::uint32_
         parents.close();
     }
     return parents;
+}
+
+/// A triangle is in the patch of its face; in none where it has several faces.
+Patches patches_of_faces(Patches of_soup, const Lists<std::uint32_t>& faces_of) {
+    Patches patches;
+    patches.axis = std::move(of_soup.axis);
+    patches.of.reserve(faces_of.size());
+    for (std::size_t t = 0; t < faces_of.size(); ++t)
+        patches.of.push_back(faces_of[t].size() == 1 ? of_soup.of[faces_of[t][0]] : no_group);
+    return patches;
 }
 
 /// Points in use become vertices: input ones by number, constructed ones in lexicographic order.
@@ -72,12 +83,14 @@ Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
 
     // (a) one soup of distinct points and triangles
     Soup soup = merge_surfaces(surfaces);
+    Patches patches = prove_patches(soup.points, soup.triangles, soup.surface_of,
+                                    group_edges(soup.triangles, soup.points.size()));
     a.statistics.seconds_prepare = watch.lap();
     report(0.1);
 
     // (b) candidate pairs
     const auto candidates =
-        candidate_pairs(boxes_of(soup.points, soup.triangles), {}, options.search);
+        candidate_pairs(boxes_of(soup.points, soup.triangles), patches.of, options.search);
     a.statistics.seconds_search = watch.lap();
     report(0.3);
     if (run.stop.stop_requested()) return interrupted();
@@ -99,6 +112,7 @@ Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
                 soup.duplicates};
     a.degenerate = soup.degenerate;
     a.parents_of = parents_of_faces(soup, division.faces_of);
+    a.patches = patches_of_faces(std::move(patches), division.faces_of);
     a.surfaces_of = surfaces_of_parents(a.inputs, a.parents_of);
     a.points = std::move(division.points);
     a.triangles = std::move(division.triangles);

@@ -17,6 +17,7 @@
 #include <terrane/algorithms/edges.hpp>
 #include <terrane/algorithms/intersection_edges.hpp>
 #include <terrane/algorithms/mesh.hpp>
+#include <terrane/algorithms/patches.hpp>
 #include <terrane/algorithms/result.hpp>
 #include <terrane/algorithms/run.hpp>
 #include <terrane/algorithms/search/search.hpp>
@@ -58,6 +59,7 @@ struct Arrangement {
                                            ///< surface; sorted, unique. The parents of an edge
                                            ///< are those of the triangles at it
     std::vector<std::uint32_t> degenerate; ///< input triangles without area, ascending
+    Patches patches;                       ///< of the triangles: within one, none meet improperly
     EdgeSides edges;                       ///< sides of the triangles by edge, for what follows
     ArrangeStatistics statistics;
 };

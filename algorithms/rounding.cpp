@@ -13,6 +13,7 @@
 #include <terrane/algorithms/parallel.hpp>
 #include <terrane/algorithms/rounding_state.hpp>
 #include <terrane/algorithms/soup.hpp>
+#include <terrane/kernel/predicates.hpp>
 
 namespace terrane {
 namespace {
@@ -63,7 +64,7 @@ public:
     Result<RoundedMesh> operator()() {
         to_nearest();
         if (const auto finite = all_finite(); !finite) return finite.error();
-        auto pairs = contacts();
+        auto pairs = first_contacts();
         out_.report.naive_contacts = pairs.size();
         if (!pairs.empty()) repair(pairs);
         if (run_.stop.stop_requested())
@@ -76,6 +77,7 @@ private:
     void repair(std::vector<CandidatePair>& pairs);
     void to_nearest();
     Status all_finite() const;
+    std::vector<CandidatePair> first_contacts();
     std::vector<CandidatePair> contacts();
     void snap_round(std::span<const CandidatePair> pairs, const SnapGrid& grid);
     void snap_corners(std::span<const CandidatePair> pairs, const SnapGrid& grid);
@@ -151,6 +153,28 @@ std::vector<CandidatePair> Rounding::contacts() {
     if (dirty.empty()) return {};
     const auto boxes = boxes_of(state_.points, state_.triangles);
     return improper_pairs(state_.points, state_.triangles, candidate_pairs_of(boxes, dirty), run_);
+}
+
+/// The same right after rounding to nearest: within a patch that still projects one-to-one no pair
+/// needs a test.
+std::vector<CandidatePair> Rounding::first_contacts() {
+    if (changed_) return contacts();
+    const auto dirty = state_.dirty_triangles();
+    if (dirty.empty()) return {};
+    Patches patches = arrangement_.patches;
+    const auto& inputs = arrangement_.inputs.corners;
+    const auto turn = [&](std::uint32_t t, Axis axis) { // as that of its parent
+        const Triangle& c = inputs[arrangement_.parents_of[t][0]];
+        const auto at = [&](unsigned i) { return arrangement_.points.input(c[i]); };
+        return orient2d(axis, at(0), at(1), at(2));
+    };
+    confirm_patches(state_.points, state_.triangles, arrangement_.edges, state_.is_dirty, turn,
+                    patches);
+    auto candidates = candidate_pairs_of(boxes_of(state_.points, state_.triangles), dirty);
+    std::erase_if(candidates, [&](const CandidatePair& p) {
+        return patches.of[p.first] != no_group && patches.of[p.first] == patches.of[p.second];
+    });
+    return improper_pairs(state_.points, state_.triangles, candidates, run_);
 }
 
 void Rounding::snap_round(std::span<const CandidatePair> pairs, const SnapGrid& grid) {

@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/patches.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include <terrane/algorithms/search/search.hpp>
+#include <terrane/algorithms/sets.hpp>
+#include <terrane/kernel/predicates.hpp>
+
+namespace terrane {
+namespace {
+
+constexpr std::array axes{Axis::z, Axis::x, Axis::y};
+
+/// An edge of the boundary of a patch, in the direction that leaves the patch on its left.
+struct BorderEdge {
+    std::uint32_t patch;
+    std::uint32_t from, to;
+};
+
+/// A patch's border in one projection, and whether it is made of disjoint loops that wind round
+/// every point 0 or 1 times.
+class Border {
+public:
+    Border(std::span<const Point3> points, Axis axis, std::span<const BorderEdge> edges) :
+        points_(points), axis_(axis), edges_(edges) {}
+
+    [[nodiscard]] bool encloses_once() { return link() && !touches_itself() && winds_once(); }
+
+private:
+    [[nodiscard]] Sign orient(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
+        return orient2d(axis_, points_[a], points_[b], points_[c]);
+    }
+
+    [[nodiscard]] std::array<double, 2> at(std::uint32_t v) const {
+        const Point3& p = points_[v];
+        switch (axis_) {
+        case Axis::x:
+            return {p.y, p.z};
+        case Axis::y:
+            return {p.z, p.x};
+        default:
+            return {p.x, p.y};
+        }
+    }
+
+    /// Every vertex of the border has one edge in and one out.
+    bool link() {
+        by_from_.resize(edges_.size());
+        std::vector<std::uint32_t> ends;
+        for (std::uint32_t e = 0; e < edges_.size(); ++e) {
+            by_from_[e] = {edges_[e].from, e};
+            ends.push_back(edges_[e].to);
+        }
+        std::sort(by_from_.begin(), by_from_.end());
+        std::sort(ends.begin(), ends.end());
+        for (std::size_t i = 0; i < ends.size(); ++i)
+            if (by_from_[i][0] != ends[i] || (i > 0 && ends[i] == ends[i - 1])) return false;
+        return true;
+    }
+
+    [[nodiscard]] std::uint32_t next(std::uint32_t edge) const {
+        return (*std::lower_bound(by_from_.begin(), by_from_.end(),
+                                  std::array{edges_[edge].to, 0u}))[1];
+    }
+
+    bool touches_itself() const {
+        std::vector<Box> boxes;
+        for (const BorderEdge& e : edges_) {
+            const auto a = at(e.from), b = at(e.to);
+            boxes.push_back({{std::min(a[0], b[0]), std::min(a[1], b[1]), 0},
+                             {std::max(a[0], b[0]), std::max(a[1], b[1]), 0}});
+        }
+        for (const CandidatePair& p : candidate_pairs(boxes, {}, Search::automatic))
+            if (meet(edges_[p.first], edges_[p.second])) return true;
+        return false;
+    }
+
+    /// Beyond a common vertex.
+    bool meet(const BorderEdge& e, const BorderEdge& f) const {
+        if (e.to == f.from && e.from == f.to) return true;
+        if (e.to == f.from) return folds(e.from, e.to, f.to);
+        if (f.to == e.from) return folds(f.from, f.to, e.to);
+        const Sign a = orient(e.from, e.to, f.from), b = orient(e.from, e.to, f.to);
+        if (a == b && a != Sign::Zero) return false;
+        const Sign c = orient(f.from, f.to, e.from), d = orient(f.from, f.to, e.to);
+        if (c == d && c != Sign::Zero) return false;
+        // In line with each other and boxes that overlap: they meet, or are taken to.
+        return true;
+    }
+
+    /// Whether b c runs back along a b.
+    bool folds(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
+        if (orient(a, b, c) != Sign::Zero) return false;
+        const auto p = at(a), q = at(b), r = at(c);
+        // a and c on the same side of b, in lexicographic order along their common line
+        return (p < q) == (r < q);
+    }
+
+    /// How often all loops but that of v wind round v, which lies on none of them.
+    int winding(std::uint32_t v, const std::vector<std::uint32_t>& loop_of) const {
+        const double y = at(v)[1];
+        int sum = 0;
+        for (std::uint32_t e = 0; e < edges_.size(); ++e) {
+            if (loop_of[e] == loop_at_v_) continue;
+            const bool from_above = at(edges_[e].from)[1] > y, to_above = at(edges_[e].to)[1] > y;
+            if (from_above == to_above) continue;
+            const Sign side = orient(edges_[e].from, edges_[e].to, v);
+            if (to_above && side == Sign::Positive) ++sum;
+            if (from_above && side == Sign::Negative) --sum;
+        }
+        return sum;
+    }
+
+    /// Left of each edge the sum of all winding numbers is 1.
+    bool winds_once() {
+        constexpr std::uint32_t none = UINT32_MAX;
+        std::vector<std::uint32_t> loop_of(edges_.size(), none);
+        std::vector<std::uint32_t> lowest; // per loop, the edge that starts at its lowest vertex
+        for (std::uint32_t e = 0; e < edges_.size(); ++e) {
+            if (loop_of[e] != none) continue;
+            const auto loop = static_cast<std::uint32_t>(lowest.size());
+            lowest.push_back(e);
+            for (std::uint32_t f = e; loop_of[f] == none; f = next(f)) {
+                loop_of[f] = loop;
+                if (at(edges_[f].from) < at(edges_[lowest[loop]].from)) lowest[loop] = f;
+            }
+        }
+        if (lowest.size() > most_loops) return false;
+        std::vector<std::uint32_t> before(edges_.size());
+        for (std::uint32_t e = 0; e < edges_.size(); ++e) before[next(e)] = e;
+        for (std::uint32_t loop = 0; loop < lowest.size(); ++loop) {
+            const BorderEdge& out = edges_[lowest[loop]];
+            const Sign turn = orient(edges_[before[lowest[loop]]].from, out.from, out.to);
+            if (turn == Sign::Zero) return false; // collinear at the lowest vertex: a fold
+            loop_at_v_ = loop;
+            const int others = winding(out.from, loop_of);
+            if (others != (turn == Sign::Positive ? 0 : 1)) return false;
+        }
+        return true;
+    }
+
+    static constexpr std::size_t most_loops = 1000; // the test is loops times edges
+
+    std::span<const Point3> points_;
+    Axis axis_;
+    std::span<const BorderEdge> edges_;
+    std::vector<std::array<std::uint32_t, 2>> by_from_; ///< {from, edge}, sorted
+    std::uint32_t loop_at_v_ = 0;
+};
+
+class Prover {
+public:
+    Prover(std::span<const Point3> points, std::span<const Triangle> triangles,
+           std::span<const std::uint32_t> surface_of, const EdgeSides& edges) :
+        points_(points),
+        triangles_(triangles), surface_of_(surface_of), edges_(edges),
+        label_(surface_of.begin(), surface_of.end()), group_(triangles.size(), no_group) {}
+
+    Patches operator()() {
+        find_turns();
+        prove_components();
+        // What is left is split where the orientation changes.
+        bool any = false;
+        for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
+            if (group_[t] != no_group) continue;
+            label_[t] = 3 * surface_of_[t] + longest_axis(triangles_[t]);
+            any = true;
+        }
+        if (any) prove_components();
+        return {std::move(group_), std::move(axis_)};
+    }
+
+private:
+    using Turns = std::array<Sign, 3>; // in the projections of `axes`
+
+    void find_turns() {
+        turns_.resize(triangles_.size());
+        for (std::size_t t = 0; t < triangles_.size(); ++t) {
+            const Triangle& c = triangles_[t];
+            for (unsigned k = 0; k < 3; ++k)
+                turns_[t][k] = orient2d(axes[k], points_[c[0]], points_[c[1]], points_[c[2]]);
+        }
+    }
+
+    /// Only a guess at what might project well.
+    [[nodiscard]] std::uint32_t longest_axis(const Triangle& t) const {
+        const Point3 &a = points_[t[0]], &b = points_[t[1]], &c = points_[t[2]];
+        const double ux = b.x - a.x, uy = b.y - a.y, uz = b.z - a.z;
+        const double wx = c.x - a.x, wy = c.y - a.y, wz = c.z - a.z;
+        const double x = std::fabs(uy * wz - uz * wy), y = std::fabs(uz * wx - ux * wz),
+                     z = std::fabs(ux * wy - uy * wx);
+        return z >= x && z >= y ? 0 : x >= y ? 1 : 2;
+    }
+
+    [[nodiscard]] bool is_open(const EdgeSides::Side& s) const {
+        return group_[s.triangle] == no_group;
+    }
+
+    void prove_components() {
+        find_components();
+        sum_borders();
+        for (unsigned k = 0; k < 3; ++k) try_axis(k);
+        std::vector<std::uint32_t> number(proven_.size(), no_group);
+        for (std::size_t p = 0; p < proven_.size(); ++p) {
+            if (!proven_[p]) continue;
+            number[p] = static_cast<std::uint32_t>(axis_.size());
+            axis_.push_back(*proven_[p]);
+        }
+        for (std::uint32_t t = 0; t < triangles_.size(); ++t)
+            if (group_[t] == no_group) group_[t] = number[patch_of_[t]];
+    }
+
+    /// Connected over edges, same label, not yet in a group.
+    void find_components() {
+        Sets sets(triangles_.size());
+        edges_.for_each([&](std::uint32_t, std::uint32_t, auto sides) {
+            for (std::size_t i = 1; i < sides.size(); ++i)
+                if (label_[sides[i].triangle] == label_[sides[i - 1].triangle] &&
+                    is_open(sides[i]) && is_open(sides[i - 1]))
+                    sets.join(sides[i].triangle, sides[i - 1].triangle);
+        });
+        patch_of_.resize(triangles_.size());
+        std::uint32_t patches = 0;
+        for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
+            if (group_[t] != no_group) continue;
+            const std::uint32_t root = sets.find(t);
+            patch_of_[t] = root == t ? patches++ : patch_of_[root];
+        }
+        proven_.assign(patches, std::nullopt);
+        usable_.assign(patches, {true, true, true});
+        for (std::uint32_t t = 0; t < triangles_.size(); ++t)
+            if (group_[t] == no_group)
+                for (unsigned k = 0; k < 3; ++k)
+                    if (turns_[t][k] == Sign::Zero) usable_[patch_of_[t]][k] = false;
+    }
+
+    /// The sum of the triangles' boundaries, all counterclockwise, in each projection.
+    void sum_borders() {
+        for (auto& b : borders_) b.clear();
+        edges_.for_each([&](std::uint32_t low, std::uint32_t high, auto sides) {
+            for (std::size_t i = 0; i < sides.size(); ++i) {
+                if (!is_open(sides[i])) continue;
+                const std::uint32_t patch = patch_of_[sides[i].triangle];
+                bool is_first = true;
+                for (std::size_t j = 0; j < i; ++j)
+                    if (is_open(sides[j]) && patch_of_[sides[j].triangle] == patch)
+                        is_first = false;
+                if (is_first) sum_edge(low, high, sides.subspan(i), patch);
+            }
+        });
+    }
+
+    void sum_edge(std::uint32_t low, std::uint32_t high, std::span<const EdgeSides::Side> sides,
+                  std::uint32_t patch) {
+        std::array<int, 3> sum{};
+        for (const auto& s : sides) {
+            if (!is_open(s) || patch_of_[s.triangle] != patch) continue;
+            const int along = triangles_[s.triangle][s.corner] == low ? 1 : -1;
+            for (unsigned k = 0; k < 3; ++k)
+                sum[k] += along * static_cast<int>(turns_[s.triangle][k]);
+        }
+        for (unsigned k = 0; k < 3; ++k) {
+            if (sum[k] == 1) borders_[k].push_back({patch, low, high});
+            if (sum[k] == -1) borders_[k].push_back({patch, high, low});
+            if (std::abs(sum[k]) > 1) usable_[patch][k] = false;
+        }
+    }
+
+    void try_axis(unsigned k) {
+        auto& border = borders_[k];
+        std::stable_sort(border.begin(), border.end(),
+                         [](const auto& a, const auto& b) { return a.patch < b.patch; });
+        for (std::size_t i = 0, end = 0; i < border.size(); i = end) {
+            const std::uint32_t patch = border[i].patch;
+            while (end < border.size() && border[end].patch == patch) ++end;
+            if (proven_[patch] || !usable_[patch][k]) continue;
+            const std::span edges(border.data() + i, end - i);
+            if (Border(points_, axes[k], edges).encloses_once()) proven_[patch] = axes[k];
+        }
+    }
+
+    std::span<const Point3> points_;
+    std::span<const Triangle> triangles_;
+    std::span<const std::uint32_t> surface_of_;
+    const EdgeSides& edges_;
+    std::vector<std::uint32_t> label_; ///< triangles of one patch have the same
+    std::vector<std::uint32_t> group_; ///< the result
+    std::vector<Axis> axis_;           ///< per group
+    std::vector<Turns> turns_;
+    std::vector<std::uint32_t> patch_of_;     ///< per triangle without a group
+    std::vector<std::optional<Axis>> proven_; ///< per patch
+    std::vector<std::array<bool, 3>> usable_; ///< per patch and projection
+    std::array<std::vector<BorderEdge>, 3> borders_;
+};
+
+} // namespace
+
+Patches prove_patches(std::span<const Point3> points, std::span<const Triangle> triangles,
+                      std::span<const std::uint32_t> surface_of, const EdgeSides& edges) {
+    return Prover(points, triangles, surface_of, edges)();
+}
+
+void confirm_patches(std::span<const Point3> points, std::span<const Triangle> triangles,
+                     const EdgeSides& edges, const std::vector<bool>& is_moved,
+                     const std::function<Sign(std::uint32_t, Axis)>& turn, Patches& patches) {
+    std::vector<bool> holds(patches.axis.size(), true), moved_border(patches.axis.size(), false);
+    const auto orient = [&](std::uint32_t t, Axis axis) {
+        const Triangle& c = triangles[t];
+        return orient2d(axis, points[c[0]], points[c[1]], points[c[2]]);
+    };
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+        const Triangle& c = triangles[t];
+        const std::uint32_t p = patches.of[t];
+        if (p == no_group || !(is_moved[c[0]] || is_moved[c[1]] || is_moved[c[2]])) continue;
+        if (holds[p] && orient(t, patches.axis[p]) != turn(t, patches.axis[p])) holds[p] = false;
+    }
+    std::vector<BorderEdge> border;
+    edges.for_each([&](std::uint32_t low, std::uint32_t high, auto sides) {
+        for (std::size_t i = 0; i < sides.size(); ++i) {
+            const std::uint32_t p = patches.of[sides[i].triangle];
+            if (p == no_group) continue;
+            std::size_t same = 0;
+            for (const auto& s : sides) same += patches.of[s.triangle] == p;
+            if (same > 2) holds[p] = false;
+            if (same != 1) continue;
+            if (is_moved[low] || is_moved[high]) moved_border[p] = true;
+            const bool along = triangles[sides[i].triangle][sides[i].corner] == low;
+            const bool positive = turn(sides[i].triangle, patches.axis[p]) == Sign::Positive;
+            if (along == positive)
+                border.push_back({p, low, high});
+            else
+                border.push_back({p, high, low});
+        }
+    });
+    std::stable_sort(border.begin(), border.end(),
+                     [](const auto& a, const auto& b) { return a.patch < b.patch; });
+    for (std::size_t i = 0, end = 0; i < border.size(); i = end) {
+        const std::uint32_t p = border[i].patch;
+        while (end < border.size() && border[end].patch == p) ++end;
+        if (holds[p] && moved_border[p])
+            holds[p] = Border(points, patches.axis[p], std::span(border.data() + i, end - i))
+                           .encloses_once();
+    }
+    for (std::uint32_t& p : patches.of)
+        if (p != no_group && !holds[p]) p = no_group;
+}
+
+} // namespace terrane
