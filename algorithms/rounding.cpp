@@ -365,6 +365,25 @@ void add_to_report(const SnappedInput& snapped, const RoundingReport& first, uns
     report.moved_input_vertices += snapped.moved();
 }
 
+std::vector<std::size_t> regions_per_surface(std::size_t surfaces,
+                                             std::span<const Region> regions) {
+    std::vector<std::size_t> count(surfaces, 0);
+    for (const Region& r : regions) ++count[r.surface];
+    return count;
+}
+
+/// Compares with the regions of the exact surfaces.
+void report_lost_regions(const Arrangement& a, RoundedMesh& rounded) {
+    std::vector<Point3> places;
+    for (const PointIndex v : a.vertices) places.push_back(a.points.nearest(v));
+    const auto exact =
+        find_regions(places, a.triangles, a.surfaces_of, a.edges, a.intersection_edges);
+    const auto before = regions_per_surface(a.surfaces.size(), exact.regions);
+    const auto after = regions_per_surface(a.surfaces.size(), rounded.regions);
+    for (std::uint32_t s = 0; s < before.size(); ++s)
+        if (after[s] < before[s]) rounded.report.lost_regions.push_back({s, before[s], after[s]});
+}
+
 /// Arranges the input anew with snapped vertices, ever coarser, until the doubles are conforming.
 Result<RoundedMesh> snap_input(const Arrangement& a, RoundedMesh first,
                                const RoundingOptions& options, const Run& run) {
@@ -394,8 +413,11 @@ Result<RoundedMesh> round_to_doubles(const Arrangement& arrangement, const Round
                                      const Run& run) {
     try {
         auto rounded = Rounding(arrangement, options, run)();
-        if (!rounded || rounded.value().report.clean || options.max_rounds == 0) return rounded;
-        return snap_input(arrangement, std::move(rounded).value(), options, run);
+        if (rounded && !rounded.value().report.clean && options.max_rounds > 0)
+            rounded = snap_input(arrangement, std::move(rounded).value(), options, run);
+        if (rounded && rounded.value().report.collapsed_triangles > 0)
+            report_lost_regions(arrangement, rounded.value());
+        return rounded;
     } catch (const std::bad_alloc&) {
         return Error{ErrorCode::out_of_memory, "not enough memory for the rounding", ""};
     } catch (const std::logic_error& broken) {

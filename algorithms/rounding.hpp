@@ -29,6 +29,12 @@ struct RoundingOptions {
     unsigned max_rounds = 8; ///< of snapping, at most 8; 0: to the nearest double and no further
 };
 
+/// A surface some of whose regions were too thin for doubles.
+struct LostRegions {
+    std::uint32_t surface = 0;
+    std::size_t exact = 0, rounded = 0; ///< how many regions it has before and after
+};
+
 struct RoundingReport {
     bool clean = false;                    ///< conforming, by exact check of the doubles
     unsigned rounds = 0;                   ///< of snapping
@@ -38,11 +44,12 @@ struct RoundingReport {
                           ///< input
     double deviation = 0; ///< no point of the mesh is farther from the exact surfaces,
                           ///< nor the reverse, but for vanished parts; >= max_move
-    std::array<std::size_t, 32> moves{};  ///< vertices by move: [0] none, [k] from 10^(k - 24) on
-    std::size_t moved_input_vertices = 0; ///< input vertices that had to give way
-    std::size_t merged_vertices = 0;      ///< distinct points that became one
-    std::size_t collapsed_triangles = 0;  ///< lost their area
-    std::vector<std::uint32_t> vanished;  ///< input triangles of which nothing is left, ascending
+    std::array<std::size_t, 32> moves{};   ///< vertices by move: [0] none, [k] from 10^(k - 24) on
+    std::size_t moved_input_vertices = 0;  ///< input vertices that had to give way
+    std::size_t merged_vertices = 0;       ///< distinct points that became one
+    std::size_t collapsed_triangles = 0;   ///< lost their area
+    std::vector<LostRegions> lost_regions; ///< surfaces with fewer regions than the exact ones
+    std::vector<std::uint32_t> vanished;   ///< input triangles of which nothing is left, ascending
 };
 
 /// The mesh of doubles, with regions, parents and intersection edges, and how it came about.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <set>
 #include <unordered_map>
 #include <utility>
 
@@ -75,7 +76,44 @@ void RoundingState::move_point(std::size_t v, const Point3& to) {
 void RoundingState::end_round() {
     if (deviation == 0 && largest_move_ == 0)
         for (const double m : move) largest_move_ = std::max(largest_move_, m);
-    deviation = (deviation + std::exchange(largest_move_, 0)) * (1 + 0x1p-52);
+    const double most = std::exchange(largest_move_, 0) + std::exchange(largest_gap_, 0);
+    deviation = (deviation + most) * (1 + 0x1p-51);
+}
+
+/// A triangle that lost its area is now a line. Where no triangle that stays has this line as an
+/// edge (or both its halves), its points are up to half its length from the mesh.
+void RoundingState::find_gaps(const std::vector<bool>& gone) {
+    std::set<std::array<std::uint32_t, 2>> lines; // all sides of triangles that go, then: not kept
+    std::vector<bool> concerned(points.size(), false);
+    const auto side = [&](const Triangle& t, unsigned i) {
+        return std::array{std::min(t[i], t[(i + 1) % 3]), std::max(t[i], t[(i + 1) % 3])};
+    };
+    for (std::uint32_t t = 0; t < triangles.size(); ++t)
+        if (gone[t])
+            for (unsigned i = 0; i < 3; ++i) {
+                lines.insert(side(triangles[t], i));
+                concerned[triangles[t][i]] = true;
+            }
+    for (std::uint32_t t = 0; t < triangles.size(); ++t)
+        if (!gone[t])
+            for (unsigned i = 0; i < 3; ++i)
+                if (concerned[triangles[t][i]]) lines.erase(side(triangles[t], i));
+    const auto length = [&](const std::array<std::uint32_t, 2>& l) {
+        const Point3 &p = points[l[0]], &q = points[l[1]];
+        return length_bound(std::fabs(p.x - q.x), std::fabs(p.y - q.y), std::fabs(p.z - q.z));
+    };
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+        if (!gone[t]) continue;
+        // The longest side spans the line; the two others together do so, too.
+        std::array<double, 3> open{};
+        for (unsigned i = 0; i < 3; ++i)
+            open[i] = lines.contains(side(triangles[t], i)) ? length(side(triangles[t], i)) : 0;
+        unsigned longest = 0;
+        for (unsigned i = 1; i < 3; ++i)
+            if (length(side(triangles[t], i)) > length(side(triangles[t], longest))) longest = i;
+        const double others = std::max(open[(longest + 1) % 3], open[(longest + 2) % 3]);
+        largest_gap_ = std::max(largest_gap_, std::min(open[longest], others) / 2);
+    }
 }
 
 /// Equal points get one name: the lowest. Only a dirty point can have become equal to another.
@@ -118,12 +156,16 @@ bool RoundingState::tidy() {
         return !collinear(points[t[0]], points[t[1]], points[t[2]]);
     };
     bool any = false;
-    for (const std::uint32_t t : dirty_triangles()) {
+    const std::size_t collapsed_before = collapsed;
+    const auto dirty = dirty_triangles();
+    for (const std::uint32_t t : dirty)
         if (!has_area(triangles[t])) {
             gone[t] = any = true;
             ++collapsed;
-            continue;
         }
+    if (collapsed > collapsed_before) find_gaps(gone);
+    for (const std::uint32_t t : dirty) {
+        if (gone[t]) continue;
         const auto [it, fresh] = seen.emplace(sorted(triangles[t]), t);
         if (!fresh) {
             gone[t] = any = true;

@@ -52,8 +52,11 @@ struct RoundingState {
 private:
     void move_point(std::size_t v, const Point3& to);
     bool merge_points();
+    void find_gaps(const std::vector<bool>& gone);
 
     double largest_move_ = 0;
+    double largest_gap_ = 0; ///< half the length of a line to which triangles collapsed and that no
+                             ///< other triangle contains
 };
 
 /// At least the distance between the point enclosed and p; in the unit of the points.
