@@ -2,6 +2,7 @@
 #include <terrane/algorithms/intersection.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 #include <terrane/kernel/predicates.hpp>
 
@@ -70,6 +71,9 @@ private:
     const Point3& at(unsigned k, unsigned i) const { return points_[t_[k][i]]; }
     bool is_shared(unsigned k, unsigned i) const { return shared_[k][i] != Place::face; }
 
+    bool quickly_beside_plane(unsigned k) const;
+    bool quickly_beside_edge(unsigned k, Axis axis) const;
+    Axis likely_axis() const;
     Signs sides(unsigned k) const;
     void set_axis(unsigned k);
     std::optional<Place> locate_in_plane(unsigned k, unsigned i);
@@ -235,7 +239,55 @@ bool TrianglePair::only_shared_corners() const {
     });
 }
 
+/// Whether the static filters alone show that triangle k lies strictly on one side of the other's
+/// plane, but for common corners of which there are at most two.
+bool TrianglePair::quickly_beside_plane(unsigned k) const {
+    std::optional<Sign> common;
+    for (unsigned i = 0; i < 3; ++i) {
+        if (is_shared(k, i)) continue;
+        const auto s = quick_orient3d(at(1 - k, 0), at(1 - k, 1), at(1 - k, 2), at(k, i));
+        if (!s || *s == Sign::Zero || (common && *common != *s)) return false;
+        common = s;
+    }
+    // Then all they share lies in the plane: the hull of the common corners.
+    return true;
+}
+
+/// Whether in one projection, by the static filters alone, the line of an edge of triangle k has
+/// the other triangle strictly beyond it, but for common corners on that edge.
+bool TrianglePair::quickly_beside_edge(unsigned k, Axis axis) const {
+    const unsigned o = 1 - k;
+    const auto turn = quick_orient2d(axis, at(k, 0), at(k, 1), at(k, 2));
+    if (!turn || *turn == Sign::Zero) return false;
+    for (unsigned j = 0; j < 3; ++j) {
+        bool beyond = true;
+        for (unsigned i = 0; i < 3 && beyond; ++i) {
+            if (is_shared(o, i)) {
+                beyond = shared_[o][i] != corner((j + 2) % 3);
+                continue;
+            }
+            const auto s = quick_orient2d(axis, at(k, j), at(k, next(j)), at(o, i));
+            beyond = s && *s == -*turn;
+        }
+        if (beyond) return true;
+    }
+    return false;
+}
+
+/// A guess; any axis is right.
+Axis TrianglePair::likely_axis() const {
+    const Point3 &a = at(0, 0), &b = at(0, 1), &c = at(0, 2);
+    const double ux = b.x - a.x, uy = b.y - a.y, uz = b.z - a.z;
+    const double wx = c.x - a.x, wy = c.y - a.y, wz = c.z - a.z;
+    const double x = std::fabs(uy * wz - uz * wy), y = std::fabs(uz * wx - ux * wz);
+    const double z = std::fabs(ux * wy - uy * wx);
+    return z >= x && z >= y ? Axis::z : x >= y ? Axis::x : Axis::y;
+}
+
 std::optional<Contact> TrianglePair::improper() {
+    if (quickly_beside_plane(0) || quickly_beside_plane(1)) return std::nullopt;
+    const Axis axis = likely_axis();
+    if (quickly_beside_edge(0, axis) || quickly_beside_edge(1, axis)) return std::nullopt;
     sides_[0] = sides(0);
     if (all_on_one_side(sides_[0])) return std::nullopt;
     if (shared_count_ == 2 && !all_zero(sides_[0])) return std::nullopt;
