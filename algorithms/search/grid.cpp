@@ -22,7 +22,7 @@ void cap(std::array<double, 3>& cells, double most) {
 
 } // namespace
 
-Grid::Grid(std::span<const Box> boxes) {
+void Grid::choose_cells(std::span<const Box> boxes) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     std::array<double, 3> low{infinity, infinity, infinity};
     std::array<double, 3> high{-infinity, -infinity, -infinity}, largest{};
@@ -52,6 +52,10 @@ Grid::Grid(std::span<const Box> boxes) {
                        0x1p-50 * std::max(std::fabs(low[k]), std::fabs(high[k])) +
                        std::numeric_limits<double>::min();
     }
+}
+
+Grid::Grid(std::span<const Box> boxes) {
+    choose_cells(boxes);
     starts_.assign(std::size_t{counts_[0]} * counts_[1] * counts_[2] + 1, 0);
     for (const Box& b : boxes) ++starts_[cell_of(b) + 1];
     for (std::size_t c = 1; c < starts_.size(); ++c) starts_[c] += starts_[c - 1];
@@ -71,6 +75,34 @@ std::uint32_t Grid::cell(unsigned axis, double x) const {
 std::size_t Grid::cell_of(const Box& b) const {
     const std::size_t x = cell(0, centre(b, 0)), y = cell(1, centre(b, 1));
     return (std::size_t{cell(2, centre(b, 2))} * counts_[1] + y) * counts_[0] + x;
+}
+
+std::vector<std::uint32_t> boxes_in_mixed_cells(std::span<const Box> boxes,
+                                                std::span<const std::uint32_t> groups) {
+    std::vector<std::uint32_t> chosen;
+    const auto group_of = [&](std::size_t i) { return groups.empty() ? no_group : groups[i]; };
+    const Grid grid(boxes);
+    struct Cell {
+        std::uint32_t group = 0;
+        enum : std::uint8_t { empty, one, mixed } state = empty;
+    };
+    std::vector<Cell> cells(grid.cell_count());
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+        Cell& c = cells[grid.cell_of(boxes[i])];
+        const std::uint32_t group = group_of(i);
+        const bool same = group != no_group && (c.state == Cell::empty || c.group == group);
+        c = {group, same && c.state != Cell::mixed ? Cell::one : Cell::mixed};
+    }
+    for (std::uint32_t i = 0; i < boxes.size(); ++i) {
+        bool meets = false;
+        grid.for_rows(boxes[i], [&](std::size_t c, std::size_t last) {
+            for (; c <= last && !meets; ++c)
+                meets = cells[c].state == Cell::mixed ||
+                        (cells[c].state == Cell::one && cells[c].group != group_of(i));
+        });
+        if (meets) chosen.push_back(i);
+    }
+    return chosen;
 }
 
 } // namespace terrane::search

@@ -2,100 +2,135 @@
 #include <terrane/algorithms/search/search.hpp>
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
+#include <terrane/algorithms/search/join.hpp>
 #include <terrane/algorithms/search/methods.hpp>
 
 namespace terrane {
 namespace {
 
+using Pairs = std::vector<CandidatePair>;
+
+constexpr std::array names{
+    std::pair{Search::automatic, "auto"}, std::pair{Search::grid, "grid"},
+    std::pair{Search::ab, "ab"},          std::pair{Search::ab_balanced, "ab-balanced"},
+    std::pair{Search::mixed, "mixed"},    std::pair{Search::hierarchy, "hierarchy"},
+    std::pair{Search::brute, "brute"}};
+
+/// All boxes asked, one after the other.
 template <class Method>
-std::vector<CandidatePair> all_pairs(std::span<const Box> boxes,
-                                     std::span<const std::uint32_t> groups) {
-    const Method method(boxes);
-    std::vector<CandidatePair> pairs;
-    std::vector<std::uint32_t> found;
+Pairs pairs_one_by_one(std::span<const Box> boxes, std::span<const std::uint32_t> groups) {
+    Method method(boxes);
+    Pairs pairs;
     for (std::uint32_t i = 0; i < boxes.size(); ++i) {
         const std::uint32_t group = groups.empty() ? no_group : groups[i];
-        found.clear();
+        const auto row = static_cast<std::ptrdiff_t>(pairs.size());
         method.query(boxes[i], [&](std::uint32_t j) {
-            if (j > i && (group == no_group || groups[j] != group)) found.push_back(j);
+            if (j > i && (group == no_group || groups[j] != group)) pairs.push_back({i, j});
         });
-        std::sort(found.begin(), found.end());
-        for (const std::uint32_t j : found) pairs.push_back({i, j});
+        std::sort(pairs.begin() + row, pairs.end());
     }
     return pairs;
 }
 
-template <class Method>
-std::vector<CandidatePair> active_pairs(std::span<const Box> boxes, std::span<const Box> chosen,
-                                        std::span<const std::uint32_t> active) {
-    const Method method(chosen);
-    std::vector<CandidatePair> pairs;
-    auto next = active.begin();
-    for (std::uint32_t i = 0; i < boxes.size(); ++i) {
-        const bool is_active = next != active.end() && *next == i;
-        if (is_active) ++next;
-        method.query(boxes[i], [&](std::uint32_t k) {
-            const std::uint32_t j = active[k];
-            if (j == i || (is_active && j < i)) return; // found from the other one
-            pairs.push_back({std::min(i, j), std::max(i, j)});
-        });
+struct Part {
+    std::vector<Box> boxes;
+    std::vector<std::uint32_t> indices;
+};
+
+/// The paper's red and blue: the boxes of two groups, if there are two and no box without; the
+/// group of box 0 is red.
+std::vector<Part> red_and_blue(std::span<const Box> boxes, std::span<const std::uint32_t> groups) {
+    std::vector<Part> parts(2);
+    std::uint32_t blue = no_group;
+    for (std::uint32_t i = 0; i < groups.size(); ++i) {
+        const bool is_red = groups[i] == groups[0];
+        if (!is_red && blue == no_group) blue = groups[i];
+        if (groups[i] == no_group || (!is_red && groups[i] != blue)) return {};
+        Part& part = parts[is_red ? 0 : 1];
+        part.boxes.push_back(boxes[i]);
+        part.indices.push_back(i);
     }
-    std::sort(pairs.begin(), pairs.end());
+    return parts;
+}
+
+/// The red ones searched by the blue ones.
+template <class Method>
+Pairs pairs_of_two(const Part& red, const Part& blue, std::size_t count) {
+    Method method(red.boxes);
+    std::vector<Pairs> found(1);
+    for (std::size_t b = 0; b < blue.boxes.size(); ++b)
+        method.query(blue.boxes[b], [&](std::uint32_t r) {
+            const auto [i, j] = std::minmax(blue.indices[b], red.indices[r]);
+            found[0].push_back({i, j});
+        });
+    return search::sorted(found, count);
+}
+
+template <class Method>
+Pairs all_pairs(std::span<const Box> boxes, std::span<const std::uint32_t> groups) {
+    const auto parts = red_and_blue(boxes, groups);
+    if (groups.empty() || parts.empty()) return pairs_one_by_one<Method>(boxes, groups);
+    return pairs_of_two<Method>(parts[0], parts[1], boxes.size());
+}
+
+/// Paper 2.3: what is left after the reduction, by a balanced tree.
+Pairs mixed_pairs(std::span<const Box> boxes, std::span<const std::uint32_t> groups) {
+    const auto chosen = search::boxes_in_mixed_cells(boxes, groups);
+    std::vector<Box> left;
+    std::vector<std::uint32_t> groups_left;
+    for (const std::uint32_t i : chosen) {
+        left.push_back(boxes[i]);
+        if (!groups.empty()) groups_left.push_back(groups[i]);
+    }
+    Pairs pairs = all_pairs<search::BalancedAbTree>(left, groups_left);
+    for (CandidatePair& p : pairs) p = {chosen[p.first], chosen[p.second]};
     return pairs;
 }
 
 } // namespace
 
-std::vector<CandidatePair> candidate_pairs_of(std::span<const Box> boxes,
-                                              std::span<const std::uint32_t> active) {
-    std::vector<Box> chosen;
-    chosen.reserve(active.size());
-    for (const std::uint32_t i : active) chosen.push_back(boxes[i]);
-    if (choose(chosen) == Search::grid) return active_pairs<search::Grid>(boxes, chosen, active);
-    return active_pairs<search::Hierarchy>(boxes, chosen, active);
-}
-
 std::string_view name_of(Search method) {
-    switch (method) {
-    case Search::grid:
-        return "grid";
-    case Search::ab_balanced:
-        return "ab-balanced";
-    case Search::hierarchy:
-        return "hierarchy";
-    case Search::brute:
-        return "brute";
-    default:
-        return "auto";
-    }
+    for (const auto& [search, name] : names)
+        if (search == method) return name;
+    return "auto";
 }
 
-Search choose(std::span<const Box> boxes) {
-    for (unsigned k = 0; k < 3; ++k) {
-        double sum = 0, largest = 0;
-        for (const Box& b : boxes) {
-            const double extent = b.high[k] - b.low[k];
-            sum += extent;
-            largest = std::max(largest, extent);
-        }
-        if (largest > 4 * sum / static_cast<double>(boxes.size())) return Search::hierarchy;
-    }
-    return Search::grid;
+std::optional<Search> search_named(std::string_view name) {
+    for (const auto& [search, known] : names)
+        if (name == known) return search;
+    return std::nullopt;
+}
+
+Search choose(std::size_t boxes) {
+    return boxes <= 24 ? Search::brute : Search::hierarchy;
 }
 
 std::vector<CandidatePair> candidate_pairs(std::span<const Box> boxes,
-                                           std::span<const std::uint32_t> groups, Search method) {
-    switch (method == Search::automatic ? choose(boxes) : method) {
+                                           std::span<const std::uint32_t> groups, Search method,
+                                           const Run& run) {
+    switch (method == Search::automatic ? choose(boxes.size()) : method) {
     case Search::brute:
-        return all_pairs<search::Brute>(boxes, groups);
-    case Search::hierarchy:
-        return all_pairs<search::Hierarchy>(boxes, groups);
-    case Search::ab_balanced:
-        return all_pairs<search::AbTree>(boxes, groups);
-    default:
+        return pairs_one_by_one<search::Brute>(boxes, groups);
+    case Search::grid:
         return all_pairs<search::Grid>(boxes, groups);
+    case Search::ab:
+        return all_pairs<search::AbTree>(boxes, groups);
+    case Search::ab_balanced:
+        return all_pairs<search::BalancedAbTree>(boxes, groups);
+    case Search::mixed:
+        return mixed_pairs(boxes, groups);
+    default:
+        return search::hierarchy_pairs(boxes, groups, run);
     }
+}
+
+std::vector<CandidatePair> candidate_pairs_of(std::span<const Box> boxes,
+                                              std::span<const std::uint32_t> active,
+                                              const Run& run) {
+    return search::active_pairs(boxes, active, run);
 }
 
 } // namespace terrane

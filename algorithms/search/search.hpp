@@ -6,22 +6,31 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
 
+#include <terrane/algorithms/run.hpp>
+
 namespace terrane {
 
 enum class Search : std::uint8_t {
-    automatic,   ///< grid, or hierarchy where box sizes differ too much for one grid (see choose)
+    automatic,   ///< hierarchy, or brute for a handful of boxes (see choose)
     grid,        ///< structured search, paper 2.1
+    ab,          ///< alternating binary tree in the order of insertion, paper 2.2: a list at worst
     ab_balanced, ///< alternating binary tree balanced by quantiles, paper 2.2 and Table 1
-    hierarchy,   ///< bounding volume hierarchy: boxes of boxes, for any mixture of sizes
+    mixed,       ///< reduction to cells that several groups share, then a balanced tree, paper 2.3
+    hierarchy,   ///< the same idea for speed and any mixture of sizes: reduction to shared cells, then
+                 ///< flat trees of boxes joined leaf by leaf; the only one that uses threads
     brute,       ///< every box against every box
 };
 
-/// "auto", "grid", "ab-balanced", "hierarchy", "brute".
+/// "auto", "grid", "ab", "ab-balanced", "mixed", "hierarchy", "brute".
 std::string_view name_of(Search method);
+
+/// The method of that name.
+std::optional<Search> search_named(std::string_view name);
 
 /// Axis-aligned and closed: boxes that touch overlap. low <= high.
 struct Box {
@@ -46,15 +55,19 @@ constexpr std::uint32_t no_group = UINT32_MAX;
 /// All pairs of overlapping boxes except those within one group; sorted, unique.
 /// groups: per box, or empty for none. Boxes of one group are known not to meet (or need no test).
 std::vector<CandidatePair> candidate_pairs(std::span<const Box> boxes,
-                                           std::span<const std::uint32_t> groups, Search method);
+                                           std::span<const std::uint32_t> groups, Search method,
+                                           const Run& run = {});
 
 /// All pairs of overlapping boxes of which at least one is active; sorted, unique.
-/// active: ascending indices of boxes. Cost: an index of the active boxes, one query per box.
+/// active: ascending indices of boxes. Cost: a glance at each box, then as candidate_pairs for those
+/// near active ones.
 std::vector<CandidatePair> candidate_pairs_of(std::span<const Box> boxes,
-                                              std::span<const std::uint32_t> active);
+                                              std::span<const std::uint32_t> active,
+                                              const Run& run = {});
 
-/// What `automatic` stands for: grid, unless the largest box extent exceeds 4 times the mean one
-/// along some axis: a grid's cells are as large as the largest box, and so hold too many others.
-Search choose(std::span<const Box> boxes);
+/// What `automatic` stands for: brute for so few boxes that nothing need be built, else hierarchy.
+/// (Measured: no mesh-size spread and no overlap volume at which the paper's methods are faster;
+/// terrane bench paper shows it for the paper's models.)
+Search choose(std::size_t boxes);
 
 } // namespace terrane

@@ -4,6 +4,7 @@
 #include "../support/effort.hpp"
 #include "../support/points.hpp"
 
+#include <terrane/algorithms/search/methods.hpp>
 #include <terrane/algorithms/search/search.hpp>
 
 #include <catch2/catch.hpp>
@@ -175,9 +176,111 @@ TEST_CASE("searches: the half-cell widening is needed, and there") {
     CHECK(check(boxes) == 1);
 }
 
+TEST_CASE("searches: thousands of boxes of all sizes, some with a group, by several threads") {
+    Random random(53);
+    const int count = cases(6000);
+    std::vector<Box> boxes;
+    Groups groups, many;
+    for (int i = 0; i < count; ++i) {
+        const double size = std::exp2(random_real(random, -14, -1));
+        const auto coordinate = [&] { return random_real(random, 0, 1); };
+        const auto side = [&] { return size * random_real(random, 0, 1); };
+        boxes.push_back(box(point_of(coordinate), point_of(side)));
+        groups.push_back(i % 7 == 0 ? no_group : static_cast<std::uint32_t>(i % 3));
+        many.push_back(i % 5 == 0 ? UINT32_MAX - 1 : static_cast<std::uint32_t>(i / 2));
+    }
+    check(boxes);
+    for (const Groups& g : {groups, many}) {
+        check(boxes, g);
+        const Run run{.threads = 2};
+        CHECK(candidate_pairs(boxes, g, Search::hierarchy, run) == expected(boxes, g));
+    }
+    for (int i = 0; i < count; ++i) groups[static_cast<std::size_t>(i)] = i % 2; // red and blue
+    check(boxes, groups);
+}
+
+TEST_CASE("searches: two groups that are far apart, meet at a corner, lie in each other") {
+    for (const double shift : {0.0, 0.5, 9.0, 10.0, 30.0}) {
+        std::vector<Box> boxes;
+        Groups groups;
+        for (int i = 0; i < 200; ++i) {
+            const bool red = i % 2 == 0;
+            const double x = i / 2 % 10, y = i / 20, by = red ? 0 : shift;
+            boxes.push_back(box({x + by, y + by, by}, {1, 1, red ? 0.0 : 1.0}));
+            groups.push_back(red ? 5 : 3);
+        }
+        check(boxes, groups);
+    }
+}
+
+TEST_CASE("pairs of active boxes are those pairs with one of them") {
+    Random random(54);
+    for (const Kind kind : {Kind::cells, Kind::sizes, Kind::ratios, Kind::far, Kind::everything})
+        for (const int share : {0, 1, 10, 100})
+            for (int n = 0; n < cases(40); ++n) {
+                const auto boxes = random_boxes(random, kind);
+                std::vector<std::uint32_t> active;
+                for (std::uint32_t i = 0; i < boxes.size(); ++i)
+                    if (random_int(random, 0, 99) < share) active.push_back(i);
+                Pairs right;
+                for (const CandidatePair& p : expected(boxes, {}))
+                    if (std::binary_search(active.begin(), active.end(), p.first) ||
+                        std::binary_search(active.begin(), active.end(), p.second))
+                        right.push_back(p);
+                REQUIRE(candidate_pairs_of(boxes, active) == right);
+            }
+}
+
+TEST_CASE("alternating trees: a list does no harm, Table 1 and parts halved give the same boxes") {
+    std::vector<Box> boxes; // ascending in all keys: everything goes right
+    const int count = cases(5000);
+    for (int i = 0; i < count; ++i) boxes.push_back(box({i * 1.0, i * 1.0, i * 1.0}, {1, 1, 1}));
+    search::AbTree list(boxes);
+    CHECK(list.depth() == boxes.size());
+    const auto order = search::table_1_order(boxes);
+    REQUIRE(order.size() == boxes.size());
+    search::AbTree table(boxes, order);
+    CHECK(table.depth() <= 16);
+    search::BalancedAbTree halves(boxes);
+    for (int i = 0; i < count; i += 97) {
+        const auto ask = [&](auto& tree) {
+            Groups found;
+            tree.query(boxes[static_cast<std::size_t>(i)],
+                       [&](std::uint32_t j) { found.push_back(j); });
+            std::sort(found.begin(), found.end());
+            return found;
+        };
+        const Groups right = ask(list);
+        CHECK(right.size() == (i == 0 ? 2 : 3));
+        CHECK(ask(table) == right);
+        CHECK(ask(halves) == right);
+    }
+}
+
+TEST_CASE("the mixed search keeps what lies in cells of both") {
+    std::vector<Box> boxes; // two rows at right angles; they meet in the middle
+    Groups groups;
+    for (int i = 0; i < 50; ++i) {
+        boxes.push_back(box({i * 1.0, 25, 0}, {1, 1, 1}));
+        groups.push_back(0);
+        boxes.push_back(box({25, i * 1.0, 0}, {1, 1, 1}));
+        groups.push_back(1);
+    }
+    const auto kept = search::boxes_in_mixed_cells(boxes, groups);
+    CHECK(kept.size() >= 6);
+    CHECK(kept.size() <= 12);
+    CHECK(search::boxes_in_mixed_cells(boxes, Groups(100, 4)).empty());
+    CHECK(search::boxes_in_mixed_cells(boxes, Groups(100, no_group)).size() == 100);
+}
+
 TEST_CASE("names of searches") {
+    for (const Search method : all_methods()) CHECK(search_named(name_of(method)) == method);
     CHECK(name_of(Search::automatic) == "auto");
     CHECK(name_of(Search::grid) == "grid");
+    CHECK(name_of(Search::ab) == "ab");
     CHECK(name_of(Search::ab_balanced) == "ab-balanced");
+    CHECK(name_of(Search::mixed) == "mixed");
+    CHECK(name_of(Search::hierarchy) == "hierarchy");
     CHECK(name_of(Search::brute) == "brute");
+    CHECK(!search_named("best"));
 }

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/search/join.hpp>
+
+#include <algorithm>
+
+#include <terrane/algorithms/parallel.hpp>
+#include <terrane/algorithms/search/packed_tree.hpp>
+
+namespace terrane::search {
+namespace {
+
+using Pairs = std::vector<CandidatePair>;
+using Blocks = std::vector<Pairs>;
+
+constexpr std::size_t most_trees = 8; ///< with more groups than this, one tree holds all
+constexpr std::size_t leaves_per_block = 1024;
+
+/// Joins the leaves of one tree with another; adds what keep(i, j) lets through.
+template <class Keep>
+void join(const PackedTree& a, const PackedTree& b, std::span<const Box> boxes, const Run& run,
+          Blocks& blocks, const Keep& keep) {
+    auto found = for_blocks<Pairs>(
+        a.leaf_count(), leaves_per_block, run, [&](std::size_t l, std::size_t end) {
+            Pairs pairs;
+            for (; l < end; ++l)
+                a.join(static_cast<std::uint32_t>(l), b, [&](std::uint32_t i, std::uint32_t j) {
+                    if (keep(i, j) && boxes[i].overlaps(boxes[j]))
+                        pairs.push_back({std::min(i, j), std::max(i, j)});
+                });
+            return pairs;
+        });
+    std::move(found.begin(), found.end(), std::back_inserter(blocks));
+}
+
+void append(Selection& to, const Selection& from, std::size_t k) {
+    to.boxes.push_back(from.boxes[k]);
+    to.indices.push_back(from.indices[k]);
+}
+
+/// The selected boxes by group; none where there are too many groups.
+std::vector<Selection> by_group(const Selection& all, std::span<const std::uint32_t> groups) {
+    std::vector<Selection> parts;
+    std::vector<std::uint32_t> names;
+    for (std::size_t k = 0; k < all.indices.size(); ++k) {
+        const std::uint32_t group = groups[all.indices[k]];
+        const auto at = std::find(names.begin(), names.end(), group) - names.begin();
+        if (static_cast<std::size_t>(at) == names.size()) {
+            if (names.size() == most_trees) return {};
+            names.push_back(group);
+            parts.emplace_back();
+        }
+        append(parts[static_cast<std::size_t>(at)], all, k);
+    }
+    return parts;
+}
+
+Blocks join_groups(const std::vector<Selection>& parts, std::span<const Box> boxes,
+                   std::span<const std::uint32_t> groups, const Run& run) {
+    std::vector<PackedTree> trees;
+    trees.reserve(parts.size());
+    for (const Selection& p : parts) trees.emplace_back(p);
+    Blocks blocks;
+    const auto all = [](std::uint32_t, std::uint32_t) { return true; };
+    for (std::size_t a = 0; a < trees.size(); ++a) {
+        if (groups[parts[a].indices[0]] == no_group)
+            join(trees[a], trees[a], boxes, run, blocks, all);
+        for (std::size_t b = a + 1; b < trees.size(); ++b)
+            join(trees[a], trees[b], boxes, run, blocks, all);
+    }
+    return blocks;
+}
+
+Blocks join_all(const Selection& selection, std::span<const Box> boxes,
+                std::span<const std::uint32_t> groups, const Run& run) {
+    const PackedTree tree(selection);
+    Blocks blocks;
+    if (groups.empty())
+        join(tree, tree, boxes, run, blocks, [](std::uint32_t, std::uint32_t) { return true; });
+    else
+        join(tree, tree, boxes, run, blocks, [&](std::uint32_t i, std::uint32_t j) {
+            return groups[i] == no_group || groups[i] != groups[j];
+        });
+    return blocks;
+}
+
+} // namespace
+
+std::vector<CandidatePair> sorted(const Blocks& blocks, std::size_t count) {
+    std::size_t total = 0;
+    for (const Pairs& b : blocks) total += b.size();
+    Pairs pairs;
+    if (total < count / 16) { // few: no array of all rows
+        pairs.reserve(total);
+        for (const Pairs& b : blocks) pairs.insert(pairs.end(), b.begin(), b.end());
+        std::sort(pairs.begin(), pairs.end());
+        return pairs;
+    }
+    std::vector<std::uint64_t> row(count + 1); // 32 bits would not hold the number of pairs
+    for (const Pairs& b : blocks)
+        for (const CandidatePair& p : b) ++row[p.first + 1];
+    for (std::size_t i = 0; i < count; ++i) row[i + 1] += row[i];
+    pairs.resize(total);
+    for (const Pairs& b : blocks)
+        for (const CandidatePair& p : b) pairs[row[p.first]++] = p;
+    auto begin = pairs.begin();
+    for (std::size_t i = 0; i < count; ++i) { // row[i] is now where row i ends
+        const auto end = pairs.begin() + static_cast<std::ptrdiff_t>(row[i]);
+        std::sort(begin, end);
+        begin = end;
+    }
+    return pairs;
+}
+
+std::vector<CandidatePair> hierarchy_pairs(std::span<const Box> boxes,
+                                           std::span<const std::uint32_t> groups, const Run& run) {
+    if (groups.empty())
+        return sorted(join_all(select_all(boxes), boxes, groups, run), boxes.size());
+    const Selection selection = select_meeting(boxes, groups);
+    const auto parts = by_group(selection, groups);
+    return sorted(parts.empty() ? join_all(selection, boxes, groups, run)
+                                : join_groups(parts, boxes, groups, run),
+                  boxes.size());
+}
+
+std::vector<CandidatePair> active_pairs(std::span<const Box> boxes,
+                                        std::span<const std::uint32_t> active, const Run& run) {
+    const Selection selection = select_near(boxes, active);
+    Selection chosen, others;
+    auto next = active.begin();
+    for (std::size_t k = 0; k < selection.indices.size(); ++k) {
+        while (next != active.end() && *next < selection.indices[k]) ++next;
+        const bool is_active = next != active.end() && *next == selection.indices[k];
+        append(is_active ? chosen : others, selection, k);
+    }
+    const PackedTree tree(chosen), other_tree(others);
+    Blocks blocks;
+    const auto all = [](std::uint32_t, std::uint32_t) { return true; };
+    join(tree, tree, boxes, run, blocks, all);
+    join(tree, other_tree, boxes, run, blocks, all);
+    return sorted(blocks, boxes.size());
+}
+
+} // namespace terrane::search

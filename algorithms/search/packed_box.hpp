@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Boxes in 16 bytes, for a first test that never misses an overlap.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include <terrane/algorithms/search/search.hpp>
+
+namespace terrane::search {
+
+/// Six coordinates of 20 bits. Fields of 21 bits, x lowest; the highest bit of each is a guard, set
+/// in `high` alone, so that one subtraction compares three coordinates: a guard survives exactly
+/// where nothing had to be borrowed from it.
+struct PackedBox {
+    std::uint64_t low, high;
+
+    static constexpr unsigned bits = 20;
+    static constexpr unsigned field = bits + 1;
+    static constexpr std::uint64_t last = (1u << bits) - 1; ///< largest coordinate
+    static constexpr std::uint64_t guards = (std::uint64_t{1} << bits) |
+                                            (std::uint64_t{1} << (field + bits)) |
+                                            (std::uint64_t{1} << (2 * field + bits));
+
+    [[nodiscard]] bool overlaps(const PackedBox& o) const {
+        return (((o.high - low) & (high - o.low)) & guards) == guards;
+    }
+    [[nodiscard]] std::uint32_t low_of(unsigned axis) const {
+        return static_cast<std::uint32_t>((low >> (axis * field)) & last);
+    }
+    [[nodiscard]] std::uint32_t high_of(unsigned axis) const {
+        return static_cast<std::uint32_t>((high >> (axis * field)) & last);
+    }
+
+    static PackedBox of(const std::array<std::uint64_t, 3>& low,
+                        const std::array<std::uint64_t, 3>& high) {
+        return {low[0] | low[1] << field | low[2] << 2 * field,
+                high[0] | high[1] << field | high[2] << 2 * field | guards};
+    }
+    /// Overlaps nothing: each low coordinate is 2^20.
+    static constexpr PackedBox none() { return {guards, guards}; }
+};
+
+/// Maps a region onto coordinates 0 .. 2^20 - 1 of each axis; what lies outside goes to the ends. The
+/// map is monotone, also where it rounds, so boxes that overlap still do when packed.
+class Lattice {
+public:
+    explicit Lattice(const Box& region) {
+        for (unsigned k = 0; k < 3; ++k) {
+            half_low_[k] = region.low[k] / 2;
+            const double half = region.high[k] / 2 - half_low_[k]; // no overflow
+            factor_[k] = half > 0x1p-1000 ? (PackedBox::last + 1) / half : 0;
+        }
+    }
+
+    [[nodiscard]] PackedBox pack(const Box& b) const {
+        std::array<std::uint64_t, 3> low{}, high{};
+        for (unsigned k = 0; k < 3; ++k) {
+            low[k] = coordinate(k, b.low[k]);
+            high[k] = coordinate(k, b.high[k]);
+        }
+        return PackedBox::of(low, high);
+    }
+
+private:
+    [[nodiscard]] std::uint64_t coordinate(unsigned axis, double x) const {
+        const double c = (x / 2 - half_low_[axis]) * factor_[axis];
+        return static_cast<std::uint32_t>(std::min(std::max(c, 0.0), double{PackedBox::last}));
+    }
+
+    std::array<double, 3> half_low_{}, factor_{};
+};
+
+} // namespace terrane::search

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// A bounding volume hierarchy without pointers: boxes in the order of a space-filling curve, eight
+// neighbours to a node.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <vector>
+
+#include <terrane/algorithms/search/shared_cells.hpp>
+
+namespace terrane::search {
+
+/// Boxes of similar size come together in the order, so a few large ones do not blow up the nodes of
+/// many small ones. Cost: sorting 32-bit keys by digits, then linear.
+class PackedTree {
+public:
+    explicit PackedTree(const Selection& selection);
+
+    /// Number of leaves of eight boxes.
+    [[nodiscard]] std::uint32_t leaf_count() const { return leaves_; }
+
+    /// Calls report(index here, index there) for all overlapping boxes of a leaf here and of the
+    /// other tree, packed on the same lattice; each pair once. Of pairs within one tree, whatever the
+    /// order, only those that no smaller leaf reports.
+    template <class Report>
+    void join(std::uint32_t leaf, const PackedTree& other, const Report& report) const {
+        struct Node {
+            std::uint32_t level, number; ///< children 8 * number .. of levels_[level]
+        };
+        const PackedBox box = levels_[1][leaf];
+        const std::uint32_t from = &other == this ? leaf : 0;
+        std::array<Node, 8 * levels_at_most> stack; // NOLINT: filled as far as used
+        unsigned top = 0;
+        stack[top++] = {static_cast<std::uint32_t>(other.levels_.size()) - 1, 0};
+        while (top > 0) {
+            const Node node = stack[--top];
+            const std::uint32_t first = 8 * node.number;
+            unsigned meeting = overlapping(&other.levels_[node.level][first], box);
+            for (; meeting != 0; meeting &= meeting - 1) {
+                const std::uint32_t child = first + lowest(meeting);
+                if ((std::uint64_t{child} + 1) << (3 * (node.level - 1)) <= from) continue;
+                if (node.level == 1)
+                    join_leaves(leaf, other, child, report);
+                else
+                    stack[top++] = {node.level - 1, child};
+            }
+        }
+    }
+
+private:
+    static constexpr unsigned levels_at_most = 12; // 8^11 > 2^32
+
+    static unsigned lowest(unsigned mask) { return static_cast<unsigned>(std::countr_zero(mask)); }
+
+    /// A bit for each of eight boxes.
+    static unsigned overlapping(const PackedBox* boxes, const PackedBox& q) {
+        unsigned mask = 0;
+        for (unsigned c = 0; c < 8; ++c) mask |= unsigned{boxes[c].overlaps(q)} << c;
+        return mask;
+    }
+
+    template <class Report>
+    void join_leaves(std::uint32_t leaf, const PackedTree& other, std::uint32_t other_leaf,
+                     const Report& report) const {
+        const PackedBox *here = &levels_[0][8 * std::size_t{leaf}],
+                        *there = &other.levels_[0][8 * std::size_t{other_leaf}];
+        const bool same = here == there;
+        const unsigned ours = overlapping(here, other.levels_[1][other_leaf]);
+        const unsigned theirs = overlapping(there, levels_[1][leaf]);
+        for (unsigned a = ours; a != 0; a &= a - 1) {
+            const unsigned i = lowest(a);
+            for (unsigned b = same ? theirs & (~1u << i) : theirs; b != 0; b &= b - 1)
+                if (here[i].overlaps(there[lowest(b)]))
+                    report(indices_[8 * leaf + i], other.indices_[8 * other_leaf + lowest(b)]);
+        }
+    }
+
+    std::vector<std::vector<PackedBox>> levels_; ///< the boxes, then boxes of 8 of the level before
+                                                 ///< (one level at least), each filled up to a
+                                                 ///< multiple of 8; the last has 8
+    std::vector<std::uint32_t> indices_;         ///< per box of levels_[0]
+    std::uint32_t leaves_ = 0;
+};
+
+} // namespace terrane::search
