@@ -14,7 +14,8 @@ namespace terrane::cli {
 namespace {
 
 constexpr unsigned most_rounds = 8;
-constexpr std::size_t most_areas = 6; ///< printed per surface
+constexpr std::size_t most_areas = 3;     ///< printed per surface
+constexpr std::size_t most_surfaces = 40; ///< printed
 
 /// What the summary says of one surface.
 struct SurfaceTally {
@@ -43,10 +44,12 @@ std::string surface_table(const Inputs& inputs, const RoundedMesh& rounded) {
     auto text = fmt::format("  {:<{}}  {:>9}  {:>9}  {:>7}  areas of the regions\n", "surface",
                             width, "triangles", "-> output", "regions");
     const auto tallies = tally(inputs, rounded);
-    for (std::size_t s = 0; s < tallies.size(); ++s)
+    for (std::size_t s = 0; s < std::min(tallies.size(), most_surfaces); ++s)
         text += fmt::format("  {:<{}}  {:>9}  {:>9}  {:>7}  {}\n", inputs.labels[s], width,
                             inputs.surfaces[s].triangles.size(), tallies[s].triangles,
                             tallies[s].areas.size(), areas_text(tallies[s].areas));
+    if (tallies.size() > most_surfaces)
+        text += fmt::format("  and {} more\n", tallies.size() - most_surfaces);
     return text;
 }
 
@@ -57,8 +60,10 @@ std::string set_aside(const Arrangement& a) {
 }
 
 std::string rounding_text(const RoundingReport& r) {
-    auto text =
-        fmt::format("doubles: no vertex is more than {:.3g} from its exact place", r.max_move);
+    std::string text = "doubles: every vertex is at its exact place";
+    if (r.max_move > 0)
+        text =
+            fmt::format("doubles: no vertex is more than {:.3g} from its exact place", r.max_move);
     if (r.rounds > 0)
         text += fmt::format("; {} of snapping, for {} that met improperly",
                             counted(r.rounds, "round"), counted(r.naive_contacts, "pair"));
@@ -87,15 +92,15 @@ Point3 narrowed(const Point3& p) {
 void add_settings(CLI::App& command, ArrangeSettings& settings) {
     static const std::map<std::string, Search> methods = [] {
         std::map<std::string, Search> all;
-        for (const auto m : {Search::automatic, Search::grid, Search::ab_balanced,
-                             Search::hierarchy, Search::brute})
+        for (const auto m : {Search::automatic, Search::grid, Search::ab, Search::ab_balanced,
+                             Search::mixed, Search::hierarchy, Search::brute})
             all.emplace(name_of(m), m);
         return all;
     }();
     command
         .add_option("--search", settings.search,
                     "How triangles that may meet are found; the result is the same: "
-                    "auto, grid, ab-balanced, hierarchy, brute (default: auto)")
+                    "auto, grid, ab, ab-balanced, mixed, hierarchy, brute (default: auto)")
         ->transform(CLI::Transformer(methods, CLI::ignore_case).description(""))
         ->type_name("METHOD");
     command

@@ -96,11 +96,8 @@ std::vector<RegionTally> tally(const TetrahedralMesh& mesh) {
 
 std::string region_text(const TetrahedralMesh& mesh) {
     const auto regions = tally(mesh);
-    auto text = fmt::format(
-        "{}, {}, {} with the outside\n",
-        mesh.tetrahedra.size() == 1 ? std::string("1 tetrahedron")
-                                    : fmt::format("{} tetrahedra", mesh.tetrahedra.size()),
-        counted(mesh.faces.size(), "face on surfaces and box"), counted(regions.size(), "region"));
+    auto text = fmt::format("{} tetrahedra, {}, {} with the outside\n", mesh.tetrahedra.size(),
+                            counted(mesh.faces.size(), "face"), counted(regions.size(), "region"));
     for (std::size_t r = 0; r < std::min(regions.size(), most_regions); ++r)
         text += fmt::format("  region {:<3} {:>9} tetrahedra  volume {:.6g}{}\n", r,
                             regions[r].tetrahedra, regions[r].volume, r == 0 ? "  (outside)" : "");
