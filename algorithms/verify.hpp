@@ -41,7 +41,21 @@ enum class Rule : std::uint8_t {
                   ///< it: a child lies outside of it, or the areas do not add up
     R7_intersection_edges, ///< listed but none, or one but not listed
     R8_set_aside,          ///< degenerate or duplicate, but not listed as such, or the reverse
+    // R9 and those that follow judge a certificate: see verify_certificate.hpp.
+    R9_inputs,           ///< an input file is not the one that the certificate speaks of
+    R10_rounded_indices, ///< in the mesh of doubles: as R1, or a number is not finite
+    R11_conforming,      ///< the doubles are not conforming, though said to be, or the reverse
+    R12_rounded_parents, ///< a parent without area; an input triangle of which nothing is left, but
+                         ///< not listed as vanished, or the reverse
+    R13_deviation,       ///< a triangle is farther from a parent than the stated deviation
+    R14_moves,           ///< a vertex is farther from its exact point than the stated largest move
+    R15_rounded_edges,   ///< as R7, in the mesh of doubles
+    R16_regions,         ///< regions are not what intersection edges divide the surfaces into
+    R17_digest,          ///< the digest is not that of the arrangement
 };
+
+/// "R5"
+std::string name_of(Rule rule);
 
 struct Violation {
     Rule rule{};
@@ -50,6 +64,10 @@ struct Violation {
                                          ///< R6: {input triangle}, {input triangle, triangle}, or
                                          ///<     {duplicate, first}
                                          ///< R7: the two vertices of an edge; R8: input triangles
+                                         ///< R9: an input; R10, R15: as R1, R7; R11: none, or as
+                                         ///< R3 to R5; R12: {input triangle} or {triangle, parent}
+                                         ///< R13: {vertex, input triangle}; R14: vertex
+                                         ///< R16: triangles, or none for the whole; R17: none
     std::string sentence;
 };
 

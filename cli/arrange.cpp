@@ -6,6 +6,7 @@
 #include <terrane/algorithms/stopwatch.hpp>
 #include <terrane/cli/command.hpp>
 #include <terrane/cli/pipeline.hpp>
+#include <terrane/cli/proof.hpp>
 
 namespace terrane::cli {
 namespace {
@@ -15,6 +16,7 @@ constexpr std::size_t most_pairs = 20; ///< named on the terminal
 struct ArrangeCommand {
     FileOptions files;
     ArrangeSettings settings;
+    ProofOptions proof;
     bool keep_unverified = false;
 };
 
@@ -51,6 +53,7 @@ Result<ExitStatus> arrange_files(const ArrangeCommand& command, Session& session
     const FileOptions& files = command.files;
     const auto outputs = plan_outputs(files, OutputKind::surfaces);
     if (!outputs) return outputs.error();
+    if (const auto named = plan_proof(command.proof, files); !named) return named.error();
     const auto inputs = read_inputs(files, session);
     if (!inputs) return inputs.error();
     Json statistics = statistics_of(inputs.value());
@@ -77,6 +80,9 @@ Result<ExitStatus> arrange_files(const ArrangeCommand& command, Session& session
         print(summary_stream(files), output.path == "-" ? "" : "wrote " + output.path + "\n");
     }
     if (!keep) print(stderr, "terrane: nothing written (see --keep-unverified)\n");
+    const auto proved =
+        write_proof(command.proof, files, inputs.value(), arranged.value(), session);
+    if (!proved) return proved.error();
     statistics["seconds"]["write"] = writing.lap();
     const auto status = write_statistics(statistics, files.stats, total.lap());
     if (!status) return status.error();
@@ -96,6 +102,7 @@ Command arrange_command(CLI::App& program) {
         "--keep-unverified", options->keep_unverified,
         "Write the mesh even where its doubles are not conforming (status 1 all the same)");
     app->add_flag("--ascii", options->files.ascii, "STL as text, with doubles, not float32");
+    add_proof(*app, options->proof);
     add_threads(*app, options->files);
     add_stats(*app, options->files);
     app->footer(footer);

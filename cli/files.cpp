@@ -41,21 +41,6 @@ bool fits(Format format, OutputKind kind) {
     return format != Format::vtu;
 }
 
-/// The folder must be there: it is better to say so before an hour of work than after it.
-Status check_folder(const std::string& path) {
-    if (path == "-") return Done{};
-    const auto parent = fs::path(path).parent_path();
-    const auto folder = parent.empty() ? fs::path(".") : parent;
-    std::error_code ignored;
-    if (!fs::is_directory(folder, ignored))
-        return Error{ErrorCode::cannot_open, "there is no folder " + folder.string(), path};
-    if (fs::is_directory(path, ignored))
-        return Error{ErrorCode::cannot_open, "this is a folder", path};
-    if (!fs::exists(path, ignored) && access(folder.c_str(), W_OK) != 0)
-        return Error{ErrorCode::cannot_open, "nothing can be written in this folder", path};
-    return Done{};
-}
-
 Status check_streams(const FileOptions& options) {
     const auto dashes = [](const std::vector<std::string>& names) {
         return std::count(names.begin(), names.end(), "-");
@@ -89,6 +74,21 @@ Status write_with(const AnyMesh& mesh, const Output& output, bool ascii, Session
 }
 
 } // namespace
+
+// The folder must be there: it is better to say so before an hour of work than after it.
+Status check_folder(const std::string& path) {
+    if (path == "-") return Done{};
+    const auto parent = fs::path(path).parent_path();
+    const auto folder = parent.empty() ? fs::path(".") : parent;
+    std::error_code ignored;
+    if (!fs::is_directory(folder, ignored))
+        return Error{ErrorCode::cannot_open, "there is no folder " + folder.string(), path};
+    if (fs::is_directory(path, ignored))
+        return Error{ErrorCode::cannot_open, "this is a folder", path};
+    if (!fs::exists(path, ignored) && access(folder.c_str(), W_OK) != 0)
+        return Error{ErrorCode::cannot_open, "nothing can be written in this folder", path};
+    return Done{};
+}
 
 void add_inputs(CLI::App& command, FileOptions& options) {
     command.add_option("IN", options.inputs, "Files with surfaces; - is standard input")
@@ -155,6 +155,7 @@ Result<Inputs> read_inputs(const FileOptions& options, Session& session) {
             session.end_stage();
             return read.error();
         }
+        all.surfaces_of_file.push_back(read.value().size());
         for (Surface& s : read.value()) {
             all.vertices += s.vertices.size();
             all.triangles += s.triangles.size();

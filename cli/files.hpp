@@ -45,9 +45,13 @@ enum class OutputKind { surfaces, tetrahedra };
 /// do not exist or do not fit, folders that are missing, a standard stream used twice.
 Result<std::vector<Output>> plan_outputs(const FileOptions& options, OutputKind kind);
 
+/// An error if a file can't be written there: no such folder, or no right to.
+Status check_folder(const std::string& path);
+
 struct Inputs {
     std::vector<Surface> surfaces;
     std::vector<std::string> files;  ///< per surface: where it comes from
+    std::vector<std::size_t> surfaces_of_file; ///< per input on the command line: how many
     std::vector<std::string> labels; ///< per surface: its name, made unique, on one line
     std::size_t vertices = 0, triangles = 0;
     double seconds = 0;

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/digest.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <string_view>
+#include <vector>
+
+#include <terrane/algorithms/parallel.hpp>
+#include <terrane/algorithms/sha256.hpp>
+#include <terrane/kernel/fraction.hpp>
+
+namespace terrane {
+namespace {
+
+using Hashes = std::vector<Hash>;
+
+Hash tagged(std::string_view tag, Hashes list, std::string_view tail = {}) {
+    std::sort(list.begin(), list.end());
+    Sha256 state;
+    state.feed(tag);
+    state.feed(list);
+    state.feed(tail);
+    return state.finish();
+}
+
+class Digest {
+public:
+    Digest(std::span<const Surface> inputs, const Arrangement& arrangement, const Run& run) :
+        arrangement_(arrangement), run_(run) {
+        const PointStore& points = arrangement.points;
+        hash_points(points.size());
+        hash_inputs(inputs);
+    }
+
+    std::string operator()() {
+        add_triangles();
+        for (const auto& [low, high] : arrangement_.intersection_edges)
+            records_.push_back(tagged("edge", {point(low), point(high)}));
+        for (const std::uint32_t t : arrangement_.degenerate)
+            records_.push_back(tagged("degenerate", {inputs_[t]}));
+        add_duplicates();
+        return "sha256:" + hexadecimal(tagged("terrane-digest 1\n", std::move(records_)));
+    }
+
+private:
+    [[nodiscard]] const Hash& point(std::uint32_t vertex) const {
+        return points_[arrangement_.vertices[vertex]];
+    }
+
+    void hash_points(std::size_t count) {
+        const auto blocks =
+            for_blocks<Hashes>(count, 1024, run_, [&](std::size_t first, std::size_t last) {
+                Hashes block;
+                for (std::size_t p = first; p < last; ++p) {
+                    const auto [x, y, z] =
+                        fractions(arrangement_.points, static_cast<PointIndex>(p), 16);
+                    block.push_back(sha256(x + ' ' + y + ' ' + z));
+                }
+                return block;
+            });
+        for (const Hashes& b : blocks) points_.insert(points_.end(), b.begin(), b.end());
+    }
+
+    void hash_inputs(std::span<const Surface> inputs) {
+        std::size_t first = 0;
+        for (const Surface& s : inputs) {
+            for (const Triangle& t : s.triangles)
+                inputs_.push_back(tagged(
+                    "input", {points_[first + t[0]], points_[first + t[1]], points_[first + t[2]]},
+                    s.name));
+            first += s.vertices.size();
+        }
+    }
+
+    void add_triangles() {
+        for (std::size_t t = 0; t < arrangement_.triangles.size(); ++t) {
+            const auto& [a, b, c] = arrangement_.triangles[t];
+            Hashes corners{point(a), point(b), point(c)}, parents;
+            std::sort(corners.begin(), corners.end());
+            for (const std::uint32_t p : arrangement_.parents_of[t]) parents.push_back(inputs_[p]);
+            std::sort(parents.begin(), parents.end());
+            Sha256 state;
+            state.feed("triangle");
+            state.feed(corners);
+            state.feed(parents);
+            records_.push_back(state.finish());
+        }
+    }
+
+    void add_duplicates() {
+        std::map<std::uint32_t, Hashes> same; // by the first of them
+        for (const auto& [t, first] : arrangement_.inputs.duplicates) {
+            Hashes& all = same[first];
+            if (all.empty()) all.push_back(inputs_[first]);
+            all.push_back(inputs_[t]);
+        }
+        for (auto& [first, all] : same) records_.push_back(tagged("duplicates", std::move(all)));
+    }
+
+    const Arrangement& arrangement_;
+    const Run& run_;
+    Hashes points_;  ///< of all stored points
+    Hashes inputs_;  ///< of all input triangles
+    Hashes records_; ///< of all triangles, edges, degenerate and duplicates
+};
+
+} // namespace
+
+std::string canonical_digest(std::span<const Surface> inputs, const Arrangement& arrangement,
+                             const Run& run) {
+    const Run unstoppable{.threads = run.threads}; // it is over in a moment
+    return Digest(inputs, arrangement, unstoppable)();
+}
+
+} // namespace terrane

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Certificates: all that it takes to check a result from its input files alone. JSON, UTF-8:
+//
+//   { "format": "terrane-certificate", "version": 1,
+//     "inputs": [                    the files, in the order in which they were read
+//       { "name": "faults.ts",       relative to the folder of the certificate
+//         "sha256": "9f86d0...",     of the bytes of the file, 64 lower-case hexadecimal digits
+//         "bytes": 1204,
+//         "surfaces": [{ "name": "F1", "role": "fault", "vertices": 12, "triangles": 14 }] } ],
+//     "exact": {                     the arrangement, in exact numbers
+//       "vertices": [                by construction from input vertices; no two are equal
+//         ["v", i],                  input vertex i
+//         ["lp", p, q, a, b, c],     where line p q meets plane a b c
+//         ["ppp", a, b, c, d, e, f, g, h, i],  where planes a b c, d e f and g h i meet
+//         ["ll", p, q, r, s, "z"] ], where the coplanar lines p q and r s meet; they are not
+//                                    parallel when seen along this axis
+//       "triangles": [[u, v, w]],    three vertices, by position in "vertices"
+//       "parents": [[p, ...]],       per triangle: all input triangles that contain it, ascending
+//       "intersection_edges": [[u, v]],  u < v, ascending; rule R7 says which (verify.hpp)
+//       "degenerate": [t, ...],      input triangles without area, ascending
+//       "duplicates": [[t, first]] },  input triangle t has the three points of an earlier one
+//     "rounded": {                   the mesh of doubles, as written to files; or null
+//       "vertices": [["0.5", "-1e-3", "7"]],  x, y, z: the shortest decimal that reads back as the
+//                                    same double
+//       "triangles", "parents", "intersection_edges": as above, of these vertices
+//       "regions": [[r, ...]],       per triangle: its region in each surface of its parents
+//       "clean": true,               triangles meet in shared vertices and edges only
+//       "rounds": 0,                 of snapping
+//       "max_move": "1.1e-16",       no vertex is farther from its exact point
+//       "deviation": "1.1e-16",      no triangle is farther from any of its parents
+//       "vanished": [t, ...] },      input triangles with area of which nothing is left, ascending
+//     "digest": "sha256:..." }       of the exact part; digest.hpp defines it
+//
+// Input vertices and triangles are counted from 0 through all surfaces of all files. Names that
+// are no UTF-8 have U+FFFD for each byte that is wrong, so that the verifier refuses them.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <terrane/algorithms/arrangement.hpp>
+#include <terrane/algorithms/result.hpp>
+#include <terrane/algorithms/rounding.hpp>
+#include <terrane/algorithms/run.hpp>
+#include <terrane/algorithms/surface.hpp>
+
+namespace terrane {
+
+/// An input file: which bytes, and how many of the surfaces come from it.
+struct InputRecord {
+    std::string name;   ///< as the certificate shall call it
+    std::string sha256; ///< 64 lower-case hexadecimal digits
+    std::uint64_t bytes = 0;
+    std::size_t surfaces = 0;
+};
+
+/// Hashes a file as it is now. Errors: cannot_open.
+Result<InputRecord> record_input(const std::filesystem::path& path, std::string name,
+                                 std::size_t surfaces);
+
+/// `path` as a certificate in a file `certificate` calls it: relative to its folder.
+std::string certified_name(const std::filesystem::path& path,
+                           const std::filesystem::path& certificate);
+
+/// What a certificate is made of; the values must outlive it.
+struct Certified {
+    std::span<const InputRecord> files;
+    std::span<const Surface> surfaces; ///< of all files, in order
+    const Arrangement& exact;
+    const RoundedMesh* rounded = nullptr; ///< none: "rounded" is null
+};
+
+/// The text of a certificate. Cost: linear; a second for 200 000 triangles.
+/// Precondition: files[].surfaces add up to the surfaces.
+std::string to_certificate(const Certified& certified, const Run& run = {});
+
+} // namespace terrane

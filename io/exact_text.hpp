@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Arrangements with exact coordinates, as text. Line by line:
+//
+//   terrane-exact 1
+//   surfaces 2                 how many lines follow
+//   horizon 14 top reservoir   role, number of input triangles, name to the end of the line
+//   fault 2 F1
+//   vertices 8
+//   0 1/3 -72057594037927936   x y z, exact: reduced fractions in decimal, "/1" left out
+//   ...
+//   triangles 8
+//   0 1 6 0                    three vertices, then the input triangles that contain it: ascending,
+//   1 7 6 3 14                 counted through all surfaces
+//   ...
+//   intersection_edges 1
+//   6 7                        two vertices, the lower first; ascending
+//   end
+//
+// Indices count from 0. Fields are separated by one blank, lines end with \n. The surfaces of a
+// triangle follow from its input triangles.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <terrane/algorithms/arrangement.hpp>
+#include <terrane/algorithms/lists.hpp>
+#include <terrane/algorithms/mesh.hpp>
+#include <terrane/algorithms/result.hpp>
+#include <terrane/algorithms/run.hpp>
+
+namespace terrane {
+
+/// What the text says.
+struct ExactText {
+    std::vector<SurfaceInfo> surfaces;                ///< names on one line
+    std::vector<std::uint32_t> input_triangles;       ///< per surface: how many it had
+    std::vector<std::array<std::string, 3>> vertices; ///< x, y, z: "-5/3", "7"
+    std::vector<Triangle> triangles;                  ///< indices into vertices
+    Lists<std::uint32_t> parents_of;      ///< per triangle: input triangles, sorted, >= 1
+    std::vector<Edge> intersection_edges; ///< sorted, unique
+
+    friend bool operator==(const ExactText&, const ExactText&) = default;
+};
+
+/// Cost: linear in the digits; the fractions of 100 000 vertices take a second.
+ExactText to_exact(const Arrangement& arrangement, const Run& run = {});
+std::string to_text(const ExactText& exact);
+
+/// Errors: bad_syntax, bad_number (no fraction, or not as above), bad_index; with "source:line".
+Result<ExactText> read_exact(std::string_view contents, std::string_view source);
+
+} // namespace terrane
