@@ -90,7 +90,7 @@ Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
 
     // (b) candidate pairs
     const auto candidates =
-        candidate_pairs(boxes_of(soup.points, soup.triangles), patches.of, options.search);
+        candidate_pairs(boxes_of(soup.points, soup.triangles), patches.of, options.search, run);
     a.statistics.seconds_search = watch.lap();
     report(0.3);
     if (run.stop.stop_requested()) return interrupted();

@@ -152,7 +152,8 @@ std::vector<CandidatePair> Rounding::contacts() {
     const auto dirty = state_.dirty_triangles();
     if (dirty.empty()) return {};
     const auto boxes = boxes_of(state_.points, state_.triangles);
-    return improper_pairs(state_.points, state_.triangles, candidate_pairs_of(boxes, dirty), run_);
+    return improper_pairs(state_.points, state_.triangles,
+                          candidate_pairs_of(boxes, dirty, {}, run_), run_);
 }
 
 /// The same right after rounding to nearest: within a patch that still projects one-to-one no pair
@@ -170,10 +171,8 @@ std::vector<CandidatePair> Rounding::first_contacts() {
     };
     confirm_patches(state_.points, state_.triangles, arrangement_.edges, state_.is_dirty, turn,
                     patches);
-    auto candidates = candidate_pairs_of(boxes_of(state_.points, state_.triangles), dirty);
-    std::erase_if(candidates, [&](const CandidatePair& p) {
-        return patches.of[p.first] != no_group && patches.of[p.first] == patches.of[p.second];
-    });
+    const auto candidates =
+        candidate_pairs_of(boxes_of(state_.points, state_.triangles), dirty, patches.of, run_);
     return improper_pairs(state_.points, state_.triangles, candidates, run_);
 }
 

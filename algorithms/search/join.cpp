@@ -123,7 +123,8 @@ std::vector<CandidatePair> hierarchy_pairs(std::span<const Box> boxes,
 }
 
 std::vector<CandidatePair> active_pairs(std::span<const Box> boxes,
-                                        std::span<const std::uint32_t> active, const Run& run) {
+                                        std::span<const std::uint32_t> active,
+                                        std::span<const std::uint32_t> groups, const Run& run) {
     const Selection selection = select_near(boxes, active);
     Selection chosen, others;
     auto next = active.begin();
@@ -132,11 +133,13 @@ std::vector<CandidatePair> active_pairs(std::span<const Box> boxes,
         const bool is_active = next != active.end() && *next == selection.indices[k];
         append(is_active ? chosen : others, selection, k);
     }
-    const PackedTree tree(chosen), other_tree(others);
-    Blocks blocks;
-    const auto all = [](std::uint32_t, std::uint32_t) { return true; };
-    join(tree, tree, boxes, run, blocks, all);
-    join(tree, other_tree, boxes, run, blocks, all);
+    const auto parts = groups.empty() ? std::vector<Selection>{} : by_group(chosen, groups);
+    Blocks blocks = parts.empty() ? join_all(chosen, boxes, groups, run)
+                                  : join_groups(parts, boxes, groups, run);
+    const auto keep = [&](std::uint32_t i, std::uint32_t j) {
+        return groups.empty() || groups[i] == no_group || groups[i] != groups[j];
+    };
+    join(PackedTree(chosen), PackedTree(others), boxes, run, blocks, keep);
     return sorted(blocks, boxes.size());
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The search that `automatic` stands for: reduction to what can meet, then trees joined leaf by leaf.
+// The search that `automatic` stands for: reduction to what can meet, then trees joined leaf by
+// leaf.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +20,8 @@ std::vector<CandidatePair> hierarchy_pairs(std::span<const Box> boxes,
 
 /// All pairs of which at least one is active (ascending indices).
 std::vector<CandidatePair> active_pairs(std::span<const Box> boxes,
-                                        std::span<const std::uint32_t> active, const Run& run);
+                                        std::span<const std::uint32_t> active,
+                                        std::span<const std::uint32_t> groups, const Run& run);
 
 /// Sorts pairs of indices below `count`.
 std::vector<CandidatePair> sorted(const std::vector<std::vector<CandidatePair>>& blocks,
