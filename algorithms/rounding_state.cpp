@@ -119,10 +119,16 @@ void RoundingState::find_gaps(const std::vector<bool>& gone) {
 /// Equal points get one name: the lowest. Only a dirty point can have become equal to another.
 bool RoundingState::merge_points() {
     std::unordered_map<Point3, std::uint32_t, PointHash> first;
+    std::vector<bool> maybe(std::size_t{1} << 20, false); // by hash: spares most look-ups
+    const auto slot = [&](const Point3& p) { return PointHash{}(p) & (maybe.size() - 1); };
     for (std::uint32_t v = 0; v < points.size(); ++v)
-        if (is_dirty[v]) first.emplace(points[v], none);
+        if (is_dirty[v]) {
+            first.emplace(points[v], none);
+            maybe[slot(points[v])] = true;
+        }
     std::vector<std::uint32_t> name;
     for (std::uint32_t v = 0; v < points.size(); ++v) {
+        if (!maybe[slot(points[v])]) continue;
         const auto it = first.find(points[v]);
         if (it == first.end()) continue;
         if (it->second == none) {
@@ -147,54 +153,56 @@ bool RoundingState::merge_points() {
 }
 
 bool RoundingState::tidy() {
-    bool changed = merge_points();
-    std::map<Triangle, std::uint32_t> seen; // dirty triangles kept, by sorted corners
-    std::vector<std::uint32_t> joined_to(triangles.size(), none);
-    std::vector<bool> gone(triangles.size(), false);
+    const bool merged_any = merge_points();
     const auto has_area = [&](const Triangle& t) {
         if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return false;
         return !collinear(points[t[0]], points[t[1]], points[t[2]]);
     };
-    bool any = false;
-    const std::size_t collapsed_before = collapsed;
     const auto dirty = dirty_triangles();
+    std::vector<std::uint32_t> lost;
     for (const std::uint32_t t : dirty)
-        if (!has_area(triangles[t])) {
-            gone[t] = any = true;
-            ++collapsed;
-        }
-    if (collapsed > collapsed_before) find_gaps(gone);
+        if (!has_area(triangles[t])) lost.push_back(t);
+    collapsed += lost.size();
+    if (lost.empty() && !merged_any) return false; // then no two triangles can have become equal
+    std::vector<bool> gone(triangles.size(), false);
+    for (const std::uint32_t t : lost) gone[t] = true;
+    if (!lost.empty()) find_gaps(gone);
+    join_equal(dirty, gone);
+    return true;
+}
+
+/// Drops what is gone, and of equal triangles all but the first, which gets their parents.
+void RoundingState::join_equal(std::span<const std::uint32_t> dirty, std::vector<bool>& gone) {
+    std::map<Triangle, std::uint32_t> seen; // by sorted corners
+    std::map<std::uint32_t, std::vector<std::uint32_t>> extra;
     for (const std::uint32_t t : dirty) {
         if (gone[t]) continue;
         const auto [it, fresh] = seen.emplace(sorted(triangles[t]), t);
-        if (!fresh) {
-            gone[t] = any = true;
-            joined_to[t] = it->second;
-        }
+        if (fresh) continue;
+        gone[t] = true;
+        auto& list = extra[it->second];
+        list.insert(list.end(), parents_of[t].begin(), parents_of[t].end());
     }
-    if (!any) return changed;
-    std::map<std::uint32_t, std::vector<std::uint32_t>> extra;
-    for (std::uint32_t t = 0; t < triangles.size(); ++t)
-        if (joined_to[t] != none) {
-            auto& list = extra[joined_to[t]];
-            list.insert(list.end(), parents_of[t].begin(), parents_of[t].end());
-        }
     Lists<std::uint32_t> parents;
+    parents.offsets.reserve(parents_of.offsets.size());
+    parents.values.reserve(parents_of.values.size());
     std::size_t kept = 0;
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {
         if (gone[t]) continue;
-        std::vector<std::uint32_t> list(parents_of[t].begin(), parents_of[t].end());
-        if (const auto more = extra.find(t); more != extra.end()) {
-            list.insert(list.end(), more->second.begin(), more->second.end());
-            std::sort(list.begin(), list.end());
-            list.erase(std::unique(list.begin(), list.end()), list.end());
-        }
-        parents.push_back(list);
         triangles[kept++] = triangles[t];
+        const auto more = extra.find(t);
+        if (more == extra.end()) {
+            parents.push_back(parents_of[t]);
+            continue;
+        }
+        auto& list = more->second;
+        list.insert(list.end(), parents_of[t].begin(), parents_of[t].end());
+        std::sort(list.begin(), list.end());
+        list.erase(std::unique(list.begin(), list.end()), list.end());
+        parents.push_back(list);
     }
     triangles.resize(kept);
     parents_of = std::move(parents);
-    return true;
 }
 
 void RoundingState::replace_triangles(std::vector<Triangle> fresh,

@@ -52,6 +52,7 @@ struct RoundingState {
 private:
     void move_point(std::size_t v, const Point3& to);
     bool merge_points();
+    void join_equal(std::span<const std::uint32_t> dirty, std::vector<bool>& gone);
     void find_gaps(const std::vector<bool>& gone);
 
     double largest_move_ = 0;
