@@ -97,8 +97,15 @@ Enclosure around(const Point3& nearest) {
             {above(nearest.x), above(nearest.y), above(nearest.z)}};
 }
 
+// Intervals leave zeros of either sign, files should not show them.
+Point3 with_positive_zeros(const Point3& p) {
+    const auto positive = [](double d) { return d == 0 ? 0 : d; };
+    return {positive(p.x), positive(p.y), positive(p.z)};
+}
+
 Point3 round(const ExactPoint& p) {
-    return {nearest_quotient(p.x, p.w), nearest_quotient(p.y, p.w), nearest_quotient(p.z, p.w)};
+    return with_positive_zeros(
+        {nearest_quotient(p.x, p.w), nearest_quotient(p.y, p.w), nearest_quotient(p.z, p.w)});
 }
 
 ExactPoint construct_exactly(std::span<const Point3> input, const Construction& how) {
@@ -146,7 +153,7 @@ ExactPoint PointStore::exact(PointIndex p) const {
 Point3 PointStore::nearest(PointIndex p) const {
     if (is_input(p)) return input_[p];
     const Enclosure& e = enclosures_[p - input_.size()];
-    if (e.low == e.high) return {e.low[0], e.low[1], e.low[2]};
+    if (e.low == e.high) return with_positive_zeros({e.low[0], e.low[1], e.low[2]});
     return round(cached_exact(p - input_.size()));
 }
 

@@ -13,7 +13,8 @@
 // (3) compare is a strict total order of the points in space, lexicographic in x, y, z; it is equal
 //     iff the points are.
 // (4) Points on a line are ordered along it by compare, ascending or descending.
-// (5) nearest is the double that is nearest to each exact coordinate, ties to even.
+// (5) nearest is the double that is nearest to each exact coordinate, ties to even; of constructed
+//     points 0 is never -0.
 #pragma once
 
 #include <terrane/kernel/config.hpp>

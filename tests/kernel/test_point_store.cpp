@@ -68,8 +68,14 @@ bool enclosed(const Twins& t, PointIndex p) {
     return true;
 }
 
+bool has_negative_zero(const Point3& p) {
+    const auto is = [](double d) { return d == 0 && std::signbit(d); };
+    return is(p.x) || is(p.y) || is(p.z);
+}
+
 bool nearest_is_right(const Twins& t, PointIndex p) {
     const Point3 n = t.store.nearest(p);
+    if (!t.store.is_input(p) && has_negative_zero(n)) return false;
     const oracle::Point& q = t.exact[p];
     return oracle::is_nearest(n.x, q.x, q.w, t.exponent) &&
            oracle::is_nearest(n.y, q.y, q.w, t.exponent) &&
