@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The searches of the paper. One concept: built from boxes, a search reports all boxes that overlap a
-// query box, in any order, each once.
+// The searches of the paper. One concept: built from boxes, a search reports all boxes that overlap
+// a query box, in any order, each once.
 #pragma once
 
 #include <array>
@@ -28,10 +28,10 @@ private:
     std::span<const Box> boxes_;
 };
 
-/// Paper 2.1: cells as large as the largest box (equation 3), each box stored in the one cell of its
-/// centre (7, 8). A query looks in all cells that the query box, widened by half a cell, overlaps:
-/// a box that overlaps the query box has its centre no farther from it than half its own size, and
-/// no box is larger than a cell.
+/// Paper 2.1: cells as large as the largest box (equation 3), each box stored in the one cell of
+/// its centre (7, 8). A query looks in all cells that the query box, widened by half a cell,
+/// overlaps: a box that overlaps the query box has its centre no farther from it than half its own
+/// size, and no box is larger than a cell.
 class Grid {
 public:
     explicit Grid(std::span<const Box> boxes);
@@ -42,6 +42,15 @@ public:
             for (std::uint32_t i = starts_[first]; i < starts_[last + 1]; ++i)
                 if (stored_[i].box.overlaps(q)) report(stored_[i].index);
         });
+    }
+
+    /// Number of boxes in the cells that a query looks in.
+    [[nodiscard]] std::size_t looked_at(const Box& q) const {
+        std::size_t count = 0;
+        for_rows(q, [&](std::size_t first, std::size_t last) {
+            count += starts_[last + 1] - starts_[first];
+        });
+        return count;
     }
 
     [[nodiscard]] std::size_t cell_count() const { return starts_.size() - 1; }
@@ -77,15 +86,18 @@ private:
     std::vector<Stored> stored_;        ///< by cell
 };
 
-/// Paper 2.2: a binary tree over v = (low x, low y, low z, high x, high y, high z). A node of depth j
-/// has the boxes with smaller v[j mod 6] on its left, the others on its right. Boxes are inserted one
-/// by one at the first free place, so the order decides the shape: a list in the worst case, with
-/// quadratic cost.
+/// Paper 2.2: a binary tree over v = (low x, low y, low z, high x, high y, high z). A node of depth
+/// j has the boxes with smaller v[j mod 6] on its left, the others on its right. Boxes are inserted
+/// one by one at the first free place, so the order decides the shape: a list in the worst case,
+/// with quadratic cost.
 class AbTree {
 public:
+    AbTree() = default;
     /// In the order of the boxes.
     explicit AbTree(std::span<const Box> boxes);
     AbTree(std::span<const Box> boxes, std::span<const std::uint32_t> order);
+
+    void insert(const Box& box, std::uint32_t index);
 
     template <class Report>
     void query(const Box& q, const Report& report) {
@@ -98,7 +110,8 @@ public:
             const bool splits_low = node.level < 3;
             const double key = splits_low ? node.box.low[axis] : node.box.high[axis];
             // Right of a low key all start at or behind it; left of a high key all end before it.
-            if (node.right != 0 && (!splits_low || key <= q.high[axis])) stack_.push_back(node.right);
+            if (node.right != 0 && (!splits_low || key <= q.high[axis]))
+                stack_.push_back(node.right);
             if (node.left != 0 && (splits_low || key >= q.low[axis])) stack_.push_back(node.left);
         }
     }
@@ -114,14 +127,12 @@ private:
         std::uint32_t level = 0;           ///< depth mod 6
     };
 
-    void insert(const Box& box, std::uint32_t index);
-
     std::vector<Node> nodes_;          ///< in the order of insertion; a child follows its parent
     std::vector<std::uint32_t> stack_; ///< of the query; as deep as the tree may be
 };
 
-/// The insertion order of Table 1: at depth i the quantiles j / 2^(i+1), j odd, of the boxes sorted by
-/// v[i mod 6]; where a box has its place already, the next one that has none.
+/// The insertion order of Table 1: at depth i the quantiles j / 2^(i+1), j odd, of the boxes sorted
+/// by v[i mod 6]; where a box has its place already, the next one that has none.
 std::vector<std::uint32_t> table_1_order(std::span<const Box> boxes);
 
 /// Paper 2.2, balanced: Table 1 with the quantiles of depth i taken part by part, the median of
