@@ -1,0 +1,61 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: LGPL-3.0-or-later
+#
+# From real surfaces to one conforming mesh, its regions and tetrahedra: sets up, builds the library
+# and the program, and runs it on models of tests/data. Writes into out/demo.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+scripts/setup.sh
+cmake --preset release -DTERRANE_TESTS=OFF -B build/demo >/dev/null
+cmake --build build/demo --target terrane_program
+terrane=build/demo/cli/terrane
+out=out/demo
+mkdir -p "$out"
+
+say() { printf '\n==== %s\n' "$*"; }
+run() {
+    printf '$ %s\n' "$*"
+    "$@"
+}
+
+# expect FILE.json KEY NUMBER: one of the numbers that --stats wrote.
+expect() {
+    local found
+    found=$(sed -n "s/^ *\"$2\": \([0-9.]*\),\{0,1\}\$/\1/p" "$1" | tail -n 1)
+    if [[ "$found" != "$3" ]]; then
+        echo "demo: $1: $2 is ${found:-missing}, not $3" >&2
+        exit 1
+    fi
+}
+
+say "32 faults and a topography, 3382 pairs of triangles cross: one conforming mesh"
+model=(tests/data/arch-platform/faults.ts tests/data/arch-platform/mnt.ts)
+run "$terrane" arrange "${model[@]}" -o "$out/faults-topography.vtp" \
+    -o "$out/faults-topography.obj" --stats "$out/faults-topography.json"
+expect "$out/faults-topography.json" improper_contacts 3382
+run "$terrane" check "$out/faults-topography.obj"
+run "$terrane" tetrahedralize "${model[@]}" -o "$out/faults-topography.vtu" >/dev/null
+
+say "modelA1, three horizons in a box; the model states 5 regions, the outside included"
+model=(tests/data/ringmesh/modelA1.ml)
+run "$terrane" arrange "${model[@]}" -o "$out/modelA1.vtp" -o "$out/modelA1.obj" >/dev/null
+run "$terrane" check "$out/modelA1.obj"
+run "$terrane" tetrahedralize "${model[@]}" -o "$out/modelA1.vtu" --stats "$out/modelA1.json"
+expect "$out/modelA1.json" regions 5
+
+say "modelA2, three horizons and two faults; the model states 13 regions, the outside included"
+run "$terrane" tetrahedralize tests/data/ringmesh/modelA2.ml -o "$out/modelA2.vtu" \
+    -o "$out/modelA2.msh" --stats "$out/modelA2.json"
+expect "$out/modelA2.json" regions 13
+
+say "written"
+ls -l "$out" | awk 'NF > 8 { printf "  %9d bytes  '"$out"'/%s\n", $5, $9 }'
+cat <<END
+
+To look at it:
+  ParaView  open $out/modelA2.vtu, Threshold on region from 1, Explode Data, colour by region
+            open $out/faults-topography.vtp, colour by surface, "Surface With Edges"
+  gmsh      gmsh $out/modelA2.msh
+  picture   xvfb-run -a scripts/picture.py   (needs python3-vtk9, python3-numpy, xvfb)
+END
