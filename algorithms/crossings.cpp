@@ -35,7 +35,8 @@ struct InnerSegment {
     Triangle plane; ///< of the supporting triangle, sorted
     Line line{};    ///< the supporting edge, sorted, where is_line
     bool is_line = false;
-    std::array<double, 2> low, high; ///< box in the projection
+    std::array<ApproximatePoint, 2> ends{}; ///< in the projection
+    std::array<double, 2> low, high;        ///< box in the projection
 };
 
 /// Whether the construction itself puts the point on the plane or line.
@@ -113,6 +114,8 @@ private:
         const std::array<unsigned, 2> kept{(k + 1) % 3, (k + 2) % 3};
         const Enclosure a = contacts_.points.enclosure(piece(s).ends[0]);
         const Enclosure b = contacts_.points.enclosure(piece(s).ends[1]);
+        for (unsigned i = 0; i < 2; ++i)
+            s.ends[i] = contacts_.points.approximate(axis_, piece(s).ends[i]);
         for (unsigned i = 0; i < 2; ++i) {
             s.low[i] = std::min(a.low[kept[i]], b.low[kept[i]]);
             s.high[i] = std::max(a.high[kept[i]], b.high[kept[i]]);
@@ -126,7 +129,11 @@ private:
         return store.side_of_plane(s.plane[0], s.plane[1], s.plane[2], p);
     }
 
+    /// Whether the ends of the other segment lie strictly on both sides of the line of s.
     bool separates(const InnerSegment& s, const InnerSegment& of) const {
+        const auto quick_a = quick_orient2d(s.ends[0], s.ends[1], of.ends[0]);
+        const auto quick_b = quick_orient2d(s.ends[0], s.ends[1], of.ends[1]);
+        if (quick_a && quick_b) return *quick_a != *quick_b;
         const Sign a = side(s, piece(of).ends[0]);
         return a != Sign::Zero && side(s, piece(of).ends[1]) == -a;
     }

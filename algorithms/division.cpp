@@ -47,7 +47,8 @@ public:
             for (const std::uint32_t k : c.pieces) chains_[k - first_piece].push_back(p);
         }
         for (std::size_t k = 0; k < pieces.size(); ++k)
-            if (pieces[k].is_inner_segment()) add_chain(pieces[k], chains_[k]);
+            if (pieces[k].is_inner_segment())
+                add_chain(pieces[k], static_cast<std::uint32_t>(k), chains_[k]);
         finish_points();
         for (const auto& part : triangulate_(contacts_.points, order_.rank, face_))
             out.push_back({f, part});
@@ -68,11 +69,13 @@ private:
         points.erase(std::unique(points.begin(), points.end()), points.end());
     }
 
-    void add_chain(const FacePiece& piece, std::vector<PointIndex>& chain) {
+    void add_chain(const FacePiece& piece, std::uint32_t line, std::vector<PointIndex>& chain) {
         for (const PointIndex e : piece.ends) chain.push_back(order_.same_as[e]);
         sort_unique(chain);
-        for (std::size_t i = 0; i + 1 < chain.size(); ++i)
+        for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
             face_.segments.push_back({chain[i], chain[i + 1]});
+            face_.segment_lines.push_back(line);
+        }
     }
 
     // Along a line, points are in lexicographic order, forwards or backwards.
@@ -83,9 +86,6 @@ private:
                 std::reverse(face_.edge_points[e].begin(), face_.edge_points[e].end());
         }
         sort_unique(face_.inner_points);
-        std::sort(face_.segments.begin(), face_.segments.end());
-        face_.segments.erase(std::unique(face_.segments.begin(), face_.segments.end()),
-                             face_.segments.end());
     }
 
     const TriangleSoup& soup_;

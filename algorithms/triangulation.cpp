@@ -22,6 +22,7 @@ void FaceInput::clear() {
     for (auto& e : edge_points) e.clear();
     inner_points.clear();
     segments.clear();
+    segment_lines.clear();
 }
 
 std::span<const std::array<PointIndex, 3>>
@@ -55,6 +56,7 @@ FaceTriangulation::operator()(const PointStore& points, std::span<const std::uin
 
 FaceTriangulation::Local FaceTriangulation::add_point(PointIndex p) {
     points_.push_back(p);
+    flat_.push_back(store_->approximate(axis_, p));
     cell_of_.push_back(0);
     return static_cast<Local>(points_.size() - 1);
 }
@@ -62,6 +64,8 @@ FaceTriangulation::Local FaceTriangulation::add_point(PointIndex p) {
 // One cell; its edges are fixed: they are the border.
 void FaceTriangulation::start(const FaceInput& face) {
     points_.clear();
+    flat_.clear();
+    find_lines(face);
     cell_of_.clear();
     cells_.clear();
     todo_.clear();
@@ -139,8 +143,48 @@ FaceTriangulation::Side FaceTriangulation::locate(Local p, Local from) const {
     }
 }
 
+/// Which points are known to lie on which lines: those of the segments, and the three edges.
+void FaceTriangulation::find_lines(const FaceInput& face) {
+    lines_of_.clear();
+    for (std::size_t s = 0; s < face.segment_lines.size(); ++s)
+        for (const PointIndex p : face.segments[s])
+            lines_of_.push_back({p, face.segment_lines[s] + 3});
+    for (std::uint32_t e = 0; e < 3; ++e) {
+        lines_of_.push_back({face.corners[e], e});
+        lines_of_.push_back({face.corners[(e + 1) % 3], e});
+        for (const PointIndex p : face.edge_points[e]) lines_of_.push_back({p, e});
+    }
+    std::sort(lines_of_.begin(), lines_of_.end());
+    lines_of_.erase(std::unique(lines_of_.begin(), lines_of_.end()), lines_of_.end());
+}
+
+bool FaceTriangulation::on_one_line(Local a, Local b, Local c) const {
+    const auto first = [&](Local p) {
+        return std::lower_bound(lines_of_.begin(), lines_of_.end(), std::array{points_[p], 0u});
+    };
+    const auto has = [&](Local p, std::uint32_t line) {
+        return std::binary_search(lines_of_.begin(), lines_of_.end(), std::array{points_[p], line});
+    };
+    for (auto l = first(a); l != lines_of_.end() && (*l)[0] == points_[a]; ++l)
+        if (has(b, (*l)[1]) && has(c, (*l)[1])) return true;
+    return false;
+}
+
 Sign FaceTriangulation::turn(Local a, Local b, Local c) const {
+    if (const auto sign = quick_orient2d(flat_[a], flat_[b], flat_[c])) {
+        ++predicate_counts().static_filter;
+        return *sign;
+    }
+    if (on_one_line(a, b, c)) return Sign::Zero;
     return store_->orient2d(axis_, points_[a], points_[b], points_[c]);
+}
+
+Sign FaceTriangulation::in_circle(const Cell& c, Local d) const {
+    if (const auto sign = quick_in_circle(flat_[c.v[0]], flat_[c.v[1]], flat_[c.v[2]], flat_[d])) {
+        ++predicate_counts().static_filter;
+        return *sign;
+    }
+    return store_->in_circle(axis_, points_[c.v[0]], points_[c.v[1]], points_[c.v[2]], points_[d]);
 }
 
 unsigned FaceTriangulation::index_in(Local cell, Local neighbour) const {

@@ -29,6 +29,10 @@ struct FaceInput {
     std::vector<Segment> segments;                      ///< between points named above; they do not
                                                         ///< cross other than in these points
 
+    std::vector<std::uint32_t>
+        segment_lines; ///< per segment a number below 2^31, the same only for
+                       ///< segments on one line; or empty. Spares exact tests
+
     void clear();
 };
 
@@ -59,6 +63,8 @@ private:
 
     void start(const FaceInput& face);
     Local add_point(PointIndex p);
+    void find_lines(const FaceInput& face);
+    [[nodiscard]] bool on_one_line(Local a, Local b, Local c) const;
     void insert_edge_points(const FaceInput& face);
     void insert_inner_points(const FaceInput& face);
     void insert_segment(Local u, Local v);
@@ -79,6 +85,7 @@ private:
     [[nodiscard]] Side locate(Local p, Local from) const;
     [[nodiscard]] unsigned index_in(Local cell, Local neighbour) const;
     [[nodiscard]] Sign turn(Local a, Local b, Local c) const;
+    [[nodiscard]] Sign in_circle(const Cell& c, Local d) const;
     [[nodiscard]] bool must_flip(Side s) const;
     [[nodiscard]] bool in_perturbed_circle(const Cell& c, Local d) const;
     [[nodiscard]] bool is_convex(Side s) const;
@@ -87,7 +94,9 @@ private:
     std::span<const std::uint32_t> rank_;
     Axis axis_ = Axis::z;
     std::vector<PointIndex> points_;
-    std::vector<Local> cell_of_; ///< per point, a cell that has it
+    std::vector<ApproximatePoint> flat_;              ///< per point, in the projection
+    std::vector<std::array<PointIndex, 2>> lines_of_; ///< sorted {point, line}: lines that carry it
+    std::vector<Local> cell_of_;                      ///< per point, a cell that has it
     std::vector<Cell> cells_;
     std::vector<Side> todo_;
     std::vector<std::array<Local, 2>> crossed_;

@@ -163,6 +163,22 @@ Enclosure PointStore::enclosure(PointIndex p) const {
     return {{q.x, q.y, q.z}, {q.x, q.y, q.z}};
 }
 
+ApproximatePoint PointStore::approximate(Axis axis, PointIndex p) const {
+    const auto k = static_cast<unsigned>(axis);
+    const unsigned u = (k + 1) % 3, v = (k + 2) % 3;
+    if (is_input(p)) {
+        const Point3& q = input_[p];
+        const std::array<double, 3> x{q.x, q.y, q.z};
+        return {x[u], x[v], 0};
+    }
+    const Enclosure& e = enclosures_[p - input_.size()];
+    const auto middle = [&](unsigned i) { return e.low[i] + (e.high[i] - e.low[i]) / 2; };
+    const double mu = middle(u), mv = middle(v);
+    const double radius =
+        std::max(std::max(e.high[u] - mu, mu - e.low[u]), std::max(e.high[v] - mv, mv - e.low[v]));
+    return {mu, mv, radius * (1 + 0x1p-50)}; // the last factor for the roundings of differences
+}
+
 PointStore::IntervalPoint PointStore::interval(PointIndex p) const {
     if (is_input(p)) return cartesian<Interval>(input_[p]);
     const Enclosure& e = enclosures_[p - input_.size()];

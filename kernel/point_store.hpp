@@ -28,6 +28,7 @@
 #include <span>
 #include <vector>
 
+#include <terrane/kernel/approximate.hpp>
 #include <terrane/kernel/construction.hpp>
 #include <terrane/kernel/numbers.hpp>
 #include <terrane/kernel/point.hpp>
@@ -74,6 +75,8 @@ public:
     void keep_constructed(std::span<const PointIndex> kept);
 
     [[nodiscard]] Enclosure enclosure(PointIndex p) const;
+    /// The point in the projection along `axis`, for the filters of approximate.hpp.
+    [[nodiscard]] ApproximatePoint approximate(Axis axis, PointIndex p) const;
     [[nodiscard]] ExactPoint exact(PointIndex p) const;
     [[nodiscard]] Point3 nearest(PointIndex p) const;
 
