@@ -284,8 +284,7 @@ bool FaceTriangulation::must_flip(Side s) const {
 // Ties: as if the point of highest rank were lifted by an infinitesimal amount, the next one by an
 // infinitely smaller one, and so on. The first that matters decides.
 bool FaceTriangulation::in_perturbed_circle(const Cell& c, Local d) const {
-    const Sign s =
-        store_->in_circle(axis_, points_[c.v[0]], points_[c.v[1]], points_[c.v[2]], points_[d]);
+    const Sign s = in_circle(c, d);
     if (s != Sign::Zero) return s == Sign::Positive;
     std::array<Local, 4> order{c.v[0], c.v[1], c.v[2], d};
     std::sort(order.begin(), order.end(),
