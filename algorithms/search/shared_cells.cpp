@@ -3,6 +3,7 @@
 
 #include <bit>
 #include <limits>
+#include <utility>
 
 namespace terrane::search {
 namespace {
@@ -27,70 +28,118 @@ Box common(const Box& a, const Box& b) {
     return c;
 }
 
-/// Per group the box of all boxes of other groups; boxes without group are one more group.
-struct Regions {
-    std::vector<Box> of_others; ///< per group, last for no_group; empty_box: none
-    Box any = empty_box;        ///< holds all places where boxes of different groups meet
+bool is_empty(const Box& b) {
+    return b.low[0] > b.high[0];
+}
 
-    [[nodiscard]] const Box& of(std::uint32_t group) const {
-        return of_others[std::min<std::size_t>(group, of_others.size() - 1)];
+/// Eight boxes at a time as they stand in the list: what is together in a file mostly is so in
+/// space.
+struct Blocks {
+    static constexpr std::uint32_t size = 8;
+
+    std::vector<Box> boxes;  ///< per block: of all in it
+    std::vector<bool> alike; ///< per block: all in it are of one group
+
+    Blocks(std::span<const Box> all, std::span<const std::uint32_t> groups) :
+        boxes((all.size() + size - 1) / size, empty_box), alike(boxes.size(), true) {
+        for (std::uint32_t k = 0; k < boxes.size(); ++k) {
+            Box box = all[std::size_t{k} * size];
+            bool same = true;
+            for_each(k, all.size(), [&](std::uint32_t i) {
+                extend(box, all[i]);
+                if (!groups.empty()) same = same && groups[i] == groups[k * size];
+            });
+            boxes[k] = box;
+            alike[k] = same;
+        }
+    }
+
+    template <class Visit>
+    static void for_each(std::uint32_t block, std::size_t count, const Visit& visit) {
+        const auto end = static_cast<std::uint32_t>(
+            std::min<std::size_t>(count, (std::size_t{block} + 1) * size));
+        for (std::uint32_t i = block * size; i < end; ++i) visit(i);
     }
 };
 
-/// Groups numbered sparsely are taken as one that meets itself.
-std::size_t group_count(std::span<const std::uint32_t> groups) {
-    std::uint32_t count = 0;
-    for (const std::uint32_t g : groups)
-        if (g != no_group) count = std::max(count, g + 1);
-    return count <= groups.size() ? count : 0;
-}
+/// Per group the box of all boxes of other groups; boxes without group are one more group.
+class Regions {
+public:
+    Regions(std::span<const Box> boxes, std::span<const std::uint32_t> groups,
+            const Blocks& blocks) :
+        last_(group_count(groups)) {
+        std::vector<Box> own(last_ + 1, empty_box);
+        for (std::uint32_t k = 0; k < blocks.boxes.size(); ++k)
+            if (blocks.alike[k])
+                extend(own[place(groups[k * Blocks::size])], blocks.boxes[k]);
+            else
+                Blocks::for_each(k, boxes.size(),
+                                 [&](std::uint32_t i) { extend(own[place(groups[i])], boxes[i]); });
+        unite_others(own);
+    }
 
-Regions regions_of(std::span<const Box> boxes, std::span<const std::uint32_t> groups) {
-    const std::size_t count = group_count(groups);
-    std::vector<Box> own(count + 1, empty_box);
-    for (std::size_t i = 0; i < boxes.size(); ++i)
-        extend(own[std::min<std::size_t>(groups[i], count)], boxes[i]);
-    Regions r;
-    r.of_others.assign(count + 1, empty_box);
-    Box before = empty_box, behind = empty_box;
-    for (std::size_t g = 0; g <= count; ++g) {
-        extend(r.of_others[g], before);
-        extend(before, own[g]);
+    /// No box outside meets one of another group; empty_box: none does.
+    [[nodiscard]] const Box& of(std::uint32_t group) const { return of_others_[place(group)]; }
+    /// Where boxes of different groups meet, they do so in here.
+    [[nodiscard]] const Box& any() const { return any_; }
+
+private:
+    /// Groups numbered sparsely are taken as one that meets itself.
+    static std::size_t group_count(std::span<const std::uint32_t> groups) {
+        std::size_t count = 0;
+        for (const std::uint32_t g : groups)
+            if (g != no_group) count = std::max(count, std::size_t{g} + 1);
+        return count <= groups.size() ? count : 0;
     }
-    for (std::size_t g = count + 1; g-- > 0;) {
-        extend(r.of_others[g], behind);
-        extend(behind, own[g]);
+
+    [[nodiscard]] std::size_t place(std::uint32_t group) const {
+        return std::min<std::size_t>(group, last_);
     }
-    extend(r.of_others[count], own[count]);
-    for (std::size_t g = 0; g <= count; ++g) extend(r.any, common(own[g], r.of_others[g]));
-    return r;
-}
+
+    void unite_others(const std::vector<Box>& own) {
+        of_others_.assign(own.size(), empty_box);
+        Box before = empty_box, behind = empty_box;
+        for (std::size_t g = 0; g < own.size(); ++g) {
+            extend(of_others_[g], before);
+            extend(before, own[g]);
+        }
+        for (std::size_t g = own.size(); g-- > 0;) {
+            extend(of_others_[g], behind);
+            extend(behind, own[g]);
+        }
+        extend(of_others_[last_], own[last_]);
+        for (std::size_t g = 0; g < own.size(); ++g) extend(any_, common(own[g], of_others_[g]));
+    }
+
+    std::size_t last_;           ///< of no_group
+    std::vector<Box> of_others_; ///< per group
+    Box any_ = empty_box;
+};
 
 /// Cells of 2^shift lattice units, about as large as the mean of some of the boxes, and at most
-/// about one per box.
+/// about one for two boxes.
 class Cells {
 public:
-    Cells(std::span<const Box> boxes, const Lattice& lattice) {
+    Cells(std::span<const Box> boxes, const Lattice& lattice) : left_(16 * boxes.size() + 4096) {
         std::array<std::uint64_t, 3> sum{};
         const std::size_t step = boxes.size() / 2048 + 1;
         for (std::size_t i = 0; i < boxes.size(); i += step) {
             const PackedBox b = lattice.pack(boxes[i]);
             for (unsigned k = 0; k < 3; ++k) sum[k] += (b.high_of(k) - b.low_of(k) + 1) * step;
         }
-        std::array<unsigned, 3> bits{};
+        std::array<int, 3> bits{};
         for (unsigned k = 0; k < 3; ++k)
-            bits[k] = PackedBox::bits + 1 -
-                      static_cast<unsigned>(std::bit_width(sum[k] / boxes.size() + 1));
-        const auto most = static_cast<unsigned>(std::bit_width(boxes.size()));
+            bits[k] = std::max(0, 1 + static_cast<int>(PackedBox::bits) -
+                                      static_cast<int>(std::bit_width(sum[k] / boxes.size() + 1)));
+        const auto most = static_cast<int>(std::bit_width(boxes.size() / 8));
         for (unsigned k = 0; bits[0] + bits[1] + bits[2] > most; k = (k + 1) % 3)
             if (bits[k] > 0) --bits[k];
-        for (unsigned k = 0; k < 3; ++k) shift_[k] = PackedBox::bits - bits[k];
+        for (unsigned k = 0; k < 3; ++k)
+            shift_[k] = PackedBox::bits - static_cast<unsigned>(bits[k]);
         row_ = std::size_t{1} << bits[0];
         layer_ = row_ << bits[1];
-        count_ = layer_ << bits[2];
+        in_.assign(layer_ << bits[2], empty);
     }
-
-    [[nodiscard]] std::size_t count() const { return count_; }
 
     /// Number of cells that a box overlaps.
     [[nodiscard]] std::size_t covered(const PackedBox& b) const {
@@ -98,18 +147,27 @@ public:
         return (r.to[0] - r.from[0] + 1) * (r.to[1] - r.from[1] + 1) * (r.to[2] - r.from[2] + 1);
     }
 
-    /// Calls visit(cell) until it returns true; says whether it did.
-    template <class Visit>
-    bool any_of(const PackedBox& b, const Visit& visit) const {
-        const Range r = range(b);
-        for (std::size_t z = r.from[2]; z <= r.to[2]; ++z)
-            for (std::size_t y = r.from[1]; y <= r.to[1]; ++y)
-                for (std::size_t x = r.from[0]; x <= r.to[0]; ++x)
-                    if (visit(z * layer_ + y * row_ + x)) return true;
-        return false;
+    /// Enters a box of a group; no_group mixes. False, and nothing more is entered, where all boxes
+    /// together cover too many cells.
+    bool enter(const PackedBox& b, std::uint32_t group) {
+        const std::size_t work = covered(b);
+        if (work > left_) return false;
+        left_ -= work;
+        if (group == empty) group = mixed;
+        any_of(b, [&](std::uint32_t& in) {
+            in = in == empty || in == group ? group : mixed;
+            return false;
+        });
+        return true;
+    }
+
+    [[nodiscard]] bool meets_mixed(const PackedBox& b) {
+        return any_of(b, [](std::uint32_t in) { return in == mixed; });
     }
 
 private:
+    static constexpr std::uint32_t mixed = no_group, empty = mixed - 1;
+
     struct Range {
         std::array<std::size_t, 3> from, to;
     };
@@ -123,49 +181,79 @@ private:
         return r;
     }
 
+    /// Visits what is in the cells until it returns true; says whether it did.
+    template <class Visit>
+    bool any_of(const PackedBox& b, const Visit& visit) {
+        const Range r = range(b);
+        for (std::size_t z = r.from[2]; z <= r.to[2]; ++z)
+            for (std::size_t y = r.from[1]; y <= r.to[1]; ++y)
+                for (std::size_t x = r.from[0]; x <= r.to[0]; ++x)
+                    if (visit(in_[z * layer_ + y * row_ + x])) return true;
+        return false;
+    }
+
     std::array<unsigned, 3> shift_{};
-    std::size_t row_ = 1, layer_ = 1, count_ = 1;
+    std::size_t row_ = 1, layer_ = 1;
+    std::vector<std::uint32_t> in_; ///< per cell: the group of its boxes, empty or mixed
+    std::size_t left_;              ///< cells that may still be entered
 };
 
-/// Boxes within their region of which some cell is shared. `enter(cell, i)` for all cells of all
-/// boxes that mark theirs (marks(i)), then `shared(cell)`. Where the boxes that mark cover too many
-/// cells, all boxes within their region.
-template <class Region, class Marks, class Enter, class Shared>
-Selection select(std::span<const Box> boxes, const Lattice& lattice, const Cells& cells,
-                 const Region& region, const Marks& marks, const Enter& enter,
-                 const Shared& shared) {
-    std::size_t work = 16 * boxes.size() + 4096;
-    bool filtered = true;
-    for (std::uint32_t i = 0; i < boxes.size() && filtered; ++i) {
-        if (!marks(i) || !boxes[i].overlaps(region(i))) continue;
-        const PackedBox b = lattice.pack(boxes[i]);
-        const std::size_t covered = cells.covered(b);
-        filtered = covered <= work;
-        work -= filtered ? covered : 0;
-        if (filtered) cells.any_of(b, [&](std::size_t c) { return enter(c, i), false; });
+constexpr std::size_t most_cells = 2 * Blocks::size; ///< of a block; with more, box by box
+
+/// Enters all boxes that lie in the region of their group, block by block where one is compact.
+bool enter_all(std::span<const Box> boxes, std::span<const std::uint32_t> groups,
+               const Blocks& blocks, const Regions& regions, const Lattice& lattice, Cells& cells) {
+    for (std::uint32_t k = 0; k < blocks.boxes.size(); ++k) {
+        if (blocks.alike[k]) {
+            const std::uint32_t group = groups[k * Blocks::size];
+            if (!blocks.boxes[k].overlaps(regions.of(group))) continue;
+            const PackedBox b = lattice.pack(blocks.boxes[k]);
+            if (cells.covered(b) <= most_cells) {
+                if (!cells.enter(b, group)) return false;
+                continue;
+            }
+        }
+        bool entered = true;
+        Blocks::for_each(k, boxes.size(), [&](std::uint32_t i) {
+            if (entered && boxes[i].overlaps(regions.of(groups[i])))
+                entered = cells.enter(lattice.pack(boxes[i]), groups[i]);
+        });
+        if (!entered) return false;
     }
-    Selection s;
-    for (std::uint32_t i = 0; i < boxes.size(); ++i) {
-        if (!boxes[i].overlaps(region(i))) continue;
-        const PackedBox b = lattice.pack(boxes[i]);
-        if (filtered && !cells.any_of(b, shared)) continue;
-        s.boxes.push_back(b);
-        s.indices.push_back(i);
-    }
-    return s;
+    return true;
 }
 
-Box bounds_of(std::span<const Box> boxes) {
-    Box all = empty_box;
-    for (const Box& b : boxes) extend(all, b);
-    return all;
+/// The boxes that overlap region(i) and a mixed cell (any, if there are no cells).
+template <class Region>
+Selection select(std::span<const Box> boxes, const Blocks& blocks, const Lattice& lattice,
+                 Cells* cells, const Region& region) {
+    Selection s;
+    const auto test = [&](std::uint32_t i) {
+        if (!boxes[i].overlaps(region(i))) return;
+        const PackedBox b = lattice.pack(boxes[i]);
+        if (cells != nullptr && !cells->meets_mixed(b)) return;
+        s.boxes.push_back(b);
+        s.indices.push_back(i);
+    };
+    for (std::uint32_t k = 0; k < blocks.boxes.size(); ++k) {
+        if (blocks.alike[k]) {
+            if (!blocks.boxes[k].overlaps(region(k * Blocks::size))) continue;
+            const PackedBox b = lattice.pack(blocks.boxes[k]);
+            if (cells != nullptr && cells->covered(b) <= 2 * most_cells && !cells->meets_mixed(b))
+                continue;
+        }
+        Blocks::for_each(k, boxes.size(), test);
+    }
+    return s;
 }
 
 } // namespace
 
 Selection select_all(std::span<const Box> boxes) {
     if (boxes.empty()) return {};
-    const Lattice lattice(bounds_of(boxes));
+    Box all = empty_box;
+    for (const Box& b : boxes) extend(all, b);
+    const Lattice lattice(all);
     Selection s;
     s.boxes.resize(boxes.size());
     s.indices.resize(boxes.size());
@@ -177,38 +265,27 @@ Selection select_all(std::span<const Box> boxes) {
 }
 
 Selection select_meeting(std::span<const Box> boxes, std::span<const std::uint32_t> groups) {
-    const Regions regions = regions_of(boxes, groups);
-    if (regions.any.low[0] > regions.any.high[0]) return {};
-    const Lattice lattice(regions.any);
-    const Cells cells(boxes, lattice);
-    constexpr std::uint32_t mixed = no_group, empty = mixed - 1; // no_group mixes
-    std::vector<std::uint32_t> groups_in(cells.count(), empty);
-    const auto enter = [&](std::size_t c, std::uint32_t i) {
-        const std::uint32_t group = groups[i] == empty ? mixed : groups[i];
-        groups_in[c] = groups_in[c] == empty || groups_in[c] == group ? group : mixed;
-    };
-    return select(
-        boxes, lattice, cells, [&](std::uint32_t i) -> const Box& { return regions.of(groups[i]); },
-        [](std::uint32_t) { return true; }, enter,
-        [&](std::size_t c) { return groups_in[c] == mixed; });
+    const Blocks blocks(boxes, groups);
+    const Regions regions(boxes, groups, blocks);
+    if (is_empty(regions.any())) return {};
+    const Lattice lattice(regions.any());
+    Cells cells(boxes, lattice);
+    const bool entered = enter_all(boxes, groups, blocks, regions, lattice, cells);
+    return select(boxes, blocks, lattice, entered ? &cells : nullptr,
+                  [&](std::uint32_t i) -> const Box& { return regions.of(groups[i]); });
 }
 
 Selection select_near(std::span<const Box> boxes, std::span<const std::uint32_t> active) {
     if (active.empty()) return {};
     Box region = empty_box;
-    std::vector<bool> is_active(boxes.size());
-    for (const std::uint32_t i : active) {
-        extend(region, boxes[i]);
-        is_active[i] = true;
-    }
+    for (const std::uint32_t i : active) extend(region, boxes[i]);
     const Lattice lattice(region);
-    const Cells cells(boxes, lattice);
-    std::vector<bool> near(cells.count());
-    return select(
-        boxes, lattice, cells, [&](std::uint32_t) -> const Box& { return region; },
-        [&](std::uint32_t i) { return is_active[i]; },
-        [&](std::size_t c, std::uint32_t) { near[c] = true; },
-        [&](std::size_t c) { return near[c]; });
+    Cells cells(boxes, lattice);
+    bool entered = true;
+    for (const std::uint32_t i : active)
+        entered = entered && cells.enter(lattice.pack(boxes[i]), no_group);
+    return select(boxes, Blocks(boxes, {}), lattice, entered ? &cells : nullptr,
+                  [&](std::uint32_t) -> const Box& { return region; });
 }
 
 } // namespace terrane::search
