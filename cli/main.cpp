@@ -5,6 +5,8 @@
 #include <exception>
 #include <new>
 #include <string>
+#include <string_view>
+#include <system_error>
 
 #include <gmp.h>
 #include <unistd.h>
@@ -79,6 +81,8 @@ ExitStatus run_guarded(int argc, char** argv) {
         return finish(run(argc, argv));
     } catch (const std::bad_alloc&) {
         return fail({ErrorCode::out_of_memory, "out of memory", ""});
+    } catch (const std::system_error& refused) { // a thread that could not be started
+        return fail({ErrorCode::out_of_memory, refused.what(), "out of resources"});
     } catch (const std::exception& broken) {
         return fail({ErrorCode::internal, broken.what(), "internal error"});
     }

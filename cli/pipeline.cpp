@@ -76,6 +76,11 @@ std::string rounding_text(const RoundingReport& r) {
     if (!r.vanished.empty())
         text += fmt::format("doubles: {} vanished, thinner than the doubles\n",
                             counted(r.vanished.size(), "input triangle"));
+    if (!r.lost_regions.empty())
+        text += fmt::format("doubles: {} fewer regions than in the exact result\n",
+                            r.lost_regions.size() == 1
+                                ? std::string("1 surface has")
+                                : fmt::format("{} surfaces have", r.lost_regions.size()));
     text += r.clean ? "verified: the doubles are a conforming mesh, by exact check\n"
                     : fmt::format("NOT verified: {} of triangles still meet improperly\n",
                                   counted(r.contacts.size(), "pair"));

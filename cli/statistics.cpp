@@ -68,6 +68,7 @@ void add_statistics(Json& json, const RoundedMesh& rounded, double seconds) {
                         {"moved_input_vertices", r.moved_input_vertices},
                         {"merged_vertices", r.merged_vertices},
                         {"collapsed_triangles", r.collapsed_triangles},
+                        {"surfaces_with_lost_regions", r.lost_regions.size()},
                         {"vanished_input_triangles", r.vanished.size()}};
     json["seconds"]["round"] = seconds;
 }

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Runs the program as a user would: through a shell, in a folder of its own.
+#pragma once
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <string>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace program_test {
+
+namespace fs = std::filesystem;
+
+struct Outcome {
+    int status = -1;      ///< of the exit; 128 + signal where a signal ended it
+    std::string out, err; ///< standard output and error
+};
+
+inline std::string contents_of(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// A new empty folder, removed at the end; what is in it, and runs in it.
+class Folder {
+public:
+    Folder() {
+        auto name = (fs::temp_directory_path() / "terrane-XXXXXX").string();
+        if (mkdtemp(name.data()) == nullptr) std::abort();
+        path_ = name;
+        fs::create_directory(path_ / "in");
+        fs::create_directory(path_ / "io");
+    }
+    ~Folder() {
+        std::error_code ignored;
+        fs::remove_all(path_, ignored);
+    }
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+
+    /// Puts a file into in/; its name for the command line.
+    std::string input(const std::string& name, const std::string& text) const {
+        std::ofstream(path_ / "in" / name, std::ios::binary) << text;
+        return "in/" + name;
+    }
+    [[nodiscard]] std::string read(const std::string& name) const {
+        return contents_of(path_ / name);
+    }
+    /// Everything that the runs left behind: not in/, and not the streams.
+    [[nodiscard]] std::set<std::string> left() const {
+        std::set<std::string> names;
+        for (const auto& entry : fs::directory_iterator(path_))
+            names.insert(entry.path().filename().string());
+        names.erase("in");
+        names.erase("io");
+        return names;
+    }
+    /// A line for the shell, in which $T is the program and $D is tests/data.
+    [[nodiscard]] Outcome shell(const std::string& line) const {
+        const auto command = "cd '" + path_.string() +
+                             "' && T='" TERRANE_PROGRAM "' && D='" TERRANE_TEST_DATA "' && { " +
+                             line + " ; } >io/out 2>io/err </dev/null";
+        const int code = std::system(command.c_str());
+        Outcome outcome;
+        outcome.status = WIFEXITED(code) ? WEXITSTATUS(code) : 128 + WTERMSIG(code);
+        outcome.out = read("io/out");
+        outcome.err = read("io/err");
+        return outcome;
+    }
+    [[nodiscard]] Outcome run(const std::string& arguments) const {
+        return shell("$T " + arguments);
+    }
+
+private:
+    fs::path path_;
+};
+
+inline bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+/// A horizon (two triangles) and a fault (one) that crosses it.
+inline constexpr auto crossing = R"(o horizon
+v 0 0 0
+v 4 0 0
+v 4 4 0
+v 0 4 0
+f 1 2 3
+f 1 3 4
+o fault
+v 1 -1 -1
+v 1 5 -1
+v 1 2 3
+f 5 6 7
+)";
+
+/// Triangles so small beside their coordinates that the nearest doubles of their crossings are no
+/// conforming mesh.
+inline std::string tiny_triangles() {
+    std::string text = "OFF\n30 10 0\n", faces;
+    unsigned state = 7;
+    const auto next = [&] {
+        state = (state * 1103515245U + 12345U) % (1U << 31U);
+        return (state >> 16U) % 64U;
+    };
+    for (unsigned v = 0; v < 30; ++v) {
+        char line[128];
+        const auto coordinate = [&] { return 4194304 + std::ldexp(next(), -30); };
+        const double x = coordinate(), y = coordinate(), z = coordinate();
+        std::snprintf(line, sizeof line, "%.17g %.17g %.17g\n", x, y, z);
+        text += line;
+    }
+    for (unsigned t = 0; t < 10; ++t)
+        faces += "3 " + std::to_string(3 * t) + " " + std::to_string(3 * t + 1) + " " +
+                 std::to_string(3 * t + 2) + "\n";
+    return text + faces;
+}
+
+} // namespace program_test

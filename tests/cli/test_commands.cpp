@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// What each command does, seen from outside.
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "program.hpp"
+
+using namespace program_test;
+using Json = nlohmann::json;
+
+namespace {
+
+const std::string real_model = "$D/arch-platform/faults.ts $D/arch-platform/mnt.ts";
+
+} // namespace
+
+TEST_CASE("cli: arrange makes a conforming mesh and says what it did", "[cli]") {
+    const Folder folder;
+    const auto in = folder.input("model.obj", crossing);
+    const auto r = folder.run("arrange " + in + " -o out.obj -o out.vtp --stats s.json");
+    CHECK(r.status == 0);
+    CHECK(r.err.empty());
+    CHECK(contains(r.out, "2 surfaces: 3 triangles -> 13, 2 intersection edges, 3 regions\n"));
+    CHECK(contains(r.out, "verified: the doubles are a conforming mesh"));
+    CHECK(folder.left() == std::set<std::string>{"out.obj", "out.vtp", "s.json"});
+    CHECK(folder.run("check " + in).status == 1);
+    CHECK(folder.run("check out.obj").status == 0);
+}
+
+TEST_CASE("cli: statistics have the promised keys", "[cli]") {
+    const Folder folder;
+    REQUIRE(folder.run("arrange " + real_model + " -o out.obj --stats s.json").status == 0);
+    const auto json = Json::parse(folder.read("s.json"));
+    for (const std::string key :
+         {"/input/surfaces",      "/input/triangles",   "/input/vertices",
+          "/output/triangles",    "/output/vertices",   "/output/intersection_edges",
+          "/output/regions",      "/output/volumes",    "/search/method",
+          "/search/candidates",   "/search/tests",      "/predicates/static",
+          "/predicates/interval", "/predicates/exact",  "/rounding/iterations",
+          "/rounding/max_move",   "/rounding/verified", "/seconds/read",
+          "/seconds/search",      "/seconds/intersect", "/seconds/triangulate",
+          "/seconds/round",       "/seconds/write",     "/seconds/total",
+          "/peak_rss_mb"}) {
+        INFO(key);
+        CHECK(json.contains(Json::json_pointer(key)));
+    }
+    CHECK(json["input"]["surfaces"] == 33);
+    CHECK(json["input"]["triangles"] == 22712);
+    CHECK(json["search"]["improper_contacts"] == 3382);
+    CHECK(json["rounding"]["verified"] == true);
+    CHECK(json["seconds"]["total"].get<double>() > 0);
+    CHECK(json["peak_rss_mb"].get<double>() > 1);
+}
+
+TEST_CASE("cli: the same bytes for any number of threads and any search", "[cli]") {
+    const Folder folder;
+    for (const std::string format : {"obj", "vtp"}) {
+        const auto arrange = [&](const std::string& options) {
+            const auto out = "out." + format;
+            REQUIRE(folder.run("arrange " + real_model + " -o " + out + " " + options).status == 0);
+            return folder.read(out);
+        };
+        const auto expected = arrange("--threads 1");
+        CHECK(arrange("--threads 2") == expected);
+        CHECK(arrange("") == expected);
+        for (const std::string method :
+             {"grid", "ab", "ab-balanced", "mixed", "hierarchy", "brute"}) {
+            INFO(method);
+            CHECK(arrange("--search " + method) == expected);
+        }
+    }
+}
+
+TEST_CASE("cli: doubles that are not conforming are refused, by name", "[cli]") {
+    const Folder folder;
+    const auto in = folder.input("tiny.off", tiny_triangles());
+    const auto refused = folder.run("arrange " + in + " -o out.off --rounds 0 --stats s.json");
+    CHECK(refused.status == 1);
+    CHECK(contains(refused.out, "NOT verified: "));
+    CHECK(contains(refused.err, "(part of tiny triangle "));
+    CHECK(contains(refused.err, " at (4194304.0"));
+    CHECK(contains(refused.err, "nothing written"));
+    CHECK(folder.left() == std::set<std::string>{"s.json"});
+    CHECK(Json::parse(folder.read("s.json"))["rounding"]["verified"] == false);
+
+    const auto kept = folder.run("arrange " + in + " -o out.off --rounds 0 --keep-unverified");
+    CHECK(kept.status == 1);
+    CHECK(folder.run("check out.off").status == 1);
+
+    CHECK(folder.run("arrange " + in + " -o out.off").status == 0);
+    CHECK(folder.run("check out.off").status == 0);
+    const auto narrow = folder.run("arrange " + in + " -o out.stl");
+    CHECK(narrow.status == 1); // in float32 all corners are one point
+    CHECK(contains(narrow.err, "float32"));
+    CHECK(!folder.left().contains("out.stl"));
+    CHECK(folder.run("arrange " + in + " -o out.stl --ascii").status == 0);
+}
+
+TEST_CASE("cli: check locates what it finds", "[cli]") {
+    const Folder folder;
+    const auto in = folder.input("model.obj", std::string(crossing) + "f 5 6 6\nf 6 7 5\n");
+    const auto text = folder.run("check " + in);
+    CHECK(text.status == 1);
+    CHECK(contains(text.out, "in/model.obj: 2 surfaces, 5 triangles, 7 distinct vertices"));
+    CHECK(contains(text.out, "horizon triangle 0 and fault triangle 0: crossing at (1, "));
+    CHECK(contains(text.out, "fault triangle 1: corner at (1, -1, -1)"));
+    CHECK(contains(text.out, "fault triangle 2 repeats fault triangle 0: "));
+
+    const auto r = folder.run("check --json " + in);
+    CHECK(r.status == 1);
+    const auto json = Json::parse(r.out);
+    CHECK(json["clean"] == false);
+    CHECK(json["surfaces"][1]["name"] == "fault");
+    CHECK(json["degenerate"] == Json::parse(R"([{"surface": 1, "triangle": 1}])"));
+    CHECK(json["repeated"][0]["triangle"]["triangle"] == 2);
+    CHECK(json["improper_contacts"][0]["kind"] == "crossing");
+    CHECK(json["improper_contacts"][0]["place"][0] == 1.0);
+}
+
+TEST_CASE("cli: check lists all only when asked", "[cli]") {
+    const Folder folder;
+    const auto some = folder.run("check " + real_model);
+    CHECK(some.status == 1);
+    CHECK(contains(some.out, "improper contacts: 3382 (3307 crossing, "));
+    CHECK(contains(some.out, "  and 3372 more (--all lists them)"));
+    const auto all = folder.run("check --all " + real_model);
+    CHECK(std::count(all.out.begin(), all.out.end(), '\n') == 3382 + 6);
+    CHECK(Json::parse(folder.run("check --json " + real_model).out)["improper_contacts"].size() ==
+          3382);
+}
+
+TEST_CASE("cli: convert changes the format and nothing else", "[cli]") {
+    const Folder folder;
+    const auto in = folder.input("a.obj", "o top\nv 0.1 1e-300 4503599627370495.5\nv 1 0 0\n"
+                                          "v 0 -1e22 0\nf 1 2 3\nf 3 2 1\n");
+    REQUIRE(folder.run("convert " + in + " b.ts").status == 0);
+    REQUIRE(folder.run("convert b.ts c.ply").status == 0);
+    REQUIRE(folder.run("convert c.ply d.obj").status == 0);
+    REQUIRE(folder.run("convert " + in + " e.obj").status == 0);
+    CHECK(folder.read("d.obj") == folder.read("e.obj"));
+    CHECK(contains(folder.read("d.obj"), "4503599627370495.5"));
+    const auto narrow = folder.run("convert " + in + " f.stl");
+    CHECK(narrow.status == 0);
+    CHECK(contains(narrow.err, "warning: f.stl: coordinates were rounded to float32"));
+    CHECK(folder.run("convert " + in + " f.stl --ascii").err.empty());
+}
+
+#ifdef TERRANE_HAS_TETGEN
+TEST_CASE("cli: tetrahedralize finds the regions that the models state", "[cli]") {
+    const Folder folder;
+    const auto regions = [&](const std::string& model) {
+        const auto r = folder.run("tetrahedralize $D/ringmesh/" + model +
+                                  ".ml -o out.vtu -o "
+                                  "out.msh --stats s.json");
+        CHECK(r.status == 0);
+        CHECK(contains(r.out, "  (outside)\n"));
+        const auto json = Json::parse(folder.read("s.json"));
+        CHECK(json["output"]["volumes"] == json["tetrahedra"]["regions"].get<int>() - 1);
+        return json["tetrahedra"]["regions"].get<int>();
+    };
+    CHECK(regions("modelA1") == 5);
+    CHECK(regions("modelA2") == 13);
+}
+
+TEST_CASE("cli: tetrahedralize with a box, and what it refuses", "[cli]") {
+    const Folder folder;
+    const auto in = folder.input("model.obj", crossing);
+    CHECK(folder.run("tetrahedralize " + in + " -o a.vtu --box -2,-2,-2,6,6,4").status == 0);
+    const auto sized = folder.run("tetrahedralize " + in + " -o b.msh --edge-length 1");
+    CHECK(sized.status == 0);
+    const auto left = folder.left();
+    for (const std::string bad :
+         {"-o c.vtu --box 0,0,0,1,1,1", "-o c.vtu --box 1,2,3", "-o c.vtu --box a,b,c,d,e,f",
+          "-o c.vtu --box -2,-2,-2,6,6,nan", "-o c.vtu --margin -1", "-o c.vtu --edge-length 0",
+          "-o c.vtu --quality 0.5", "-o c.obj", "-o c.vtu -o c.vtp"}) {
+        INFO(bad);
+        const auto r = folder.run("tetrahedralize " + in + " " + bad);
+        CHECK(r.status == 2);
+        CHECK(contains(r.err, "terrane: "));
+    }
+    const auto tiny = folder.input("tiny.off", tiny_triangles());
+    const auto r = folder.run("tetrahedralize " + tiny + " -o c.vtu --rounds 0");
+    CHECK(r.status == 1);
+    CHECK(contains(r.err, "no tetrahedra without a conforming mesh"));
+    CHECK(folder.left() == left);
+}
+#endif
