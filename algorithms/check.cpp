@@ -177,21 +177,4 @@ Result<CheckReport> check(std::span<const Surface> surfaces, const Run& run) {
     }
 }
 
-std::vector<CandidatePair> improper_pairs(std::span<const Point3> points,
-                                          std::span<const Triangle> triangles,
-                                          std::span<const CandidatePair> candidates,
-                                          const Run& run) {
-    const auto blocks = for_blocks<std::vector<CandidatePair>>(
-        candidates.size(), 16384, run, [&](std::size_t a, std::size_t b) {
-            std::vector<CandidatePair> found;
-            for (const CandidatePair& p : candidates.subspan(a, b - a))
-                if (improper_contact(points, triangles[p.first], triangles[p.second]))
-                    found.push_back(p);
-            return found;
-        });
-    std::vector<CandidatePair> all;
-    for (const auto& b : blocks) all.insert(all.end(), b.begin(), b.end());
-    return all;
-}
-
 } // namespace terrane

@@ -68,10 +68,4 @@ Result<CheckReport> check(std::span<const Surface> surfaces, const Run& run = {}
 /// bad_number or bad_index with the place, for surfaces that no stage may be given.
 Status validate(std::span<const Surface> surfaces);
 
-/// The candidates that meet improperly, in their order.
-std::vector<CandidatePair> improper_pairs(std::span<const Point3> points,
-                                          std::span<const Triangle> triangles,
-                                          std::span<const CandidatePair> candidates,
-                                          const Run& run);
-
 } // namespace terrane

@@ -77,6 +77,7 @@ private:
     void repair(std::vector<CandidatePair>& pairs);
     void to_nearest();
     Status all_finite() const;
+    [[nodiscard]] PairFilter is_improper() const;
     std::vector<CandidatePair> first_contacts();
     std::vector<CandidatePair> contacts();
     void snap_round(std::span<const CandidatePair> pairs, const SnapGrid& grid);
@@ -147,13 +148,20 @@ Status Rounding::all_finite() const {
     return Done{};
 }
 
+PairFilter Rounding::is_improper() const {
+    return [this](const CandidatePair& p) {
+        return improper_contact(state_.points, state_.triangles[p.first],
+                                state_.triangles[p.second])
+            .has_value();
+    };
+}
+
 /// The pairs that meet improperly. Two triangles without a dirty corner never do.
 std::vector<CandidatePair> Rounding::contacts() {
     const auto dirty = state_.dirty_triangles();
     if (dirty.empty()) return {};
-    const auto boxes = boxes_of(state_.points, state_.triangles);
-    return improper_pairs(state_.points, state_.triangles,
-                          candidate_pairs_of(boxes, dirty, {}, run_), run_);
+    return candidate_pairs_of(boxes_of(state_.points, state_.triangles), dirty, {}, is_improper(),
+                              run_);
 }
 
 /// The same right after rounding to nearest: within a patch that still projects one-to-one no pair
@@ -171,9 +179,8 @@ std::vector<CandidatePair> Rounding::first_contacts() {
     };
     confirm_patches(state_.points, state_.triangles, arrangement_.edges, state_.is_dirty, turn,
                     patches);
-    const auto candidates =
-        candidate_pairs_of(boxes_of(state_.points, state_.triangles), dirty, patches.of, run_);
-    return improper_pairs(state_.points, state_.triangles, candidates, run_);
+    return candidate_pairs_of(boxes_of(state_.points, state_.triangles), dirty, patches.of,
+                              is_improper(), run_);
 }
 
 void Rounding::snap_round(std::span<const CandidatePair> pairs, const SnapGrid& grid) {

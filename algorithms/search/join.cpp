@@ -15,17 +15,27 @@ using Blocks = std::vector<Pairs>;
 constexpr std::size_t most_trees = 8; ///< with more groups than this, one tree holds all
 constexpr std::size_t leaves_per_block = 1024;
 
-/// Joins the leaves of one tree with another; adds what keep(i, j) lets through.
+/// What all joins of one search have in common.
+struct Task {
+    std::span<const Box> boxes;
+    std::span<const std::uint32_t> groups;
+    const PairFilter& filter; ///< may be empty
+    const Run& run;
+};
+
+/// Joins the leaves of one tree with another; adds what keep(i, j) and the filter let through.
 template <class Keep>
-void join(const PackedTree& a, const PackedTree& b, std::span<const Box> boxes, const Run& run,
-          Blocks& blocks, const Keep& keep) {
+void join(const PackedTree& a, const PackedTree& b, const Task& task, Blocks& blocks,
+          const Keep& keep) {
+    const auto& [boxes, groups, filter, run] = task;
     auto found = for_blocks<Pairs>(
         a.leaf_count(), leaves_per_block, run, [&](std::size_t l, std::size_t end) {
             Pairs pairs;
             for (; l < end; ++l)
                 a.join(static_cast<std::uint32_t>(l), b, [&](std::uint32_t i, std::uint32_t j) {
-                    if (keep(i, j) && boxes[i].overlaps(boxes[j]))
-                        pairs.push_back({std::min(i, j), std::max(i, j)});
+                    if (!keep(i, j) || !boxes[i].overlaps(boxes[j])) return;
+                    const CandidatePair pair{std::min(i, j), std::max(i, j)};
+                    if (!filter || filter(pair)) pairs.push_back(pair);
                 });
             return pairs;
         });
@@ -54,30 +64,29 @@ std::vector<Selection> by_group(const Selection& all, std::span<const std::uint3
     return parts;
 }
 
-Blocks join_groups(const std::vector<Selection>& parts, std::span<const Box> boxes,
-                   std::span<const std::uint32_t> groups, const Run& run) {
+Blocks join_groups(const std::vector<Selection>& parts, const Task& task) {
     std::vector<PackedTree> trees;
     trees.reserve(parts.size());
     for (const Selection& p : parts) trees.emplace_back(p);
     Blocks blocks;
     const auto all = [](std::uint32_t, std::uint32_t) { return true; };
     for (std::size_t a = 0; a < trees.size(); ++a) {
-        if (groups[parts[a].indices[0]] == no_group)
-            join(trees[a], trees[a], boxes, run, blocks, all);
+        if (task.groups[parts[a].indices[0]] == no_group)
+            join(trees[a], trees[a], task, blocks, all);
         for (std::size_t b = a + 1; b < trees.size(); ++b)
-            join(trees[a], trees[b], boxes, run, blocks, all);
+            join(trees[a], trees[b], task, blocks, all);
     }
     return blocks;
 }
 
-Blocks join_all(const Selection& selection, std::span<const Box> boxes,
-                std::span<const std::uint32_t> groups, const Run& run) {
+Blocks join_all(const Selection& selection, const Task& task) {
+    const auto groups = task.groups;
     const PackedTree tree(selection);
     Blocks blocks;
     if (groups.empty())
-        join(tree, tree, boxes, run, blocks, [](std::uint32_t, std::uint32_t) { return true; });
+        join(tree, tree, task, blocks, [](std::uint32_t, std::uint32_t) { return true; });
     else
-        join(tree, tree, boxes, run, blocks, [&](std::uint32_t i, std::uint32_t j) {
+        join(tree, tree, task, blocks, [&](std::uint32_t i, std::uint32_t j) {
             return groups[i] == no_group || groups[i] != groups[j];
         });
     return blocks;
@@ -113,19 +122,22 @@ std::vector<CandidatePair> sorted(const Blocks& blocks, std::size_t count) {
 
 std::vector<CandidatePair> hierarchy_pairs(std::span<const Box> boxes,
                                            std::span<const std::uint32_t> groups, const Run& run) {
+    const PairFilter none;
     if (groups.empty())
-        return sorted(join_all(select_all(boxes), boxes, groups, run), boxes.size());
+        return sorted(join_all(select_all(boxes), {boxes, groups, none, run}), boxes.size());
     const Selection selection = select_meeting(boxes, groups);
     const auto parts = by_group(selection, groups);
-    return sorted(parts.empty() ? join_all(selection, boxes, groups, run)
-                                : join_groups(parts, boxes, groups, run),
+    return sorted(parts.empty() ? join_all(selection, {boxes, groups, none, run})
+                                : join_groups(parts, {boxes, groups, none, run}),
                   boxes.size());
 }
 
 std::vector<CandidatePair> active_pairs(std::span<const Box> boxes,
                                         std::span<const std::uint32_t> active,
-                                        std::span<const std::uint32_t> groups, const Run& run) {
+                                        std::span<const std::uint32_t> groups,
+                                        const PairFilter& filter, const Run& run) {
     const Selection selection = select_near(boxes, active);
+    const Task task{boxes, groups, filter, run};
     Selection chosen, others;
     auto next = active.begin();
     for (std::size_t k = 0; k < selection.indices.size(); ++k) {
@@ -134,12 +146,11 @@ std::vector<CandidatePair> active_pairs(std::span<const Box> boxes,
         append(is_active ? chosen : others, selection, k);
     }
     const auto parts = groups.empty() ? std::vector<Selection>{} : by_group(chosen, groups);
-    Blocks blocks = parts.empty() ? join_all(chosen, boxes, groups, run)
-                                  : join_groups(parts, boxes, groups, run);
+    Blocks blocks = parts.empty() ? join_all(chosen, task) : join_groups(parts, task);
     const auto keep = [&](std::uint32_t i, std::uint32_t j) {
         return groups.empty() || groups[i] == no_group || groups[i] != groups[j];
     };
-    join(PackedTree(chosen), PackedTree(others), boxes, run, blocks, keep);
+    join(PackedTree(chosen), PackedTree(others), task, blocks, keep);
     return sorted(blocks, boxes.size());
 }
 

@@ -18,10 +18,11 @@ namespace terrane::search {
 std::vector<CandidatePair> hierarchy_pairs(std::span<const Box> boxes,
                                            std::span<const std::uint32_t> groups, const Run& run);
 
-/// All pairs of which at least one is active (ascending indices).
+/// All pairs of which at least one is active (ascending indices) and that the filter keeps.
 std::vector<CandidatePair> active_pairs(std::span<const Box> boxes,
                                         std::span<const std::uint32_t> active,
-                                        std::span<const std::uint32_t> groups, const Run& run);
+                                        std::span<const std::uint32_t> groups,
+                                        const PairFilter& filter, const Run& run);
 
 /// Sorts pairs of indices below `count`.
 std::vector<CandidatePair> sorted(const std::vector<std::vector<CandidatePair>>& blocks,

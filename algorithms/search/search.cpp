@@ -130,8 +130,8 @@ std::vector<CandidatePair> candidate_pairs(std::span<const Box> boxes,
 std::vector<CandidatePair> candidate_pairs_of(std::span<const Box> boxes,
                                               std::span<const std::uint32_t> active,
                                               std::span<const std::uint32_t> groups,
-                                              const Run& run) {
-    return search::active_pairs(boxes, active, groups, run);
+                                              const PairFilter& filter, const Run& run) {
+    return search::active_pairs(boxes, active, groups, filter, run);
 }
 
 } // namespace terrane

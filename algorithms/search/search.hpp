@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -22,8 +23,8 @@ enum class Search : std::uint8_t {
     ab_balanced, ///< alternating binary tree balanced by quantiles, paper 2.2 and Table 1
     mixed,       ///< reduction to cells that several groups share, then a balanced tree, paper 2.3
     hierarchy,   ///< the same idea for speed and any mixture of sizes: reduction to shared cells,
-               ///< then flat trees of boxes joined leaf by leaf; the only one that uses threads
-    brute, ///< every box against every box
+                 ///< then flat trees of boxes joined leaf by leaf; the only one that uses threads
+    brute,       ///< every box against every box
 };
 
 /// "auto", "grid", "ab", "ab-balanced", "mixed", "hierarchy", "brute".
@@ -58,13 +59,17 @@ std::vector<CandidatePair> candidate_pairs(std::span<const Box> boxes,
                                            std::span<const std::uint32_t> groups, Search method,
                                            const Run& run = {});
 
-/// All pairs of overlapping boxes of which at least one is active, except those within one group;
-/// sorted, unique. active: ascending indices of boxes. Cost: a glance at each box, then as
-/// candidate_pairs for those near active ones.
+/// Whether a pair is kept. Called from several threads, each under an UpwardRounding.
+using PairFilter = std::function<bool(const CandidatePair&)>;
+
+/// All pairs of overlapping boxes of which at least one is active, except those within one group
+/// and those that the filter (if any) does not keep; sorted, unique. active: ascending indices of
+/// boxes. Cost: a glance at each box, then as candidate_pairs for those near active ones; pairs
+/// that the filter drops take no memory.
 std::vector<CandidatePair> candidate_pairs_of(std::span<const Box> boxes,
                                               std::span<const std::uint32_t> active,
                                               std::span<const std::uint32_t> groups = {},
-                                              const Run& run = {});
+                                              const PairFilter& filter = {}, const Run& run = {});
 
 /// What `automatic` stands for: brute for so few boxes that nothing need be built, else hierarchy.
 /// (Measured: no mesh-size spread and no overlap volume at which the paper's methods are faster;
