@@ -52,6 +52,7 @@ enum class Rule : std::uint8_t {
     R15_rounded_edges,   ///< as R7, in the mesh of doubles
     R16_regions,         ///< regions are not what intersection edges divide the surfaces into
     R17_digest,          ///< the digest is not that of the arrangement
+    R18_coverage,        ///< the triangles that name an input triangle leave a hole in it
 };
 
 /// "R5"

@@ -9,6 +9,8 @@
 // (3) each point of it is within `deviation` of each input triangle that it is said to be part of
 //     (R13; a distance to a triangle is convex, so its corners tell for the whole of a triangle),
 //     and each input triangle with area is part of it or listed as vanished (R12);
+//     No point of an input triangle that is farther than `deviation` from its border is left
+//     uncovered, seen along its normal (R18);
 // (4) where it has the triangles of the exact part, each vertex is within `max_move` of the exact
 //     one (R14);
 // (5) its intersection edges, regions and the digest are what they are called (R15 to R17).
@@ -88,7 +90,7 @@ InputFile input_file(std::string_view contents, std::vector<Surface> surfaces);
 std::vector<Violation> verify_certificate(std::span<const InputFile> files,
                                           const Certificate& certificate);
 
-/// Rules R10 to R16 alone. Precondition: the exact claim breaks neither R1 nor R2.
+/// Rules R10 to R16 and R18 alone. Precondition: the exact claim breaks neither R1 nor R2.
 std::vector<Violation> verify_rounded(std::span<const Surface> inputs,
                                       const ArrangementClaim& exact, const RoundedClaim& rounded);
 

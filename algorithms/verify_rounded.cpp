@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <terrane/algorithms/verify_certificate.hpp>
+#include <terrane/algorithms/verify_coverage.hpp>
 #include <terrane/algorithms/verify_distance.hpp>
 #include <terrane/algorithms/verify_indices.hpp>
 #include <terrane/algorithms/verify_inputs.hpp>
@@ -157,6 +158,28 @@ void check_moves(const Scaled& scaled, const ArrangementClaim& exact, const Roun
             {Rule::R14_moves, {}, "the largest move is larger than the stated deviation"});
 }
 
+// --- R18: coverage ----------------------------------------------------------------------------
+
+void check_coverage(const Inputs& inputs, const Scaled& scaled,
+                    const Lists<std::uint32_t>& children, const SetAside& set_aside,
+                    const RoundedClaim& rounded, Violations& found) {
+    for (std::uint32_t parent = 0; parent < inputs.triangles.size(); ++parent) {
+        if (children[parent].empty() || set_aside.first_of[parent] != parent ||
+            std::ranges::binary_search(set_aside.degenerate, parent))
+            continue; // R12
+        const auto& [a, b, c] = inputs.triangles[parent];
+        std::vector<Triangle> triangles;
+        for (const std::uint32_t child : children[parent])
+            triangles.push_back(rounded.triangles[child]);
+        const verifier::Coverage coverage({&scaled.inputs[a], &scaled.inputs[b], &scaled.inputs[c]},
+                                          scaled.vertices, scaled.deviation);
+        if (coverage.holds(triangles)) continue;
+        found.push_back({Rule::R18_coverage,
+                         {parent},
+                         "what is left of input triangle " + text(parent) + " has a hole"});
+    }
+}
+
 // --- R16: regions -----------------------------------------------------------------------------
 
 /// Sets that are joined: union by index, the lowest stands for all.
@@ -263,6 +286,7 @@ std::vector<Violation> verify_rounded(std::span<const Surface> surfaces,
         check_vanished(inputs, children, set_aside, rounded, found);
         check_deviation(inputs, scaled, set_aside, rounded, found);
         check_moves(scaled, exact, rounded, found);
+        check_coverage(inputs, scaled, children, set_aside, rounded, found);
         verifier::check_intersection_edges(
             verifier::find_intersection_edges({rounded.triangles, rounded.parents_of}, inputs,
                                               set_aside),
