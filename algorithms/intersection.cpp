@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <terrane/kernel/predicates.hpp>
+#include <terrane/kernel/quick_plane.hpp>
 
 namespace terrane {
 namespace {
@@ -242,11 +243,12 @@ bool TrianglePair::only_shared_corners() const {
 /// Whether the static filters alone show that triangle k lies strictly on one side of the other's
 /// plane, but for common corners of which there are at most two.
 bool TrianglePair::quickly_beside_plane(unsigned k) const {
+    const QuickPlane plane(at(1 - k, 0), at(1 - k, 1), at(1 - k, 2));
     std::optional<Sign> common;
     for (unsigned i = 0; i < 3; ++i) {
         if (is_shared(k, i)) continue;
-        const auto s = quick_orient3d(at(1 - k, 0), at(1 - k, 1), at(1 - k, 2), at(k, i));
-        if (!s || *s == Sign::Zero || (common && *common != *s)) return false;
+        const auto s = plane.side(at(k, i));
+        if (!s || (common && *common != *s)) return false;
         common = s;
     }
     // Then all they share lies in the plane: the hull of the common corners.
