@@ -96,8 +96,8 @@ private:
     std::array<Signs, 2> sides_{}; // of the corners of k with respect to the other's plane
     std::array<bool, 2> axis_known_{};
     std::array<Axis, 2> axis_{};
-    std::array<Sign, 2> turn_{}; // of triangle k in its projection
-    Contact contact_;
+    std::array<Sign, 2> turn_{};     // of triangle k in its projection
+    std::optional<Contact> contact_; ///< made when the quick tests have failed: it is large
 };
 
 Signs TrianglePair::sides(unsigned k) const {
@@ -144,10 +144,10 @@ std::optional<Place> TrianglePair::pierce(unsigned k, unsigned i) const {
 }
 
 void TrianglePair::add(const Construction& how, unsigned k, Place on_k, Place on_other) {
-    const auto end = contact_.points.begin() + contact_.point_count;
-    if (std::any_of(contact_.points.begin(), end, [&](const auto& p) { return p.how == how; }))
+    const auto end = contact_->points.begin() + contact_->point_count;
+    if (std::any_of(contact_->points.begin(), end, [&](const auto& p) { return p.how == how; }))
         return;
-    ContactPoint& point = contact_.points[contact_.point_count++];
+    ContactPoint& point = contact_->points[contact_->point_count++];
     point.how = how;
     point.place[k] = on_k;
     point.place[1 - k] = on_other;
@@ -225,17 +225,17 @@ void TrianglePair::collect_pieces(unsigned k) {
     for (std::uint8_t j = 0; j < 3; ++j) {
         std::array<std::uint8_t, 2> ends{};
         unsigned found = 0;
-        for (std::uint8_t p = 0; p < contact_.point_count && found < 2; ++p)
-            if (on_closed_edge(contact_.points[p].place[1 - k], j)) ends[found++] = p;
+        for (std::uint8_t p = 0; p < contact_->point_count && found < 2; ++p)
+            if (on_closed_edge(contact_->points[p].place[1 - k], j)) ends[found++] = p;
         if (found == 0) continue;
         if (found == 1) ends[1] = ends[0];
-        contact_.pieces[k][contact_.piece_count[k]++] = {ends, j};
+        contact_->pieces[k][contact_->piece_count[k]++] = {ends, j};
     }
 }
 
 bool TrianglePair::only_shared_corners() const {
-    const auto end = contact_.points.begin() + contact_.point_count;
-    return std::all_of(contact_.points.begin(), end, [](const ContactPoint& p) {
+    const auto end = contact_->points.begin() + contact_->point_count;
+    return std::all_of(contact_->points.begin(), end, [](const ContactPoint& p) {
         return is_corner(p.place[0]) && is_corner(p.place[1]);
     });
 }
@@ -290,14 +290,15 @@ std::optional<Contact> TrianglePair::improper() {
     if (quickly_beside_plane(0) || quickly_beside_plane(1)) return std::nullopt;
     const Axis axis = likely_axis();
     if (quickly_beside_edge(0, axis) || quickly_beside_edge(1, axis)) return std::nullopt;
+    contact_.emplace();
     sides_[0] = sides(0);
     if (all_on_one_side(sides_[0])) return std::nullopt;
     if (shared_count_ == 2 && !all_zero(sides_[0])) return std::nullopt;
     if (all_zero(sides_[0])) {
-        contact_.coplanar = true;
+        contact_->coplanar = true;
         overlap_in_plane();
-        if (only_shared_corners() && contact_.point_count < 3) return std::nullopt;
-        contact_.overlap = contact_.point_count > 2; // all of them are extreme points
+        if (only_shared_corners() && contact_->point_count < 3) return std::nullopt;
+        contact_->overlap = contact_->point_count > 2; // all of them are extreme points
         collect_pieces(0);
         collect_pieces(1);
         return contact_;
@@ -308,9 +309,9 @@ std::optional<Contact> TrianglePair::improper() {
     cross_planes(1);
     if (only_shared_corners()) return std::nullopt;
     ContactPiece piece;
-    piece.ends = {0, static_cast<std::uint8_t>(contact_.point_count - 1)};
-    contact_.piece_count = {1, 1};
-    contact_.pieces[0][0] = contact_.pieces[1][0] = piece;
+    piece.ends = {0, static_cast<std::uint8_t>(contact_->point_count - 1)};
+    contact_->piece_count = {1, 1};
+    contact_->pieces[0][0] = contact_->pieces[1][0] = piece;
     return contact_;
 }
 
