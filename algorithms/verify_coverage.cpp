@@ -101,9 +101,8 @@ std::vector<Vector4> Coverage::crossings(const Edge& edge,
             add(abs(v) * dot(forward, a) + abs(u) * dot(forward, b), below);
         }
     std::ranges::sort(places, [](const auto& p, const auto& q) { return compare(p, q) < 0; });
-    const auto repeated = std::ranges::unique(
-        places, [](const auto& p, const auto& q) { return compare(p, q) == 0; });
-    places.erase(repeated.begin(), repeated.end());
+    const auto same = [](const auto& p, const auto& q) { return compare(p, q) == 0; };
+    places.erase(std::unique(places.begin(), places.end(), same), places.end());
     std::vector<Vector4> points;
     for (const auto& [above, below] : places) {
         const mpz_class rest = length * below - above;
