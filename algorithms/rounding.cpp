@@ -63,7 +63,6 @@ public:
 
     Result<RoundedMesh> operator()() {
         to_nearest();
-        if (const auto finite = all_finite(); !finite) return finite.error();
         auto pairs = first_contacts();
         out_.report.naive_contacts = pairs.size();
         if (!pairs.empty()) repair(pairs);
@@ -76,7 +75,6 @@ public:
 private:
     void repair(std::vector<CandidatePair>& pairs);
     void to_nearest();
-    Status all_finite() const;
     [[nodiscard]] PairFilter is_improper() const;
     std::vector<CandidatePair> first_contacts();
     std::vector<CandidatePair> contacts();
@@ -138,14 +136,6 @@ void Rounding::repair(std::vector<CandidatePair>& pairs) {
             state_ = before;
         if (pairs.empty() || !helps) return;
     }
-}
-
-Status Rounding::all_finite() const {
-    for (const Point3& p : state_.points)
-        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-            return Error{ErrorCode::bad_number, "a constructed point is beyond the largest double",
-                         ""};
-    return Done{};
 }
 
 PairFilter Rounding::is_improper() const {

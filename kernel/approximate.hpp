@@ -60,8 +60,8 @@ inline std::optional<Sign> quick_in_circle(const ApproximatePoint& a, const Appr
                                            const ApproximatePoint& c, const ApproximatePoint& d) {
     const double au = a.u - d.u, av = a.v - d.v, bu = b.u - d.u, bv = b.v - d.v;
     const double cu = c.u - d.u, cv = c.v - d.v;
-    const double m = std::max({std::fabs(au), std::fabs(av), std::fabs(bu), std::fabs(bv),
-                               std::fabs(cu), std::fabs(cv)});
+    const double m = std::max(
+        {std::fabs(au), std::fabs(av), std::fabs(bu), std::fabs(bv), std::fabs(cu), std::fabs(cv)});
     const double e = 2 * std::max({a.radius, b.radius, c.radius, d.radius});
     if (!(m > 0x1p-240 && m < 0x1p+250 && e <= m / 1024)) return std::nullopt;
     const double la = au * au + av * av, lb = bu * bu + bv * bv, lc = cu * cu + cv * cv;
@@ -76,9 +76,9 @@ inline std::optional<Sign> quick_in_circle(const ApproximatePoint& a, const Appr
     const double sa = std::fabs(au) + std::fabs(av), sb = std::fabs(bu) + std::fabs(bv);
     const double sc = std::fabs(cu) + std::fabs(cv);
     const double terms = la * bc + lb * ca + lc * ab;
-    const double slopes = 2 * (sa * bc + sb * ca + sc * ab) + la * (sb + sc) + lb * (sc + sa) +
-                          lc * (sa + sb);
-    const double smallest = 0x1p-1000; // what underflow in a term can hide
+    const double slopes =
+        2 * (sa * bc + sb * ca + sc * ab) + la * (sb + sc) + lb * (sc + sa) + lc * (sa + sb);
+    const double smallest = (1 + m * m) * 0x1p-1000; // more than underflow can hide
     return detail::sign_beyond(value, 14 * unit * terms + 1.01 * e * slopes +
                                           80 * (e * e) * (m * m) + smallest);
 }

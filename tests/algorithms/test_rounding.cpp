@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// What rounding promises, judged by the independent verifier on the doubles themselves.
+#include "../support/claim.hpp"
+#include "../support/effort.hpp"
+#include "../support/points.hpp"
+
+#include <terrane/algorithms/rounding.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <functional>
+
+namespace {
+
+using namespace terrane;
+using namespace test_support;
+
+Surface grid(int n, const std::function<Point3(double, double)>& at) {
+    Surface s;
+    for (int j = 0; j <= n; ++j)
+        for (int i = 0; i <= n; ++i) s.vertices.push_back(at(double(i) / n, double(j) / n));
+    const auto index = [n](int i, int j) { return static_cast<std::uint32_t>(j * (n + 1) + i); };
+    for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i) {
+            s.triangles.push_back({index(i, j), index(i + 1, j), index(i + 1, j + 1)});
+            s.triangles.push_back({index(i, j), index(i + 1, j + 1), index(i, j + 1)});
+        }
+    return s;
+}
+
+/// A rotation and shift that no double is safe from: coplanar becomes nearly coplanar.
+Point3 turned(const Point3& p) {
+    const double y = std::cos(0.7) * p.y - std::sin(0.7) * p.z;
+    const double z = std::sin(0.7) * p.y + std::cos(0.7) * p.z;
+    return {std::cos(0.4) * p.x - std::sin(0.4) * z + 0.3, y - 0.2,
+            std::sin(0.4) * p.x + std::cos(0.4) * z + 0.1};
+}
+
+std::vector<Surface> turned_sheets(int n) {
+    const double h = 0.5 / n;
+    return {grid(n,
+                 [](double x, double y) {
+                     return turned({x, y, 0});
+                 }),
+            grid(n, [h](double x, double y) {
+                return turned({x + h, y + h, 0});
+            })};
+}
+
+Arrangement arranged(const std::vector<Surface>& surfaces) {
+    auto a = arrange(surfaces);
+    REQUIRE(a.ok());
+    return std::move(a).value();
+}
+
+RoundedMesh rounded(const Arrangement& a, const RoundingOptions& options = {}) {
+    auto r = round_to_doubles(a, options);
+    REQUIRE(r.ok());
+    return std::move(r).value();
+}
+
+bool is_conforming(const Mesh& m) {
+    return verify_conforming(m.vertices, m.triangles).empty();
+}
+
+void check_lists(const RoundedMesh& r) {
+    const Mesh& m = r.mesh;
+    REQUIRE(m.surfaces_of.size() == m.triangles.size());
+    REQUIRE(m.parents_of.size() == m.triangles.size());
+    REQUIRE(m.regions_of.offsets == m.surfaces_of.offsets);
+    for (std::size_t t = 0; t < m.triangles.size(); ++t)
+        for (std::size_t k = 0; k < m.surfaces_of[t].size(); ++k)
+            REQUIRE(r.regions[m.regions_of[t][k]].surface == m.surfaces_of[t][k]);
+}
+
+} // namespace
+
+TEST_CASE("rounding: what is exact in doubles stays as it is") {
+    const auto a = arranged({surface({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{0, 1, 2}}),
+                             surface({{1, 1, -1}, {1, 1, 1}, {2, 1, 1}}, {{0, 1, 2}})});
+    const auto r = rounded(a);
+    CHECK(r.report.clean);
+    CHECK(r.report.rounds == 0);
+    CHECK(r.report.max_move == 0);
+    CHECK(r.report.deviation == 0);
+    CHECK(r.mesh.triangles == a.triangles);
+    CHECK(r.mesh.intersection_edges == a.intersection_edges);
+    CHECK(is_conforming(r.mesh));
+    check_lists(r);
+}
+
+TEST_CASE("rounding: nothing is farther from its exact place than reported") {
+    const auto a =
+        arranged({surface({{0, 0, 0}, {1, 0.1, 0}, {0.1, 1, 0.3}}, {{0, 1, 2}}),
+                  surface({{0.3, 0.2, -1}, {0.31, 0.3, 1}, {0.7, 0.3, 1}}, {{0, 1, 2}})});
+    const auto r = rounded(a);
+    REQUIRE(r.report.clean);
+    REQUIRE(r.mesh.vertices.size() == a.vertices.size());
+    CHECK(r.report.max_move > 0);
+    CHECK(r.report.max_move < 1e-15);
+    for (std::size_t v = 0; v < a.vertices.size(); ++v) {
+        const Enclosure e = a.points.enclosure(a.vertices[v]);
+        CHECK(r.mesh.vertices[v].x >= e.low[0] - r.report.max_move);
+        CHECK(r.mesh.vertices[v].x <= e.high[0] + r.report.max_move);
+    }
+}
+
+TEST_CASE("rounding: nearly coplanar sheets come out conforming, hardly moved") {
+    for (const int n : {3, 8, 16}) {
+        const auto a = arranged(turned_sheets(n));
+        const auto naive = rounded(a, {.max_rounds = 0});
+        CHECK(naive.report.clean == is_conforming(naive.mesh));
+        CHECK(naive.report.contacts.size() == naive.report.naive_contacts);
+        const auto r = rounded(a);
+        REQUIRE(r.report.clean);
+        CHECK(r.report.contacts.empty());
+        CHECK(is_conforming(r.mesh));
+        CHECK(r.report.deviation < 1e-9);
+        CHECK(r.report.vanished.empty());
+        check_lists(r);
+    }
+}
+
+TEST_CASE("rounding: what is left is named when no round is allowed") {
+    const auto a = arranged(turned_sheets(16));
+    const auto r = rounded(a, {.max_rounds = 0});
+    REQUIRE_FALSE(r.report.clean);
+    REQUIRE_FALSE(r.report.contacts.empty());
+    for (const ImproperContact& c : r.report.contacts) {
+        REQUIRE(c.triangles[0] < c.triangles[1]);
+        REQUIRE(c.triangles[1] < r.mesh.triangles.size());
+        CHECK(improper_contact(r.mesh.vertices, r.mesh.triangles[c.triangles[0]],
+                               r.mesh.triangles[c.triangles[1]]));
+    }
+}
+
+TEST_CASE("rounding: a triangle too thin for doubles is reported as vanished, or still there") {
+    // Two needles cross a sheet; one is thinner than doubles can tell where it is cut.
+    std::vector<Surface> model{grid(4, [](double x, double y) { return Point3{x, y, 0.1 * x}; })};
+    const double ulp = std::nextafter(0.3, 1) - 0.3;
+    model.push_back(surface({{0.3, 0.4, -1}, {0.3, 0.45, 1}, {0.3 + ulp, 0.45, 1}}, {{0, 1, 2}}));
+    model.push_back(surface({{0.6, 0.4, -1}, {0.6, 0.45, 1}, {0.6001, 0.45, 1}}, {{0, 1, 2}}));
+    const auto r = rounded(arranged(model));
+    REQUIRE(r.report.clean);
+    CHECK(is_conforming(r.mesh));
+    std::vector<bool> present(34, false);
+    for (const std::uint32_t p : r.mesh.parents_of.values) present[p] = true;
+    for (std::uint32_t t = 0; t < present.size(); ++t) {
+        const auto& gone = r.report.vanished;
+        CHECK(present[t] != (std::find(gone.begin(), gone.end(), t) != gone.end()));
+    }
+}
+
+TEST_CASE("rounding: random soups are conforming wherever it says so") {
+    Random random(11);
+    int clean = 0, total = 0;
+    for (int i = 0; i < cases(600); ++i) {
+        const auto family = std::array{Family::lattice, Family::decimals, Family::one_ulp,
+                                       Family::utm, Family::coplanar}[static_cast<unsigned>(i % 5)];
+        Surface s;
+        const int n = random_int(random, 2, 12);
+        for (int t = 0; t < n; ++t) {
+            const auto p = points_of(random, family, 3);
+            const auto first = static_cast<std::uint32_t>(s.vertices.size());
+            s.vertices.insert(s.vertices.end(), p.begin(), p.end());
+            s.triangles.push_back({first, first + 1, first + 2});
+        }
+        const auto r = rounded(arranged({s}));
+        INFO(written_out(std::vector{s}));
+        REQUIRE(r.report.clean == is_conforming(r.mesh));
+        ++total;
+        clean += r.report.clean;
+        check_lists(r);
+    }
+    CHECK(clean == total);
+}
+
+TEST_CASE("rounding: the same for any number of threads, and stopped on request") {
+    const auto a = arranged(turned_sheets(8));
+    Run two;
+    two.threads = 2;
+    const auto one = rounded(a);
+    const auto other = round_to_doubles(a, {}, two);
+    REQUIRE(other.ok());
+    CHECK(one.mesh.vertices == other.value().mesh.vertices);
+    CHECK(one.mesh.triangles == other.value().mesh.triangles);
+    CHECK(one.mesh.parents_of == other.value().mesh.parents_of);
+    std::stop_source stop;
+    stop.request_stop();
+    Run run;
+    run.stop = stop.get_token();
+    const auto stopped = round_to_doubles(a, {}, run);
+    REQUIRE_FALSE(stopped.ok());
+    CHECK(stopped.error().code == ErrorCode::interrupted);
+}
