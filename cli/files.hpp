@@ -50,9 +50,9 @@ Status check_folder(const std::string& path);
 
 struct Inputs {
     std::vector<Surface> surfaces;
-    std::vector<std::string> files;  ///< per surface: where it comes from
+    std::vector<std::string> files;            ///< per surface: where it comes from
     std::vector<std::size_t> surfaces_of_file; ///< per input on the command line: how many
-    std::vector<std::string> labels; ///< per surface: its name, made unique, on one line
+    std::vector<std::string> labels;           ///< per surface: its name, made unique, on one line
     std::size_t vertices = 0, triangles = 0;
     double seconds = 0;
 };
