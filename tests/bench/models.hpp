@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// The inputs of all benchmarks, made once each.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <terrane/algorithms/search/search.hpp>
+#include <terrane/algorithms/surface.hpp>
+
+namespace bench {
+
+struct Model {
+    std::vector<terrane::Surface> surfaces;
+    std::vector<terrane::Point3> points;      ///< of all surfaces
+    std::vector<terrane::Triangle> triangles; ///< of all surfaces, indices into points
+    std::vector<std::uint32_t> groups;        ///< per triangle: its surface
+    std::vector<terrane::Box> boxes;          ///< per triangle
+};
+
+/// "pair1_7k", "pair1_68k", "pair1_680k", "pair1_6800k", pair2 likewise, "nonuniform1",
+/// "nonuniform2", "rectangles_100", "rectangles_1000". Kept until another one is asked for.
+const Model& model(const std::string& name);
+
+} // namespace bench
