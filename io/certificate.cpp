@@ -49,7 +49,7 @@ public:
         out_ += ']';
     }
     void numbers(const auto& items) {
-        array(items, [this](std::uint32_t n) { this->number(n); });
+        array(items, [&](std::uint32_t n) { number(n); });
     }
     /// An array of arrays, on lines of their own.
     void arrays(const auto& items) {

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// What must not change the arrangement, tried on the inputs of tests/certified: order, orientation,
+// and, once undone, reflections, scales and the names of the axes. An arrangement of something
+// transformed is carried back by its constructions, which name input vertices: the claim is the
+// same, the vertices are the old ones.
+#include "../support/certified_inputs.hpp"
+#include "../support/claim.hpp"
+
+#include <terrane/algorithms/digest.hpp>
+#include <terrane/algorithms/rounding.hpp>
+#include <terrane/algorithms/verify_digest.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <random>
+#include <set>
+
+namespace {
+
+using namespace terrane;
+using test_support::certified_inputs;
+using test_support::claim_of;
+using test_support::Model;
+using Surfaces = std::vector<Surface>;
+using Change = std::function<Point3(const Point3&)>;
+
+Arrangement arranged(std::span<const Surface> surfaces) {
+    auto a = arrange(surfaces);
+    REQUIRE(a);
+    return std::move(a).value();
+}
+
+std::string digest(std::span<const Surface> surfaces) {
+    return canonical_digest(surfaces, arranged(surfaces));
+}
+
+Surfaces changed(Surfaces surfaces, const Change& change) {
+    for (Surface& s : surfaces)
+        for (Point3& p : s.vertices) p = change(p);
+    return surfaces;
+}
+
+/// Vertices and triangles in another order, with other corners first and the other side up.
+Surface shuffled(const Surface& surface, std::mt19937& random) {
+    std::vector<std::uint32_t> place(surface.vertices.size());
+    std::iota(place.begin(), place.end(), 0U);
+    std::shuffle(place.begin(), place.end(), random);
+    Surface result = surface;
+    for (std::size_t v = 0; v < place.size(); ++v) result.vertices[place[v]] = surface.vertices[v];
+    for (Triangle& t : result.triangles) {
+        for (std::uint32_t& corner : t) corner = place[corner];
+        std::rotate(t.begin(), t.begin() + random() % 3, t.end());
+        if (random() % 2 == 0) std::swap(t[0], t[1]);
+    }
+    std::shuffle(result.triangles.begin(), result.triangles.end(), random);
+    return result;
+}
+
+/// The claim about the vertices and the intersection edges alone, for the digest: each vertex as an
+/// edge to itself.
+ArrangementClaim skeleton(ArrangementClaim claim) {
+    for (std::uint32_t v = 0; v < claim.vertices.size(); ++v)
+        claim.intersection_edges.push_back({v, v});
+    claim.triangles.clear();
+    claim.parents_of = {};
+    return claim;
+}
+
+/// Both must be the same, with the claim about `transformed` carried back.
+void check_same_skeleton(const Surfaces& original, ArrangementClaim carried) {
+    const auto truth = claim_of(arranged(original));
+    CHECK(carried.triangles.size() == truth.triangles.size());
+    CHECK(verifier::digest_of(original, skeleton(carried)) ==
+          verifier::digest_of(original, skeleton(truth)));
+}
+
+Point3 turned(const Point3& p) {
+    return {p.y, p.z, p.x};
+}
+
+/// After turned(), what was seen along y is seen along x.
+void turn_back(ArrangementClaim& claim) {
+    for (Construction& how : claim.vertices)
+        if (how.kind == Construction::Kind::line_line)
+            how.axis = static_cast<Axis>((static_cast<unsigned>(how.axis) + 1) % 3);
+}
+
+const std::array<Change, 3> reflections{[](const Point3& p) {
+                                            return Point3{-p.x, p.y, p.z};
+                                        },
+                                        [](const Point3& p) {
+                                            return Point3{p.x, -p.y, p.z};
+                                        },
+                                        [](const Point3& p) {
+                                            return Point3{p.x, p.y, -p.z};
+                                        }};
+
+/// Triangles with corners anywhere: no three lines through a point, no four points on a circle.
+Surfaces random_surfaces(unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> coordinate(-1, 1);
+    Surfaces surfaces(2);
+    for (Surface& s : surfaces) {
+        s.name = &s == surfaces.data() ? "a" : "b";
+        for (std::uint32_t v = 0; v < 24; ++v)
+            s.vertices.push_back({coordinate(random), coordinate(random), coordinate(random)});
+        for (std::uint32_t t = 0; t < 8; ++t) s.triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+    }
+    return surfaces;
+}
+
+/// Corners as points, sorted.
+std::set<std::array<Point3, 3>> triangles_of(std::span<const Point3> vertices,
+                                             std::span<const Triangle> triangles) {
+    std::set<std::array<Point3, 3>> result;
+    for (const Triangle& t : triangles) {
+        std::array corners{vertices[t[0]], vertices[t[1]], vertices[t[2]]};
+        for (Point3& p : corners) p = {p.x + 0.0, p.y + 0.0, p.z + 0.0}; // -0 is 0
+        std::sort(corners.begin(), corners.end());
+        result.insert(corners);
+    }
+    return result;
+}
+
+Surfaces surfaces_of(const Mesh& mesh) {
+    Surfaces surfaces;
+    for (std::uint32_t s = 0; s < mesh.surfaces.size(); ++s) {
+        surfaces.push_back({mesh.surfaces[s].name, mesh.surfaces[s].role, mesh.vertices, {}});
+        for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+            if (std::ranges::binary_search(mesh.surfaces_of[t], s))
+                surfaces.back().triangles.push_back(mesh.triangles[t]);
+    }
+    return surfaces;
+}
+
+} // namespace
+
+TEST_CASE("metamorphic: order and orientation do not change the digest") {
+    std::mt19937 random(1);
+    for (const Model& model : certified_inputs()) {
+        INFO(model.name);
+        Surfaces other;
+        for (const Surface& s : model.surfaces) other.push_back(shuffled(s, random));
+        std::shuffle(other.begin(), other.end(), random);
+        CHECK(digest(other) == digest(model.surfaces));
+    }
+}
+
+TEST_CASE("metamorphic: triangles as one surface each keep their points and parts") {
+    for (const Model& model : certified_inputs(100)) {
+        INFO(model.name);
+        Surfaces apart;
+        for (const Surface& s : model.surfaces)
+            for (const Triangle& t : s.triangles)
+                apart.push_back({s.name,
+                                 s.role,
+                                 {s.vertices[t[0]], s.vertices[t[1]], s.vertices[t[2]]},
+                                 {{0, 1, 2}}});
+        const auto a = arranged(model.surfaces), b = arranged(apart);
+        CHECK(a.triangles.size() == b.triangles.size());
+        CHECK(a.vertices.size() == b.vertices.size());
+    }
+}
+
+TEST_CASE("metamorphic: scaling by a power of two commutes with arranging") {
+    for (const Model& model : certified_inputs())
+        for (const int k : {-3, 11}) {
+            INFO(model.name << " times 2^" << k);
+            const auto scaled = changed(model.surfaces, [k](const Point3& p) {
+                return Point3{std::ldexp(p.x, k), std::ldexp(p.y, k), std::ldexp(p.z, k)};
+            });
+            const auto back = changed(scaled, [k](const Point3& p) {
+                return Point3{std::ldexp(p.x, -k), std::ldexp(p.y, -k), std::ldexp(p.z, -k)};
+            });
+            const bool exact = std::ranges::equal(back, model.surfaces, {}, &Surface::vertices,
+                                                  &Surface::vertices);
+            if (!exact) continue; // beyond the range of doubles
+            CHECK(verifier::digest_of(model.surfaces, claim_of(arranged(scaled))) ==
+                  digest(model.surfaces));
+        }
+}
+
+TEST_CASE("metamorphic: reflections keep points and intersection edges") {
+    for (const Model& model : certified_inputs())
+        for (const Change& reflected : reflections) {
+            INFO(model.name);
+            check_same_skeleton(model.surfaces,
+                                claim_of(arranged(changed(model.surfaces, reflected))));
+        }
+}
+
+TEST_CASE("metamorphic: other names of the axes keep points and intersection edges") {
+    for (const Model& model : certified_inputs()) {
+        INFO(model.name);
+        auto claim = claim_of(arranged(changed(model.surfaces, turned)));
+        turn_back(claim);
+        check_same_skeleton(model.surfaces, claim);
+    }
+}
+
+TEST_CASE("metamorphic: where no tie is to be broken, triangles are the same as well") {
+    for (unsigned seed = 1; seed <= 20; ++seed) {
+        INFO(seed);
+        const auto surfaces = random_surfaces(seed);
+        const auto expected = digest(surfaces);
+        for (const Change& reflected : reflections)
+            CHECK(verifier::digest_of(surfaces, claim_of(arranged(changed(surfaces, reflected)))) ==
+                  expected);
+        auto claim = claim_of(arranged(changed(surfaces, turned)));
+        turn_back(claim);
+        CHECK(verifier::digest_of(surfaces, claim) == expected);
+    }
+}
+
+TEST_CASE("metamorphic: arranging what is arranged changes nothing") {
+    for (const Model& model : certified_inputs()) {
+        INFO(model.name);
+        const auto rounded = round_to_doubles(arranged(model.surfaces));
+        REQUIRE(rounded);
+        if (!rounded.value().report.clean) continue;
+        const Mesh& mesh = rounded.value().mesh;
+        const auto again = arranged(surfaces_of(mesh));
+        const auto rounded_again = round_to_doubles(again);
+        REQUIRE(rounded_again);
+        const Mesh& same = rounded_again.value().mesh;
+        CHECK(again.statistics.constructed_points == 0);
+        CHECK(rounded_again.value().report.max_move == 0);
+        CHECK(same.triangles.size() == mesh.triangles.size());
+        CHECK(triangles_of(same.vertices, same.triangles) ==
+              triangles_of(mesh.vertices, mesh.triangles));
+        // Triangles of several coplanar parents in one surface have one parent now.
+        const bool one_parent_each =
+            std::ranges::equal(mesh.parents_of.offsets, mesh.surfaces_of.offsets);
+        if (one_parent_each)
+            CHECK(same.intersection_edges.size() == mesh.intersection_edges.size());
+    }
+}
