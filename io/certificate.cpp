@@ -48,13 +48,15 @@ public:
         }
         out_ += ']';
     }
-    void numbers(const auto& items) {
-        array(items, [&](std::uint32_t n) { number(n); });
+    template <class Numbers>
+    void numbers(const Numbers& items) {
+        array(items, [this](std::uint32_t n) { number(n); });
     }
     /// An array of arrays, on lines of their own.
-    void arrays(const auto& items) {
+    template <class Items>
+    void arrays(const Items& items) {
         array(
-            items, [this](const auto& list) { numbers(list); }, ",\n");
+            items, [&](const auto& list) { numbers(list); }, ",\n");
     }
     void lists(const Lists<std::uint32_t>& lists) {
         out_ += '[';
