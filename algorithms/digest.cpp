@@ -56,7 +56,13 @@ private:
                 for (std::size_t p = first; p < last; ++p) {
                     const auto [x, y, z] =
                         fractions(arrangement_.points, static_cast<PointIndex>(p), 16);
-                    block.push_back(sha256(x + ' ' + y + ' ' + z));
+                    Sha256 state;
+                    state.feed(x);
+                    state.feed(" ");
+                    state.feed(y);
+                    state.feed(" ");
+                    state.feed(z);
+                    block.push_back(state.finish());
                 }
                 return block;
             });

@@ -17,7 +17,7 @@ namespace {
 Status write(const std::string& path, const std::string& text, const FileOptions& files,
              Session& session) {
     session.begin("write", Phase::writing);
-    const auto status = write_file(path, text);
+    auto status = write_file(path, text);
     session.end_stage();
     if (status) print(summary_stream(files), "wrote " + path + "\n");
     return status;

@@ -67,7 +67,8 @@ std::string to_text(const ExactText& exact) {
         out += ' ' + exact.surfaces[s].name + '\n';
     }
     append_header(out, "vertices", exact.vertices.size());
-    for (const auto& [x, y, z] : exact.vertices) out += x + ' ' + y + ' ' + z + '\n';
+    for (const auto& [x, y, z] : exact.vertices)
+        out.append(x).append(" ").append(y).append(" ").append(z).append("\n");
     append_header(out, "triangles", exact.triangles.size());
     for (std::size_t t = 0; t < exact.triangles.size(); ++t) {
         append_indices(out, exact.triangles[t]);
