@@ -93,20 +93,4 @@ std::vector<std::uint32_t> table_1_order(std::span<const Box> boxes) {
     return order;
 }
 
-BalancedAbTree::BalancedAbTree(std::span<const Box> boxes) {
-    nodes_.reserve(boxes.size());
-    for (std::uint32_t i = 0; i < boxes.size(); ++i) nodes_.push_back({boxes[i], i});
-    build(0, static_cast<std::uint32_t>(nodes_.size()), 0);
-}
-
-void BalancedAbTree::build(std::uint32_t first, std::uint32_t last, unsigned level) {
-    if (last - first < 2) return;
-    const std::uint32_t middle = first + (last - first) / 2;
-    std::nth_element(
-        nodes_.begin() + first, nodes_.begin() + middle, nodes_.begin() + last,
-        [&](const Node& a, const Node& b) { return key(a.box, level) < key(b.box, level); });
-    build(first, middle, (level + 1) % 6);
-    build(middle + 1, last, (level + 1) % 6);
-}
-
 } // namespace terrane::search

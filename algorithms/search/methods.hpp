@@ -135,45 +135,11 @@ private:
 /// by v[i mod 6]; where a box has its place already, the next one that has none.
 std::vector<std::uint32_t> table_1_order(std::span<const Box> boxes);
 
-/// Paper 2.2, balanced: Table 1 with the quantiles of depth i taken part by part, the median of
-/// v[i mod 6] among the boxes of a subtree as its root. Implicit in one array: the subtree of
-/// [first, last) has its root at the middle, the left part before it, the right one behind.
-class BalancedAbTree {
+/// Paper 2.2, balanced. Depth about twice the least on surfaces; where many boxes share all their
+/// keys a list again.
+class BalancedAbTree : public AbTree {
 public:
-    explicit BalancedAbTree(std::span<const Box> boxes);
-
-    template <class Report>
-    void query(const Box& q, const Report& report) const {
-        struct Range {
-            std::uint32_t first, last;
-            unsigned level;
-        };
-        std::array<Range, 64> stack; // NOLINT: filled as far as used
-        unsigned top = 0;
-        stack[top++] = {0, static_cast<std::uint32_t>(nodes_.size()), 0};
-        while (top > 0) {
-            const Range r = stack[--top];
-            if (r.first >= r.last) continue;
-            const std::uint32_t middle = r.first + (r.last - r.first) / 2;
-            const Node& node = nodes_[middle];
-            if (node.box.overlaps(q)) report(node.index);
-            const unsigned axis = r.level % 3, next = (r.level + 1) % 6;
-            const bool splits_low = r.level < 3;
-            const double key = splits_low ? node.box.low[axis] : node.box.high[axis];
-            if (!splits_low || key <= q.high[axis]) stack[top++] = {middle + 1, r.last, next};
-            if (splits_low || key >= q.low[axis]) stack[top++] = {r.first, middle, next};
-        }
-    }
-
-private:
-    struct Node {
-        Box box;
-        std::uint32_t index;
-    };
-
-    void build(std::uint32_t first, std::uint32_t last, unsigned level);
-
-    std::vector<Node> nodes_;
+    explicit BalancedAbTree(std::span<const Box> boxes) : AbTree(boxes, table_1_order(boxes)) {}
 };
 
 /// Paper 2.3, the reduction: the boxes that have one of another group in the cells of one grid over
