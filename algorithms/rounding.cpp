@@ -220,7 +220,9 @@ void Rounding::report_moves() {
         r.max_move = std::max(r.max_move, m);
         const double decade = m > 0 ? std::floor(std::log10(m)) + 24 : 0;
         ++r.moves[static_cast<std::size_t>(m > 0 ? std::clamp(decade, 1.0, 31.0) : 0)];
-        if (v < state_.input_vertices && m > 0) ++r.moved_input_vertices;
+        if (v < state_.input_vertices &&
+            state_.points[v] != arrangement_.points.input(arrangement_.vertices[v]))
+            ++r.moved_input_vertices;
     }
     r.merged_vertices = state_.merged;
     r.collapsed_triangles = state_.collapsed;

@@ -27,9 +27,10 @@ struct Task {
 template <class Keep>
 void join(const PackedTree& a, const PackedTree& b, const Task& task, Blocks& blocks,
           const Keep& keep) {
-    const auto& [boxes, groups, filter, run] = task;
+    const std::span<const Box> boxes = task.boxes;
+    const PairFilter& filter = task.filter;
     auto found = for_blocks<Pairs>(
-        a.leaf_count(), leaves_per_block, run, [&](std::size_t l, std::size_t end) {
+        a.leaf_count(), leaves_per_block, task.run, [&](std::size_t l, std::size_t end) {
             Pairs pairs;
             for (; l < end; ++l)
                 a.join(static_cast<std::uint32_t>(l), b, [&](std::uint32_t i, std::uint32_t j) {

@@ -43,8 +43,8 @@ struct PackedBox {
     static constexpr PackedBox none() { return {guards, guards}; }
 };
 
-/// Maps a region onto coordinates 0 .. 2^20 - 1 of each axis; what lies outside goes to the ends. The
-/// map is monotone, also where it rounds, so boxes that overlap still do when packed.
+/// Maps a region onto coordinates 0 .. 2^20 - 1 of each axis; what lies outside goes to the ends.
+/// The map is monotone, also where it rounds, so boxes that overlap still do when packed.
 class Lattice {
 public:
     explicit Lattice(const Box& region) {

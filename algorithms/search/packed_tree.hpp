@@ -13,8 +13,8 @@
 
 namespace terrane::search {
 
-/// Boxes of similar size come together in the order, so a few large ones do not blow up the nodes of
-/// many small ones. Cost: sorting 32-bit keys by digits, then linear.
+/// Boxes of similar size come together in the order, so a few large ones do not blow up the nodes
+/// of many small ones. Cost: sorting 32-bit keys by digits, then linear.
 class PackedTree {
 public:
     explicit PackedTree(const Selection& selection);
@@ -23,8 +23,8 @@ public:
     [[nodiscard]] std::uint32_t leaf_count() const { return leaves_; }
 
     /// Calls report(index here, index there) for all overlapping boxes of a leaf here and of the
-    /// other tree, packed on the same lattice; each pair once. Of pairs within one tree, whatever the
-    /// order, only those that no smaller leaf reports.
+    /// other tree, packed on the same lattice; each pair once. Of pairs within one tree, whatever
+    /// the order, only those that no smaller leaf reports.
     template <class Report>
     void join(std::uint32_t leaf, const PackedTree& other, const Report& report) const {
         struct Node {

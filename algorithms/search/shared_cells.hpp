@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The reduction step of the mixed search (paper 2.3), for any number of groups: which boxes can meet
-// one of another group at all.
+// The reduction step of the mixed search (paper 2.3), for any number of groups: which boxes can
+// meet one of another group at all.
 #pragma once
 
 #include <cstdint>
@@ -22,10 +22,10 @@ struct Selection {
 Selection select_all(std::span<const Box> boxes);
 
 /// At least all boxes that overlap one of another group (no_group: any other one). First the boxes
-/// outside all other groups' common box go, then those in whose cells there is only their own group.
-/// Unlike in the paper a box is entered in each cell that it overlaps, so two boxes that overlap
-/// share a cell, and no cell need be searched around it.
-/// Cost: linear; where a few boxes cover very many cells the second step is left out.
+/// outside all other groups' common box go, then those in whose cells there is only their own
+/// group. Unlike in the paper a box is entered in each cell that it overlaps, so two boxes that
+/// overlap share a cell, and no cell need be searched around it. Cost: linear; where a few boxes
+/// cover very many cells the second step is left out.
 Selection select_meeting(std::span<const Box> boxes, std::span<const std::uint32_t> groups);
 
 /// At least all boxes that overlap an active one, and the active ones themselves.
