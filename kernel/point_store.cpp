@@ -6,6 +6,7 @@
 
 #include <terrane/kernel/nearest.hpp>
 #include <terrane/kernel/predicates.hpp>
+#include <terrane/kernel/twofold.hpp>
 
 namespace terrane {
 
@@ -73,6 +74,18 @@ void PointStore::keep_constructed(std::span<const PointIndex> kept) {
 
 namespace {
 
+/// The default rounding mode for as long as it lives, inside an UpwardRounding or not.
+class ToNearest {
+public:
+    ToNearest() : before_(CGAL::FPU_get_and_set_cw(CGAL_FE_TONEAREST)) {}
+    ~ToNearest() { CGAL::FPU_set_cw(before_); }
+    ToNearest(const ToNearest&) = delete;
+    ToNearest& operator=(const ToNearest&) = delete;
+
+private:
+    CGAL::FPU_CW_t before_;
+};
+
 // Wide enough to make predicates fail that a correctly rounded point would let succeed.
 bool is_wide(const Enclosure& e) {
     for (unsigned k = 0; k < 3; ++k) {
@@ -106,6 +119,19 @@ Point3 with_positive_zeros(const Point3& p) {
 Point3 round(const ExactPoint& p) {
     return with_positive_zeros(
         {nearest_quotient(p.x, p.w), nearest_quotient(p.y, p.w), nearest_quotient(p.z, p.w)});
+}
+
+/// The nearest doubles where numbers of about 106 bits leave no doubt.
+std::optional<Point3> round_quickly(std::span<const Point3> input, const Construction& how) {
+    const ToNearest mode;
+    const auto at = [&](std::uint32_t v) -> const Point3& { return input[v]; };
+    const auto h = polynomial::construct<Twofold>(how, at);
+    const Point3& base = input[how.v[0]];
+    const auto x = (Twofold(base.x) + h.x / h.w).nearest();
+    const auto y = (Twofold(base.y) + h.y / h.w).nearest();
+    const auto z = (Twofold(base.z) + h.z / h.w).nearest();
+    if (!x || !y || !z) return std::nullopt;
+    return Point3{*x, *y, *z};
 }
 
 ExactPoint construct_exactly(std::span<const Point3> input, const Construction& how) {
@@ -154,6 +180,7 @@ Point3 PointStore::nearest(PointIndex p) const {
     if (is_input(p)) return input_[p];
     const Enclosure& e = enclosures_[p - input_.size()];
     if (e.low == e.high) return with_positive_zeros({e.low[0], e.low[1], e.low[2]});
+    if (const auto quick = round_quickly(input_, constructed_[p - input_.size()])) return *quick;
     return round(cached_exact(p - input_.size()));
 }
 

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <terrane/kernel/config.hpp>
+
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace terrane {
+
+/// A number of about 106 bits with a running bound of its error: the true value is within err of
+/// hi + lo. Correct only in the rounding mode "to nearest". Overflow makes err infinite or NaN, and
+/// nearest() then declines.
+/// Source: Dekker (1971) for the sums and products; the bounds are derived at each operation.
+class Twofold {
+public:
+    Twofold() = default;
+    explicit Twofold(double d) : hi_(d) {}
+
+    friend Twofold operator-(const Twofold& a) { return {-a.hi_, -a.lo_, a.err_}; }
+
+    // The sum of the high parts is exact in two numbers; adding the three low ones rounds three
+    // times, each time by at most unit / 2 of what is added.
+    friend Twofold operator+(const Twofold& a, const Twofold& b) {
+        const double s = a.hi_ + b.hi_, t = s - a.hi_;
+        const double rest = (a.hi_ - (s - t)) + (b.hi_ - t);
+        const double low = rest + (a.lo_ + b.lo_);
+        const double lost = std::fabs(rest) + std::fabs(a.lo_) + std::fabs(b.lo_);
+        return normal(s, low, a.err_ + b.err_ + 2 * unit * lost);
+    }
+    friend Twofold operator-(const Twofold& a, const Twofold& b) { return a + -b; }
+
+    // The product of the high parts is exact in two numbers (fma); low times low is left out; the
+    // mixed terms and their sum round.
+    friend Twofold operator*(const Twofold& a, const Twofold& b) {
+        if (a.is_zero() || b.is_zero()) return {};
+        const double p = a.hi_ * b.hi_, rest = std::fma(a.hi_, b.hi_, -p);
+        const double m = a.hi_ * b.lo_, n = a.lo_ * b.hi_;
+        const double lost = std::fabs(rest) + std::fabs(m) + std::fabs(n);
+        const double err = a.size() * b.err_ + b.size() * a.err_ + a.err_ * b.err_ +
+                           std::fabs(a.lo_ * b.lo_) + 2 * unit * lost + underflow;
+        return normal(p, rest + (m + n), err);
+    }
+
+    // Two quotients of high parts; what they leave of the dividend bounds the error.
+    friend Twofold operator/(const Twofold& a, const Twofold& b) {
+        if (a.is_zero()) return {};
+        const Twofold first(a.hi_ / b.hi_);
+        const Twofold left = a - first * b;
+        const Twofold second(left.hi_ / b.hi_);
+        const Twofold open = left - second * b;
+        Twofold q = first + second;
+        const double least = std::fabs(b.hi_) * (1 - 4 * unit) - std::fabs(b.lo_) - b.err_;
+        q.err_ += (least > 0 ? (open.size() + open.err_) / least : HUGE_VAL) * (1 + 8 * unit);
+        return q;
+    }
+
+    /// The double nearest to the true value, where the error leaves no doubt.
+    [[nodiscard]] std::optional<double> nearest() const {
+        if (err_ == 0 && lo_ == 0) return hi_ + 0.0; // never -0
+        const double above = (std::nextafter(hi_, HUGE_VAL) - hi_) / 2;
+        const double below = (hi_ - std::nextafter(hi_, -HUGE_VAL)) / 2;
+        const double err = err_ * (1 + 8 * unit);
+        if (lo_ + err < above * (1 - 4 * unit) && -lo_ + err < below * (1 - 4 * unit)) return hi_;
+        return std::nullopt;
+    }
+
+private:
+    static constexpr double unit = std::numeric_limits<double>::epsilon();
+    static constexpr double underflow = 0x1p-1000; ///< more than an underflowing product loses
+
+    Twofold(double hi, double lo, double err) : hi_(hi), lo_(lo), err_(err) {}
+
+    /// |high| >= |low| but for rounding; the factor covers the roundings of the bound itself.
+    static Twofold normal(double high, double low, double err) {
+        const double s = high + low, t = s - high;
+        return {s, (high - (s - t)) + (low - t), err * (1 + 0x1p-40)};
+    }
+
+    [[nodiscard]] bool is_zero() const { return hi_ == 0 && lo_ == 0 && err_ == 0; }
+    [[nodiscard]] double size() const { return std::fabs(hi_) + std::fabs(lo_); }
+
+    double hi_ = 0, lo_ = 0, err_ = 0;
+};
+
+} // namespace terrane
