@@ -71,8 +71,9 @@ TEST_CASE("arrange: edges cross, an edge through a face, an edge on a face") {
 TEST_CASE("arrange: a shared vertex and a crossing; folded over a shared edge") {
     CHECK(arranged({floor_triangle, triangle({0, 0, 0}, {1, 1, -1}, {1, 1, 1})}) ==
           Counts{6, 5, 1});
-    CHECK(arranged({surface({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 0}},
-                            {{0, 1, 2}, {1, 0, 3}})}) == Counts{4, 3, 2}); // the shared edge has one triangle
+    CHECK(
+        arranged({surface({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 0}}, {{0, 1, 2}, {1, 0, 3}})}) ==
+        Counts{4, 3, 2}); // the shared edge has one triangle
 }
 
 TEST_CASE("arrange: coplanar overlap, of either orientation, in part and as a whole") {
