@@ -2,6 +2,7 @@
 #include <terrane/algorithms/digest.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <map>
 #include <string_view>
@@ -35,7 +36,8 @@ public:
     }
 
     std::string operator()() {
-        add_triangles();
+        add_vertices();
+        add_parents();
         for (const auto& [low, high] : arrangement_.intersection_edges)
             records_.push_back(tagged("edge", {point(low), point(high)}));
         for (const std::uint32_t t : arrangement_.degenerate)
@@ -80,19 +82,33 @@ private:
         }
     }
 
-    void add_triangles() {
-        for (std::size_t t = 0; t < arrangement_.triangles.size(); ++t) {
-            const auto& [a, b, c] = arrangement_.triangles[t];
-            Hashes corners{point(a), point(b), point(c)}, parents;
-            std::sort(corners.begin(), corners.end());
-            for (const std::uint32_t p : arrangement_.parents_of[t]) parents.push_back(inputs_[p]);
+    void add_vertices() {
+        std::vector<std::array<std::uint32_t, 2>> named; // {vertex, parent}
+        for (std::size_t t = 0; t < arrangement_.triangles.size(); ++t)
+            for (const std::uint32_t v : arrangement_.triangles[t])
+                for (const std::uint32_t p : arrangement_.parents_of[t]) named.push_back({v, p});
+        std::sort(named.begin(), named.end());
+        named.erase(std::unique(named.begin(), named.end()), named.end());
+        for (std::size_t i = 0; i < named.size();) {
+            const std::uint32_t v = named[i][0];
+            Hashes parents;
+            for (; i < named.size() && named[i][0] == v; ++i)
+                parents.push_back(inputs_[named[i][1]]);
             std::sort(parents.begin(), parents.end());
             Sha256 state;
-            state.feed("triangle");
-            state.feed(corners);
+            state.feed("vertex");
+            state.feed(point(v));
             state.feed(parents);
             records_.push_back(state.finish());
         }
+    }
+
+    void add_parents() {
+        std::vector<std::size_t> children(inputs_.size(), 0);
+        for (const std::uint32_t p : arrangement_.parents_of.values) ++children[p];
+        for (std::size_t p = 0; p < children.size(); ++p)
+            if (children[p] > 0)
+                records_.push_back(tagged("parent", {inputs_[p]}, std::to_string(children[p])));
     }
 
     void add_duplicates() {
@@ -109,7 +125,7 @@ private:
     const Run& run_;
     Hashes points_;  ///< of all stored points
     Hashes inputs_;  ///< of all input triangles
-    Hashes records_; ///< of all triangles, edges, degenerate and duplicates
+    Hashes records_; ///< of all vertices, parents, edges, degenerate and duplicates
 };
 
 } // namespace

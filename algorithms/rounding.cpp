@@ -13,6 +13,7 @@
 #include <terrane/algorithms/parallel.hpp>
 #include <terrane/algorithms/rounding_state.hpp>
 #include <terrane/algorithms/soup.hpp>
+#include <terrane/algorithms/stopwatch.hpp>
 #include <terrane/kernel/predicates.hpp>
 
 namespace terrane {
@@ -257,6 +258,7 @@ void Rounding::finish(std::span<const CandidatePair> pairs) {
     mesh.vertices = std::move(state_.points);
     mesh.triangles = std::move(state_.triangles);
     mesh.parents_of = std::move(state_.parents_of);
+    Stopwatch watch;
     EdgeSides made;
     if (changed_) made = group_edges(mesh.triangles, mesh.vertices.size());
     const EdgeSides& edges = changed_ ? made : arrangement_.edges;
@@ -269,6 +271,7 @@ void Rounding::finish(std::span<const CandidatePair> pairs) {
                                 mesh.intersection_edges);
     mesh.regions_of = std::move(regions.regions_of);
     out_.regions = std::move(regions.regions);
+    out_.report.seconds_regions = watch.lap();
 }
 
 } // namespace

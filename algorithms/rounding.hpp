@@ -48,6 +48,8 @@ struct RoundingReport {
     std::size_t moved_input_vertices = 0;  ///< input vertices that had to give way
     std::size_t merged_vertices = 0;       ///< distinct points that became one
     std::size_t collapsed_triangles = 0;   ///< lost their area
+    double seconds_regions = 0;            ///< of the whole: intersection edges and regions of the
+                                           ///< mesh, which is no rounding
     std::vector<LostRegions> lost_regions; ///< surfaces with fewer regions than the exact ones
     std::vector<std::uint32_t> vanished;   ///< input triangles of which nothing is left, ascending
 };

@@ -77,15 +77,40 @@ std::optional<std::vector<Hash>> hash_vertices(const HashedInputs& inputs,
     return hashes;
 }
 
-Hash hash_of_triangle(const std::array<Hash, 3>& corners, std::span<const std::uint32_t> parents,
-                      const HashedInputs& inputs) {
-    std::multiset<Hash> sorted;
-    for (const std::uint32_t parent : parents) sorted.insert(inputs.triangles[parent]);
-    Sha256 state;
-    state.feed("triangle");
-    feed_sorted(state, corners);
-    for (const Hash& parent : sorted) state.feed(parent);
-    return state.finish();
+/// Each vertex with the parents of the triangles at it.
+std::vector<Hash> hash_corners(const ArrangementClaim& claim, const HashedInputs& inputs,
+                               const std::vector<Hash>& vertices) {
+    std::vector<std::set<std::uint32_t>> parents_at(vertices.size());
+    for (std::size_t t = 0; t < claim.triangles.size(); ++t)
+        for (const std::uint32_t v : claim.triangles[t])
+            parents_at[v].insert(claim.parents_of[t].begin(), claim.parents_of[t].end());
+    std::vector<Hash> hashes;
+    for (std::size_t v = 0; v < vertices.size(); ++v) {
+        if (parents_at[v].empty()) continue;
+        std::multiset<Hash> sorted;
+        for (const std::uint32_t parent : parents_at[v]) sorted.insert(inputs.triangles[parent]);
+        Sha256 state;
+        state.feed("vertex");
+        state.feed(vertices[v]);
+        for (const Hash& parent : sorted) state.feed(parent);
+        hashes.push_back(state.finish());
+    }
+    return hashes;
+}
+
+/// Each parent with the number of its triangles.
+std::vector<Hash> hash_parents(const ArrangementClaim& claim, const HashedInputs& inputs) {
+    std::map<std::uint32_t, std::size_t> children;
+    for (const std::uint32_t parent : claim.parents_of.values) ++children[parent];
+    std::vector<Hash> hashes;
+    for (const auto& [parent, count] : children) {
+        Sha256 state;
+        state.feed("parent");
+        state.feed(inputs.triangles[parent]);
+        state.feed(std::to_string(count));
+        hashes.push_back(state.finish());
+    }
+    return hashes;
 }
 
 std::vector<Hash> hash_duplicates(const ArrangementClaim& claim, const HashedInputs& inputs) {
@@ -111,11 +136,10 @@ std::optional<std::string> digest_of(std::span<const Surface> surfaces,
     const auto vertices = hash_vertices(inputs, claim);
     if (!vertices) return std::nullopt;
     std::vector<Hash> all = hash_duplicates(claim, inputs);
-    for (std::size_t t = 0; t < claim.triangles.size(); ++t) {
-        const auto& [a, b, c] = claim.triangles[t];
-        all.push_back(hash_of_triangle({(*vertices)[a], (*vertices)[b], (*vertices)[c]},
-                                       claim.parents_of[t], inputs));
-    }
+    const auto corners = hash_corners(claim, inputs, *vertices);
+    const auto parents = hash_parents(claim, inputs);
+    all.insert(all.end(), corners.begin(), corners.end());
+    all.insert(all.end(), parents.begin(), parents.end());
     Sha256 state;
     for (const Edge& edge : claim.intersection_edges) {
         state.feed("edge");

@@ -51,12 +51,20 @@ TEST_CASE("digest: of a single triangle, as defined, step by step") {
     state.feed(points);
     state.feed("top");
     const Hash input = state.finish();
-    state.feed("triangle");
-    state.feed(points);
+    std::vector<Hash> records;
+    for (const Hash& point : points) {
+        state.feed("vertex");
+        state.feed(point);
+        state.feed(input);
+        records.push_back(state.finish());
+    }
+    state.feed("parent");
     state.feed(input);
-    const Hash triangle = state.finish();
+    state.feed("1");
+    records.push_back(state.finish());
+    std::sort(records.begin(), records.end());
     state.feed("terrane-digest 1\n");
-    state.feed(triangle);
+    state.feed(records);
     CHECK(digest(one) == "sha256:" + hexadecimal(state.finish()));
 }
 
@@ -81,7 +89,11 @@ TEST_CASE("digest: changes with anything that is said") {
     const auto expected = verifier::digest_of(surfaces, claim);
     using Mutation = std::function<void(ArrangementClaim&)>;
     const std::vector<Mutation> mutations{
-        [](ArrangementClaim& c) { c.triangles[0] = c.triangles[1]; },
+        [](ArrangementClaim& c) { // one triangle less
+            c.triangles.pop_back();
+            c.parents_of.offsets.pop_back();
+            c.parents_of.values.resize(c.parents_of.offsets.back());
+        },
         [](ArrangementClaim& c) { ++c.parents_of.values.back(), c.parents_of.values.back() %= 5; },
         [](ArrangementClaim& c) { c.intersection_edges.pop_back(); },
         [](ArrangementClaim& c) { c.degenerate.clear(); },
