@@ -161,7 +161,6 @@ public:
         label_(surface_of.begin(), surface_of.end()), group_(triangles.size(), no_group) {}
 
     Patches operator()() {
-        find_turns();
         prove_components();
         // What is left is split where the orientation changes.
         bool any = false;
@@ -175,17 +174,6 @@ public:
     }
 
 private:
-    using Turns = std::array<Sign, 3>; // in the projections of `axes`
-
-    void find_turns() {
-        turns_.resize(triangles_.size());
-        for (std::size_t t = 0; t < triangles_.size(); ++t) {
-            const Triangle& c = triangles_[t];
-            for (unsigned k = 0; k < 3; ++k)
-                turns_[t][k] = orient2d(axes[k], points_[c[0]], points_[c[1]], points_[c[2]]);
-        }
-    }
-
     /// Only a guess at what might project well.
     [[nodiscard]] std::uint32_t longest_axis(const Triangle& t) const {
         const Point3 &a = points_[t[0]], &b = points_[t[1]], &c = points_[t[2]];
@@ -202,8 +190,13 @@ private:
 
     void prove_components() {
         find_components();
-        sum_borders();
-        for (unsigned k = 0; k < 3; ++k) try_axis(k);
+        for (const Axis axis : axes) {
+            if (std::all_of(proven_.begin(), proven_.end(), [](const auto& p) { return !!p; }))
+                break;
+            find_turns(axis);
+            sum_borders();
+            try_axis(axis);
+        }
         std::vector<std::uint32_t> number(proven_.size(), no_group);
         for (std::size_t p = 0; p < proven_.size(); ++p) {
             if (!proven_[p]) continue;
@@ -212,6 +205,18 @@ private:
         }
         for (std::uint32_t t = 0; t < triangles_.size(); ++t)
             if (group_[t] == no_group) group_[t] = number[patch_of_[t]];
+    }
+
+    /// The sign of each open triangle in the projection; a patch with a degenerate one is unusable.
+    void find_turns(Axis axis) {
+        turns_.resize(triangles_.size());
+        usable_.assign(proven_.size(), true);
+        for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
+            if (group_[t] != no_group || proven_[patch_of_[t]]) continue;
+            const Triangle& c = triangles_[t];
+            turns_[t] = orient2d(axis, points_[c[0]], points_[c[1]], points_[c[2]]);
+            if (turns_[t] == Sign::Zero) usable_[patch_of_[t]] = false;
+        }
     }
 
     /// Connected over edges, same label, not yet in a group.
@@ -231,20 +236,16 @@ private:
             patch_of_[t] = root == t ? patches++ : patch_of_[root];
         }
         proven_.assign(patches, std::nullopt);
-        usable_.assign(patches, {true, true, true});
-        for (std::uint32_t t = 0; t < triangles_.size(); ++t)
-            if (group_[t] == no_group)
-                for (unsigned k = 0; k < 3; ++k)
-                    if (turns_[t][k] == Sign::Zero) usable_[patch_of_[t]][k] = false;
     }
 
-    /// The sum of the triangles' boundaries, all counterclockwise, in each projection.
+    /// The sum of the triangles' boundaries, all counterclockwise, for the patches still open.
     void sum_borders() {
-        for (auto& b : borders_) b.clear();
+        border_.clear();
         edges_.for_each([&](std::uint32_t low, std::uint32_t high, auto sides) {
             for (std::size_t i = 0; i < sides.size(); ++i) {
                 if (!is_open(sides[i])) continue;
                 const std::uint32_t patch = patch_of_[sides[i].triangle];
+                if (proven_[patch] || !usable_[patch]) continue;
                 bool is_first = true;
                 for (std::size_t j = 0; j < i; ++j)
                     if (is_open(sides[j]) && patch_of_[sides[j].triangle] == patch)
@@ -256,30 +257,26 @@ private:
 
     void sum_edge(std::uint32_t low, std::uint32_t high, std::span<const EdgeSides::Side> sides,
                   std::uint32_t patch) {
-        std::array<int, 3> sum{};
+        int sum = 0;
         for (const auto& s : sides) {
             if (!is_open(s) || patch_of_[s.triangle] != patch) continue;
             const int along = triangles_[s.triangle][s.corner] == low ? 1 : -1;
-            for (unsigned k = 0; k < 3; ++k)
-                sum[k] += along * static_cast<int>(turns_[s.triangle][k]);
+            sum += along * static_cast<int>(turns_[s.triangle]);
         }
-        for (unsigned k = 0; k < 3; ++k) {
-            if (sum[k] == 1) borders_[k].push_back({patch, low, high});
-            if (sum[k] == -1) borders_[k].push_back({patch, high, low});
-            if (std::abs(sum[k]) > 1) usable_[patch][k] = false;
-        }
+        if (sum == 1) border_.push_back({patch, low, high});
+        if (sum == -1) border_.push_back({patch, high, low});
+        if (std::abs(sum) > 1) usable_[patch] = false;
     }
 
-    void try_axis(unsigned k) {
-        auto& border = borders_[k];
-        std::stable_sort(border.begin(), border.end(),
+    void try_axis(Axis axis) {
+        std::stable_sort(border_.begin(), border_.end(),
                          [](const auto& a, const auto& b) { return a.patch < b.patch; });
-        for (std::size_t i = 0, end = 0; i < border.size(); i = end) {
-            const std::uint32_t patch = border[i].patch;
-            while (end < border.size() && border[end].patch == patch) ++end;
-            if (proven_[patch] || !usable_[patch][k]) continue;
-            const std::span edges(border.data() + i, end - i);
-            if (Border(points_, axes[k], edges).encloses_once()) proven_[patch] = axes[k];
+        for (std::size_t i = 0, end = 0; i < border_.size(); i = end) {
+            const std::uint32_t patch = border_[i].patch;
+            while (end < border_.size() && border_[end].patch == patch) ++end;
+            if (!usable_[patch]) continue;
+            const std::span edges(border_.data() + i, end - i);
+            if (Border(points_, axis, edges).encloses_once()) proven_[patch] = axis;
         }
     }
 
@@ -287,14 +284,14 @@ private:
     std::span<const Triangle> triangles_;
     std::span<const std::uint32_t> surface_of_;
     const EdgeSides& edges_;
-    std::vector<std::uint32_t> label_; ///< triangles of one patch have the same
-    std::vector<std::uint32_t> group_; ///< the result
-    std::vector<Axis> axis_;           ///< per group
-    std::vector<Turns> turns_;
+    std::vector<std::uint32_t> label_;        ///< triangles of one patch have the same
+    std::vector<std::uint32_t> group_;        ///< the result
+    std::vector<Axis> axis_;                  ///< per group
+    std::vector<Sign> turns_;                 ///< per triangle, in the projection being tried
     std::vector<std::uint32_t> patch_of_;     ///< per triangle without a group
     std::vector<std::optional<Axis>> proven_; ///< per patch
-    std::vector<std::array<bool, 3>> usable_; ///< per patch and projection
-    std::array<std::vector<BorderEdge>, 3> borders_;
+    std::vector<bool> usable_;                ///< per patch, in the projection being tried
+    std::vector<BorderEdge> border_;          ///< of all patches, in the projection being tried
 };
 
 } // namespace
