@@ -317,6 +317,9 @@ void confirm_patches(std::span<const Point3> points, std::span<const Triangle> t
     }
     std::vector<BorderEdge> border;
     edges.for_each([&](std::uint32_t low, std::uint32_t high, auto sides) {
+        // Most edges: inside one patch.
+        if (sides.size() == 2 && patches.of[sides[0].triangle] == patches.of[sides[1].triangle])
+            return;
         for (std::size_t i = 0; i < sides.size(); ++i) {
             const std::uint32_t p = patches.of[sides[i].triangle];
             if (p == no_group) continue;
