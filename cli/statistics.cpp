@@ -62,6 +62,7 @@ void add_statistics(Json& json, const RoundedMesh& rounded, double seconds) {
     json["rounding"] = {{"iterations", r.rounds},
                         {"max_move", r.max_move},
                         {"deviation", r.deviation},
+                        {"moves", r.moves}, // see RoundingReport: vertices by decade of their move
                         {"verified", r.clean},
                         {"naive_contacts", r.naive_contacts},
                         {"contacts", r.contacts.size()},
