@@ -11,6 +11,7 @@
 #include <gmp.h>
 #include <unistd.h>
 
+#include <terrane/algorithms/memory.hpp>
 #include <terrane/cli/command.hpp>
 
 namespace terrane::cli {
@@ -93,6 +94,7 @@ ExitStatus run_guarded(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     std::signal(SIGPIPE, SIG_IGN); // a closed pipe is a write that fails
+    terrane::keep_freed_memory();
     mp_set_memory_functions(terrane::cli::gmp_allocate, terrane::cli::gmp_reallocate,
                             terrane::cli::gmp_free);
     return static_cast<int>(terrane::cli::run_guarded(argc, argv));

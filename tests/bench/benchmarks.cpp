@@ -11,6 +11,7 @@
 
 #include <terrane/algorithms/arrangement.hpp>
 #include <terrane/algorithms/intersection.hpp>
+#include <terrane/algorithms/memory.hpp>
 #include <terrane/algorithms/rounding.hpp>
 #include <terrane/algorithms/soup.hpp>
 #include <terrane/algorithms/triangulation.hpp>
@@ -160,6 +161,7 @@ void register_searches() {
 } // namespace
 
 int main(int argc, char** argv) {
+    keep_freed_memory(); // for the yardsticks, too
     register_searches();
     benchmark::RegisterBenchmark("triangle_triangle/two_surfaces", triangle_triangle, true);
     benchmark::RegisterBenchmark("triangle_triangle/neighbours", triangle_triangle, false);

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include <terrane/algorithms/arrangement.hpp>
+#include <terrane/algorithms/memory.hpp>
 #include <terrane/algorithms/rounding.hpp>
 #include <terrane/algorithms/soup.hpp>
 
@@ -187,6 +188,7 @@ bool is_pair(const Row& row) {
 } // namespace
 
 int main(int argc, char** argv) {
+    keep_freed_memory(); // for the yardsticks, too
     const Options options = parse(argc, argv);
     std::puts(
         "seconds, medians; in brackets the most that is allowed; yardstick: CGAL 5.5.1 corefine,\n"
