@@ -23,6 +23,11 @@ Lists<std::uint32_t> parents_of_faces(const Soup& soup, const Lists<std::uint32_
     });
     const auto first_before = [](const auto& d, std::uint32_t first) { return d[1] < first; };
     Lists<std::uint32_t> parents;
+    if (by_first.empty()) { // input_of ascends, so the lists stay sorted
+        parents = faces_of;
+        for (std::uint32_t& f : parents.values) f = soup.input_of[f];
+        return parents;
+    }
     parents.offsets.reserve(faces_of.offsets.size());
     parents.values.reserve(faces_of.values.size() + soup.duplicates.size());
     for (std::size_t t = 0; t < faces_of.size(); ++t) {
@@ -50,8 +55,50 @@ Patches patches_of_faces(Patches of_soup, const Lists<std::uint32_t>& faces_of) 
     return patches;
 }
 
+/// Candidates of which one has a constructed point on it, as input triangles.
+std::vector<CandidatePair> neighbours_of_divided(const Soup& soup, const Division& division,
+                                                 std::span<const CandidatePair> candidates) {
+    std::vector<bool> has_constructed(soup.triangles.size(), false);
+    const auto inputs = static_cast<PointIndex>(division.points.input_count());
+    for (std::size_t t = 0; t < division.triangles.size(); ++t) {
+        const Triangle& c = division.triangles[t];
+        if (c[0] < inputs && c[1] < inputs && c[2] < inputs) continue;
+        for (const std::uint32_t f : division.faces_of[t]) has_constructed[f] = true;
+    }
+    std::vector<CandidatePair> neighbours;
+    for (const CandidatePair& p : candidates)
+        if (has_constructed[p.first] || has_constructed[p.second])
+            neighbours.push_back({soup.input_of[p.first], soup.input_of[p.second]});
+    return neighbours;
+}
+
+/// By patch, and by surface where there is none.
+Labels labels_of(const Soup& soup, const Patches& patches) {
+    Labels labels = patches.of;
+    for (std::size_t t = 0; t < labels.size(); ++t)
+        if (labels[t] == no_group)
+            labels[t] = static_cast<std::uint32_t>(patches.axis.size()) + soup.surface_of[t];
+    for (const auto& [repeated, first] : soup.duplicates)
+        labels[static_cast<std::size_t>(
+            std::lower_bound(soup.input_of.begin(), soup.input_of.end(), first) -
+            soup.input_of.begin())] = no_label;
+    return labels;
+}
+
+/// Per triangle of the soup, the same triangle of the arrangement, where it came out whole.
+std::vector<std::uint32_t> kept_triangles(const Soup& soup, const Division& division) {
+    std::vector<std::uint32_t> kept(soup.triangles.size(), UINT32_MAX);
+    for (std::uint32_t t = 0; t < division.triangles.size(); ++t) {
+        const auto faces = division.faces_of[t];
+        if (faces.size() == 1 && division.triangles[t] == soup.triangles[faces[0]])
+            kept[faces[0]] = t;
+    }
+    return kept;
+}
+
 /// Points in use become vertices: input ones by number, constructed ones in lexicographic order.
-void name_vertices(Arrangement& a, std::span<const PointIndex> ascending) {
+/// Returns the vertex of each point.
+std::vector<std::uint32_t> name_vertices(Arrangement& a, std::span<const PointIndex> ascending) {
     const auto inputs = static_cast<PointIndex>(a.points.input_count());
     constexpr std::uint32_t unused = UINT32_MAX;
     std::vector<std::uint32_t> vertex_of(a.points.size(), unused);
@@ -66,6 +113,7 @@ void name_vertices(Arrangement& a, std::span<const PointIndex> ascending) {
     for (const PointIndex p : ascending) name(p);
     for (Triangle& t : a.triangles)
         for (PointIndex& p : t) p = vertex_of[p];
+    return vertex_of;
 }
 
 Error interrupted() {
@@ -82,15 +130,14 @@ Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
     for (const Surface& s : surfaces) a.surfaces.push_back({s.name, s.role});
 
     // (a) one soup of distinct points and triangles
-    Soup soup = merge_surfaces(surfaces);
-    Patches patches = prove_patches(soup.points, soup.triangles, soup.surface_of,
-                                    group_edges(soup.triangles, soup.points.size()));
+    Soup soup = merge_surfaces(surfaces, run);
+    Patches patches = prove_patches(soup.points, soup.triangles, soup.surface_of, soup.edges, run);
     a.statistics.seconds_prepare = watch.lap();
     report(0.1);
 
     // (b) candidate pairs
     const auto candidates =
-        candidate_pairs(boxes_of(soup.points, soup.triangles), patches.of, options.search, run);
+        candidate_pairs({soup.points, soup.triangles}, patches.of, options.search, run);
     a.statistics.seconds_search = watch.lap();
     report(0.3);
     if (run.stop.stop_requested()) return interrupted();
@@ -112,14 +159,19 @@ Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
                 soup.duplicates};
     a.degenerate = soup.degenerate;
     a.parents_of = parents_of_faces(soup, division.faces_of);
+    a.neighbours = neighbours_of_divided(soup, division, candidates);
+    const Labels labels = labels_of(soup, patches);
     a.patches = patches_of_faces(std::move(patches), division.faces_of);
     a.surfaces_of = surfaces_of_parents(a.inputs, a.parents_of);
+    const auto kept = kept_triangles(soup, division);
     a.points = std::move(division.points);
     a.triangles = std::move(division.triangles);
-    name_vertices(a, division.ascending);
+    const auto vertex_of = name_vertices(a, division.ascending);
     report(0.9);
-    a.edges = group_edges(a.triangles, a.vertices.size());
-    a.intersection_edges = find_intersection_edges(a.edges, a.inputs, a.parents_of);
+    a.adjacency =
+        adjacency_after(soup.edges, labels,
+                        {a.triangles, division.faces_of, kept, vertex_of, a.vertices.size()}, run);
+    a.intersection_edges = find_intersection_edges(a.adjacency, a.inputs, a.parents_of);
     a.statistics.seconds_stitch = d.seconds_stitch + watch.lap();
     report(1);
     return a;

@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-#include <terrane/algorithms/edges.hpp>
+#include <terrane/algorithms/adjacency.hpp>
 #include <terrane/algorithms/intersection_edges.hpp>
 #include <terrane/algorithms/mesh.hpp>
 #include <terrane/algorithms/patches.hpp>
@@ -60,7 +60,10 @@ struct Arrangement {
                                            ///< are those of the triangles at it
     std::vector<std::uint32_t> degenerate; ///< input triangles without area, ascending
     Patches patches;                       ///< of the triangles: within one, none meet improperly
-    EdgeSides edges;                       ///< sides of the triangles by edge, for what follows
+    std::vector<CandidatePair> neighbours; ///< input triangles whose boxes overlap, one of them
+                                           ///< with constructed points, not both within one patch;
+                                           ///< no duplicates; sorted
+    Adjacency adjacency;                   ///< of the triangles, for what follows
     ArrangeStatistics statistics;
 };
 

@@ -43,10 +43,9 @@ std::vector<ImproperContact> contacts_of(const Soup& soup, std::span<const Candi
 
 /// Borders, non-manifold edges and components, from the distinct triangles with area.
 void describe_edges(const Soup& soup, CheckReport& report) {
-    const EdgeSides edges = group_edges(soup.triangles, soup.points.size());
     Sets components(soup.triangles.size());
     std::vector<std::uint32_t> surfaces;
-    edges.for_each([&](std::uint32_t low, std::uint32_t high, auto sides) {
+    soup.edges.for_each([&](std::uint32_t low, std::uint32_t high, auto sides) {
         surfaces.clear();
         for (const auto& s : sides) {
             components.join(sides[0].triangle, s.triangle);
@@ -91,8 +90,7 @@ Result<CheckReport> check_valid(std::span<const Surface> surfaces, const Run& ru
     sort_out_duplicates(soup, report);
     report.vertices = count_used(soup);
     describe_edges(soup, report);
-    const auto candidates =
-        candidate_pairs(boxes_of(soup.points, soup.triangles), {}, Search::automatic);
+    const auto candidates = candidate_pairs({soup.points, soup.triangles}, {}, Search::automatic);
     const auto blocks = for_blocks<std::vector<ImproperContact>>(
         candidates.size(), 16384, run, [&](std::size_t a, std::size_t b) {
             return contacts_of(soup, std::span(candidates).subspan(a, b - a));

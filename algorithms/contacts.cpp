@@ -120,8 +120,21 @@ PointOrder order_points(const TriangleSoup& soup, const Contacts& contacts) {
     for (PointIndex p = inputs; p < store.size(); ++p) used.push_back(p);
 
     const UpwardRounding guard;
-    std::sort(used.begin(), used.end(),
-              [&](PointIndex a, PointIndex b) { return store.compare(a, b) < 0; });
+    struct Key {
+        double low, high; // around x
+        PointIndex point;
+    };
+    std::vector<Key> keys;
+    keys.reserve(used.size());
+    for (const PointIndex p : used) {
+        const Enclosure e = store.enclosure(p);
+        keys.push_back({e.low[0], e.high[0], p});
+    }
+    std::sort(keys.begin(), keys.end(), [&](const Key& a, const Key& b) {
+        if (a.high < b.low || b.high < a.low) return a.high < b.low;
+        return store.compare(a.point, b.point) < 0;
+    });
+    for (std::size_t i = 0; i < keys.size(); ++i) used[i] = keys[i].point;
     PointOrder order;
     order.same_as.resize(store.size());
     std::iota(order.same_as.begin(), order.same_as.end(), PointIndex{0});

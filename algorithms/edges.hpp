@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include <terrane/algorithms/mesh.hpp>
+#include <terrane/algorithms/run.hpp>
 
 namespace terrane {
 
@@ -14,7 +16,8 @@ struct EdgeSides {
     struct Side {
         std::uint32_t high; ///< larger vertex of the edge
         std::uint32_t triangle;
-        std::uint32_t corner; ///< the edge runs from this corner to the next one
+
+        friend auto operator<=>(const Side&, const Side&) = default;
     };
     std::vector<std::uint32_t>
         starts;              ///< per vertex, and the total: sides whose smaller vertex it is
@@ -23,7 +26,13 @@ struct EdgeSides {
     /// Calls visit(low, high, sides of this edge) for each edge, ascending.
     template <class Visit>
     void for_each(const Visit& visit) const {
-        for (std::uint32_t low = 0; low + 1 < starts.size(); ++low)
+        for_each(0, starts.size() - 1, visit);
+    }
+
+    /// The same for edges whose lower vertex is in [first, last).
+    template <class Visit>
+    void for_each(std::size_t first, std::size_t last, const Visit& visit) const {
+        for (auto low = static_cast<std::uint32_t>(first); low < last; ++low)
             for (std::uint32_t i = starts[low]; i < starts[low + 1];) {
                 std::uint32_t end = i + 1;
                 while (end < starts[low + 1] && sides[end].high == sides[i].high) ++end;
@@ -33,7 +42,13 @@ struct EdgeSides {
     }
 };
 
+/// Whether the corners of a triangle that has the edge run from `from` to `to`.
+inline bool runs_along(const Triangle& t, std::uint32_t from, std::uint32_t to) {
+    return t[0] == from ? t[1] == to : t[1] == from ? t[2] == to : t[0] == to;
+}
+
 /// Cost: linear (a counting sort by the smaller vertex). No corner may repeat within a triangle.
-EdgeSides group_edges(std::span<const Triangle> triangles, std::size_t vertex_count);
+EdgeSides group_edges(std::span<const Triangle> triangles, std::size_t vertex_count,
+                      const Run& run = {});
 
 } // namespace terrane

@@ -69,15 +69,15 @@ private:
 
 } // namespace
 
-std::vector<Edge> find_intersection_edges(const EdgeSides& edges, const InputTriangles& inputs,
+std::vector<Edge> find_intersection_edges(const Adjacency& adjacency, const InputTriangles& inputs,
                                           const Lists<std::uint32_t>& parents_of) {
     const Signatures signatures(inputs, parents_of);
     std::vector<Edge> found;
-    edges.for_each([&](std::uint32_t low, std::uint32_t high, auto sides) {
-        if (sides.size() > 2 ||
-            (sides.size() == 2 && !signatures.agree(sides[0].triangle, sides[1].triangle)))
-            found.push_back({low, high});
-    });
+    for (std::size_t e = 0; e < adjacency.edges.size(); ++e) {
+        const auto sides = adjacency.triangles_at[e];
+        if (sides.size() > 2 || (sides.size() == 2 && !signatures.agree(sides[0], sides[1])))
+            found.push_back(adjacency.edges[e]);
+    }
     return found;
 }
 

@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include <terrane/algorithms/edges.hpp>
+#include <terrane/algorithms/adjacency.hpp>
 #include <terrane/algorithms/lists.hpp>
 #include <terrane/algorithms/mesh.hpp>
 
@@ -33,7 +33,7 @@ Lists<std::uint32_t> surfaces_of_parents(const InputTriangles& inputs,
 
 /// The edges in which more than two triangles meet, or two that differ in the number of distinct
 /// parents they have in some surface (duplicates within one surface count once). Sorted.
-std::vector<Edge> find_intersection_edges(const EdgeSides& edges, const InputTriangles& inputs,
+std::vector<Edge> find_intersection_edges(const Adjacency& adjacency, const InputTriangles& inputs,
                                           const Lists<std::uint32_t>& parents_of);
 
 } // namespace terrane

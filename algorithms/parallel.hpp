@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <mutex>
+#include <utility>
 #include <vector>
 
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 #include <tbb/task_arena.h>
 
 #include <terrane/algorithms/run.hpp>
@@ -32,6 +35,52 @@ std::vector<Block> for_blocks(std::size_t count, std::size_t block_size, const R
         arena.execute([&] { tbb::parallel_for(std::size_t{0}, blocks.size(), one); });
     }
     return blocks;
+}
+
+/// Calls work(first, last) for ranges that cut up [0, count), several at a time. What they write
+/// must not depend on where the cuts are. The rounding mode is the default one.
+template <class Work>
+void for_ranges(std::size_t count, const Run& run, const Work& work,
+                std::size_t ranges_per_thread = 4) {
+    constexpr std::size_t least = 8192; // below, a thread costs more than it spares
+    const std::size_t ranges =
+        run.threads <= 1 ? 1 : std::min(ranges_per_thread * run.threads, count / least + 1);
+    if (ranges == 1) return work(std::size_t{0}, count);
+    tbb::task_arena arena(static_cast<int>(run.threads));
+    arena.execute([&] {
+        tbb::parallel_for(std::size_t{0}, ranges, [&](std::size_t r) {
+            work(count * r / ranges, count * (r + 1) / ranges);
+        });
+    });
+}
+
+/// The same with a result for each range, in order.
+template <class Part, class Work>
+std::vector<Part> parts_of_ranges(std::size_t count, const Run& run, const Work& work) {
+    std::vector<std::pair<std::size_t, Part>> parts;
+    std::mutex mutex;
+    for_ranges(count, run, [&](std::size_t first, std::size_t last) {
+        Part part = work(first, last);
+        const std::lock_guard lock(mutex);
+        parts.emplace_back(first, std::move(part));
+    });
+    std::sort(parts.begin(), parts.end(),
+              [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::vector<Part> sorted;
+    for (auto& [first, part] : parts) sorted.push_back(std::move(part));
+    return sorted;
+}
+
+/// Both, at the same time if threads allow.
+template <class First, class Second>
+void both(const Run& run, const First& first, const Second& second) {
+    if (run.threads <= 1) {
+        first();
+        second();
+        return;
+    }
+    tbb::task_arena arena(static_cast<int>(run.threads));
+    arena.execute([&] { tbb::parallel_invoke(first, second); });
 }
 
 } // namespace terrane

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include <terrane/algorithms/parallel.hpp>
 #include <terrane/algorithms/search/search.hpp>
 #include <terrane/algorithms/sets.hpp>
 #include <terrane/kernel/predicates.hpp>
@@ -155,13 +156,19 @@ private:
 class Prover {
 public:
     Prover(std::span<const Point3> points, std::span<const Triangle> triangles,
-           std::span<const std::uint32_t> surface_of, const EdgeSides& edges) :
+           std::span<const std::uint32_t> surface_of, const EdgeSides& edges, const Run& run) :
         points_(points),
-        triangles_(triangles), surface_of_(surface_of), edges_(edges),
+        triangles_(triangles), surface_of_(surface_of), edges_(edges), run_(run),
         label_(surface_of.begin(), surface_of.end()), group_(triangles.size(), no_group) {}
 
     Patches operator()() {
-        prove_components();
+        // Whole surfaces first: nothing in the proof needs them to be connected.
+        patch_of_.assign(surface_of_.begin(), surface_of_.end());
+        proven_.assign(surface_of_.empty() ? 0 : surface_of_.back() + std::size_t{1}, std::nullopt);
+        prove();
+        if (is_done()) return {std::move(group_), std::move(axis_)};
+        find_components();
+        prove();
         // What is left is split where the orientation changes.
         bool any = false;
         for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
@@ -169,7 +176,10 @@ public:
             label_[t] = 3 * surface_of_[t] + longest_axis(triangles_[t]);
             any = true;
         }
-        if (any) prove_components();
+        if (any) {
+            find_components();
+            prove();
+        }
         return {std::move(group_), std::move(axis_)};
     }
 
@@ -188,8 +198,12 @@ private:
         return group_[s.triangle] == no_group;
     }
 
-    void prove_components() {
-        find_components();
+    [[nodiscard]] bool is_done() const {
+        return std::find(group_.begin(), group_.end(), no_group) == group_.end();
+    }
+
+    /// Tries the patches of patch_of_ in all projections.
+    void prove() {
         for (const Axis axis : axes) {
             if (std::all_of(proven_.begin(), proven_.end(), [](const auto& p) { return !!p; }))
                 break;
@@ -211,12 +225,19 @@ private:
     void find_turns(Axis axis) {
         turns_.resize(triangles_.size());
         usable_.assign(proven_.size(), true);
-        for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
-            if (group_[t] != no_group || proven_[patch_of_[t]]) continue;
-            const Triangle& c = triangles_[t];
-            turns_[t] = orient2d(axis, points_[c[0]], points_[c[1]], points_[c[2]]);
-            if (turns_[t] == Sign::Zero) usable_[patch_of_[t]] = false;
-        }
+        const auto flat = parts_of_ranges<std::vector<std::uint32_t>>(
+            triangles_.size(), run_, [&](std::size_t first, std::size_t last) {
+                std::vector<std::uint32_t> unusable;
+                for (std::size_t t = first; t < last; ++t) {
+                    if (group_[t] != no_group || proven_[patch_of_[t]]) continue;
+                    const Triangle& c = triangles_[t];
+                    turns_[t] = orient2d(axis, points_[c[0]], points_[c[1]], points_[c[2]]);
+                    if (turns_[t] == Sign::Zero) unusable.push_back(patch_of_[t]);
+                }
+                return unusable;
+            });
+        for (const auto& part : flat)
+            for (const std::uint32_t patch : part) usable_[patch] = false;
     }
 
     /// Connected over edges, same label, not yet in a group.
@@ -238,34 +259,55 @@ private:
         proven_.assign(patches, std::nullopt);
     }
 
+    struct BorderPart {
+        std::vector<BorderEdge> edges;
+        std::vector<std::uint32_t> unusable; ///< patches
+    };
+
     /// The sum of the triangles' boundaries, all counterclockwise, for the patches still open.
     void sum_borders() {
+        const auto parts = parts_of_ranges<BorderPart>(
+            edges_.starts.size() - 1, run_, [&](std::size_t first, std::size_t last) {
+                BorderPart part;
+                edges_.for_each(first, last,
+                                [&](std::uint32_t low, std::uint32_t high, auto sides) {
+                                    sum_sides(low, high, sides, part);
+                                });
+                return part;
+            });
         border_.clear();
-        edges_.for_each([&](std::uint32_t low, std::uint32_t high, auto sides) {
-            for (std::size_t i = 0; i < sides.size(); ++i) {
-                if (!is_open(sides[i])) continue;
-                const std::uint32_t patch = patch_of_[sides[i].triangle];
-                if (proven_[patch] || !usable_[patch]) continue;
-                bool is_first = true;
-                for (std::size_t j = 0; j < i; ++j)
-                    if (is_open(sides[j]) && patch_of_[sides[j].triangle] == patch)
-                        is_first = false;
-                if (is_first) sum_edge(low, high, sides.subspan(i), patch);
-            }
-        });
+        for (const BorderPart& part : parts) {
+            border_.insert(border_.end(), part.edges.begin(), part.edges.end());
+            for (const std::uint32_t patch : part.unusable) usable_[patch] = false;
+        }
+    }
+
+    void sum_sides(std::uint32_t low, std::uint32_t high, std::span<const EdgeSides::Side> sides,
+                   BorderPart& part) const {
+        const bool plain = sides.size() == 2 && is_open(sides[0]) && is_open(sides[1]) &&
+                           patch_of_[sides[0].triangle] == patch_of_[sides[1].triangle];
+        for (std::size_t i = 0; i < (plain ? 1 : sides.size()); ++i) {
+            if (!is_open(sides[i])) continue;
+            const std::uint32_t patch = patch_of_[sides[i].triangle];
+            if (proven_[patch] || !usable_[patch]) continue;
+            bool is_first = true;
+            for (std::size_t j = 0; j < i; ++j)
+                if (is_open(sides[j]) && patch_of_[sides[j].triangle] == patch) is_first = false;
+            if (is_first) sum_edge(low, high, sides.subspan(i), patch, part);
+        }
     }
 
     void sum_edge(std::uint32_t low, std::uint32_t high, std::span<const EdgeSides::Side> sides,
-                  std::uint32_t patch) {
+                  std::uint32_t patch, BorderPart& part) const {
         int sum = 0;
         for (const auto& s : sides) {
             if (!is_open(s) || patch_of_[s.triangle] != patch) continue;
-            const int along = triangles_[s.triangle][s.corner] == low ? 1 : -1;
+            const int along = runs_along(triangles_[s.triangle], low, high) ? 1 : -1;
             sum += along * static_cast<int>(turns_[s.triangle]);
         }
-        if (sum == 1) border_.push_back({patch, low, high});
-        if (sum == -1) border_.push_back({patch, high, low});
-        if (std::abs(sum) > 1) usable_[patch] = false;
+        if (sum == 1) part.edges.push_back({patch, low, high});
+        if (sum == -1) part.edges.push_back({patch, high, low});
+        if (std::abs(sum) > 1) part.unusable.push_back(patch);
     }
 
     void try_axis(Axis axis) {
@@ -284,6 +326,7 @@ private:
     std::span<const Triangle> triangles_;
     std::span<const std::uint32_t> surface_of_;
     const EdgeSides& edges_;
+    const Run& run_;
     std::vector<std::uint32_t> label_;        ///< triangles of one patch have the same
     std::vector<std::uint32_t> group_;        ///< the result
     std::vector<Axis> axis_;                  ///< per group
@@ -297,12 +340,13 @@ private:
 } // namespace
 
 Patches prove_patches(std::span<const Point3> points, std::span<const Triangle> triangles,
-                      std::span<const std::uint32_t> surface_of, const EdgeSides& edges) {
-    return Prover(points, triangles, surface_of, edges)();
+                      std::span<const std::uint32_t> surface_of, const EdgeSides& edges,
+                      const Run& run) {
+    return Prover(points, triangles, surface_of, edges, run)();
 }
 
 void confirm_patches(std::span<const Point3> points, std::span<const Triangle> triangles,
-                     const EdgeSides& edges, const std::vector<bool>& is_moved,
+                     const Adjacency& adjacency, const std::vector<bool>& is_moved,
                      const std::function<Sign(std::uint32_t, Axis)>& turn, Patches& patches) {
     std::vector<bool> holds(patches.axis.size(), true), moved_border(patches.axis.size(), false);
     const auto orient = [&](std::uint32_t t, Axis axis) {
@@ -316,26 +360,25 @@ void confirm_patches(std::span<const Point3> points, std::span<const Triangle> t
         if (holds[p] && orient(t, patches.axis[p]) != turn(t, patches.axis[p])) holds[p] = false;
     }
     std::vector<BorderEdge> border;
-    edges.for_each([&](std::uint32_t low, std::uint32_t high, auto sides) {
-        // Most edges: inside one patch.
-        if (sides.size() == 2 && patches.of[sides[0].triangle] == patches.of[sides[1].triangle])
-            return;
-        for (std::size_t i = 0; i < sides.size(); ++i) {
-            const std::uint32_t p = patches.of[sides[i].triangle];
+    for (std::size_t e = 0; e < adjacency.edges.size(); ++e) { // inner ones are within one patch
+        const auto [low, high] = adjacency.edges[e];
+        const auto sides = adjacency.triangles_at[e];
+        for (const std::uint32_t t : sides) {
+            const std::uint32_t p = patches.of[t];
             if (p == no_group) continue;
-            std::size_t same = 0;
-            for (const auto& s : sides) same += patches.of[s.triangle] == p;
+            const auto same = std::count_if(sides.begin(), sides.end(),
+                                            [&](std::uint32_t u) { return patches.of[u] == p; });
             if (same > 2) holds[p] = false;
             if (same != 1) continue;
             if (is_moved[low] || is_moved[high]) moved_border[p] = true;
-            const bool along = triangles[sides[i].triangle][sides[i].corner] == low;
-            const bool positive = turn(sides[i].triangle, patches.axis[p]) == Sign::Positive;
+            const bool along = runs_along(triangles[t], low, high);
+            const bool positive = turn(t, patches.axis[p]) == Sign::Positive;
             if (along == positive)
                 border.push_back({p, low, high});
             else
                 border.push_back({p, high, low});
         }
-    });
+    }
     std::stable_sort(border.begin(), border.end(),
                      [](const auto& a, const auto& b) { return a.patch < b.patch; });
     for (std::size_t i = 0, end = 0; i < border.size(); i = end) {

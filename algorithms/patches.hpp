@@ -17,7 +17,9 @@
 #include <span>
 #include <vector>
 
+#include <terrane/algorithms/adjacency.hpp>
 #include <terrane/algorithms/edges.hpp>
+#include <terrane/algorithms/run.hpp>
 #include <terrane/algorithms/surface.hpp>
 #include <terrane/kernel/construction.hpp>
 #include <terrane/kernel/sign.hpp>
@@ -33,15 +35,16 @@ struct Patches {
 /// Tried first: connected components of a surface, in each of the three projections; then their
 /// parts of like orientation.
 Patches prove_patches(std::span<const Point3> points, std::span<const Triangle> triangles,
-                      std::span<const std::uint32_t> surface_of, const EdgeSides& edges);
+                      std::span<const std::uint32_t> surface_of, const EdgeSides& edges,
+                      const Run& run = {});
 
 /// Shows the same again after some vertices have moved a little; patches for which that fails are
 /// taken out of patches.of. patches.of counts the triangles given here (parts of those for which
 /// it was shown), turn(t) is the sign of triangle t in its patch's projection before the move, and
-/// is_moved says which vertices moved. Cost: a predicate per triangle with a moved corner, and the
-/// borders of the patches that have a moved vertex on it.
+/// is_moved says which vertices moved, `adjacency` was made with patches.of. Cost: a predicate per
+/// triangle with a moved corner, and the borders of the patches that have a moved vertex on it.
 void confirm_patches(std::span<const Point3> points, std::span<const Triangle> triangles,
-                     const EdgeSides& edges, const std::vector<bool>& is_moved,
+                     const Adjacency& adjacency, const std::vector<bool>& is_moved,
                      const std::function<Sign(std::uint32_t triangle, Axis axis)>& turn,
                      Patches& patches);
 

@@ -13,7 +13,10 @@ double area_of(std::span<const Point3> v, const Triangle& t) {
     const Point3 &a = v[t[0]], &b = v[t[1]], &c = v[t[2]];
     const double ux = b.x - a.x, uy = b.y - a.y, uz = b.z - a.z;
     const double wx = c.x - a.x, wy = c.y - a.y, wz = c.z - a.z;
-    return 0.5 * std::hypot(uy * wz - uz * wy, uz * wx - ux * wz, ux * wy - uy * wx);
+    const double x = uy * wz - uz * wy, y = uz * wx - ux * wz, z = ux * wy - uy * wx;
+    const double squared = x * x + y * y + z * z;
+    const bool in_range = squared > 1e-280 && squared < 1e300; // no underflow, no overflow
+    return 0.5 * (in_range ? std::sqrt(squared) : std::hypot(x, y, z));
 }
 
 /// A slot is a triangle in one of its surfaces.
@@ -25,17 +28,19 @@ public:
         surfaces_of_(surfaces_of), stops_(stops), sets_(surfaces_of.values.size()) {}
 
     /// Spreads over all edges that are no stops; lists the sides of the others.
-    void spread(const EdgeSides& edges) {
+    void spread(const Adjacency& adjacency) {
+        for (const auto& list : adjacency.inner)
+            for (const auto& [t, u] : list)
+                sets_.join(surfaces_of_.offsets[t], surfaces_of_.offsets[u]);
         auto stop = stops_.begin();
-        edges.for_each([&](std::uint32_t low, std::uint32_t high, auto sides) {
-            while (stop != stops_.end() && *stop < Edge{low, high}) ++stop;
-            if (stop != stops_.end() && *stop == Edge{low, high}) {
-                for (const auto& s : sides) at_stop_.values.push_back(s.triangle);
-                at_stop_.close();
-            } else if (sides.size() == 2) {
-                join(sides[0].triangle, sides[1].triangle);
-            }
-        });
+        for (std::size_t e = 0; e < adjacency.edges.size(); ++e) {
+            const auto sides = adjacency.triangles_at[e];
+            while (stop != stops_.end() && *stop < adjacency.edges[e]) ++stop;
+            if (stop != stops_.end() && *stop == adjacency.edges[e])
+                at_stop_.push_back(sides);
+            else if (sides.size() == 2)
+                join(sides[0], sides[1]);
+        }
     }
 
     Regions number(std::span<const Point3> vertices) {
@@ -105,10 +110,10 @@ private:
 } // namespace
 
 Regions find_regions(std::span<const Point3> vertices, std::span<const Triangle> triangles,
-                     const Lists<std::uint32_t>& surfaces_of, const EdgeSides& edges,
+                     const Lists<std::uint32_t>& surfaces_of, const Adjacency& adjacency,
                      std::span<const Edge> intersection_edges) {
     Diffusion diffusion(triangles, surfaces_of, intersection_edges);
-    diffusion.spread(edges);
+    diffusion.spread(adjacency);
     return diffusion.number(vertices);
 }
 

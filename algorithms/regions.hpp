@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include <terrane/algorithms/edges.hpp>
+#include <terrane/algorithms/adjacency.hpp>
 #include <terrane/algorithms/lists.hpp>
 #include <terrane/algorithms/mesh.hpp>
 
@@ -32,9 +32,9 @@ struct Regions {
     std::vector<Region> regions;
 };
 
-/// `edges` groups the sides of `triangles`; `intersection_edges` are sorted.
+/// `intersection_edges` are sorted, none of them is an inner edge.
 Regions find_regions(std::span<const Point3> vertices, std::span<const Triangle> triangles,
-                     const Lists<std::uint32_t>& surfaces_of, const EdgeSides& edges,
+                     const Lists<std::uint32_t>& surfaces_of, const Adjacency& adjacency,
                      std::span<const Edge> intersection_edges);
 
 } // namespace terrane

@@ -9,9 +9,11 @@
 #include <unordered_set>
 #include <utility>
 
+#include <terrane/algorithms/clearance.hpp>
 #include <terrane/algorithms/division.hpp>
 #include <terrane/algorithms/parallel.hpp>
 #include <terrane/algorithms/rounding_state.hpp>
+#include <terrane/algorithms/sets.hpp>
 #include <terrane/algorithms/soup.hpp>
 #include <terrane/algorithms/stopwatch.hpp>
 #include <terrane/kernel/predicates.hpp>
@@ -151,27 +153,42 @@ PairFilter Rounding::is_improper() const {
 std::vector<CandidatePair> Rounding::contacts() {
     const auto dirty = state_.dirty_triangles();
     if (dirty.empty()) return {};
-    return candidate_pairs_of(boxes_of(state_.points, state_.triangles), dirty, {}, is_improper(),
-                              run_);
+    return candidate_pairs_of({state_.points, state_.triangles}, dirty, {}, is_improper(), run_);
 }
 
-/// The same right after rounding to nearest: within a patch that still projects one-to-one no pair
-/// needs a test.
+/// The same right after rounding to nearest. Only what is not clear from patches that still project
+/// one-to-one and from the faces' distances needs a test.
 std::vector<CandidatePair> Rounding::first_contacts() {
     if (changed_) return contacts();
+    const Arrangement& a = arrangement_;
     const auto dirty = state_.dirty_triangles();
     if (dirty.empty()) return {};
-    Patches patches = arrangement_.patches;
-    const auto& inputs = arrangement_.inputs.corners;
+    Patches patches = a.patches;
     const auto turn = [&](std::uint32_t t, Axis axis) { // as that of its parent
-        const Triangle& c = inputs[arrangement_.parents_of[t][0]];
-        const auto at = [&](unsigned i) { return arrangement_.points.input(c[i]); };
+        const Triangle& c = a.inputs.corners[a.parents_of[t][0]];
+        const auto at = [&](unsigned i) { return a.points.input(c[i]); };
         return orient2d(axis, at(0), at(1), at(2));
     };
-    confirm_patches(state_.points, state_.triangles, arrangement_.edges, state_.is_dirty, turn,
-                    patches);
-    return candidate_pairs_of(boxes_of(state_.points, state_.triangles), dirty, patches.of,
-                              is_improper(), run_);
+    confirm_patches(state_.points, state_.triangles, a.adjacency, state_.is_dirty, turn, patches);
+    Unclear unclear = find_unclear({a.points.inputs(), a.inputs.corners, state_.points, state_.move,
+                                    state_.triangles, a.parents_of, patches.of},
+                                   a.neighbours, run_);
+    const auto improper = is_improper();
+    std::vector<CandidatePair> pairs;
+    {
+        const UpwardRounding guard;
+        for (const CandidatePair& p : unclear.pairs)
+            if (improper(p)) pairs.push_back(p);
+    }
+    for (const std::uint32_t t : dirty)
+        if (patches.of[t] != a.patches.of[t]) unclear.parts.push_back(t);
+    if (unclear.parts.empty()) return pairs;
+    sort_unique(unclear.parts);
+    const auto more = candidate_pairs_of({state_.points, state_.triangles}, unclear.parts,
+                                         patches.of, improper, run_);
+    pairs.insert(pairs.end(), more.begin(), more.end());
+    sort_unique(pairs);
+    return pairs;
 }
 
 void Rounding::snap_round(std::span<const CandidatePair> pairs, const SnapGrid& grid) {
@@ -235,9 +252,7 @@ void Rounding::report_vanished() {
     for (const std::uint32_t p : state_.parents_of.values) present[p] = true;
     for (const std::uint32_t p : arrangement_.parents_of.values)
         if (!present[p]) out_.report.vanished.push_back(p);
-    auto& v = out_.report.vanished;
-    std::sort(v.begin(), v.end());
-    v.erase(std::unique(v.begin(), v.end()), v.end());
+    sort_unique(out_.report.vanished);
 }
 
 void Rounding::finish(std::span<const CandidatePair> pairs) {
@@ -259,15 +274,17 @@ void Rounding::finish(std::span<const CandidatePair> pairs) {
     mesh.triangles = std::move(state_.triangles);
     mesh.parents_of = std::move(state_.parents_of);
     Stopwatch watch;
-    EdgeSides made;
-    if (changed_) made = group_edges(mesh.triangles, mesh.vertices.size());
-    const EdgeSides& edges = changed_ ? made : arrangement_.edges;
     mesh.surfaces_of = changed_ ? surfaces_of_parents(arrangement_.inputs, mesh.parents_of)
                                 : arrangement_.surfaces_of;
+    Adjacency made;
+    if (changed_)
+        made = adjacency_of(group_edges(mesh.triangles, mesh.vertices.size()),
+                            labels_of(mesh.surfaces_of, mesh.parents_of));
+    const Adjacency& adjacency = changed_ ? made : arrangement_.adjacency;
     mesh.intersection_edges =
-        changed_ ? find_intersection_edges(edges, arrangement_.inputs, mesh.parents_of)
+        changed_ ? find_intersection_edges(adjacency, arrangement_.inputs, mesh.parents_of)
                  : arrangement_.intersection_edges;
-    auto regions = find_regions(mesh.vertices, mesh.triangles, mesh.surfaces_of, edges,
+    auto regions = find_regions(mesh.vertices, mesh.triangles, mesh.surfaces_of, adjacency,
                                 mesh.intersection_edges);
     mesh.regions_of = std::move(regions.regions_of);
     out_.regions = std::move(regions.regions);
@@ -378,7 +395,7 @@ void report_lost_regions(const Arrangement& a, RoundedMesh& rounded) {
     std::vector<Point3> places;
     for (const PointIndex v : a.vertices) places.push_back(a.points.nearest(v));
     const auto exact =
-        find_regions(places, a.triangles, a.surfaces_of, a.edges, a.intersection_edges);
+        find_regions(places, a.triangles, a.surfaces_of, a.adjacency, a.intersection_edges);
     const auto before = regions_per_surface(a.surfaces.size(), exact.regions);
     const auto after = regions_per_surface(a.surfaces.size(), rounded.regions);
     for (std::uint32_t s = 0; s < before.size(); ++s)

@@ -9,6 +9,12 @@
 
 namespace terrane {
 
+template <class T>
+void sort_unique(std::vector<T>& v) {
+    std::sort(v.begin(), v.end());
+    v.erase(std::unique(v.begin(), v.end()), v.end());
+}
+
 /// Union-find; the lowest element stands for its set.
 class Sets {
 public:

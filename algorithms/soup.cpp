@@ -2,8 +2,11 @@
 #include <terrane/algorithms/soup.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
+#include <numeric>
 
+#include <terrane/algorithms/parallel.hpp>
 #include <terrane/kernel/predicates.hpp>
 
 namespace terrane {
@@ -22,23 +25,16 @@ std::uint64_t hash(const Point3& p) {
     return mix(h, h >> 32);
 }
 
-std::uint64_t hash(const Triangle& t) {
-    const std::uint64_t h = mix(mix(mix(0, t[0]), t[1]), t[2]);
-    return mix(h, h >> 32);
-}
-
-// Open addressing: find(key) gives the first index that was entered with an equal key.
-template <class Key>
+// Open addressing: gives the first point that was entered at the same place.
 class FirstIndex {
 public:
     explicit FirstIndex(std::size_t expected) : slots_(std::bit_ceil(2 * expected + 2), none) {}
 
-    template <class KeyOf>
-    std::uint32_t enter(const Key& key, std::uint32_t index, const KeyOf& key_of) {
+    std::uint32_t enter(const std::vector<Point3>& points, std::uint32_t v) {
         const std::size_t mask = slots_.size() - 1;
-        for (std::size_t s = hash(key) & mask;; s = (s + 1) & mask) {
-            if (slots_[s] == none) return slots_[s] = index;
-            if (key_of(slots_[s]) == key) return slots_[s];
+        for (std::size_t s = hash(points[v]) & mask;; s = (s + 1) & mask) {
+            if (slots_[s] == none) return slots_[s] = v;
+            if (points[slots_[s]] == points[v]) return slots_[s];
         }
     }
 
@@ -46,12 +42,59 @@ private:
     std::vector<std::uint32_t> slots_;
 };
 
-// Per input vertex, the first one at the same place.
-std::vector<std::uint32_t> first_at_same_place(const std::vector<Point3>& points) {
-    FirstIndex<Point3> seen(points.size());
-    std::vector<std::uint32_t> first(points.size());
-    for (std::uint32_t v = 0; v < points.size(); ++v)
-        first[v] = seen.enter(points[v], v, [&](std::uint32_t w) { return points[w]; });
+// One bit for each of 2^n classes of hashes, eight times as many as points.
+class Bits {
+public:
+    explicit Bits(std::size_t points) :
+        shift_(64 - static_cast<unsigned>(std::bit_width(8 * points + 64))),
+        words_((std::size_t{1} << (64 - shift_)) / 64, 0) {}
+
+    [[nodiscard]] bool has(std::uint64_t hash) const {
+        return (words_[hash >> shift_ >> 6] >> (hash >> shift_ & 63) & 1) != 0;
+    }
+    /// Returns whether it was set before.
+    bool set(std::uint64_t hash) {
+        const std::uint64_t bit = std::uint64_t{1} << (hash >> shift_ & 63);
+        std::uint64_t& word = words_[hash >> shift_ >> 6];
+        const bool was_set = (word & bit) != 0;
+        word |= bit;
+        return was_set;
+    }
+    /// The same while other threads do so, too.
+    bool set_atomically(std::uint64_t hash) {
+        const std::uint64_t bit = std::uint64_t{1} << (hash >> shift_ & 63);
+        const std::atomic_ref<std::uint64_t> word(words_[hash >> shift_ >> 6]);
+        return (word.fetch_or(bit, std::memory_order_relaxed) & bit) != 0;
+    }
+
+private:
+    unsigned shift_;
+    std::vector<std::uint64_t> words_;
+};
+
+// Per input vertex, the first one at the same place. Most points are alone in their class, which
+// two sets small enough for the cache tell; only the others are compared.
+std::vector<std::uint32_t> first_at_same_place(const std::vector<Point3>& points, const Run& run) {
+    Bits once(points.size()), twice(points.size());
+    for_ranges(points.size(), run, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t v = begin; v < end; ++v) {
+            const std::uint64_t h = hash(points[v]);
+            if (run.threads <= 1 ? once.set(h) : once.set_atomically(h)) twice.set_atomically(h);
+        }
+    });
+    std::vector<std::uint32_t> first(points.size()), others;
+    const auto parts = parts_of_ranges<std::vector<std::uint32_t>>(
+        points.size(), run, [&](std::size_t begin, std::size_t end) {
+            std::vector<std::uint32_t> part;
+            for (auto v = static_cast<std::uint32_t>(begin); v < end; ++v) {
+                first[v] = v;
+                if (twice.has(hash(points[v]))) part.push_back(v);
+            }
+            return part;
+        });
+    for (const auto& part : parts) others.insert(others.end(), part.begin(), part.end());
+    FirstIndex seen(others.size());
+    for (const std::uint32_t v : others) first[v] = seen.enter(points, v);
     return first;
 }
 
@@ -60,34 +103,105 @@ bool has_area(const std::vector<Point3>& points, const Triangle& t) {
     return !collinear(points[t[0]], points[t[1]], points[t[2]]);
 }
 
-Triangle sorted(Triangle t) {
-    std::sort(t.begin(), t.end());
-    return t;
+// Per triangle, the first one with the same corners; nothing if all differ. Two such triangles are
+// at the edge of their two lower vertices.
+std::vector<std::uint32_t> first_with_same_corners(const Soup& soup) {
+    std::vector<std::uint32_t> first;
+    std::vector<std::array<std::uint32_t, 2>> by_third;
+    soup.edges.for_each([&](std::uint32_t low, std::uint32_t high, auto sides) {
+        if (sides.size() < 2) return;
+        by_third.clear();
+        for (const auto& s : sides) {
+            const Triangle& t = soup.triangles[s.triangle];
+            const std::uint32_t third = t[0] ^ t[1] ^ t[2] ^ low ^ high;
+            if (third > high) by_third.push_back({third, s.triangle});
+        }
+        if (by_third.size() < 2) return;
+        std::sort(by_third.begin(), by_third.end());
+        for (std::size_t i = 1, lead = 0; i < by_third.size(); ++i) {
+            if (by_third[i][0] != by_third[lead][0]) {
+                lead = i;
+                continue;
+            }
+            if (first.empty()) {
+                first.resize(soup.triangles.size());
+                std::iota(first.begin(), first.end(), 0u);
+            }
+            first[by_third[i][1]] = by_third[lead][1];
+        }
+    });
+    return first;
 }
 
 // Keeps the distinct triangles of the soup, lists the rest.
-void set_duplicates_aside(Soup& soup) {
-    FirstIndex<Triangle> seen(soup.triangles.size());
-    const auto key = [&](std::uint32_t t) { return sorted(soup.triangles[t]); };
+void set_duplicates_aside(Soup& soup, const Run& run) {
+    const auto first = first_with_same_corners(soup);
+    if (first.empty()) return;
     std::uint32_t kept = 0;
+    const auto input_of = soup.input_of;
     for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
+        if (first[t] != t) {
+            soup.duplicates.push_back({input_of[t], input_of[first[t]]});
+            continue;
+        }
         soup.triangles[kept] = soup.triangles[t];
         soup.input_of[kept] = soup.input_of[t];
-        soup.surface_of[kept] = soup.surface_of[t];
-        const std::uint32_t first = seen.enter(key(kept), kept, key);
-        if (first == kept)
-            ++kept;
-        else
-            soup.duplicates.push_back({soup.input_of[kept], soup.input_of[first]});
+        soup.surface_of[kept++] = soup.surface_of[t];
     }
     soup.triangles.resize(kept);
     soup.input_of.resize(kept);
     soup.surface_of.resize(kept);
+    soup.edges = group_edges(soup.triangles, soup.points.size(), run);
+}
+
+void name_corners(Soup& soup, std::span<const Surface> surfaces,
+                  const std::vector<std::uint32_t>& first, const Run& run) {
+    soup.input_corners.resize(soup.first_input_triangle.back());
+    for (std::size_t s = 0; s < surfaces.size(); ++s) {
+        const auto& triangles = surfaces[s].triangles;
+        const std::uint32_t* const of = first.data() + soup.first_input_vertex[s];
+        Triangle* const corners = soup.input_corners.data() + soup.first_input_triangle[s];
+        for_ranges(triangles.size(), run, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t t = begin; t < end; ++t) {
+                const Triangle& c = triangles[t];
+                corners[t] = {of[c[0]], of[c[1]], of[c[2]]};
+            }
+        });
+    }
+}
+
+// Those with an area.
+void take_triangles(Soup& soup, const Run& run) {
+    const auto flat = parts_of_ranges<std::vector<std::uint32_t>>(
+        soup.input_corners.size(), run, [&](std::size_t begin, std::size_t end) {
+            std::vector<std::uint32_t> part;
+            for (auto t = static_cast<std::uint32_t>(begin); t < end; ++t)
+                if (!has_area(soup.points, soup.input_corners[t])) part.push_back(t);
+            return part;
+        });
+    for (const auto& part : flat)
+        soup.degenerate.insert(soup.degenerate.end(), part.begin(), part.end());
+    const std::size_t count = soup.input_corners.size() - soup.degenerate.size();
+    soup.triangles.reserve(count);
+    soup.input_of.reserve(count);
+    soup.surface_of.reserve(count);
+    auto next = soup.degenerate.begin();
+    for (std::uint32_t s = 0; s + 1 < soup.first_input_triangle.size(); ++s)
+        for (std::uint32_t t = soup.first_input_triangle[s]; t < soup.first_input_triangle[s + 1];
+             ++t) {
+            if (next != soup.degenerate.end() && *next == t) {
+                ++next;
+                continue;
+            }
+            soup.triangles.push_back(soup.input_corners[t]);
+            soup.input_of.push_back(t);
+            soup.surface_of.push_back(s);
+        }
 }
 
 } // namespace
 
-Soup merge_surfaces(std::span<const Surface> surfaces) {
+Soup merge_surfaces(std::span<const Surface> surfaces, const Run& run) {
     Soup soup;
     std::size_t vertices = 0, triangles = 0;
     for (const Surface& s : surfaces) {
@@ -102,41 +216,16 @@ Soup merge_surfaces(std::span<const Surface> surfaces) {
     for (const Surface& s : surfaces)
         soup.points.insert(soup.points.end(), s.vertices.begin(), s.vertices.end());
 
-    const auto first = first_at_same_place(soup.points);
-    soup.triangles.reserve(triangles);
-    soup.input_corners.reserve(triangles);
-    soup.input_of.reserve(triangles);
-    soup.surface_of.reserve(triangles);
-    for (std::uint32_t s = 0; s < surfaces.size(); ++s) {
-        const std::uint32_t base = soup.first_input_vertex[s];
-        std::uint32_t input = soup.first_input_triangle[s];
-        for (const Triangle& t : surfaces[s].triangles) {
-            const Triangle merged{first[base + t[0]], first[base + t[1]], first[base + t[2]]};
-            soup.input_corners.push_back(merged);
-            if (has_area(soup.points, merged)) {
-                soup.triangles.push_back(merged);
-                soup.input_of.push_back(input);
-                soup.surface_of.push_back(s);
-            } else {
-                soup.degenerate.push_back(input);
-            }
-            ++input;
-        }
-    }
-    set_duplicates_aside(soup);
+    const auto first = first_at_same_place(soup.points, run);
+    name_corners(soup, surfaces, first, run);
+    take_triangles(soup, run);
+    soup.edges = group_edges(soup.triangles, soup.points.size(), run);
+    set_duplicates_aside(soup, run);
     return soup;
 }
 
 std::vector<Box> boxes_of(std::span<const Point3> points, std::span<const Triangle> triangles) {
-    std::vector<Box> boxes;
-    boxes.reserve(triangles.size());
-    for (const Triangle& t : triangles) {
-        const Point3 &a = points[t[0]], &b = points[t[1]], &c = points[t[2]];
-        boxes.push_back(
-            {{std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::min({a.z, b.z, c.z})},
-             {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}), std::max({a.z, b.z, c.z})}});
-    }
-    return boxes;
+    return BoxSource(points, triangles).listed();
 }
 
 } // namespace terrane

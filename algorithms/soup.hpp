@@ -8,6 +8,8 @@
 #include <span>
 #include <vector>
 
+#include <terrane/algorithms/edges.hpp>
+#include <terrane/algorithms/run.hpp>
 #include <terrane/algorithms/search/search.hpp>
 #include <terrane/algorithms/surface.hpp>
 
@@ -25,12 +27,13 @@ struct Soup {
     std::vector<std::uint32_t> degenerate; ///< input triangles without area, ascending
     std::vector<std::array<std::uint32_t, 2>> duplicates; ///< {input triangle, the first with the
                                                           ///< same three points}, ascending
+    EdgeSides edges;                                      ///< of the triangles
     std::vector<std::uint32_t> first_input_triangle;      ///< per surface, and the total at the end
     std::vector<std::uint32_t> first_input_vertex;        ///< per surface, and the total at the end
 };
 
 /// Cost: linear (hashing), one predicate per triangle.
-Soup merge_surfaces(std::span<const Surface> surfaces);
+Soup merge_surfaces(std::span<const Surface> surfaces, const Run& run = {});
 
 /// Per triangle, its box.
 std::vector<Box> boxes_of(std::span<const Point3> points, std::span<const Triangle> triangles);

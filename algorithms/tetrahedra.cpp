@@ -160,7 +160,7 @@ Status check_contacts(const TetgenDomain& domain) {
                      fmt::format("two vertices of the mesh lie at ({}, {}, {})", at(*twin).x,
                                  at(*twin).y, at(*twin).z),
                      ""};
-    const std::vector<Box> boxes = boxes_of(domain.points, domain.triangles);
+    const BoxSource boxes(domain.points, domain.triangles);
     for (const auto& [i, j] : candidate_pairs(boxes, {}, Search::automatic)) {
         const Triangle &t = domain.triangles[i], &u = domain.triangles[j];
         if (std::is_permutation(t.begin(), t.end(), u.begin()))

@@ -107,8 +107,9 @@ void measure_d(const RedAndBlue& all, PaperRow& row) {
 /// Region detection by itself, on the mesh of doubles.
 double measure_regions(const Mesh& mesh, unsigned repeats) {
     return median_seconds(repeats, [&] {
-        const EdgeSides edges = group_edges(mesh.triangles, mesh.vertices.size());
-        find_regions(mesh.vertices, mesh.triangles, mesh.surfaces_of, edges,
+        const Adjacency adjacency = adjacency_of(group_edges(mesh.triangles, mesh.vertices.size()),
+                                                 labels_of(mesh.surfaces_of, mesh.parents_of));
+        find_regions(mesh.vertices, mesh.triangles, mesh.surfaces_of, adjacency,
                      mesh.intersection_edges);
     });
 }

@@ -17,7 +17,7 @@ constexpr std::size_t leaves_per_block = 1024;
 
 /// What all joins of one search have in common.
 struct Task {
-    std::span<const Box> boxes;
+    const BoxSource& boxes;
     std::span<const std::uint32_t> groups;
     const PairFilter& filter; ///< may be empty
     const Run& run;
@@ -27,7 +27,7 @@ struct Task {
 template <class Keep>
 void join(const PackedTree& a, const PackedTree& b, const Task& task, Blocks& blocks,
           const Keep& keep) {
-    const std::span<const Box> boxes = task.boxes;
+    const BoxSource& boxes = task.boxes;
     const PairFilter& filter = task.filter;
     auto found = for_blocks<Pairs>(
         a.leaf_count(), leaves_per_block, task.run, [&](std::size_t l, std::size_t end) {
@@ -121,7 +121,7 @@ std::vector<CandidatePair> sorted(const Blocks& blocks, std::size_t count) {
     return pairs;
 }
 
-std::vector<CandidatePair> hierarchy_pairs(std::span<const Box> boxes,
+std::vector<CandidatePair> hierarchy_pairs(const BoxSource& boxes,
                                            std::span<const std::uint32_t> groups, const Run& run) {
     const PairFilter none;
     if (groups.empty())
@@ -133,7 +133,7 @@ std::vector<CandidatePair> hierarchy_pairs(std::span<const Box> boxes,
                   boxes.size());
 }
 
-std::vector<CandidatePair> active_pairs(std::span<const Box> boxes,
+std::vector<CandidatePair> active_pairs(const BoxSource& boxes,
                                         std::span<const std::uint32_t> active,
                                         std::span<const std::uint32_t> groups,
                                         const PairFilter& filter, const Run& run) {

@@ -108,12 +108,13 @@ Search choose(std::size_t boxes) {
     return boxes <= 24 ? Search::brute : Search::hierarchy;
 }
 
-std::vector<CandidatePair> candidate_pairs(std::span<const Box> boxes,
+std::vector<CandidatePair> candidate_pairs(const BoxSource& source,
                                            std::span<const std::uint32_t> groups, Search method,
                                            const Run& run) {
-    switch (method == Search::automatic ? choose(boxes.size()) : method) {
-    case Search::brute:
-        return pairs_one_by_one<search::Brute>(boxes, groups);
+    if (method == Search::automatic) method = choose(source.size());
+    if (method == Search::hierarchy) return search::hierarchy_pairs(source, groups, run);
+    const std::vector<Box> boxes = source.listed();
+    switch (method) {
     case Search::grid:
         return all_pairs<search::Grid>(boxes, groups);
     case Search::ab:
@@ -123,11 +124,11 @@ std::vector<CandidatePair> candidate_pairs(std::span<const Box> boxes,
     case Search::mixed:
         return mixed_pairs(boxes, groups);
     default:
-        return search::hierarchy_pairs(boxes, groups, run);
+        return pairs_one_by_one<search::Brute>(boxes, groups);
     }
 }
 
-std::vector<CandidatePair> candidate_pairs_of(std::span<const Box> boxes,
+std::vector<CandidatePair> candidate_pairs_of(const BoxSource& boxes,
                                               std::span<const std::uint32_t> active,
                                               std::span<const std::uint32_t> groups,
                                               const PairFilter& filter, const Run& run) {

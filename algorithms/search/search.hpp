@@ -4,6 +4,7 @@
 // Source: the paper, section 2 (structured search, alternating binary trees, mixed search).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include <terrane/algorithms/run.hpp>
+#include <terrane/algorithms/surface.hpp>
 
 namespace terrane {
 
@@ -43,6 +45,40 @@ struct Box {
     }
 };
 
+/// The box of a triangle.
+inline Box box_of(std::span<const Point3> points, const Triangle& t) {
+    const Point3 &a = points[t[0]], &b = points[t[1]], &c = points[t[2]];
+    return {{std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::min({a.z, b.z, c.z})},
+            {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}), std::max({a.z, b.z, c.z})}};
+}
+
+/// A list of boxes, or those of triangles: made anew each time, which costs less than to store and
+/// to load them.
+class BoxSource {
+public:
+    BoxSource(std::span<const Box> boxes) : boxes_(boxes) {}    // NOLINT: a list is a source
+    BoxSource(const std::vector<Box>& boxes) : boxes_(boxes) {} // NOLINT: a list is a source
+    BoxSource(std::span<const Point3> points, std::span<const Triangle> triangles) :
+        points_(points), triangles_(triangles) {}
+
+    [[nodiscard]] std::size_t size() const { return boxes_.size() + triangles_.size(); }
+    [[nodiscard]] bool empty() const { return size() == 0; }
+    [[nodiscard]] Box operator[](std::size_t i) const {
+        return triangles_.empty() ? boxes_[i] : box_of(points_, triangles_[i]);
+    }
+    [[nodiscard]] std::vector<Box> listed() const {
+        std::vector<Box> all;
+        all.reserve(size());
+        for (std::size_t i = 0; i < size(); ++i) all.push_back((*this)[i]);
+        return all;
+    }
+
+private:
+    std::span<const Box> boxes_;
+    std::span<const Point3> points_;
+    std::span<const Triangle> triangles_;
+};
+
 /// Two indices of boxes, first < second.
 struct CandidatePair {
     std::uint32_t first, second;
@@ -55,7 +91,7 @@ constexpr std::uint32_t no_group = UINT32_MAX;
 
 /// All pairs of overlapping boxes except those within one group; sorted, unique.
 /// groups: per box, or empty for none. Boxes of one group are known not to meet (or need no test).
-std::vector<CandidatePair> candidate_pairs(std::span<const Box> boxes,
+std::vector<CandidatePair> candidate_pairs(const BoxSource& boxes,
                                            std::span<const std::uint32_t> groups, Search method,
                                            const Run& run = {});
 
@@ -66,7 +102,7 @@ using PairFilter = std::function<bool(const CandidatePair&)>;
 /// and those that the filter (if any) does not keep; sorted, unique. active: ascending indices of
 /// boxes. Cost: a glance at each box, then as candidate_pairs for those near active ones; pairs
 /// that the filter drops take no memory.
-std::vector<CandidatePair> candidate_pairs_of(std::span<const Box> boxes,
+std::vector<CandidatePair> candidate_pairs_of(const BoxSource& boxes,
                                               std::span<const std::uint32_t> active,
                                               std::span<const std::uint32_t> groups = {},
                                               const PairFilter& filter = {}, const Run& run = {});

@@ -40,7 +40,7 @@ struct Blocks {
     std::vector<Box> boxes;  ///< per block: of all in it
     std::vector<bool> alike; ///< per block: all in it are of one group
 
-    Blocks(std::span<const Box> all, std::span<const std::uint32_t> groups) :
+    Blocks(const BoxSource& all, std::span<const std::uint32_t> groups) :
         boxes((all.size() + size - 1) / size, empty_box), alike(boxes.size(), true) {
         for (std::uint32_t k = 0; k < boxes.size(); ++k) {
             Box box = all[std::size_t{k} * size];
@@ -65,8 +65,7 @@ struct Blocks {
 /// Per group the box of all boxes of other groups; boxes without group are one more group.
 class Regions {
 public:
-    Regions(std::span<const Box> boxes, std::span<const std::uint32_t> groups,
-            const Blocks& blocks) :
+    Regions(const BoxSource& boxes, std::span<const std::uint32_t> groups, const Blocks& blocks) :
         last_(group_count(groups)) {
         std::vector<Box> own(last_ + 1, empty_box);
         for (std::uint32_t k = 0; k < blocks.boxes.size(); ++k)
@@ -120,7 +119,7 @@ private:
 /// about one for two boxes.
 class Cells {
 public:
-    Cells(std::span<const Box> boxes, const Lattice& lattice) : left_(16 * boxes.size() + 4096) {
+    Cells(const BoxSource& boxes, const Lattice& lattice) : left_(16 * boxes.size() + 4096) {
         std::array<std::uint64_t, 3> sum{};
         const std::size_t step = boxes.size() / 2048 + 1;
         for (std::size_t i = 0; i < boxes.size(); i += step) {
@@ -201,8 +200,8 @@ private:
 constexpr std::size_t most_cells = 2 * Blocks::size; ///< of a block; with more, box by box
 
 /// Enters all boxes that lie in the region of their group, block by block where one is compact.
-bool enter_all(std::span<const Box> boxes, std::span<const std::uint32_t> groups,
-               const Blocks& blocks, const Regions& regions, const Lattice& lattice, Cells& cells) {
+bool enter_all(const BoxSource& boxes, std::span<const std::uint32_t> groups, const Blocks& blocks,
+               const Regions& regions, const Lattice& lattice, Cells& cells) {
     for (std::uint32_t k = 0; k < blocks.boxes.size(); ++k) {
         if (blocks.alike[k]) {
             const std::uint32_t group = groups[k * Blocks::size];
@@ -225,8 +224,8 @@ bool enter_all(std::span<const Box> boxes, std::span<const std::uint32_t> groups
 
 /// The boxes that overlap region(i) and a mixed cell (any, if there are no cells).
 template <class Region>
-Selection select(std::span<const Box> boxes, const Blocks& blocks, const Lattice& lattice,
-                 Cells* cells, const Region& region) {
+Selection select(const BoxSource& boxes, const Blocks& blocks, const Lattice& lattice, Cells* cells,
+                 const Region& region) {
     Selection s;
     const auto test = [&](std::uint32_t i) {
         if (!boxes[i].overlaps(region(i))) return;
@@ -249,10 +248,10 @@ Selection select(std::span<const Box> boxes, const Blocks& blocks, const Lattice
 
 } // namespace
 
-Selection select_all(std::span<const Box> boxes) {
+Selection select_all(const BoxSource& boxes) {
     if (boxes.empty()) return {};
     Box all = empty_box;
-    for (const Box& b : boxes) extend(all, b);
+    for (std::size_t i = 0; i < boxes.size(); ++i) extend(all, boxes[i]);
     const Lattice lattice(all);
     Selection s;
     s.boxes.resize(boxes.size());
@@ -264,7 +263,7 @@ Selection select_all(std::span<const Box> boxes) {
     return s;
 }
 
-Selection select_meeting(std::span<const Box> boxes, std::span<const std::uint32_t> groups) {
+Selection select_meeting(const BoxSource& boxes, std::span<const std::uint32_t> groups) {
     const Blocks blocks(boxes, groups);
     const Regions regions(boxes, groups, blocks);
     if (is_empty(regions.any())) return {};
@@ -275,7 +274,7 @@ Selection select_meeting(std::span<const Box> boxes, std::span<const std::uint32
                   [&](std::uint32_t i) -> const Box& { return regions.of(groups[i]); });
 }
 
-Selection select_near(std::span<const Box> boxes, std::span<const std::uint32_t> active) {
+Selection select_near(const BoxSource& boxes, std::span<const std::uint32_t> active) {
     if (active.empty()) return {};
     Box region = empty_box;
     for (const std::uint32_t i : active) extend(region, boxes[i]);

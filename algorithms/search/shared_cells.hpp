@@ -19,17 +19,17 @@ struct Selection {
 };
 
 /// All boxes.
-Selection select_all(std::span<const Box> boxes);
+Selection select_all(const BoxSource& boxes);
 
 /// At least all boxes that overlap one of another group (no_group: any other one). First the boxes
 /// outside all other groups' common box go, then those in whose cells there is only their own
 /// group. Unlike in the paper a box is entered in each cell that it overlaps, so two boxes that
 /// overlap share a cell, and no cell need be searched around it. Cost: linear; where a few boxes
 /// cover very many cells the second step is left out.
-Selection select_meeting(std::span<const Box> boxes, std::span<const std::uint32_t> groups);
+Selection select_meeting(const BoxSource& boxes, std::span<const std::uint32_t> groups);
 
 /// At least all boxes that overlap an active one, and the active ones themselves.
 /// active: indices, ascending.
-Selection select_near(std::span<const Box> boxes, std::span<const std::uint32_t> active);
+Selection select_near(const BoxSource& boxes, std::span<const std::uint32_t> active);
 
 } // namespace terrane::search

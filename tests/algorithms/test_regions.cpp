@@ -41,7 +41,7 @@ Regions regions(const std::vector<Surface>& surfaces) {
     REQUIRE(flaws(surfaces, a) == "");
     std::vector<Point3> vertices;
     for (const PointIndex p : a.vertices) vertices.push_back(a.points.nearest(p));
-    return find_regions(vertices, a.triangles, a.surfaces_of, a.edges, a.intersection_edges);
+    return find_regions(vertices, a.triangles, a.surfaces_of, a.adjacency, a.intersection_edges);
 }
 
 /// Areas of a surface's regions, ascending.

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/adjacency.hpp>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include <terrane/algorithms/parallel.hpp>
+
+namespace terrane {
+namespace {
+
+constexpr std::uint32_t none = UINT32_MAX;
+
+bool is_inner(std::uint32_t label, std::uint32_t other) {
+    return label == other && label != no_label;
+}
+
+void add_edge(Adjacency& a, const Edge& edge, std::span<const std::uint32_t> triangles) {
+    a.edges.push_back(edge);
+    a.triangles_at.push_back(triangles);
+}
+
+/// Triangles without counterpart in the old mesh, and those that may share an edge with one:
+/// ascending. `is_new` tells the vertices of the former.
+std::vector<std::uint32_t> triangles_near_new(const Divided& divided, std::vector<bool>& is_new) {
+    std::vector<bool> is_kept(divided.triangles.size(), false);
+    for (const std::uint32_t t : divided.kept_as)
+        if (t != none) is_kept[t] = true;
+    for (std::size_t t = 0; t < divided.triangles.size(); ++t)
+        if (!is_kept[t])
+            for (const std::uint32_t v : divided.triangles[t]) is_new[v] = true;
+    std::vector<std::uint32_t> near;
+    for (std::uint32_t t = 0; t < divided.triangles.size(); ++t) {
+        const Triangle& c = divided.triangles[t];
+        if (!is_kept[t] || is_new[c[0]] + is_new[c[1]] + is_new[c[2]] > 1) near.push_back(t);
+    }
+    return near;
+}
+
+/// All edges between vertices of new triangles, for both ends of which is_new holds.
+Adjacency edges_of_new(const Divided& divided, const Labels& old_labels,
+                       std::span<const std::uint32_t> near, const std::vector<bool>& is_new) {
+    std::vector<Triangle> corners;
+    Labels labels;
+    for (const std::uint32_t t : near) {
+        corners.push_back(divided.triangles[t]);
+        const auto faces = divided.faces_of[t];
+        labels.push_back(faces.size() == 1 ? old_labels[faces[0]] : no_label);
+    }
+    Adjacency a;
+    Adjacency::Inner& inner = a.inner.emplace_back();
+    std::vector<std::uint32_t> triangles;
+    group_edges(corners, divided.vertex_count)
+        .for_each([&](std::uint32_t low, std::uint32_t high, auto sides) {
+            if (!is_new[low] || !is_new[high]) return;
+            triangles.clear();
+            for (const auto& s : sides) triangles.push_back(near[s.triangle]);
+            if (sides.size() == 2 && is_inner(labels[sides[0].triangle], labels[sides[1].triangle]))
+                inner.push_back({triangles[0], triangles[1]});
+            else
+                add_edge(a, {low, high}, triangles);
+        });
+    return a;
+}
+
+/// Adds edges that are all behind these.
+void append(Adjacency& a, Adjacency b) {
+    std::move(b.inner.begin(), b.inner.end(), std::back_inserter(a.inner));
+    a.edges.insert(a.edges.end(), b.edges.begin(), b.edges.end());
+    for (std::size_t e = 0; e < b.edges.size(); ++e) a.triangles_at.push_back(b.triangles_at[e]);
+}
+
+/// Adds edges of another part of the mesh.
+void merge(Adjacency& a, Adjacency b) {
+    std::move(b.inner.begin(), b.inner.end(), std::back_inserter(a.inner));
+    if (b.edges.empty()) return;
+    Adjacency all;
+    for (std::size_t i = 0, j = 0; i < a.edges.size() || j < b.edges.size();) {
+        const bool first = j == b.edges.size() || (i < a.edges.size() && a.edges[i] < b.edges[j]);
+        all.edges.push_back(first ? a.edges[i] : b.edges[j]);
+        all.triangles_at.push_back(first ? a.triangles_at[i++] : b.triangles_at[j++]);
+    }
+    a.edges = std::move(all.edges);
+    a.triangles_at = std::move(all.triangles_at);
+}
+
+} // namespace
+
+Labels labels_of(const Lists<std::uint32_t>& surfaces_of, const Lists<std::uint32_t>& parents_of) {
+    Labels labels;
+    labels.reserve(surfaces_of.size());
+    for (std::size_t t = 0; t < surfaces_of.size(); ++t)
+        labels.push_back(parents_of[t].size() == 1 ? surfaces_of[t][0] : no_label);
+    return labels;
+}
+
+Adjacency adjacency_of(const EdgeSides& edges, const Labels& labels) {
+    Adjacency a;
+    Adjacency::Inner& inner = a.inner.emplace_back();
+    inner.reserve(edges.sides.size() / 2);
+    std::vector<std::uint32_t> triangles;
+    edges.for_each([&](std::uint32_t low, std::uint32_t high, auto sides) {
+        if (sides.size() == 2 && is_inner(labels[sides[0].triangle], labels[sides[1].triangle])) {
+            inner.push_back({sides[0].triangle, sides[1].triangle});
+            return;
+        }
+        triangles.clear();
+        for (const auto& s : sides) triangles.push_back(s.triangle);
+        add_edge(a, {low, high}, triangles);
+    });
+    return a;
+}
+
+Adjacency adjacency_after(const EdgeSides& old, const Labels& old_labels, const Divided& divided,
+                          const Run& run) {
+    std::vector<bool> is_new(divided.vertex_count, false);
+    const auto near = triangles_near_new(divided, is_new);
+    const auto kept_edges = [&](std::size_t first, std::size_t last) {
+        Adjacency a;
+        Adjacency::Inner& inner = a.inner.emplace_back();
+        inner.reserve((old.starts[last] - old.starts[first]) / 2);
+        std::vector<std::uint32_t> triangles;
+        old.for_each(first, last, [&](std::uint32_t low, std::uint32_t high, auto sides) {
+            const Edge edge{divided.named_as[low], divided.named_as[high]};
+            // All triangles at an edge between two vertices of new ones are near.
+            if (is_new[edge[0]] && is_new[edge[1]]) return;
+            const auto kept = [&](std::size_t i) { return divided.kept_as[sides[i].triangle]; };
+            if (sides.size() == 2 &&
+                is_inner(old_labels[sides[0].triangle], old_labels[sides[1].triangle])) {
+                inner.push_back({kept(0), kept(1)});
+                return;
+            }
+            triangles.clear();
+            for (std::size_t i = 0; i < sides.size(); ++i) triangles.push_back(kept(i));
+            add_edge(a, edge, triangles);
+        });
+        return a;
+    };
+    auto parts = parts_of_ranges<Adjacency>(old.starts.size() - 1, run, kept_edges);
+    Adjacency all = std::move(parts.front());
+    for (std::size_t k = 1; k < parts.size(); ++k) append(all, std::move(parts[k]));
+    merge(all, edges_of_new(divided, old_labels, near, is_new));
+    return all;
+}
+
+} // namespace terrane

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Parts are moved by far more than rounding would, so that some do meet: what is not listed as
+// unclear must be proper, pair by pair.
+#include "../support/effort.hpp"
+#include "../support/points.hpp"
+
+#include <terrane/algorithms/arrangement.hpp>
+#include <terrane/algorithms/clearance.hpp>
+#include <terrane/algorithms/intersection.hpp>
+#include <terrane/kernel/predicates.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+
+namespace {
+
+using namespace terrane;
+using namespace test_support;
+
+enum class Shape {
+    planes,     ///< large triangles that cross each other
+    lattice,    ///< small integers: coplanar, touching, in line
+    shallow,    ///< crossing at small angles
+    of_a_sheet, ///< neighbours, crossed by one large triangle
+};
+
+constexpr std::array all_shapes{Shape::planes, Shape::lattice, Shape::shallow, Shape::of_a_sheet};
+
+Surface loose(Random& random, Shape shape) {
+    Surface s;
+    const int count = random_int(random, 2, 6);
+    for (int i = 0; i < 3 * count; ++i) {
+        const auto integer = [&] { return double(random_int(random, 0, 3)); };
+        const auto real = [&] { return random_real(random, 0, 1); };
+        Point3 p = shape == Shape::lattice ? point_of(integer) : point_of(real);
+        if (shape == Shape::shallow) p.z *= 1e-4;
+        s.vertices.push_back(p);
+    }
+    for (std::uint32_t t = 0; t < static_cast<std::uint32_t>(count); ++t)
+        s.triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+    return s;
+}
+
+Surface crossed_sheet(Random& random) {
+    Surface s;
+    for (int v = 0; v < 3; ++v)
+        for (int u = 0; u < 3; ++u)
+            s.vertices.push_back({u + 0.0, v + 0.0, random_real(random, 0, 0.1)});
+    for (std::uint32_t v = 0; v < 2; ++v)
+        for (std::uint32_t u = 0; u < 2; ++u) {
+            const std::uint32_t a = 3 * v + u;
+            s.triangles.push_back({a, a + 1, a + 3});
+            s.triangles.push_back({a + 1, a + 4, a + 3});
+        }
+    for (int i = 0; i < 3; ++i)
+        s.vertices.push_back(point_of([&] { return random_real(random, -2, 4); }));
+    s.triangles.push_back({9, 10, 11});
+    return s;
+}
+
+struct Moved {
+    std::vector<Point3> points;
+    std::vector<double> moves;
+};
+
+/// Each vertex of the arrangement to any place at most `size` away.
+Moved moved(Random& random, const Arrangement& a, double size) {
+    Moved m;
+    for (const PointIndex v : a.vertices) {
+        const Point3 p = a.points.nearest(v);
+        const double most = size / 2;
+        const Point3 by = point_of([&] { return random_real(random, -most, most); });
+        m.points.push_back({p.x + by.x, p.y + by.y, p.z + by.z});
+        m.moves.push_back(size);
+    }
+    return m;
+}
+
+std::vector<CandidatePair> all_pairs(std::uint32_t count) {
+    std::vector<CandidatePair> pairs;
+    for (std::uint32_t i = 0; i < count; ++i)
+        for (std::uint32_t j = i + 1; j < count; ++j) pairs.push_back({i, j});
+    return pairs;
+}
+
+bool has_flat(const Moved& m, const std::vector<Triangle>& triangles) {
+    return std::any_of(triangles.begin(), triangles.end(), [&](const Triangle& t) {
+        return collinear(m.points[t[0]], m.points[t[1]], m.points[t[2]]);
+    });
+}
+
+struct Found {
+    int improper = 0, missed = 0, clear = 0;
+};
+
+void examine(Random& random, const Surface& surface, double size, Found& found) {
+    const Arrangement a = arrange(std::vector{surface}).value();
+    if (!a.degenerate.empty() || !a.inputs.duplicates.empty() || a.triangles.size() > 400) return;
+    const Moved m = moved(random, a, size);
+    if (has_flat(m, a.triangles)) return;
+    const std::vector<std::uint32_t> no_patch(a.triangles.size(), no_group);
+    const Unclear unclear = find_unclear({a.points.inputs(), a.inputs.corners, m.points, m.moves,
+                                          a.triangles, a.parents_of, no_patch},
+                                         all_pairs(a.inputs.first.back()), {});
+    const auto is_listed = [&](const CandidatePair& p) {
+        const auto& parts = unclear.parts;
+        return std::binary_search(unclear.pairs.begin(), unclear.pairs.end(), p) ||
+               std::binary_search(parts.begin(), parts.end(), p.first) ||
+               std::binary_search(parts.begin(), parts.end(), p.second);
+    };
+    for (const CandidatePair& p : all_pairs(static_cast<std::uint32_t>(a.triangles.size()))) {
+        const bool listed = is_listed(p);
+        const bool improper =
+            improper_contact(m.points, a.triangles[p.first], a.triangles[p.second]).has_value();
+        found.improper += improper;
+        found.missed += improper && !listed;
+        found.clear += !listed;
+    }
+}
+
+} // namespace
+
+TEST_CASE("clearance: what is not listed as unclear is proper") {
+    Random random(111);
+    for (const Shape shape : all_shapes) {
+        Found found;
+        for (int i = 0; i < cases(1200); ++i) {
+            const double size = std::pow(10, random_real(random, -16, 0));
+            const Surface surface =
+                shape == Shape::of_a_sheet ? crossed_sheet(random) : loose(random, shape);
+            examine(random, surface, size, found);
+            INFO("shape " << static_cast<int>(shape) << ", case " << i << ", moved by " << size);
+            REQUIRE(found.missed == 0);
+        }
+        INFO("shape " << static_cast<int>(shape));
+        CHECK(found.improper > 0);
+        CHECK(found.clear > found.improper);
+    }
+}
+
+TEST_CASE("clearance: hardly any part of a smooth sheet is unclear after rounding") {
+    Random random(112);
+    std::size_t unclear_pairs = 0, parts = 0;
+    for (int i = 0; i < cases(200); ++i) {
+        const Arrangement a = arrange(std::vector{crossed_sheet(random)}).value();
+        const Moved m = moved(random, a, 1e-15);
+        const std::vector<std::uint32_t> no_patch(a.triangles.size(), no_group);
+        const Unclear unclear = find_unclear({a.points.inputs(), a.inputs.corners, m.points,
+                                              m.moves, a.triangles, a.parents_of, no_patch},
+                                             all_pairs(a.inputs.first.back()), {});
+        unclear_pairs += unclear.pairs.size();
+        parts += a.triangles.size();
+    }
+    CHECK(unclear_pairs < parts / 5);
+}
