@@ -8,6 +8,7 @@
 
 #include <terrane/algorithms/check.hpp>
 #include <terrane/algorithms/division.hpp>
+#include <terrane/algorithms/parallel.hpp>
 #include <terrane/algorithms/patches.hpp>
 #include <terrane/algorithms/soup.hpp>
 #include <terrane/algorithms/stopwatch.hpp>
@@ -158,15 +159,22 @@ Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
     a.inputs = {soup.first_input_triangle, soup.first_input_vertex, std::move(soup.input_corners),
                 soup.duplicates};
     a.degenerate = soup.degenerate;
-    a.parents_of = parents_of_faces(soup, division.faces_of);
     a.neighbours = neighbours_of_divided(soup, division, candidates);
     const Labels labels = labels_of(soup, patches);
-    a.patches = patches_of_faces(std::move(patches), division.faces_of);
-    a.surfaces_of = surfaces_of_parents(a.inputs, a.parents_of);
-    const auto kept = kept_triangles(soup, division);
-    a.points = std::move(division.points);
-    a.triangles = std::move(division.triangles);
-    const auto vertex_of = name_vertices(a, division.ascending);
+    std::vector<std::uint32_t> kept, vertex_of;
+    both(
+        run,
+        [&] {
+            a.parents_of = parents_of_faces(soup, division.faces_of);
+            a.surfaces_of = surfaces_of_parents(a.inputs, a.parents_of);
+        },
+        [&] {
+            a.patches = patches_of_faces(std::move(patches), division.faces_of);
+            kept = kept_triangles(soup, division);
+            a.points = std::move(division.points);
+            a.triangles = std::move(division.triangles);
+            vertex_of = name_vertices(a, division.ascending);
+        });
     report(0.9);
     a.adjacency =
         adjacency_after(soup.edges, labels,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <new>
+#include <optional>
 #include <stdexcept>
 #include <unordered_set>
 #include <utility>
@@ -66,7 +67,9 @@ public:
 
     Result<RoundedMesh> operator()() {
         to_nearest();
-        auto pairs = first_contacts();
+        std::vector<CandidatePair> pairs;
+        both(
+            run_, [&] { pairs = first_contacts(); }, [&] { find_first_regions(); });
         out_.report.naive_contacts = pairs.size();
         if (!pairs.empty()) repair(pairs);
         if (run_.stop.stop_requested())
@@ -84,6 +87,7 @@ private:
     void snap_round(std::span<const CandidatePair> pairs, const SnapGrid& grid);
     void snap_corners(std::span<const CandidatePair> pairs, const SnapGrid& grid);
     void divide_again();
+    void find_first_regions();
     void finish(std::span<const CandidatePair> pairs);
     void report_moves();
     void report_vanished();
@@ -92,7 +96,8 @@ private:
     const RoundingOptions& options_;
     const Run& run_;
     RoundingState state_;
-    bool changed_ = false; ///< the triangles are no longer those of the arrangement
+    bool changed_ = false;           ///< the triangles are no longer those of the arrangement
+    std::optional<Regions> regions_; ///< while the triangles are those of the arrangement
     RoundedMesh out_;
 };
 
@@ -255,6 +260,16 @@ void Rounding::report_vanished() {
     sort_unique(out_.report.vanished);
 }
 
+/// As long as triangles only move, the regions stay those of the arrangement.
+void Rounding::find_first_regions() {
+    if (changed_) return;
+    Stopwatch watch;
+    const Arrangement& a = arrangement_;
+    regions_ = find_regions(state_.points, state_.triangles, a.surfaces_of, a.adjacency,
+                            a.intersection_edges);
+    out_.report.seconds_regions = watch.lap();
+}
+
 void Rounding::finish(std::span<const CandidatePair> pairs) {
     out_.report.clean = pairs.empty();
     report_moves();
@@ -273,22 +288,23 @@ void Rounding::finish(std::span<const CandidatePair> pairs) {
     mesh.vertices = std::move(state_.points);
     mesh.triangles = std::move(state_.triangles);
     mesh.parents_of = std::move(state_.parents_of);
-    Stopwatch watch;
-    mesh.surfaces_of = changed_ ? surfaces_of_parents(arrangement_.inputs, mesh.parents_of)
-                                : arrangement_.surfaces_of;
-    Adjacency made;
-    if (changed_)
-        made = adjacency_of(group_edges(mesh.triangles, mesh.vertices.size()),
-                            labels_of(mesh.surfaces_of, mesh.parents_of));
-    const Adjacency& adjacency = changed_ ? made : arrangement_.adjacency;
-    mesh.intersection_edges =
-        changed_ ? find_intersection_edges(adjacency, arrangement_.inputs, mesh.parents_of)
-                 : arrangement_.intersection_edges;
-    auto regions = find_regions(mesh.vertices, mesh.triangles, mesh.surfaces_of, adjacency,
+    if (changed_) {
+        Stopwatch watch;
+        const InputTriangles& inputs = arrangement_.inputs;
+        mesh.surfaces_of = surfaces_of_parents(inputs, mesh.parents_of);
+        const Adjacency adjacency =
+            adjacency_of(group_edges(mesh.triangles, mesh.vertices.size(), run_),
+                         labels_of(mesh.surfaces_of, mesh.parents_of));
+        mesh.intersection_edges = find_intersection_edges(adjacency, inputs, mesh.parents_of);
+        regions_ = find_regions(mesh.vertices, mesh.triangles, mesh.surfaces_of, adjacency,
                                 mesh.intersection_edges);
-    mesh.regions_of = std::move(regions.regions_of);
-    out_.regions = std::move(regions.regions);
-    out_.report.seconds_regions = watch.lap();
+        out_.report.seconds_regions = watch.lap();
+    } else {
+        mesh.surfaces_of = arrangement_.surfaces_of;
+        mesh.intersection_edges = arrangement_.intersection_edges;
+    }
+    mesh.regions_of = std::move(regions_->regions_of);
+    out_.regions = std::move(regions_->regions);
 }
 
 } // namespace

@@ -55,7 +55,9 @@ FaceTriangulation::operator()(const PointStore& points, std::span<const std::uin
 }
 
 FaceTriangulation::Local FaceTriangulation::add_point(PointIndex p) {
+    const auto line = std::lower_bound(lines_of_.begin(), lines_of_.end(), std::array{p, 0u});
     points_.push_back(p);
+    first_line_.push_back(static_cast<std::uint32_t>(line - lines_of_.begin()));
     flat_.push_back(store_->approximate(axis_, p));
     cell_of_.push_back(0);
     return static_cast<Local>(points_.size() - 1);
@@ -64,6 +66,7 @@ FaceTriangulation::Local FaceTriangulation::add_point(PointIndex p) {
 // One cell; its edges are fixed: they are the border.
 void FaceTriangulation::start(const FaceInput& face) {
     points_.clear();
+    first_line_.clear();
     flat_.clear();
     find_lines(face);
     cell_of_.clear();
@@ -159,14 +162,16 @@ void FaceTriangulation::find_lines(const FaceInput& face) {
 }
 
 bool FaceTriangulation::on_one_line(Local a, Local b, Local c) const {
-    const auto first = [&](Local p) {
-        return std::lower_bound(lines_of_.begin(), lines_of_.end(), std::array{points_[p], 0u});
+    const auto is_line_of = [&](Local p, std::size_t l) {
+        return l < lines_of_.size() && lines_of_[l][0] == points_[p];
     };
     const auto has = [&](Local p, std::uint32_t line) {
-        return std::binary_search(lines_of_.begin(), lines_of_.end(), std::array{points_[p], line});
+        for (std::size_t l = first_line_[p]; is_line_of(p, l); ++l)
+            if (lines_of_[l][1] == line) return true;
+        return false;
     };
-    for (auto l = first(a); l != lines_of_.end() && (*l)[0] == points_[a]; ++l)
-        if (has(b, (*l)[1]) && has(c, (*l)[1])) return true;
+    for (std::size_t l = first_line_[a]; is_line_of(a, l); ++l)
+        if (has(b, lines_of_[l][1]) && has(c, lines_of_[l][1])) return true;
     return false;
 }
 

@@ -94,7 +94,8 @@ private:
     std::span<const std::uint32_t> rank_;
     Axis axis_ = Axis::z;
     std::vector<PointIndex> points_;
-    std::vector<ApproximatePoint> flat_;              ///< per point, in the projection
+    std::vector<ApproximatePoint> flat_;    ///< per point, in the projection
+    std::vector<std::uint32_t> first_line_; ///< per point: its first entry in lines_of_, if any
     std::vector<std::array<PointIndex, 2>> lines_of_; ///< sorted {point, line}: lines that carry it
     std::vector<Local> cell_of_;                      ///< per point, a cell that has it
     std::vector<Cell> cells_;

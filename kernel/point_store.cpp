@@ -153,6 +153,7 @@ Enclosure PointStore::make_enclosure(const Construction& how) const {
         const Enclosure e{{x.inf(), y.inf(), z.inf()}, {x.sup(), y.sup(), z.sup()}};
         if (!is_wide(e)) return e;
     }
+    if (const auto quick = round_quickly(input_, how)) return around(*quick);
     return around(round(make_exact(how)));
 }
 

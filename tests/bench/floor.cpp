@@ -108,7 +108,15 @@ std::size_t floor_of_arrange(const Model& m) {
     const Stored stored = sort_into(cells, boxes, boxes.size());
     const auto points = m.points;
     const auto triangles = m.triangles;
-    return stored.items.back() + points.size() + triangles.size();
+    // Parents, surfaces and regions: a list with one entry for each triangle.
+    std::size_t written = points.size() + triangles.size();
+    std::array<std::vector<std::uint32_t>, 6> lists;
+    for (auto& list : lists) {
+        list.resize(triangles.size());
+        for (std::size_t t = 0; t < list.size(); ++t) list[t] = static_cast<std::uint32_t>(t);
+        written += list.back();
+    }
+    return stored.items.back() + written;
 }
 
 } // namespace bench
