@@ -6,6 +6,7 @@
 //
 // reads the fuzzer's bytes, or an OBJ file, and writes FOLDER/NNN-WHAT.obj with the next free
 // number. Each attempt runs in a process of its own: crashes and hangs can be reduced as well.
+// Without WHAT it prints what the bytes stand for, as an OBJ file.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -179,11 +180,15 @@ fs::path next_file(const fs::path& folder, const std::string& what) {
 } // namespace
 
 int main(int argc, char** argv) {
-    if (argc < 3) {
-        std::fprintf(stderr, "usage: %s CRASH|SOUP.obj WHAT [FOLDER]\n", argv[0]);
+    if (argc < 2) {
+        std::fprintf(stderr, "usage: %s CRASH|SOUP.obj [WHAT [FOLDER]]\n", argv[0]);
         return 2;
     }
     Surfaces surfaces = read(argv[1]);
+    if (argc == 2) {
+        std::fputs(fuzz::obj_text(surfaces).c_str(), stdout);
+        return 0;
+    }
     if (!fails(surfaces)) {
         std::fprintf(stderr, "%s: nothing fails here\n", argv[1]);
         return 1;

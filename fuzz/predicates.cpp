@@ -205,7 +205,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     Twins twins = point_store_cases::twins_of(input_points(bytes));
     for (unsigned tries = bytes.below(4); tries > 0; --tries)
         point_store_cases::append(twins, construction(bytes, twins.store.input_count()));
-    for (unsigned queries = 1 + bytes.below(4); queries > 0; --queries) {
+    for (unsigned queries = 1 + bytes.below(2); queries > 0; --queries) {
         check_inputs(bytes, twins);
         check_stored(bytes, twins);
     }
