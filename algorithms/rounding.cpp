@@ -356,13 +356,27 @@ private:
     std::size_t moved_ = 0;
 };
 
-/// What the snapped input moved, on top of what its rounding did.
-void add_to_report(const SnappedInput& snapped, const RoundingReport& first, unsigned rounds,
-                   RoundingReport& report) {
+/// The largest distance between exact vertices and those of a mesh with the same triangles; 0 for
+/// another mesh: its vertices have no exact points of their own.
+double largest_distance(const Arrangement& a, const Mesh& mesh) {
+    double largest = 0;
+    if (mesh.triangles != a.triangles) return largest;
+    for (std::size_t v = 0; v < std::min(a.vertices.size(), mesh.vertices.size()); ++v)
+        largest =
+            std::max(largest, distance_bound(a.points.enclosure(a.vertices[v]), mesh.vertices[v]));
+    return largest;
+}
+
+/// What the snapped input moved, on top of what its rounding did. Where surfaces cross at a small
+/// angle, their intersection moves farther than their corners.
+void add_to_report(const SnappedInput& snapped, const Arrangement& a, const RoundingReport& first,
+                   RoundedMesh& rounded) {
+    RoundingReport& report = rounded.report;
     report.naive_contacts = first.naive_contacts;
-    report.rounds += rounds;
-    report.max_move += snapped.largest_move();
-    report.deviation = (report.deviation + snapped.largest_move()) * (1 + 0x1p-52);
+    report.max_move = std::max((report.max_move + snapped.largest_move()) * (1 + 0x1p-52),
+                               largest_distance(a, rounded.mesh));
+    report.deviation =
+        std::max((report.deviation + snapped.largest_move()) * (1 + 0x1p-52), report.max_move);
     report.moved_input_vertices += snapped.moved();
 }
 
@@ -400,7 +414,8 @@ Result<RoundedMesh> snap_input(const Arrangement& a, RoundedMesh first,
             if (!rounded) return rounded;
             ++rounds;
             if (rounded.value().report.clean) {
-                add_to_report(snapped, first.report, rounds, rounded.value().report);
+                add_to_report(snapped, a, first.report, rounded.value());
+                rounded.value().report.rounds += rounds;
                 return rounded;
             }
             if (!snapped.choose(rounded.value())) break;
