@@ -37,7 +37,8 @@ run_target() {
         [[ ${#targets[@]} -eq 1 ]] || time=$(((seconds + ${#readers[@]} - 1) / ${#readers[@]}))
         options=(-max_len=4096 -malloc_limit_mb=256 "-dict=$PWD/fuzz/dictionaries/${target#read_}.dict")
     fi
-    # len_control: inputs may grow sooner. entropic: its book-keeping is linear in the features of a run, and took 2/3 of the time.
+    # len_control: inputs may grow sooner. entropic: its book-keeping is linear in the features of
+    # a run, and took two thirds of the time.
     "$binaries/fuzz_$target" "${options[@]}" -max_total_time="$time" -timeout=20 \
         -rss_limit_mb=2048 -print_final_stats=1 -artifact_prefix="$findings/$target-" \
         "$corpora/$target" "$seeds" >"$results/$target.log" 2>&1 ||
@@ -53,7 +54,7 @@ wait
 printf '%-12s %12s %9s %9s %9s\n' target executions per_second edges features
 for target in "${targets[@]}"; do
     log=$results/$target.log
-    progress=$(grep -aE '^#[0-9]+.* cov: ' "$log" | tail -1)
+    progress=$(grep -aE '^#[0-9]+.* cov: ' "$log" | tail -1) || true # none: the first seed failed
     printf '%-12s %12s %9s %9s %9s\n' "$target" \
         "$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")" \
         "$(sed -n 's/^stat::average_exec_per_sec: *//p' "$log")" \
