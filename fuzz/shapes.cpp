@@ -36,7 +36,9 @@ std::size_t count(const std::vector<Surface>& surfaces) {
     return triangles;
 }
 
+/// Of nothing but vertices there is no copy: copies of copies would be too many.
 void add_copy(Surface& surface, const Surface& other, const Point3& by) {
+    if (other.triangles.empty()) return;
     const auto first = static_cast<std::uint32_t>(surface.vertices.size());
     const auto vertices = other.vertices; // it may be the same surface
     const auto triangles = other.triangles;
