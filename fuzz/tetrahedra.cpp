@@ -11,6 +11,7 @@
 
 #include <CGAL/Exact_rational.h>
 
+#include <algorithm>
 #include <array>
 #include <map>
 
@@ -100,6 +101,8 @@ std::string flaw(std::span<const Surface> surfaces) {
                              error.code == ErrorCode::bad_number || by_tetgen;
         return allowed ? "" : error.message();
     }
+    if (!std::equal(mesh.vertices.begin(), mesh.vertices.end(), made.value().vertices.begin()))
+        return "a vertex of the mesh was moved";
     if (auto what = volume_flaw(made.value()); !what.empty()) return what;
     return faces_flaw(mesh, made.value());
 }
