@@ -34,7 +34,8 @@ cmake -S "$SRC/terrane" -B "$work/terrane" -G Ninja -DCMAKE_BUILD_TYPE=Release \
     -DCMAKE_EXE_LINKER_FLAGS="-L$work/static" -DTERRANE_FUZZ=ON \
     -DTERRANE_FUZZ_ENGINE="$LIB_FUZZING_ENGINE" -DTERRANE_TESTS=OFF -DTERRANE_TETGEN=OFF \
     -DTERRANE_WERROR=OFF -DZLIB_LIBRARY="$work/static/libz.a" \
-    -DGMP_LIBRARIES="$work/static/libgmp.a" -DMPFR_LIBRARIES="$work/static/libmpfr.a" \
+    -DGMP_LIBRARIES="$work/static/libgmp.a" -DGMPXX_LIBRARIES="$work/static/libgmpxx.a" \
+    -DMPFR_LIBRARIES="$work/static/libmpfr.a" \
     -DNETTLE_LIBRARY="$work/static/libnettle.a" "${options[@]}"
 cmake --build "$work/terrane" --target fuzzers
 
