@@ -60,6 +60,17 @@ SnapGrid grid_of_digits(std::span<const Point3> points, int digits) {
     return grid;
 }
 
+/// Input triangles that have parts in the arrangement, but none that names them; ascending.
+std::vector<std::uint32_t> vanished(const Arrangement& a, const Lists<std::uint32_t>& parents_of) {
+    std::vector<bool> present(a.inputs.first.back(), false);
+    for (const std::uint32_t p : parents_of.values) present[p] = true;
+    std::vector<std::uint32_t> result;
+    for (const std::uint32_t p : a.parents_of.values)
+        if (!present[p]) result.push_back(p);
+    sort_unique(result);
+    return result;
+}
+
 class Rounding {
 public:
     Rounding(const Arrangement& a, const RoundingOptions& options, const Run& run) :
@@ -252,12 +263,7 @@ void Rounding::report_moves() {
 }
 
 void Rounding::report_vanished() {
-    if (!changed_) return;
-    std::vector<bool> present(arrangement_.inputs.first.back(), false);
-    for (const std::uint32_t p : state_.parents_of.values) present[p] = true;
-    for (const std::uint32_t p : arrangement_.parents_of.values)
-        if (!present[p]) out_.report.vanished.push_back(p);
-    sort_unique(out_.report.vanished);
+    if (changed_) out_.report.vanished = vanished(arrangement_, state_.parents_of);
 }
 
 /// As long as triangles only move, the regions stay those of the arrangement.
@@ -389,14 +395,29 @@ private:
     std::size_t moved_ = 0;
 };
 
-/// What the snapped input moved, on top of what its rounding did.
-void add_to_report(const SnappedInput& snapped, const RoundingReport& first, unsigned rounds,
-                   RoundingReport& report) {
+/// The largest distance between exact vertices and those of a mesh with the same triangles; 0 for
+/// another mesh: its vertices have no exact points of their own.
+double largest_distance(const Arrangement& a, const Mesh& mesh) {
+    double largest = 0;
+    if (mesh.triangles != a.triangles) return largest;
+    for (std::size_t v = 0; v < std::min(a.vertices.size(), mesh.vertices.size()); ++v)
+        largest =
+            std::max(largest, distance_bound(a.points.enclosure(a.vertices[v]), mesh.vertices[v]));
+    return largest;
+}
+
+/// What the snapped input moved, on top of what its rounding did. Where surfaces cross at a small
+/// angle, their intersection moves farther than their corners.
+void add_to_report(const SnappedInput& snapped, const Arrangement& a, const RoundingReport& first,
+                   RoundedMesh& rounded) {
+    RoundingReport& report = rounded.report;
     report.naive_contacts = first.naive_contacts;
-    report.rounds += rounds;
-    report.max_move += snapped.largest_move();
-    report.deviation = (report.deviation + snapped.largest_move()) * (1 + 0x1p-52);
+    report.max_move = std::max((report.max_move + snapped.largest_move()) * (1 + 0x1p-52),
+                               largest_distance(a, rounded.mesh));
+    report.deviation =
+        std::max((report.deviation + snapped.largest_move()) * (1 + 0x1p-52), report.max_move);
     report.moved_input_vertices += snapped.moved();
+    report.vanished = vanished(a, rounded.mesh.parents_of);
 }
 
 std::vector<std::size_t> regions_per_surface(std::size_t surfaces,
@@ -418,6 +439,15 @@ void report_lost_regions(const Arrangement& a, RoundedMesh& rounded) {
         if (after[s] < before[s]) rounded.report.lost_regions.push_back({s, before[s], after[s]});
 }
 
+/// The arrangement of the snapped input becomes one of the input as it was: triangles that have the
+/// same points only since they were snapped are two.
+void name_input(const Arrangement& a, Arrangement& snapped) {
+    snapped.surfaces = a.surfaces;
+    snapped.inputs.duplicates = a.inputs.duplicates;
+    snapped.intersection_edges =
+        find_intersection_edges(snapped.adjacency, snapped.inputs, snapped.parents_of);
+}
+
 /// Arranges the input anew with snapped vertices, ever coarser, until the doubles are conforming.
 Result<RoundedMesh> snap_input(const Arrangement& a, RoundedMesh first,
                                const RoundingOptions& options, const Run& run) {
@@ -428,12 +458,13 @@ Result<RoundedMesh> snap_input(const Arrangement& a, RoundedMesh first,
         for (unsigned w = 0; w < widenings && rounds < options.max_rounds; ++w) {
             auto again = arrange(snapped.surfaces(digits), {}, run);
             if (!again) return again.error();
-            again.value().surfaces = a.surfaces;
+            name_input(a, again.value());
             auto rounded = Rounding(again.value(), options, run)();
             if (!rounded) return rounded;
             ++rounds;
             if (rounded.value().report.clean) {
-                add_to_report(snapped, first.report, rounds, rounded.value().report);
+                add_to_report(snapped, a, first.report, rounded.value());
+                rounded.value().report.rounds += rounds;
                 return rounded;
             }
             if (!snapped.choose(rounded.value())) break;
@@ -449,7 +480,8 @@ Result<RoundedMesh> round_to_doubles(const Arrangement& arrangement, const Round
         auto rounded = Rounding(arrangement, options, run)();
         if (rounded && !rounded.value().report.clean && options.max_rounds > 0)
             rounded = snap_input(arrangement, std::move(rounded).value(), options, run);
-        if (rounded && rounded.value().report.collapsed_triangles > 0)
+        if (rounded && (rounded.value().report.collapsed_triangles > 0 ||
+                        !rounded.value().report.vanished.empty()))
             report_lost_regions(arrangement, rounded.value());
         return rounded;
     } catch (const std::bad_alloc&) {

@@ -20,7 +20,7 @@ constexpr std::uint32_t none = UINT32_MAX;
 // The few roundings of a distance, in any mode, are covered by the last factor.
 double length_bound(double x, double y, double z) {
     const double most = std::max({x, y, z});
-    if (most == 0) return 0;
+    if (most == 0 || std::isinf(most)) return most; // not 0 / 0 and not inf / inf
     const double u = x / most, v = y / most, w = z / most;
     return most * std::sqrt(u * u + v * v + w * w) * (1 + 0x1p-48);
 }

@@ -115,13 +115,15 @@ private:
         return Done{};
     }
 
-    /// Vertices added on a side of the box come rounded; they are put on it exactly.
+    /// Vertices added on a side of the box come rounded; they are put on it exactly. Others stay:
+    /// TetGen may call a face inside a part of the box.
     Status take_vertices() {
         out_.vertices = std::move(in_.points);
         const auto& [low, high] = domain_.box;
         for (std::size_t i = 0; i < in_.faces.size(); ++i) {
             if (!on_box(in_.face_facet[i])) continue;
             for (const std::uint32_t v : in_.faces[i]) {
+                if (v < domain_.points.size()) continue;
                 Point3& p = out_.vertices[v];
                 switch (in_.face_facet[i] - domain_.triangles.size()) {
                 case 0:

@@ -1,42 +1,57 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Property: two triangles meet improperly for the contact test iff they do for the verifier's
-// rationals, in either order.
-#include <algorithm>
-#include <cstdlib>
-#include <vector>
+// Property: two triangles meet as CGAL's exact kernel says: the same points, where they are said to
+// be, in either order, for any first corner; and improperly iff the verifier's rationals find so.
+#include "property.hpp"
+#include "shapes.hpp"
 
-#include <terrane/algorithms/intersection.hpp>
+#include "../tests/support/contact_oracle.hpp"
+
 #include <terrane/algorithms/verify.hpp>
 #include <terrane/kernel/predicates.hpp>
 
-#include "soup.hpp"
+namespace terrane::fuzz {
 
-using namespace terrane;
+std::vector<Surface> input(Bytes& bytes) {
+    Points points(bytes);
+    std::vector<Surface> surfaces(2);
+    for (Surface& s : surfaces)
+        add_triangle(s, {points.next(bytes), points.next(bytes), points.next(bytes)});
+    return surfaces;
+}
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
-    FuzzedDataProvider data(bytes, size);
-    const auto soup = fuzz::surfaces(data, 2, 2);
-    std::vector<Point3> points;
+namespace {
+
+/// Equal points get the same index.
+std::vector<Triangle> merged(std::span<const Surface> surfaces, std::vector<Point3>& points) {
     std::vector<Triangle> triangles;
-    for (const Surface& s : soup)
-        for (const Triangle& t : s.triangles) {
-            Triangle named{};
-            for (unsigned i = 0; i < 3; ++i) {
-                const Point3& p = s.vertices[t[i]];
+    for (const Surface& s : surfaces)
+        for (Triangle t : s.triangles) {
+            for (std::uint32_t& v : t) {
+                const Point3& p = s.vertices[v];
                 const auto at = std::find(points.begin(), points.end(), p);
-                named[i] = static_cast<std::uint32_t>(at - points.begin());
+                v = static_cast<std::uint32_t>(at - points.begin());
                 if (at == points.end()) points.push_back(p);
             }
-            if (collinear(points[named[0]], points[named[1]], points[named[2]])) return 0;
-            triangles.push_back(named);
+            triangles.push_back(t);
         }
-    Triangle a = triangles[0], b = triangles[1];
-    std::sort(a.begin(), a.end());
-    std::sort(b.begin(), b.end());
-    if (a == b) return 0;
-    const bool improper = improper_contact(points, triangles[0], triangles[1]).has_value();
-    if (improper != improper_contact(points, triangles[1], triangles[0]).has_value()) std::abort();
-    if (improper == verify_conforming(points, triangles).empty()) std::abort();
-    return 0;
+    return triangles;
 }
+
+} // namespace
+
+std::string flaw(std::span<const Surface> surfaces) {
+    std::vector<Point3> points;
+    const auto triangles = merged(surfaces, points);
+    if (triangles.size() != 2) return "";
+    const Triangle &s = triangles[0], &t = triangles[1];
+    for (const Triangle& each : triangles)
+        if (collinear(points[each[0]], points[each[1]], points[each[2]])) return "";
+    if (contact_oracle::shared_corners(s, t).size() == 3) return "";
+    const auto contact = improper_contact(points, s, t);
+    if (contact.has_value() == verify_conforming(points, triangles).empty())
+        return contact ? "the verifier finds no contact" : "the verifier finds a contact";
+    return contact_oracle::flaw(contact_oracle::Corners(points), s, t, contact);
+}
+
+} // namespace terrane::fuzz

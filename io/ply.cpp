@@ -402,10 +402,11 @@ Result<std::vector<Surface>> read_ply(std::string_view contents, std::string_vie
 
 std::string to_ply(const Mesh& mesh) {
     std::string out = "ply\nformat binary_little_endian 1.0\n";
-    for (const auto& surface : mesh.surfaces)
-        out +=
-            fmt::format("comment terrane surface {} {}\n",
-                        role_names[static_cast<std::size_t>(surface.role)], one_line(surface.name));
+    for (const auto& surface : mesh.surfaces) {
+        const std::string name = one_line(surface.name); // a blank at an end would not be read
+        out += fmt::format("comment terrane surface {} {}\n",
+                           role_names[static_cast<std::size_t>(surface.role)], trimmed(name));
+    }
     out += fmt::format("element vertex {}\nproperty double x\nproperty double y\n"
                        "property double z\nelement face {}\n"
                        "property list uchar int vertex_indices\nproperty int surface\n"

@@ -86,11 +86,12 @@ private:
     CGAL::FPU_CW_t before_;
 };
 
-// Wide enough to make predicates fail that a correctly rounded point would let succeed.
+// Wide enough to make predicates fail that a correctly rounded point would let succeed; without an
+// end where the intervals overflowed.
 bool is_wide(const Enclosure& e) {
     for (unsigned k = 0; k < 3; ++k) {
         const double size = std::max(std::fabs(e.low[k]), std::fabs(e.high[k]));
-        if (!(e.high[k] - e.low[k] <= 0x1p-46 * size)) return true;
+        if (!std::isfinite(size) || !(e.high[k] - e.low[k] <= 0x1p-46 * size)) return true;
     }
     return false;
 }

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <limits>
 #include <map>
 #include <optional>
@@ -480,4 +481,24 @@ TEST_CASE("tetrahedra: progress goes from 0 to 1", "[tetrahedra]") {
     CHECK(shares.front() == 0);
     CHECK(shares.back() == 1);
     CHECK(std::is_sorted(shares.begin(), shares.end()));
+}
+
+TEST_CASE("tetrahedra: vertices of the mesh stay as they are, in what once failed too") {
+    std::size_t filled = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(TERRANE_TEST_DATA "/regression")) {
+        INFO(entry.path().filename().string());
+        const auto surfaces = read_surfaces(entry.path());
+        REQUIRE(surfaces);
+        const auto exact = arrange(surfaces.value());
+        REQUIRE(exact);
+        const auto rounded = round_to_doubles(exact.value());
+        REQUIRE(rounded);
+        const Mesh& mesh = rounded.value().mesh;
+        const auto made = tetrahedralize(mesh, {}, {});
+        if (!made) continue; // too thin for TetGen
+        ++filled;
+        CHECK(
+            std::equal(mesh.vertices.begin(), mesh.vertices.end(), made.value().vertices.begin()));
+    }
+    CHECK(filled > 0);
 }

@@ -152,3 +152,13 @@ TEST_CASE("PLY: written and read back with its surfaces", "[io][ply]") {
         CHECK(result.value()[s].triangles == expected[s].triangles);
     }
 }
+
+TEST_CASE("PLY: a name that must be changed is changed once", "[io][ply]") {
+    auto mesh = awkward_mesh();
+    mesh.surfaces[0].name = "\x01top\x02 reservoir\x03\x04";
+    const auto once = read(to_ply(mesh));
+    REQUIRE(message_of(once) == "no error");
+    CHECK(once.value()[0].name == "top  reservoir");
+    mesh.surfaces[0].name = once.value()[0].name;
+    CHECK(read(to_ply(mesh)).value()[0].name == once.value()[0].name);
+}

@@ -210,6 +210,20 @@ TEST_CASE("point store law 5: nearest is correctly rounded, and enclosures enclo
     });
 }
 
+TEST_CASE("point store: enclosures have ends where intervals overflow") {
+    // The crossing is next to the second point: nearer than doubles can tell.
+    Twins t = twins_of({{0, 0, -0x1p812}, {-1, 0, -1}, {-1, 0, 0}, {0, 0, 0}});
+    Construction how;
+    how.kind = Kind::line_line;
+    how.axis = Axis::y;
+    how.v = {0, 2, 1, 3};
+    REQUIRE(append(t, how));
+    CHECK(enclosed(t, 4));
+    CHECK(nearest_is_right(t, 4));
+    const Enclosure e = t.store.enclosure(4);
+    for (unsigned k = 0; k < 3; ++k) CHECK(e.high[k] - e.low[k] < 1e-15);
+}
+
 TEST_CASE("orient2d, orient3d, in_circle and side_of_plane agree with exact integers") {
     for_twins(47, 250, [](Random& random, const Twins& t) {
         for (int i = 0; i < 12; ++i) {

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Property: the arrangement of two surfaces is CGAL's corefinement: per input triangle the same
+// points, number of parts and area; the same intersection edges; of closed surfaces the volumes of
+// the four Booleans. Where an input breaks a condition of CGAL's, it is counted under its name.
+#include "property.hpp"
+#include "report.hpp"
+#include "shapes.hpp"
+
+#include "../tests/support/corefine_oracle.hpp"
+
+#include <terrane/kernel/predicates.hpp>
+
+#include <CGAL/assertions_behaviour.h>
+
+#include <cstdio>
+#include <map>
+
+namespace terrane::fuzz {
+
+namespace {
+
+/// How often what was skipped, said at the end of a campaign.
+class Tally {
+public:
+    Tally() { CGAL::set_error_behaviour(CGAL::THROW_EXCEPTION); }
+    Tally(const Tally&) = delete;
+    Tally& operator=(const Tally&) = delete;
+    ~Tally() {
+        for (const auto& [what, times] : counts_)
+            std::fprintf(stderr, "corefine: %9zu %s\n", times, what.c_str());
+    }
+    void count(const std::string& what) { ++counts_[what]; }
+
+private:
+    std::map<std::string, std::size_t> counts_;
+};
+
+Tally& tally() {
+    static Tally all;
+    return all;
+}
+
+/// Triangles round a point: a disc, or what is left of one.
+void add_disc(Surface& surface, Points& points, Bytes& bytes) {
+    const unsigned corners = 3 + bytes.below(4);
+    for (unsigned i = 0; i <= corners; ++i) surface.vertices.push_back(points.next(bytes));
+    const bool whole = bytes.flag();
+    for (unsigned i = 1; i < corners; ++i) surface.triangles.push_back({0, i, i + 1});
+    if (whole) surface.triangles.push_back({0, corners, 1});
+}
+
+/// Closed pieces outward, where they are in general position.
+void turn_outward(Surface& s, const Point3& below, const Point3& above) {
+    const Triangle t = s.triangles[0];
+    const auto& v = s.vertices;
+    if (orient3d(v[t[0]], v[t[1]], v[t[2]], below == v[t[0]] ? above : below) == Sign::Negative)
+        return;
+    for (Triangle& each : s.triangles) std::swap(each[1], each[2]);
+}
+
+void add_closed(Surface& s, Points& points, Bytes& bytes, unsigned corners) {
+    std::array<Point3, 5> p;
+    for (unsigned i = 0; i < corners; ++i) p[i] = points.next(bytes);
+    if (corners == 4) {
+        add_tetrahedron(s, {p[0], p[1], p[2], p[3]});
+        return turn_outward(s, p[3], p[3]); // triangle 0 is 0 2 1
+    }
+    add_double_pyramid(s, p);
+    turn_outward(s, p[4], p[4]); // triangle 0 is 0 1 3
+}
+
+Surface any_surface(Points& points, Bytes& bytes) {
+    Surface s;
+    switch (bytes.below(8)) {
+    case 0:
+    case 1:
+    case 2:
+        add_sheet(s, points, bytes, bytes.below(4) == 0);
+        return s;
+    case 3:
+    case 4:
+        add_closed(s, points, bytes, 4);
+        return s;
+    case 5:
+        add_closed(s, points, bytes, 5);
+        return s;
+    case 6:
+        add_disc(s, points, bytes);
+        return s;
+    default:
+        add_box(s, points, bytes);
+        return s;
+    }
+}
+
+} // namespace
+
+std::vector<Surface> input(Bytes& bytes) {
+    Points points(bytes);
+    std::vector<Surface> pair{any_surface(points, bytes), any_surface(points, bytes)};
+    pair[0].name = "a";
+    pair[1].name = "b";
+    return pair;
+}
+
+std::string flaw(std::span<const Surface> pair) {
+    Tally& counts = tally();
+    if (pair.size() != 2) return "";
+    try {
+        const auto arranged = arrange(pair);
+        if (!arranged) return arranged.error().message();
+        const auto outcome = corefine_oracle::compare(pair, arranged.value());
+        counts.count(!outcome.skipped.empty() ? "skipped, " + outcome.skipped
+                     : !outcome.flaw.empty()  ? "different"
+                     : outcome.crossing == 0  ? "the same, no intersection edge"
+                     : outcome.with_volumes   ? "the same, with volumes"
+                                              : "the same");
+        return outcome.flaw.empty() ? "" : "CGAL's corefinement differs: " + outcome.flaw;
+    } catch (const CGAL::Failure_exception& e) {
+        return std::string("CGAL throws: ") + e.what();
+    }
+}
+
+} // namespace terrane::fuzz

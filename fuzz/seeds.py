@@ -1,0 +1,319 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Writes the seed corpora: fuzz/seeds.py [FOLDER]   (fuzz/corpus unless given)
+
+Every seed is a case with a name, in the language that the target reads its bytes in: see
+shapes.cpp, corefine.cpp, predicates.cpp and search.cpp. The same files come out each time.
+"""
+import pathlib
+import struct
+import sys
+
+TRIANGLE, FAN, SHEET, TETRAHEDRON, COPY, BOX = 5, 0, 1, 2, 3, 4  # add_piece
+UTM, TENTHS, TURNED = 2 << 4, 2, 3 << 2  # Frame
+PLAIN = 0
+ULP_UP, ULP_DOWN, HALF = 176, 200, 224  # coordinate
+
+
+class Points:
+    """Points of the lattice -4..4; the second time a point is named, by number."""
+
+    RANGE = 4
+
+    def __init__(self):
+        self.earlier = []
+
+    def number(self, value, extra=0):
+        """The byte for a lattice number, nudged where extra says so."""
+        low = extra
+        while (low % (2 * self.RANGE + 1)) != 0:
+            low += 1
+        return low + value + self.RANGE
+
+    def __call__(self, *p, nudge=0):
+        if nudge == 0 and p in self.earlier and self.earlier.index(p) * 3 < 256:
+            return bytes([self.earlier.index(p) * 3])
+        self.earlier.append(p if nudge == 0 else None)
+        return bytes([1, self.number(p[0]), self.number(p[1]), self.number(p[2], nudge)])
+
+
+def header(frame=PLAIN, exponent=None):
+    if exponent is None:
+        return bytes([frame, Points.RANGE - 1])
+    return bytes([frame | 2 << 6, exponent + 12, Points.RANGE - 1])
+
+
+# Pairs of triangles by how they meet: the classes of contact.
+CONTACTS = {
+    "apart": ([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 0, 2), (1, 0, 2), (0, 1, 3)]),
+    "common-corner": ([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 0, 0), (-1, 0, 1), (0, -1, 1)]),
+    "common-edge": ([(0, 0, 0), (2, 0, 0), (0, 2, 0)], [(0, 0, 0), (2, 0, 0), (0, 0, 2)]),
+    "corner-on-edge": ([(0, 0, 0), (2, 0, 0), (0, 2, 0)], [(1, 0, 0), (1, -1, 2), (0, -2, 2)]),
+    "corner-on-face": ([(-2, -2, 0), (3, -1, 0), (0, 3, 0)], [(0, 0, 0), (1, 1, 2), (0, 1, 2)]),
+    "edges-cross": ([(-1, 0, 0), (1, 0, 0), (0, -2, 0)], [(0, 0, -1), (0, 0, 1), (0, 2, 0)]),
+    "edges-overlap": ([(-2, 0, 0), (2, 0, 0), (0, 2, 0)], [(-1, 0, 0), (3, 0, 0), (0, 0, 2)]),
+    "edge-in-edge": ([(-2, 0, 0), (2, 0, 0), (0, 2, 0)], [(-1, 0, 0), (1, 0, 0), (0, 0, 2)]),
+    "edge-on-face": ([(-3, -3, 0), (3, -3, 0), (0, 3, 0)], [(-1, -1, 0), (1, -1, 0), (0, 0, 2)]),
+    "edge-across-face": ([(-2, 0, 0), (2, 0, 0), (0, 3, 0)], [(-3, 1, 0), (3, 1, 0), (0, 1, 3)]),
+    "pierced": ([(-3, -3, 0), (3, -3, 0), (0, 3, 0)], [(0, 0, -1), (1, 0, 1), (-1, 0, 1)]),
+    "linked": ([(-3, -3, 0), (3, -3, 0), (0, 3, 0)], [(0, 0, -2), (0, 0, 2), (0, 4, 1)]),
+    "through-corner": ([(0, 0, 0), (3, 1, 0), (1, 3, 0)], [(-1, -1, -1), (1, 1, 1), (2, 2, -2)]),
+    "corner-and-crossing": ([(0, 0, 0), (3, 0, 0), (0, 3, 0)], [(0, 0, 0), (2, 2, 2), (1, 1, -2)]),
+    "coplanar-star": ([(-3, -2, 0), (3, -2, 0), (0, 3, 0)], [(-3, 2, 0), (3, 2, 0), (0, -3, 0)]),
+    "coplanar-inside": ([(-4, -4, 0), (4, -4, 0), (0, 4, 0)], [(-1, -1, 0), (1, -1, 0), (0, 0, 0)]),
+    "coplanar-common-edge": ([(0, 0, 0), (3, 0, 0), (0, 3, 0)], [(0, 0, 0), (3, 0, 0), (3, 3, 0)]),
+    "coplanar-corner": ([(0, 0, 0), (3, 0, 0), (0, 3, 0)], [(0, 0, 0), (3, 1, 0), (1, 3, 0)]),
+    "coplanar-edges": ([(0, 0, 0), (2, 0, 0), (0, 2, 0)], [(1, 0, 0), (3, 0, 0), (1, -2, 0)]),
+    "coplanar-tilted": ([(0, 0, 0), (2, 0, 2), (0, 2, 1)], [(1, 0, 1), (-1, 2, 0), (2, 2, 3)]),
+}
+FRAMES = {"plain": header(), "utm": header(UTM | TENTHS), "turned": header(TURNED),
+          "scaled": header(PLAIN, 9), "tenths": header(TENTHS)}
+
+
+def triangle(points, corners, nudge=0):
+    return b"".join(points(*p, nudge=nudge if i == 0 else 0) for i, p in enumerate(corners))
+
+
+def tri_tri():
+    for name, (s, t) in CONTACTS.items():
+        for frame, head in FRAMES.items():
+            points = Points()
+            yield f"{name}-{frame}", head + triangle(points, s) + triangle(points, t)
+        points = Points()
+        yield f"{name}-ulp", header() + triangle(points, s) + triangle(points, t, ULP_UP)
+
+
+def sheet(n, m, axis, heights, holes=None, at=(0, 0), diagonals=0):
+    r = Points.RANGE
+    head = [n - 1, m - 1, axis] + ([holes] if holes is not None else [])
+    return bytes(head + [diagonals, at[0] + r, at[1] + r] + [h + r for h in heights])
+
+
+def box(low, size):
+    r = Points.RANGE
+    return bytes(v for a, s in zip(low, size) for v in (a + r, s - 1))
+
+
+FLAT = [0] * 9
+RIDGE = [0, 1, 0, 0, 1, 0, 0, 1, 0]
+BUMPS = [0, 1, -1, 1, -1, 0, 1, 0, 1]
+
+
+def soups():
+    """For arrange, rounding, regions and tetrahedra."""
+    for name, (s, t) in list(CONTACTS.items())[::2]:
+        points = Points()
+        pieces = bytes([0, TRIANGLE]) + triangle(points, s) + bytes([1, TRIANGLE])
+        third = bytes([0, TRIANGLE]) + triangle(points, [(0, -2, -2), (1, 2, 2), (-2, 1, 3)])
+        yield name, header() + bytes([1]) + pieces + triangle(points, t) + third
+    for frame, head in FRAMES.items():
+        sheets = bytes([0, SHEET]) + sheet(2, 2, 0, BUMPS, 0) + bytes([1, SHEET]) + \
+            sheet(2, 1, 1, RIDGE[:6], 0, (-2, -1))
+        yield f"sheets-{frame}", head + bytes([1]) + sheets
+        yield f"copies-{frame}", head + bytes([1, 0, SHEET]) + sheet(1, 1, 0, FLAT[:4], 0) + \
+            bytes([1, COPY, 1, 1, 0, 0, TRIANGLE]) + \
+            triangle(Points(), [(0, 0, -1), (1, 0, 1), (0, 1, 1)])
+    yield "holes", header() + bytes([0, 0, SHEET]) + sheet(2, 2, 0, RIDGE, 0b00010010)
+    points = Points()
+    fan = points(0, 0, -2) + points(0, 0, 2) + bytes([2]) + points(2, 0, 0) + points(0, 2, 1) + \
+        points(-2, 0, 0) + points(0, -2, 1)
+    yield "fan", header() + bytes([0, 0, FAN]) + fan
+    points = Points()
+    yield "tetrahedron-and-triangle", header() + bytes([1, 0, TETRAHEDRON]) + points(0, 0, 0) + \
+        points(3, 0, 0) + points(0, 3, 0) + points(0, 0, 3) + bytes([1, TRIANGLE]) + \
+        triangle(points, [(-1, -1, 1), (4, 0, 1), (0, 4, 1)])
+
+
+def corefine_bodies(points):
+    """Kind, (flag for holes,) and what follows."""
+    tetrahedron = bytes([3]) + points(0, 0, 0) + points(3, 0, 0) + points(0, 3, 0) + points(0, 0, 3)
+    pyramid = bytes([5]) + points(2, 0, 0) + points(-1, 2, 0) + points(-1, -2, 0) + \
+        points(0, 0, 2) + points(0, 0, -2)
+    disc = bytes([6, 1]) + points(0, 0, 0) + points(2, 0, 1) + points(0, 2, -1) + \
+        points(-2, 0, 1) + points(0, -2, -1) + bytes([1])
+    return {
+        "sheet": bytes([0, 1]) + sheet(2, 2, 0, BUMPS, 0, (-2, -2)),
+        "flat": bytes([0, 1]) + sheet(2, 1, 0, FLAT[:6], 0, (-1, -1)),
+        "wall": bytes([0, 1]) + sheet(2, 2, 1, RIDGE, 0, (-2, -2), 5),
+        "hole": bytes([0, 0]) + sheet(2, 2, 0, RIDGE, 0b0010, (-2, -1)),
+        "tetrahedron": tetrahedron,
+        "pyramid": pyramid,
+        "disc": disc,
+        "box": bytes([7]) + box((-1, -1, -1), (2, 2, 2)),
+        "cube": bytes([7]) + box((0, 0, 0), (1, 1, 1)),
+    }
+
+
+def corefine():
+    names = list(corefine_bodies(Points()))
+    for i, a in enumerate(names):
+        for j, b in enumerate(names[i:]):
+            first = corefine_bodies(Points())[a]
+            # points named by number would be those of the first body: name all anew
+            second = corefine_bodies(Points())[b]
+            frame = list(FRAMES)[(i + j) % len(FRAMES)] if j % 2 else "plain"
+            yield f"{a}-{b}-{frame}", FRAMES[frame] + first + second
+
+
+def predicates():
+    def coordinate(kind, integer, *more):
+        return bytes([kind, integer + 8, *more])
+
+    kinds = {"integers": 0, "up": 128, "down": 160, "tenths": 192, "utm": 208}
+    for name, kind in kinds.items():
+        for plane in (0, 1, 129):
+            points = b"".join(coordinate(kind, (i * j) % 7 - 3) for i in range(1, 9)
+                              for j in (1, 2, 5))
+            rest = bytes(range(64))
+            if plane % 4 == 0:  # each point after the third has two numbers more
+                points = b"".join(points[6 * i:6 * i + 6] + (bytes([i, 8 - i]) if i > 2 else b"")
+                                  for i in range(8))
+            yield f"{name}-{plane}", bytes([4, plane]) + points + b"\x03" + rest
+    huge = b"".join(coordinate(248, i % 5 - 2, (20 * i) % 250) for i in range(24))
+    yield "any-exponent", bytes([4, 1]) + huge + b"\x03" + bytes(range(64))
+
+
+def search():
+    row = bytes([192 + 31, 16, 16, 16, 1, 1, 1])
+    column = bytes([192 + 8 + 21, 16, 0, 16, 2, 1, 0])
+    singles = b"".join(bytes([0, i % 33, (5 * i) % 33, (3 * i) % 33, i % 4, i % 3, 1])
+                       for i in range(30))
+    small = b"".join(bytes([0, i % 33, (7 * i) % 33, 16, 201 + i, 1, 240 - i]) for i in range(30))
+    groups = bytes([1]) * 3 + bytes(range(90))
+    for name, boxes in {"row": row, "cross": row + column, "singles": singles,
+                        "sizes": small + row}.items():
+        for frame, head in {"plain": b"\x00", "utm": bytes([UTM | TENTHS])}.items():
+            yield f"{name}-{frame}", head + bytes([90]) + boxes + groups
+    yield "many", bytes([255, 255, 7, 0])
+    yield "many-groups", bytes([255, 255, 7, 1])
+
+
+OBJ = """# two surfaces
+v 0 0 0
+v 1 0 0.5
+v 0 1 -1e-3
+v 1 1 0
+g top main_fault
+f 1 2 3
+f -2/1 -3//2 4/2/1
+g base
+f 1 2 \\
+4 3
+"""
+OFF = "OFF\n4 2 5\n0 0 0\n1 0 0.5\n0 1 -1e-3\n1 1 0\n3 0 1 2\n4 0 1 3 2 255 0 0\n"
+COFF = "COFF # colours\n3 1 0\n0 0 0 1 0 0 1\n1 0 0 1 0 0 1\n0 1 0 1 0 0 1\n3 0 1 2\n"
+STL = """solid top
+facet normal 0 0 1
+outer loop
+vertex 0 0 0
+vertex 1 0 0.5
+vertex 0 1 -1e-3
+endloop
+endfacet
+endsolid top
+"""
+PLY = """ply
+format ascii 1.0
+comment terrane surface horizon top
+element vertex 4
+property double x
+property double y
+property double z
+element face 2
+property list uchar int vertex_indices
+property uchar surface
+property list uchar uchar surfaces
+end_header
+0 0 0
+1 0 0.5
+0 1 -1e-3
+1 1 0
+3 0 1 2 0 1 0
+3 1 3 2 0 1 0
+"""
+TS = """GOCAD TSurf 1
+HEADER {
+name: "top horizon"
+*solid*color: 1 0 0 1
+}
+GOCAD_ORIGINAL_COORDINATE_SYSTEM
+NAME Default
+AXIS_NAME "X" "Y" "Z"
+AXIS_UNIT "m" "m" "m"
+ZPOSITIVE Depth
+END_ORIGINAL_COORDINATE_SYSTEM
+GEOLOGICAL_FEATURE top
+GEOLOGICAL_TYPE horizon
+TFACE
+VRTX 1 0 0 0
+PVRTX 3 1 0 0.5 7
+VRTX 4 0 1 -1e-3
+ATOM 9 3
+TRGL 1 3 4
+TFACE
+TRGL 1 9 4
+BSTONE 1
+BORDER 5 1 3
+END
+"""
+ML = """GOCAD Model3d 1
+HEADER {
+name: model
+}
+TSURF top
+TFACE 1 top top
+    0 0 0
+    1 0 0
+    0 1 0
+REGION 2 Universe
+    +1 0
+LAYER rock
+    2 0
+END
+""" + TS.replace('"top horizon"', "top").replace("TFACE\nTRGL 1 9 4\n", "")
+
+
+def binary_stl(triangles):
+    body = b"".join(struct.pack("<12fH", 0, 0, 1, *[c for p in t for c in p], 0) for t in triangles)
+    return b"binary".ljust(80) + struct.pack("<I", len(triangles)) + body
+
+
+def binary_ply(order):
+    sign = "<" if order == "little" else ">"
+    head = PLY.replace("ascii", f"binary_{order}_endian").split("end_header\n")[0] + "end_header\n"
+    vertices = [(0, 0, 0), (1, 0, 0.5), (0, 1, -1e-3), (1, 1, 0)]
+    data = b"".join(struct.pack(sign + "3d", *v) for v in vertices)
+    for t in ((0, 1, 2), (1, 3, 2)):
+        data += struct.pack(sign + "B3iBBB", 3, *t, 0, 1, 0)
+    return head.encode() + data
+
+
+FILES = {
+    "obj": {"groups": OBJ, "triangle": "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"},
+    "off": {"polygon": OFF, "colours": COFF, "bare": OFF[4:]},
+    "stl": {"text": STL, "two": STL + STL.replace("top", "base rock"),
+            "binary": binary_stl([((0, 0, 0), (1, 0, 0.5), (0, 1, 0)),
+                                  ((0, 1, 0), (1, 0, 0.5), (1, 1, 1))])},
+    "ply": {"text": PLY, "little": binary_ply("little"), "big": binary_ply("big")},
+    "ts": {"depth": TS, "two": TS + TS.replace("Depth", "Elevation").replace("top", "base")},
+    "ml": {"model": ML},
+}
+
+
+def main():
+    folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else
+                          pathlib.Path(__file__).parent / "corpus")
+    targets = {"tri_tri": tri_tri, "corefine": corefine, "predicates": predicates, "search": search,
+               "arrange": soups, "rounding": soups, "regions": soups, "tetrahedra": soups}
+    seeds = {t: dict(make()) for t, make in targets.items()}
+    for fmt, files in FILES.items():
+        seeds["read_" + fmt] = {n: f if isinstance(f, bytes) else f.encode()
+                                for n, f in files.items()}
+    for target, cases in seeds.items():
+        (folder / target).mkdir(parents=True, exist_ok=True)
+        for name, data in cases.items():
+            (folder / target / name).write_bytes(data)
+
+
+if __name__ == "__main__":
+    main()

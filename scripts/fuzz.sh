@@ -1,0 +1,70 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: LGPL-3.0-or-later
+#
+# Fuzzes: scripts/fuzz.sh [SECONDS [TARGET...]]
+# Builds the preset fuzz and runs each target (all, unless some are named) for so many seconds, 60
+# unless given, two at a time, from the committed seeds. The readers share the seconds of one target.
+# FUZZ_CORPUS names a folder in which the corpora are kept from one run to the next. Ends with a
+# table; where something was found with the file that reproduces it, and status 1.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+seconds=${1:-60}
+shift || true
+readers=(read_ts read_ml read_obj read_off read_stl read_ply)
+targets=("$@")
+[[ ${#targets[@]} -gt 0 ]] ||
+    targets=(corefine arrange rounding tetrahedra predicates tri_tri search regions "${readers[@]}")
+
+cmake --preset fuzz >/dev/null
+cmake --build --preset fuzz --target fuzzers
+
+binaries=$PWD/build/fuzz/fuzz
+results=$PWD/build/fuzz/campaign
+findings=$PWD/build/fuzz/findings
+corpora=${FUZZ_CORPUS:-$results/corpus}
+rm -rf "$results" && mkdir -p "$results" "$findings" "$corpora"
+
+# Of each allocation the innermost caller: whole stacks took a third of the time.
+export ASAN_OPTIONS=malloc_context_size=1${ASAN_OPTIONS:+:$ASAN_OPTIONS}
+
+# A finding ends the target: what is found first is to be mended first.
+run_target() {
+    local target=$1 time=$seconds options=(-max_len=400 -len_control=10 -entropic=0)
+    local seeds=$PWD/fuzz/corpus/$target
+    mkdir -p "$corpora/$target"
+    if [[ $target == read_* ]]; then
+        [[ ${#targets[@]} -eq 1 ]] || time=$(((seconds + ${#readers[@]} - 1) / ${#readers[@]}))
+        options=(-max_len=4096 -malloc_limit_mb=256 "-dict=$PWD/fuzz/dictionaries/${target#read_}.dict")
+    fi
+    # len_control: inputs may grow sooner. entropic: its book-keeping is linear in the features of
+    # a run, and took two thirds of the time.
+    "$binaries/fuzz_$target" "${options[@]}" -max_total_time="$time" -timeout=20 \
+        -rss_limit_mb=2048 -print_final_stats=1 -artifact_prefix="$findings/$target-" \
+        "$corpora/$target" "$seeds" >"$results/$target.log" 2>&1 ||
+        echo "$target" >>"$results/failed"
+}
+
+for target in "${targets[@]}"; do
+    while [[ $(jobs -rp | wc -l) -ge 2 ]]; do wait -n || true; done
+    run_target "$target" &
+done
+wait
+
+printf '%-12s %12s %9s %9s %9s\n' target executions per_second edges features
+for target in "${targets[@]}"; do
+    log=$results/$target.log
+    progress=$(grep -aE '^#[0-9]+.* cov: ' "$log" | tail -1) || true # none: the first seed failed
+    printf '%-12s %12s %9s %9s %9s\n' "$target" \
+        "$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")" \
+        "$(sed -n 's/^stat::average_exec_per_sec: *//p' "$log")" \
+        "$(sed -nE 's/.* cov: ([0-9]+).*/\1/p' <<<"$progress")" \
+        "$(sed -nE 's/.* ft: ([0-9]+).*/\1/p' <<<"$progress")"
+done
+
+[[ -e $results/failed ]] || exit 0
+while read -r target; do
+    echo "fuzz: $target found something:" >&2
+    grep -aE '^FOUND|ERROR: |SUMMARY: |Test unit written to' "$results/$target.log" >&2 || true
+done <"$results/failed"
+exit 1

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// What must hold of the arrangement of any surfaces and of its doubles: each function says what
+// does not, in a sentence, or nothing. The judge is the independent verifier.
+#pragma once
+
+#include "metamorphic.hpp"
+
+#include <terrane/algorithms/check.hpp>
+#include <terrane/algorithms/digest.hpp>
+#include <terrane/algorithms/rounding.hpp>
+#include <terrane/algorithms/verify_certificate.hpp>
+#include <terrane/algorithms/verify_digest.hpp>
+
+#include <string>
+
+namespace soup_laws {
+
+using namespace terrane;
+using namespace test_support;
+
+/// Of the first violation, and how many there are.
+inline std::string sentence(std::span<const Violation> violations) {
+    if (violations.empty()) return "";
+    return name_of(violations[0].rule) + ": " + violations[0].sentence + " (" +
+           std::to_string(violations.size()) + " violations)";
+}
+
+inline std::string arrangement_flaw(const Surfaces& surfaces, const Arrangement& a) {
+    const auto claim = claim_of(a);
+    if (const auto broken = verify_arrangement(surfaces, claim); !broken.empty())
+        return sentence(broken);
+    if (verifier::digest_of(surfaces, claim) != canonical_digest(surfaces, a))
+        return "the digest is not the verifier's";
+    return "";
+}
+
+/// Arrangements of the same in another order, reflected, turned, scaled; searched in all ways.
+inline std::string metamorphic_flaw(const Surfaces& surfaces, const Arrangement& a) {
+    const auto digest = canonical_digest(surfaces, a);
+    std::mt19937 random(1);
+    const auto other = shuffled(surfaces, random);
+    const auto again = arrange(other);
+    if (!again || canonical_digest(other, again.value()) != digest)
+        return "another order gives another digest";
+    const auto carried = [&](const Surfaces& model, bool was_turned) {
+        const auto made = arrange(model);
+        if (!made) return false;
+        auto claim = claim_of(made.value());
+        if (was_turned) turn_back(claim);
+        return made.value().triangles.size() == a.triangles.size() &&
+               verifier::digest_of(surfaces, claim) == digest;
+    };
+    for (const Change& reflected : reflections)
+        if (!carried(changed(surfaces, reflected), false))
+            return "a reflection is arranged otherwise";
+    if (!carried(changed(surfaces, turned), true)) return "other axes give another arrangement";
+    for (const int k : {-3, 11})
+        if (const auto model = scaled(surfaces, k); !model.empty() && !carried(model, false))
+            return "times 2^k it is arranged otherwise";
+    return "";
+}
+
+/// Searched in another way and with two threads it is the same to the last index.
+inline std::string run_flaw(const Surfaces& surfaces, const Arrangement& a) {
+    for (const Search search : {Search::grid, Search::hierarchy}) {
+        const auto made = arrange(surfaces, {.search = search}, {.threads = 2});
+        if (!made) return made.error().message();
+        const Arrangement& b = made.value();
+        if (a.triangles != b.triangles || a.parents_of != b.parents_of ||
+            a.vertices != b.vertices || a.intersection_edges != b.intersection_edges)
+            return "search or threads change the arrangement";
+    }
+    return "";
+}
+
+inline RoundedClaim claim_of(const RoundedMesh& rounded) {
+    const Mesh& mesh = rounded.mesh;
+    const RoundingReport& report = rounded.report;
+    RoundedClaim claim;
+    claim.vertices = mesh.vertices;
+    claim.triangles = mesh.triangles;
+    claim.parents_of = mesh.parents_of;
+    claim.intersection_edges = mesh.intersection_edges;
+    claim.regions_of = mesh.regions_of;
+    claim.clean = report.clean;
+    claim.rounds = report.rounds;
+    claim.max_move = report.max_move;
+    claim.deviation = report.deviation;
+    claim.vanished = report.vanished;
+    return claim;
+}
+
+/// What is conforming is arranged already.
+inline std::string idempotence_flaw(const Mesh& mesh) {
+    const auto surfaces = surfaces_of(mesh);
+    const auto checked = check(surfaces);
+    if (!checked || !checked.value().clean()) return "check finds what rounding left";
+    const auto again = arrange(surfaces);
+    if (!again) return again.error().message();
+    const auto rounded = round_to_doubles(again.value());
+    if (!rounded) return rounded.error().message();
+    const Mesh& same = rounded.value().mesh;
+    if (again.value().statistics.constructed_points != 0 || rounded.value().report.max_move != 0)
+        return "arranged again, it has other points";
+    if (triangles_of(same.vertices, same.triangles) != triangles_of(mesh.vertices, mesh.triangles))
+        return "arranged again, it has other triangles";
+    return "";
+}
+
+/// Doubles are conforming, or said not to be; everything else that is said of them is true.
+inline std::string rounding_flaw(const Surfaces& surfaces, const Arrangement& a,
+                                 const RoundingOptions& options = {}) {
+    const auto made = round_to_doubles(a, options);
+    if (!made) return made.error().code == ErrorCode::bad_number ? "" : made.error().message();
+    const RoundedMesh& rounded = made.value();
+    const bool conforming =
+        verify_conforming(rounded.mesh.vertices, rounded.mesh.triangles).empty();
+    if (conforming != rounded.report.clean)
+        return conforming ? "conforming doubles are refused" : "the doubles are not conforming";
+    if (rounded.report.clean != rounded.report.contacts.empty())
+        return "clean, but with contacts, or the reverse";
+    const auto broken =
+        verify_rounded(surfaces, test_support::claim_of(a), soup_laws::claim_of(rounded));
+    if (!broken.empty()) return sentence(broken);
+    return rounded.report.clean ? idempotence_flaw(rounded.mesh) : "";
+}
+
+/// All of it.
+inline std::string flaw(const Surfaces& surfaces) {
+    const auto made = arrange(surfaces);
+    if (!made) return made.error().message();
+    const Arrangement& a = made.value();
+    for (const auto law : {arrangement_flaw, metamorphic_flaw, run_flaw})
+        if (auto what = law(surfaces, a); !what.empty()) return what;
+    return rounding_flaw(surfaces, a);
+}
+
+} // namespace soup_laws
