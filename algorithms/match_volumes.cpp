@@ -98,4 +98,17 @@ std::vector<std::uint32_t> match_volumes(const Arrangement& arrangement, const V
     return match;
 }
 
+Volumes renumbered(const Volumes& volumes, std::span<const std::uint32_t> match,
+                   std::size_t exact) {
+    std::vector<std::uint32_t> number(match.begin(), match.end());
+    auto next = static_cast<std::uint32_t>(exact);
+    for (std::uint32_t& n : number)
+        if (n == none) n = next++;
+    Volumes out = volumes;
+    for (auto& sides : out.of_sides) sides = {number[sides[0]], number[sides[1]]};
+    out.measures.assign(next, 0);
+    for (std::size_t v = 0; v < number.size(); ++v) out.measures[number[v]] = volumes.measures[v];
+    return out;
+}
+
 } // namespace terrane

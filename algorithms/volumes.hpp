@@ -16,6 +16,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -64,5 +65,10 @@ std::vector<std::string> exact_volumes(const Mesh& mesh, const Volumes& volumes,
 /// pair of blocks with most of them first.
 std::vector<std::uint32_t> match_volumes(const Arrangement& arrangement, const Volumes& exact,
                                          const Mesh& mesh, const Volumes& rounded);
+
+/// The same volumes with the numbers of their matches, of which there are `exact`, the outside
+/// counted; those without a match follow after. Numbers that are not taken become blocks without
+/// triangles, of measure 0: too thin for doubles.
+Volumes renumbered(const Volumes& volumes, std::span<const std::uint32_t> match, std::size_t exact);
 
 } // namespace terrane
