@@ -2,6 +2,7 @@
 #include <terrane/algorithms/measures.hpp>
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -55,10 +56,11 @@ std::vector<Twofold> quick_sums(const Sheets& sheets, VolumeSides of_sides, std:
     const Construction first = sheets.points.construction(sheets.vertices[0]);
     const auto at = relative_to(sheets.points.input(first.v[0]), sheets);
     for (std::size_t t = 0; t < sheets.triangles.size(); ++t) {
-        const auto [a, b, c] = sheets.triangles[t];
+        const Triangle& corners = sheets.triangles[t];
         std::optional<Twofold> determinant; // made when first needed
         for_sides(of_sides[t], [&](std::uint32_t volume, int sign) {
-            if (!determinant) determinant = dot(cross(at[a], at[b]), at[c]);
+            if (!determinant)
+                determinant = dot(cross(at[corners[0]], at[corners[1]]), at[corners[2]]);
             sums[volume] = sign > 0 ? sums[volume] + *determinant : sums[volume] - *determinant;
         });
     }
@@ -84,9 +86,7 @@ public:
         open_.push_back(std::move(term));
     }
     [[nodiscard]] mpq_class total() const {
-        mpq_class sum;
-        for (auto term = open_.rbegin(); term != open_.rend(); ++term) sum += *term;
-        return sum;
+        return std::accumulate(open_.rbegin(), open_.rend(), mpq_class());
     }
 
 private:
