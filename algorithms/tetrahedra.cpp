@@ -262,19 +262,26 @@ Result<TetgenInput> tetgen_input(const TetgenDomain& domain, const TetrahedraOpt
 }
 
 /// Where TetGen fails, or fails the checks, it is asked again: to leave out its last step, the
-/// improvement of shapes, and then to split facets.
+/// improvement of shapes, and then to split facets. All that with the points along a curve, as is
+/// its custom, then as they come: in 1.5.0 the former ends in an assertion for points as regular as
+/// those of two cubes that overlap.
 Result<TetrahedralMesh> try_in_turn(const Mesh& mesh, const Volumes& volumes,
                                     const TetgenDomain& domain, TetgenInput& input,
                                     const Scale& scale, const Run& run) {
     struct Way {
-        bool keep_facets, improve;
+        bool keep_facets, improve, sort_points;
     };
-    std::vector<Way> ways{{false, true}, {false, false}};
-    if (input.keep_facets) ways = {{true, true}, {true, false}, {false, true}, {false, false}};
+    std::vector<Way> ways;
+    for (const bool sort_points : {true, false})
+        for (const bool keep_facets : {true, false})
+            for (const bool improve : {true, false})
+                if (input.keep_facets || !keep_facets)
+                    ways.push_back({keep_facets, improve, sort_points});
     std::optional<Error> first;
-    for (const auto& [keep_facets, improve] : ways) {
+    for (const auto& [keep_facets, improve, sort_points] : ways) {
         input.keep_facets = keep_facets;
         input.improve = improve;
+        input.sort_points = sort_points;
         Result<TetgenOutput> output = run_tetgen(input, run.stop);
         if (output) {
             for (Point3& p : output.value().points) p = scale.up(p);

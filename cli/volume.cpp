@@ -219,7 +219,7 @@ public:
                 return Error{ErrorCode::cannot_open, "cannot be made: " + failed.message(),
                              (folder_ / inner).string()};
         }
-        if (const auto done = write_result(); !done) return done;
+        if (auto done = write_result(); !done) return done;
         const Structure& s = model_.structure;
         extras_.block_files.resize(s.blocks.size());
         for (std::uint32_t b = 1; b < s.blocks.size(); ++b) {
@@ -227,13 +227,13 @@ public:
             if (s.blocks[b].interfaces.empty()) continue;
             extras_.block_files[b] = name("blocks/block_", b);
             const auto part = block_part(mesh_, model_.volumes, s, b);
-            if (const auto done = write_part(part, extras_.block_files[b]); !done) return done;
+            if (auto done = write_part(part, extras_.block_files[b]); !done) return done;
         }
         for (std::uint32_t i = 0; i < s.interfaces.size(); ++i) {
             if (session.stopped()) return Error{ErrorCode::interrupted, "stopped on request", ""};
             extras_.interface_files.push_back(name("interfaces/interface_", i));
             const auto part = interface_part(mesh_, model_.volumes, s, i);
-            if (const auto done = write_part(part, extras_.interface_files[i]); !done) return done;
+            if (auto done = write_part(part, extras_.interface_files[i]); !done) return done;
         }
         return write_json();
     }
@@ -288,8 +288,8 @@ Status write_folder(const VolumeCommand& command, const Mesh& mesh, const Model&
     auto folder = NewFolder::create(command.folder);
     if (!folder) return folder.error();
     FolderWriter writer(mesh, model, command, folder.value().temporary());
-    if (const auto done = writer(session); !done) return done;
-    const auto published = folder.value().publish();
+    if (auto done = writer(session); !done) return done;
+    auto published = folder.value().publish();
     session.end_stage();
     return published;
 }

@@ -80,6 +80,9 @@ TEST_CASE("tetrahedra: regions are the blocks, with their numbers and exact volu
           "[tetrahedra]") {
     CHECK(check_and_count_equal(fill({cube(0, 4), cube(1, 2), box({2.5, 2, 2}, {3, 3, 3})})) == 3);
     CHECK(check_and_count_equal(fill({cube(0, 2), cube(1, 3)})) == 3);
+    // These two make TetGen fail when it sorts the points.
+    CHECK(check_and_count_equal(fill({cube(0, 2), cube(1, 3), box({2, 0, 0}, {3, 1, 1})})) == 4);
+    CHECK(check_and_count_equal(fill({cube(0, 4), cube(1, 2), box({2, 2, 2}, {3, 3, 3})})) == 3);
     CHECK(check_and_count_equal(fill({torus({0, 0, 0}, 4, 1, 8), torus({4, 0, 0}, 4, 1, 8, 1)})) ==
           2);
     const Filled f = fill(faulted);
