@@ -2,10 +2,12 @@
 #include <terrane/algorithms/free_borders.hpp>
 
 #include <algorithm>
+#include <climits>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include <terrane/algorithms/triangle_tree.hpp>
@@ -52,37 +54,57 @@ private:
     std::vector<bool> filled_;
 };
 
-void add(std::map<std::uint32_t, BorderGap>& gaps, const Nearest& at, const Point3& p) {
-    const BorderGap first{at.surface, 0, at.distance, at.distance, p};
-    BorderGap& gap = gaps.try_emplace(at.surface, first).first->second;
-    gap.least = std::min(gap.least, at.distance);
-    if (at.distance <= gap.largest) return;
-    gap.largest = at.distance;
-    gap.place = p;
+int decade_of(double distance) {
+    return distance > 0 ? static_cast<int>(std::floor(std::log10(distance))) : INT_MIN;
+}
+
+/// A point of the border with what is nearest to it.
+struct Sample {
+    Point3 place{};
+    Nearest nearest{};
+};
+
+/// Vertices and middles of edges in turn; empty where there is no other surface.
+std::vector<Sample> samples_along(const Mesh& mesh, const ModelLine& line,
+                                  const SurfaceTrees& trees) {
+    std::vector<Sample> samples;
+    const auto add = [&](const Point3& p) {
+        const auto found = trees.nearest(p, line.surfaces);
+        if (found) samples.push_back({p, *found});
+    };
+    for (std::size_t i = 0; i < line.vertices.size(); ++i) {
+        const Point3& p = mesh.vertices[line.vertices[i]];
+        add(p);
+        if (i + 1 == line.vertices.size()) break;
+        const Point3& q = mesh.vertices[line.vertices[i + 1]];
+        add({p.x + (q.x - p.x) / 2, p.y + (q.y - p.y) / 2, p.z + (q.z - p.z) / 2});
+    }
+    return samples;
 }
 
 std::vector<BorderGap> gaps_along(const Mesh& mesh, const ModelLine& line,
                                   const SurfaceTrees& trees) {
-    std::vector<Nearest> nearest;
-    for (const std::uint32_t v : line.vertices) {
-        const auto found = trees.nearest(mesh.vertices[v], line.surfaces);
-        if (!found) return {};
-        nearest.push_back(*found);
+    const auto samples = samples_along(mesh, line, trees);
+    std::map<std::pair<int, std::uint32_t>, BorderGap> gaps;
+    for (std::size_t i = 0; i + 2 < samples.size(); i += 2) {
+        const Sample& far = *std::max_element(
+            samples.begin() + static_cast<std::ptrdiff_t>(i),
+            samples.begin() + static_cast<std::ptrdiff_t>(i) + 3,
+            [](const auto& a, const auto& b) { return a.nearest.distance < b.nearest.distance; });
+        const auto& [surface, distance] = far.nearest;
+        const Point3 &p = samples[i].place, &q = samples[i + 2].place;
+        const int decade = decade_of(distance);
+        const BorderGap fresh{surface, decade, 0, distance, distance, far.place};
+        BorderGap& gap = gaps.try_emplace({decade, surface}, fresh).first->second;
+        gap.length += std::hypot(p.x - q.x, p.y - q.y, p.z - q.z);
+        gap.least = std::min(gap.least, distance);
+        if (distance <= gap.largest) continue;
+        gap.largest = distance;
+        gap.place = far.place;
     }
-    std::map<std::uint32_t, BorderGap> by_surface;
-    for (std::size_t i = 0; i + 1 < nearest.size(); ++i) {
-        const std::size_t far = nearest[i].distance >= nearest[i + 1].distance ? i : i + 1;
-        const Point3 &p = mesh.vertices[line.vertices[i]], &q = mesh.vertices[line.vertices[i + 1]];
-        for (const std::size_t end : {i, i + 1})
-            if (nearest[end].surface == nearest[far].surface)
-                add(by_surface, nearest[end], end == i ? p : q);
-        by_surface[nearest[far].surface].length += std::hypot(p.x - q.x, p.y - q.y, p.z - q.z);
-    }
-    std::vector<BorderGap> gaps;
-    for (const auto& [surface, gap] : by_surface) gaps.push_back(gap);
-    std::stable_sort(gaps.begin(), gaps.end(),
-                     [](const BorderGap& a, const BorderGap& b) { return a.length > b.length; });
-    return gaps;
+    std::vector<BorderGap> sorted;
+    for (const auto& [key, gap] : gaps) sorted.push_back(gap);
+    return sorted;
 }
 
 } // namespace
@@ -101,23 +123,23 @@ std::vector<FreeBorder> find_free_borders(const Mesh& mesh, const Structure& str
 }
 
 std::vector<Leak> leaks_of(std::span<const FreeBorder> borders) {
-    std::map<std::pair<std::uint32_t, std::uint32_t>, Leak> leaks;
+    std::map<std::tuple<int, std::uint32_t, std::uint32_t>, Leak> leaks;
     for (const FreeBorder& border : borders)
         for (const std::uint32_t from : border.surfaces)
             for (const BorderGap& gap : border.gaps) {
-                Leak& leak = leaks[{from, gap.surface}];
-                const bool fresh = leak.borders == 0;
-                leak.from = from;
-                leak.to = gap.surface;
+                const Leak fresh{from, gap.surface, gap.decade,  0,
+                                 0,    gap.least,   gap.largest, gap.place};
+                Leak& leak =
+                    leaks.try_emplace({gap.decade, from, gap.surface}, fresh).first->second;
                 ++leak.borders;
                 leak.length += gap.length;
-                leak.least = fresh ? gap.least : std::min(leak.least, gap.least);
-                if (!fresh && gap.largest <= leak.largest) continue;
+                leak.least = std::min(leak.least, gap.least);
+                if (gap.largest <= leak.largest) continue;
                 leak.largest = gap.largest;
                 leak.place = gap.place;
             }
     std::vector<Leak> all;
-    for (const auto& [pair, leak] : leaks) all.push_back(leak);
+    for (const auto& [key, leak] : leaks) all.push_back(leak);
     return all;
 }
 

@@ -154,21 +154,19 @@ std::string dangling_text(const Inputs& inputs, const Model& model) {
     return text.empty() ? "no surface dangles\n" : "surfaces that dangle:\n" + text;
 }
 
-/// Where surfaces end near others, the longest stretches first.
+/// Where surfaces end near others, the smallest gaps first.
 std::string leaks_text(const Inputs& inputs, const Model& model) {
-    auto leaks = leaks_of(model.borders);
-    std::stable_sort(leaks.begin(), leaks.end(),
-                     [](const Leak& a, const Leak& b) { return a.length > b.length; });
+    const auto leaks = leaks_of(model.borders);
     if (leaks.empty()) return {};
-    std::string text = "free borders, by the surface that is nearest to them:\n";
+    std::string text = "free borders, by the surface nearest to them and how far it is:\n";
     for (std::size_t i = 0; i < std::min(leaks.size(), most_leaks); ++i) {
         const Leak& l = leaks[i];
-        text += fmt::format("  {} ends by {}: along {:.4g}, {:.3g} to {:.3g} apart, most at {}\n",
+        text += fmt::format("  {} ends by {}: along {:.4g}, {:.2g} to {:.2g} apart, most at {}\n",
                             inputs.labels[l.from], inputs.labels[l.to], l.length, l.least,
                             l.largest, text_of(l.place));
     }
     if (leaks.size() > most_leaks)
-        text += fmt::format("  and {} more\n", leaks.size() - most_leaks);
+        text += fmt::format("  and {} more, farther apart\n", leaks.size() - most_leaks);
     return text;
 }
 

@@ -18,11 +18,12 @@
 //               curve"), vertices (of the result; first = last: closed), corners (two, or null),
 //               patches, surfaces, length
 //   corners     vertex, position, lines
-//   free_borders  line, surfaces, length, closed, gaps: nearest other surface along the border,
-//   with
-//               the length where it is the nearest, least and largest distance, place of the latter
+//   free_borders  line, surfaces, length, closed, gaps: by the nearest other surface along the
+//   border
+//               and the order of magnitude of the distance: surface, length of the border there,
+//               least and largest distance, place of the latter
 //   leaks       the same by pairs: from (ends), to (nearest), borders (number of parts), length,
-//               least, largest, place
+//               least, largest, place; the smallest distances first
 //
 // A block that is too thin for doubles has a volume, but nothing else: volume_written is 0.
 // All numbers of things are positions in these arrays, from 0. Lengths, areas and volumes are in

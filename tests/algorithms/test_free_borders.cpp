@@ -2,6 +2,8 @@
 #include <terrane/algorithms/free_borders.hpp>
 
 #include <algorithm>
+#include <array>
+#include <climits>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -96,8 +98,10 @@ TEST_CASE("free borders: a fault that stops short of a horizon", "[borders]") {
     CHECK(fault->length == Approx(10 + std::hypot(10, 1) + 4.5 + 3.5));
     REQUIRE(fault->gaps.size() == 1);
     CHECK(fault->gaps[0].surface == 0);
-    CHECK(fault->gaps[0].least == 0.5);
+    CHECK(fault->gaps[0].decade == 0);
+    CHECK(fault->gaps[0].least == 1.5); // of the lower edge, at its farther end
     CHECK(fault->gaps[0].largest == 5);
+    CHECK(fault->gaps[0].place.z == 5);
     CHECK(fault->gaps[0].length == Approx(fault->length));
     const auto leaks = leaks_of(borders);
     const auto leak =
@@ -105,7 +109,7 @@ TEST_CASE("free borders: a fault that stops short of a horizon", "[borders]") {
     REQUIRE(leak != leaks.end());
     CHECK(leak->to == 0);
     CHECK(leak->borders == 1);
-    CHECK(leak->least == 0.5);
+    CHECK(leak->least == 1.5);
 }
 
 TEST_CASE("free borders: none on a closed surface, none known without another one", "[borders]") {
@@ -125,6 +129,39 @@ TEST_CASE("free borders: a surface that ends on another one has no gap there", "
     REQUIRE(fault != borders.end());
     CHECK_FALSE(fault->closed); // the lower edge is no free border
     CHECK(fault->length == 10);
-    CHECK(fault->gaps[0].least == 0);
+    REQUIRE(fault->gaps.size() == 1);
+    CHECK(fault->gaps[0].least == 3);
     CHECK(fault->gaps[0].largest == 3);
+}
+
+TEST_CASE("free borders: hair's breadths come before what ends far from anything", "[borders]") {
+    const double hair = 0x1p-30;
+    const auto borders =
+        borders_of({level(0, -4, -4, 4, 4, "horizon"),
+                    quad({0, -2, hair}, {0, 2, hair}, {0, 2, 3}, {0, -2, 3}, "F")});
+    const auto leaks = leaks_of(borders);
+    REQUIRE(leaks.size() >= 2);
+    CHECK(leaks[0].from == 1);
+    CHECK(leaks[0].to == 0);
+    CHECK(leaks[0].decade == -10);
+    CHECK(leaks[0].length == 4);
+    CHECK(leaks[0].largest == hair);
+    for (std::size_t i = 1; i < leaks.size(); ++i) CHECK(leaks[i].decade == 0);
+}
+
+TEST_CASE("free borders: one that lies on another surface has distance 0 and comes first",
+          "[borders]") {
+    Mesh mesh; // two triangles over the same border, named apart: no more than a seam
+    mesh.surfaces = {{"a", Role::unknown}, {"b", Role::unknown}};
+    mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0}, {1, 0, 0}, {0, 0, 1}};
+    mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
+    mesh.surfaces_of.push_back(std::array<std::uint32_t, 1>{0});
+    mesh.surfaces_of.push_back(std::array<std::uint32_t, 1>{1});
+    const auto volumes = find_volumes(mesh);
+    REQUIRE(volumes);
+    const auto leaks = leaks_of(find_free_borders(mesh, build_structure(mesh, volumes.value())));
+    REQUIRE_FALSE(leaks.empty());
+    CHECK(leaks[0].largest == 0);
+    CHECK(leaks[0].decade == INT_MIN);
+    CHECK(leaks[0].length == 1);
 }

@@ -227,6 +227,23 @@ TEST_CASE("volumes: coordinates near the ends of double's range", "[volumes]") {
     CHECK(find({cube(0, 0x1p-600)}).volumes.measures[1] == 0);
 }
 
+TEST_CASE("volumes: blocks as thin as doubles can be", "[volumes]") {
+    // The doubles nearest to the centroid of a face lie outside of it for some of these.
+    const double ulp = std::ldexp(1.0, -52);
+    for (unsigned k = 0; k < 8; ++k) {
+        const double x = (k & 1U) != 0 ? 1 : -1, y = (k & 2U) != 0 ? 1 : -1,
+                     z = (k & 4U) != 0 ? 1 : -1;
+        const auto at = [&](double i, double j, double l) {
+            return Point3{x * (1 + i * ulp), y * (1 + j * ulp), z * (1 + l * ulp)};
+        };
+        const auto thin = tetrahedron(at(0, 0, 0), at(1, 0, 0), at(0, 1, 0), at(0, 0, 1));
+        const auto needle = tetrahedron(at(4, 4, 4), at(5, 4, 4), at(5, 6, 4), at(7, 9, 5));
+        const auto found = find({cube(-2, 2), thin, needle});
+        CHECK(found.volumes.block_count() == 3);
+        CHECK(sorted_measures(found.volumes)[1] == ulp * ulp * ulp / 3);
+    }
+}
+
 TEST_CASE("volumes: a mesh of doubles gives the same as the arrangement", "[volumes]") {
     const auto found = find({cube(0, 4), octahedron({3, 3, 3}, 1.5), cube(1, 2),
                              quad({0.3, -1, -1}, {0.9, 9, -1}, {0.7, 9, 9}, {0.1, -1, 9})});
