@@ -26,7 +26,7 @@ std::vector<std::uint32_t> vertex_ranks(const Mesh& mesh, std::span<const std::u
     return all;
 }
 
-/// Groups of equal items, as lists of triangles; `same` and `before` compare triangles.
+/// Triangles that are equal in the order `before`, list by list, ascending.
 template <class Before>
 Lists<std::uint32_t> grouped(std::size_t count, const Before& before) {
     std::vector<std::uint32_t> order(count);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The numbers after "law" are those of the issue: cases small enough to know the answer.
+// Cases small enough to know the answer; each is judged by the oracle as well.
 #include <terrane/algorithms/volumes.hpp>
 
 #include <algorithm>
@@ -200,7 +200,6 @@ TEST_CASE("volumes: layers and a fault in a box", "[volumes]") {
 }
 
 TEST_CASE("volumes: volumes that no double holds are rounded correctly", "[volumes]") {
-    // 1/3 + 2^-53 ... : the measures are the doubles nearest to the exact fractions
     const auto found =
         find({cube(0, 1), quad({-1, -1, 0.1}, {2, -1, 0.2}, {2, 2, 0.7}, {-1, 2, 0.6})});
     const auto exact = exact_volumes(found.arrangement, found.volumes);
@@ -213,7 +212,7 @@ TEST_CASE("volumes: volumes that no double holds are rounded correctly", "[volum
     }
     // half-way between two doubles: ties to even, which only the exact sum can tell
     const double ulp = std::ldexp(1.0, -52);
-    CHECK(find({box({0, 0, 0}, {1 + ulp, 1 + ulp / 2 * 2, 1})}).volumes.measures[1] == 1 + 2 * ulp);
+    CHECK(find({box({0, 0, 0}, {1 + ulp, 1 + ulp, 1})}).volumes.measures[1] == 1 + 2 * ulp);
     const auto tie = find({box({0, 0, 0}, {1, 1, 1}), box({2, 0, 0}, {3, ulp / 2, 1})});
     CHECK(tie.volumes.measures[0] == 1);
 }

@@ -64,8 +64,7 @@ inline Surface tetrahedron(const Point3& a, const Point3& b, const Point3& c, co
         std::move(name), Role::unknown, {a, b, c, d}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}};
 }
 
-/// A ring of square-ish sections round `axis` (2: z) with `n` of them; with `turns` half turns of a
-/// two-sided strip instead where `strip`.
+/// A ring round `axis` (2: z), of n pieces with a square section.
 inline Surface torus(const Point3& centre, double large, double small, unsigned n, int axis = 2,
                      std::string name = "torus") {
     Surface s{std::move(name), Role::unknown, {}, {}};
