@@ -43,7 +43,7 @@ struct TetrahedralMesh {
     std::vector<std::array<std::uint32_t, 4>>
         tetrahedra;                           ///< positively oriented: orient3d(0,1,2,3) > 0
     std::vector<std::uint32_t> region_of;     ///< per tetrahedron: 0 is the outside (touches
-                                              ///< the box), then 1, 2, ...
+                                              ///< the box), then the blocks (volumes.hpp)
     std::vector<Triangle> faces;              ///< faces of tetrahedra that lie on a surface
     std::vector<std::uint32_t> face_triangle; ///< per face: triangle of the mesh it is part of,
                                               ///< or UINT32_MAX on the box

@@ -286,7 +286,7 @@ private:
     }
 
     /// Region 0 touches the box; the others follow in the order of their lowest tetrahedra (by
-    /// the positions of their vertices, not by TetGen's numbers).
+    /// the positions of their vertices, not by TetGen's numbers) until they get those of volumes.
     Status number_regions() {
         using Position = std::array<Point3, 4>;
         const std::size_t count = out_.tetrahedra.size();

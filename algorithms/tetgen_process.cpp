@@ -99,13 +99,14 @@ void fill(tetgenio& io, const TetgenInput& input) {
 
 /// p: facets are given. z: count from 0. J: keep all points. M: merge neither coplanar facets (each
 /// has its own marker) nor close vertices. Q: quiet. Y: split no facet.
-/// O0: leave shapes as they are.
+/// O0: leave shapes as they are. b0: insert points as they come.
 tetgenbehavior behavior_for(const TetgenInput& input) {
     const bool refine = input.max_volume || input.max_area || input.radius_edge_ratio;
     tetgenbehavior behavior;
     std::string switches = "pzJMQ";
     if (input.keep_facets) switches += "Y";
     if (!input.improve) switches += "O0";
+    if (!input.sort_points) switches += "b0";
     if (refine) switches += "q";
     if (input.max_volume) switches += "a1";
     behavior.parse_commandline(switches.data());

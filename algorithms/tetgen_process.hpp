@@ -22,6 +22,7 @@ struct TetgenInput {
     Lists<std::uint32_t> facets;      ///< per facet its corners, in order around it
     bool keep_facets = true;          ///< split none: not with any of the last three
     bool improve = true;              ///< flip and smooth where shapes are bad
+    bool sort_points = true;          ///< insert them along a curve, not as they come
     std::optional<double> max_volume; ///< of a tetrahedron
     std::optional<double> max_area;   ///< of a face on a facet
     std::optional<double> radius_edge_ratio;

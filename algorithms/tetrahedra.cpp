@@ -13,11 +13,13 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/check_tetrahedra.hpp>
 #include <terrane/algorithms/intersection.hpp>
 #include <terrane/algorithms/search/search.hpp>
 #include <terrane/algorithms/soup.hpp>
 #include <terrane/algorithms/tetgen_assembly.hpp>
 #include <terrane/algorithms/tetgen_process.hpp>
+#include <terrane/algorithms/volumes.hpp>
 #include <terrane/kernel/predicates.hpp>
 
 namespace terrane {
@@ -260,24 +262,34 @@ Result<TetgenInput> tetgen_input(const TetgenDomain& domain, const TetrahedraOpt
 }
 
 /// Where TetGen fails, or fails the checks, it is asked again: to leave out its last step, the
-/// improvement of shapes, and then to split facets.
-Result<TetrahedralMesh> try_in_turn(const Mesh& mesh, const TetgenDomain& domain,
-                                    TetgenInput& input, const Scale& scale, const Run& run) {
+/// improvement of shapes, and then to split facets. All that with the points along a curve, as is
+/// its custom, then as they come: in 1.5.0 the former ends in an assertion for points as regular as
+/// those of two cubes that overlap.
+Result<TetrahedralMesh> try_in_turn(const Mesh& mesh, const Volumes& volumes,
+                                    const TetgenDomain& domain, TetgenInput& input,
+                                    const Scale& scale, const Run& run) {
     struct Way {
-        bool keep_facets, improve;
+        bool keep_facets, improve, sort_points;
     };
-    std::vector<Way> ways{{false, true}, {false, false}};
-    if (input.keep_facets) ways = {{true, true}, {true, false}, {false, true}, {false, false}};
+    std::vector<Way> ways;
+    for (const bool sort_points : {true, false})
+        for (const bool keep_facets : {true, false})
+            for (const bool improve : {true, false})
+                if (input.keep_facets || !keep_facets)
+                    ways.push_back({keep_facets, improve, sort_points});
     std::optional<Error> first;
-    for (const auto& [keep_facets, improve] : ways) {
+    for (const auto& [keep_facets, improve, sort_points] : ways) {
         input.keep_facets = keep_facets;
         input.improve = improve;
+        input.sort_points = sort_points;
         Result<TetgenOutput> output = run_tetgen(input, run.stop);
         if (output) {
             for (Point3& p : output.value().points) p = scale.up(p);
             Result<TetrahedralMesh> result = assemble(mesh, domain, std::move(output).value());
-            if (result) return result;
-            if (!first) first = result.error();
+            Status numbered = Done{};
+            if (result) numbered = adopt_volume_numbers(volumes, result.value());
+            if (result && numbered) return result;
+            if (!first) first = result ? numbered.error() : result.error();
             continue;
         }
         const ErrorCode code = output.error().code;
@@ -312,7 +324,10 @@ Result<TetrahedralMesh> tetrahedralize(const Mesh& mesh, const TetrahedraOptions
     const Scale scale(domain.value().points);
     Result<TetgenInput> input = tetgen_input(domain.value(), options, scale);
     if (!input) return input.error();
-    Result<TetrahedralMesh> result = try_in_turn(mesh, domain.value(), input.value(), scale, run);
+    const Result<Volumes> volumes = find_volumes(mesh, {.stop = run.stop});
+    if (!volumes) return volumes.error();
+    Result<TetrahedralMesh> result =
+        try_in_turn(mesh, volumes.value(), domain.value(), input.value(), scale, run);
     if (!result) return result;
     if (Status go = proceed(run, 1); !go) return go.error();
     return result;

@@ -39,8 +39,9 @@ struct TetrahedraOptions {
 ///     box without overlap.
 /// (4) Faces come in the order of their triangles and wound like them; faces on the box last,
 ///     counterclockwise seen from outside.
-/// (5) Regions are what the mesh parts the box into; 1, 2, ... in the order of their lowest
-///     tetrahedra, by the sorted positions of the four vertices.
+/// (5) Regions are what the mesh parts the box into, found by diffusion over the tetrahedra (the
+///     paper, section 3: regions one dimension up). They have the numbers of find_volumes(mesh);
+///     that each is one of its volumes, and the other way round, is checked at every face.
 /// (6) The same arguments give the same result.
 ///
 /// The mesh must be conforming (see check.hpp); that is tested, exactly, since TetGen may crash or

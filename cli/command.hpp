@@ -21,5 +21,6 @@ Command check_command(CLI::App& program);
 Command convert_command(CLI::App& program);
 Command tetrahedralize_command(CLI::App& program);
 Command verify_command(CLI::App& program);
+Command volume_command(CLI::App& program);
 
 } // namespace terrane::cli

@@ -93,7 +93,7 @@ std::string flaw(std::span<const Surface> surfaces) {
     std::vector<Point3> vertices;
     for (const PointIndex p : a.vertices) vertices.push_back(a.points.nearest(p));
     const Regions regions =
-        find_regions(vertices, a.triangles, a.surfaces_of, a.edges, a.intersection_edges);
+        find_regions(vertices, a.triangles, a.surfaces_of, a.adjacency, a.intersection_edges);
     auto parts = parts_of(a, regions);
     auto neighbours = spread(a, parts);
     if (auto what = groups_flaw(parts, regions); !what.empty()) return what;

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/io/structure_json.hpp>
+
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include <terrane/io/names.hpp>
+
+namespace terrane {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::uint32_t none = UINT32_MAX;
+
+Json position(const Point3& p) {
+    return {p.x, p.y, p.z};
+}
+
+/// NaN and infinities have no place in JSON.
+Json number(double value) {
+    return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json surfaces_json(const Mesh& mesh, const Structure& structure) {
+    std::vector<double> area(mesh.surfaces.size()), dangling(mesh.surfaces.size());
+    for (const ModelInterface& i : structure.interfaces)
+        for (const std::uint32_t s : i.surfaces) {
+            area[s] += i.area;
+            if (i.dangles()) dangling[s] += i.area;
+        }
+    Json all = Json::array();
+    for (std::size_t s = 0; s < mesh.surfaces.size(); ++s)
+        all.push_back(
+            {{"name", mesh.surfaces[s].name},
+             {"role", detail::role_names[static_cast<std::size_t>(mesh.surfaces[s].role)]},
+             {"area", number(area[s])},
+             {"dangling_area", number(dangling[s])}});
+    return all;
+}
+
+Json blocks_json(const Structure& structure, const StructureExtras& extras) {
+    Json all = Json::array();
+    for (std::size_t b = 0; b < structure.blocks.size(); ++b) {
+        const ModelBlock& block = structure.blocks[b];
+        Json json{{"name", block.name}};
+        if (!extras.exact_volumes.empty()) json["volume"] = number(extras.exact_volumes[b]);
+        json["volume_written"] = number(block.volume);
+        json["area"] = number(block.area);
+        json["above"] = block.above;
+        json["below"] = block.below;
+        json["beside"] = block.beside;
+        json["interfaces"] = block.interfaces;
+        json["inner_interfaces"] = block.inner_interfaces;
+        json["neighbours"] = block.neighbours;
+        if (!extras.block_files.empty() && !extras.block_files[b].empty())
+            json["file"] = extras.block_files[b];
+        all.push_back(std::move(json));
+    }
+    return all;
+}
+
+Json interfaces_json(const Structure& structure, const StructureExtras& extras) {
+    Json all = Json::array();
+    for (std::size_t i = 0; i < structure.interfaces.size(); ++i) {
+        const ModelInterface& interface = structure.interfaces[i];
+        Json json{{"volumes", interface.volumes},
+                  {"surfaces", interface.surfaces},
+                  {"area", number(interface.area)},
+                  {"patches", interface.patches}};
+        if (!extras.interface_files.empty()) json["file"] = extras.interface_files[i];
+        all.push_back(std::move(json));
+    }
+    return all;
+}
+
+/// Ascending numbers as ranges [first, last].
+Json ranges(const std::vector<std::uint32_t>& numbers) {
+    Json all = Json::array();
+    for (std::size_t i = 0, end = 0; i < numbers.size(); i = end) {
+        while (end < numbers.size() && numbers[end] - numbers[i] == end - i) ++end;
+        all.push_back({numbers[i], numbers[end - 1]});
+    }
+    return all;
+}
+
+Json patches_json(const Structure& structure) {
+    Json all = Json::array();
+    for (const ModelPatch& patch : structure.patches)
+        all.push_back({{"interface", patch.interface},
+                       {"area", number(patch.area)},
+                       {"triangles", ranges(patch.triangles)},
+                       {"lines", patch.lines}});
+    return all;
+}
+
+Json lines_json(const Structure& structure) {
+    Json all = Json::array();
+    for (const ModelLine& line : structure.lines) {
+        Json json{{"kind", name_of(line.kind)}, {"vertices", line.vertices}};
+        json["corners"] = line.corners[0] == none ? Json(nullptr) : Json(line.corners);
+        json["patches"] = line.patches;
+        json["surfaces"] = line.surfaces;
+        json["length"] = number(line.length);
+        all.push_back(std::move(json));
+    }
+    return all;
+}
+
+Json corners_json(const Mesh& mesh, const Structure& structure) {
+    Json all = Json::array();
+    for (const ModelCorner& corner : structure.corners)
+        all.push_back({{"vertex", corner.vertex},
+                       {"position", position(mesh.vertices[corner.vertex])},
+                       {"lines", corner.lines}});
+    return all;
+}
+
+Json borders_json(std::span<const FreeBorder> borders) {
+    Json all = Json::array();
+    for (const FreeBorder& border : borders) {
+        Json gaps = Json::array();
+        for (const BorderGap& gap : border.gaps)
+            gaps.push_back({{"surface", gap.surface},
+                            {"length", number(gap.length)},
+                            {"least", number(gap.least)},
+                            {"largest", number(gap.largest)},
+                            {"place", position(gap.place)}});
+        all.push_back({{"line", border.line},
+                       {"surfaces", border.surfaces},
+                       {"length", number(border.length)},
+                       {"closed", border.closed},
+                       {"gaps", std::move(gaps)}});
+    }
+    return all;
+}
+
+Json leaks_json(std::span<const FreeBorder> borders) {
+    Json all = Json::array();
+    for (const Leak& leak : leaks_of(borders))
+        all.push_back({{"from", leak.from},
+                       {"to", leak.to},
+                       {"borders", leak.borders},
+                       {"length", number(leak.length)},
+                       {"least", number(leak.least)},
+                       {"largest", number(leak.largest)},
+                       {"place", position(leak.place)}});
+    return all;
+}
+
+/// One line per element of each array: to be read by people, too, and compared line by line.
+std::string text_of(const Json& json) {
+    const auto dump = [](const Json& value) {
+        return value.dump(-1, ' ', false, Json::error_handler_t::replace);
+    };
+    std::string text = "{\n";
+    bool first = true;
+    for (const auto& [key, value] : json.items()) {
+        text += first ? "" : ",\n";
+        first = false;
+        text += dump(Json(key)) + ": ";
+        if (!value.is_array() || value.empty()) {
+            text += dump(value);
+            continue;
+        }
+        text += "[\n";
+        for (std::size_t i = 0; i < value.size(); ++i)
+            text += (i > 0 ? ",\n" : "") + dump(value[i]);
+        text += "\n]";
+    }
+    return text + "\n}\n";
+}
+
+} // namespace
+
+std::string to_json(const Mesh& mesh, const Structure& structure, const StructureExtras& extras) {
+    Json json{{"format", "terrane-model 1"}};
+    json["surfaces"] = surfaces_json(mesh, structure);
+    json["blocks"] = blocks_json(structure, extras);
+    json["interfaces"] = interfaces_json(structure, extras);
+    json["patches"] = patches_json(structure);
+    json["lines"] = lines_json(structure);
+    json["corners"] = corners_json(mesh, structure);
+    json["free_borders"] = borders_json(extras.free_borders);
+    json["leaks"] = leaks_json(extras.free_borders);
+    return text_of(json);
+}
+
+} // namespace terrane

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// `terrane volume`, seen from outside.
+#include <algorithm>
+#include <map>
+#include <vector>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "program.hpp"
+
+using namespace program_test;
+using Json = nlohmann::json;
+
+namespace {
+
+/// A box, two horizons that reach beyond it, and a fault that ends inside it.
+constexpr auto model = R"(o box
+v 0 0 0
+v 8 0 0
+v 8 8 0
+v 0 8 0
+v 0 0 8
+v 8 0 8
+v 8 8 8
+v 0 8 8
+f 1 4 3 2
+f 5 6 7 8
+f 1 2 6 5
+f 2 3 7 6
+f 3 4 8 7
+f 4 1 5 8
+o base
+v -1 -1 3
+v 9 -1 3
+v 9 9 3
+v -1 9 3
+f 9 10 11 12
+o top
+v -1 -1 5
+v 9 -1 5
+v 9 9 5
+v -1 9 5
+f 13 14 15 16
+o F1
+v 4 -1 -1
+v 4 4 -1
+v 4 4 9
+v 4 -1 9
+f 17 18 19 20
+)";
+
+const std::string roles =
+    " --role box=boundary --role base=horizon --role top=horizon --role F1=fault";
+
+std::map<std::string, int> kinds_of(const Json& lines) {
+    std::map<std::string, int> kinds;
+    for (const auto& line : lines) ++kinds[line["kind"]];
+    return kinds;
+}
+
+} // namespace
+
+TEST_CASE("cli: volume finds the blocks and writes them", "[cli]") {
+    const Folder folder;
+    const auto in = folder.input("model.obj", model);
+    const auto r = folder.run("volume " + in + " -o out --parts obj --stats s.json" + roles);
+    INFO(r.err);
+    REQUIRE(r.status == 0);
+    CHECK(r.err.empty());
+    CHECK(contains(r.out, "3 closed blocks, volume 512 in all\n"));
+    CHECK(contains(r.out, "  block 2    volume 128            top/base|box\n"));
+    CHECK(contains(r.out, "F1: 50 of 50 in area dangles"));
+    CHECK(contains(r.out, "wrote out\n"));
+    CHECK(folder.left() == std::set<std::string>{"out", "s.json"});
+
+    const auto json = Json::parse(folder.read("out/model.json"));
+    CHECK(json["format"] == "terrane-model 1");
+    REQUIRE(json["blocks"].size() == 4);
+    CHECK(json["blocks"][0]["volume"] == 512);
+    CHECK(json["blocks"][2]["volume"] == 128);
+    CHECK(json["blocks"][2]["volume_written"] == 128);
+    CHECK(json["blocks"][2]["above"] == Json{2});
+    CHECK(json["blocks"][2]["below"] == Json{1});
+    CHECK(json["blocks"][2]["neighbours"] == Json({0, 1, 3}));
+    CHECK(json["surfaces"][3] ==
+          Json({{"name", "F1"}, {"role", "fault"}, {"area", 50.0}, {"dangling_area", 50.0}}));
+    CHECK(kinds_of(json["lines"])["cutoff line"] == 4);
+    CHECK_FALSE(json["free_borders"].empty());
+    const auto statistics = Json::parse(folder.read("s.json"));
+    CHECK(statistics["output"]["volumes"] == 3);
+    CHECK(statistics["volumes"]["blocks"] == Json({192, 128, 192}));
+
+    // Every file that is named is there, and no other; each block is a sound closed surface.
+    std::vector<std::string> named{"model.json", "result.vtp"};
+    for (const std::string part : {"blocks", "interfaces"})
+        for (const auto& item : json[part])
+            if (item.contains("file")) named.push_back(item["file"]);
+    std::sort(named.begin(), named.end());
+    CHECK(named.size() == 2 + 3 + json["interfaces"].size());
+    REQUIRE(folder.shell("find out -type f | sed s,out/,, | LC_ALL=C sort > list").status == 0);
+    std::string expected;
+    for (const auto& name : named) expected += name + "\n";
+    CHECK(folder.read("list") == expected);
+    for (const auto& block : {"1", "2", "3"}) {
+        const auto file = std::string("out/blocks/block_") + block + ".obj";
+        CHECK(folder.run("check " + file).status == 0);
+        const auto again = folder.run("volume " + file + " -o again" + block);
+        CHECK(again.status == 0);
+        CHECK(contains(again.out, "1 closed block, "));
+        CHECK(contains(again.out, "no surface dangles"));
+    }
+}
+
+TEST_CASE("cli: volume gives the same bytes for any number of threads", "[cli]") {
+    const Folder folder;
+    const std::string in = "$D/ringmesh/modelA2.ml";
+    REQUIRE(folder.run("volume " + in + " -o one --threads 1").status == 0);
+    REQUIRE(folder.run("volume " + in + " -o two --threads 2 --search grid").status == 0);
+    CHECK(folder.shell("diff -r one two").status == 0);
+    const auto json = Json::parse(folder.read("one/model.json"));
+    CHECK(json["blocks"].size() == 13); // as the file states, with the outside
+}
+
+TEST_CASE("cli: volume: open surfaces are no error, and enclose nothing", "[cli]") {
+    const Folder folder;
+    const auto in = folder.input("open.obj", crossing);
+    const auto r = folder.run("volume " + in + " -o out");
+    CHECK(r.status == 0);
+    CHECK(contains(r.out, "0 closed blocks"));
+    CHECK(contains(r.out, "horizon ends by fault"));
+    CHECK(Json::parse(folder.read("out/model.json"))["blocks"].size() == 1);
+}
+
+TEST_CASE("cli: volume refuses what it can't do, and leaves nothing", "[cli]") {
+    const Folder folder;
+    const auto in = folder.input("model.obj", model);
+    const auto refused = [&](const std::string& arguments, int status, const std::string& reason) {
+        const auto r = folder.run("volume " + in + " " + arguments);
+        INFO(r.err);
+        CHECK(r.status == status);
+        CHECK(contains(r.err, reason));
+    };
+    refused("-o out --role F2=fault", 2, "no surface is called F2");
+    refused("-o out --role F1=salt", 2, "needs NAME=ROLE");
+    refused("-o out --role F1", 2, "needs NAME=ROLE");
+    refused("-o nowhere/out", 2, "there is no folder nowhere");
+    refused("-o in", 2, "not empty");
+    refused("-o " + in, 2, "this is no folder");
+    refused("-o out --parts stl", 2, "");
+    CHECK(folder.left().empty());
+    const auto tiny = folder.input("tiny.off", tiny_triangles());
+    const auto unclean = folder.run("volume " + tiny + " -o out --rounds 0");
+    CHECK(unclean.status == 1);
+    CHECK(contains(unclean.err, "nothing written"));
+    CHECK(folder.left().empty());
+}
+
+TEST_CASE("cli: volume fills an empty folder", "[cli]") {
+    const Folder folder;
+    const auto in = folder.input("model.obj", model);
+    REQUIRE(folder.shell("mkdir out").status == 0);
+    CHECK(folder.run("volume " + in + " -o out/").status == 0);
+    CHECK(folder.shell("test -f out/model.json -a -f out/blocks/block_1.vtp").status == 0);
+    CHECK(folder.left() == std::set<std::string>{"out"});
+}
