@@ -48,7 +48,6 @@ struct Face {
     double extent = 0;           ///< longest edge of the face
     std::uint32_t part = 0, part_end = 0;     ///< range in Faces::parts
     std::uint32_t vertex = 0, vertex_end = 0; ///< range in Faces::vertices
-    bool one_patch = false;                   ///< its parts are known not to meet improperly
 };
 
 /// The distance beyond edge j of f.
@@ -81,6 +80,14 @@ struct Sizes {
     double longest = 0;                                        ///< l: the longest edge
 };
 
+/// No two corners are farther apart.
+double extent_bound(const std::array<Point3, 3>& c) {
+    const auto [low_x, high_x] = std::minmax({c[0].x, c[1].x, c[2].x});
+    const auto [low_y, high_y] = std::minmax({c[0].y, c[1].y, c[2].y});
+    const auto [low_z, high_z] = std::minmax({c[0].z, c[1].z, c[2].z});
+    return ((high_x - low_x) + (high_y - low_y) + (high_z - low_z)) * (1 + 0x1p-40);
+}
+
 struct Faces {
     std::vector<std::uint32_t> slot_of; ///< per face: index into faces, or none
     std::vector<Face> faces;
@@ -111,9 +118,10 @@ struct Found {
 
 class Prover {
 public:
-    Prover(const MovedParts& moved, std::span<const CandidatePair> meeting) : moved_(moved) {
+    Prover(const MovedParts& moved, std::span<const CandidatePair> meeting, const Run& run) :
+        moved_(moved) {
         for (const double m : moved.moves) move_ = std::max(move_, m);
-        choose_faces(meeting);
+        choose_faces(meeting, run);
         collect_parts();
         number_vertices();
         for (Face& f : faces_.faces) measure_parts(f);
@@ -122,18 +130,24 @@ public:
     [[nodiscard]] Unclear operator()(const Run& run);
 
 private:
-    void choose_faces(std::span<const CandidatePair> meeting);
-    [[nodiscard]] double margin(const Face& f, const Face& g) const;
+    [[nodiscard]] std::array<Point3, 3> corners_of(std::uint32_t f) const {
+        const Triangle& c = moved_.faces[f];
+        return {moved_.face_points[c[0]], moved_.face_points[c[1]], moved_.face_points[c[2]]};
+    }
+    [[nodiscard]] std::vector<CandidatePair>
+    close_pairs(std::span<const CandidatePair> meeting) const;
+    void choose_faces(std::span<const CandidatePair> meeting, const Run& run);
+    [[nodiscard]] double margin(double extent, const Face& g) const;
     void collect_parts();
     void number_vertices();
     void measure_parts(Face& f);
     [[nodiscard]] const Face& face(std::uint32_t f) const {
         return faces_.faces[faces_.slot_of[f]];
     }
-    void add_unknown(const Face& f, std::vector<std::uint32_t>& parts) const;
+    void add_restless(const Face& f, std::vector<std::uint32_t>& parts) const;
     void test_group(std::size_t first, std::size_t last, Scratch& scratch, Found& found) const;
     void stamp(std::uint32_t f, std::vector<Stamp>& stamps) const;
-    [[nodiscard]] bool is_apart(const Face& f, const Face& g) const;
+    [[nodiscard]] bool is_apart(const std::array<Point3, 3>& f, double extent, const Face& g) const;
     [[nodiscard]] bool is_clear(const Face& f, std::uint32_t entry, std::uint32_t g,
                                 std::span<const Stamp> stamps, double d) const;
     void find_left(std::uint32_t f, std::uint32_t g, std::span<const Stamp> stamps,
@@ -146,36 +160,37 @@ private:
     Faces faces_;                        ///< of these
 };
 
-void Prover::choose_faces(std::span<const CandidatePair> meeting) {
-    faces_.slot_of.assign(moved_.faces.size(), none);
-    std::vector<Face> measured;
-    const auto slot = [&](std::uint32_t f) {
-        if (faces_.slot_of[f] == none) {
-            faces_.slot_of[f] = static_cast<std::uint32_t>(measured.size());
-            const Triangle& c = moved_.faces[f];
-            measured.push_back(measure(
-                {moved_.face_points[c[0]], moved_.face_points[c[1]], moved_.face_points[c[2]]}));
-        }
-        return faces_.slot_of[f];
-    };
-    std::vector<bool> needed;
+/// The pairs that are not apart as a whole.
+std::vector<CandidatePair> Prover::close_pairs(std::span<const CandidatePair> meeting) const {
+    std::vector<CandidatePair> close;
+    Face g;
+    std::uint32_t measured = none;
     for (const CandidatePair& p : meeting) {
-        const std::uint32_t i = slot(p.first), j = slot(p.second);
-        needed.resize(measured.size(), false);
-        if (is_apart(measured[i], measured[j]) || is_apart(measured[j], measured[i])) continue;
-        needed[i] = needed[j] = true;
-        meeting_.push_back(p);
-    }
-    for (std::uint32_t& s : faces_.slot_of) {
-        if (s == none) continue;
-        if (!needed[s]) {
-            s = none;
-            continue;
+        if (p.first != measured) {
+            measured = p.first;
+            g = measure(corners_of(p.first));
         }
-        Face& f = faces_.faces.emplace_back(measured[s]);
-        for (unsigned j = 0; j < 3; ++j) f.beyond[j] = beyond_edge(f, j);
-        s = static_cast<std::uint32_t>(faces_.faces.size()) - 1;
+        const auto f = corners_of(p.second);
+        if (is_apart(f, extent_bound(f), g)) continue;
+        if (!is_apart(g.corners, g.extent, measure(f))) close.push_back(p);
     }
+    return close;
+}
+
+void Prover::choose_faces(std::span<const CandidatePair> meeting, const Run& run) {
+    const auto blocks = for_blocks<std::vector<CandidatePair>>(
+        meeting.size(), 4096, run, [&](std::size_t first, std::size_t last) {
+            return close_pairs(meeting.subspan(first, last - first));
+        });
+    for (const auto& block : blocks) meeting_.insert(meeting_.end(), block.begin(), block.end());
+    faces_.slot_of.assign(moved_.faces.size(), none);
+    for (const CandidatePair& p : meeting_)
+        for (const std::uint32_t f : {p.first, p.second}) {
+            if (faces_.slot_of[f] != none) continue;
+            faces_.slot_of[f] = static_cast<std::uint32_t>(faces_.faces.size());
+            Face& measured = faces_.faces.emplace_back(measure(corners_of(f)));
+            for (unsigned j = 0; j < 3; ++j) measured.beyond[j] = beyond_edge(measured, j);
+        }
 }
 
 void Prover::collect_parts() {
@@ -217,11 +232,7 @@ void Prover::number_vertices() {
 }
 
 void Prover::measure_parts(Face& f) {
-    f.one_patch = true;
-    const std::uint32_t patch = moved_.patch_of[faces_.parts[f.part]];
     for (std::uint32_t e = f.part; e < f.part_end; ++e) {
-        const std::uint32_t t = faces_.parts[e];
-        f.one_patch = f.one_patch && patch != no_group && moved_.patch_of[t] == patch;
         const auto& c = faces_.corners[e];
         const Point3* place = faces_.places.data() + f.vertex;
         const Point3 &p = place[c[0]], &q = place[c[1]], &r = place[c[2]];
@@ -242,9 +253,9 @@ bool is_calm(const Sizes& s, double d) {
     return s.altitude > 1e-150 && s.altitude * s.altitude >= 64 * d * s.longest;
 }
 
-/// Parts of it that may meet another one improperly.
-void Prover::add_unknown(const Face& f, std::vector<std::uint32_t>& parts) const {
-    if (f.one_patch || f.part_end - f.part == 1) return;
+/// Parts of it that may meet another one of it improperly.
+void Prover::add_restless(const Face& f, std::vector<std::uint32_t>& parts) const {
+    if (f.part_end - f.part == 1) return;
     const auto calm = [&](std::uint32_t v) {
         return is_calm(faces_.sizes[f.vertex + v], 4 * move_);
     };
@@ -260,22 +271,21 @@ void Prover::stamp(std::uint32_t f, std::vector<Stamp>& stamps) const {
         stamps[faces_.vertices[v]] = {f, v};
 }
 
-/// d of the lemma for parts of f and g and the functionals of g, with room for errors in both
-/// directions.
-double Prover::margin(const Face& f, const Face& g) const {
-    return 4 * (move_ + (f.extent + g.extent) * g.functional_error);
+/// d of the lemma for parts of a face of an extent, and the functionals of g, with room for errors
+/// in both directions.
+double Prover::margin(double extent, const Face& g) const {
+    return 4 * (move_ + (extent + g.extent) * g.functional_error);
 }
 
 /// The whole of f lies beyond g.
-bool Prover::is_apart(const Face& f, const Face& g) const {
-    const double d = margin(f, g);
-    const auto all_beyond = [&](const Functional& u, double sign) {
-        return sign * u(f.corners[0]) > d && sign * u(f.corners[1]) > d &&
-               sign * u(f.corners[2]) > d;
-    };
-    if (all_beyond(g.height, 1) || all_beyond(g.height, -1)) return true;
-    for (unsigned j = 0; j < 3; ++j)
-        if (all_beyond(beyond_edge(g, j), 1)) return true;
+bool Prover::is_apart(const std::array<Point3, 3>& f, double extent, const Face& g) const {
+    const double d = margin(extent, g);
+    const double a = g.height(f[0]), b = g.height(f[1]), c = g.height(f[2]);
+    if ((a > d && b > d && c > d) || (a < -d && b < -d && c < -d)) return true;
+    for (unsigned j = 0; j < 3; ++j) {
+        const Functional u = beyond_edge(g, j);
+        if (u(f[0]) > d && u(f[1]) > d && u(f[2]) > d) return true;
+    }
     return false;
 }
 
@@ -325,7 +335,7 @@ bool Prover::is_clear(const Face& f, std::uint32_t entry, std::uint32_t g,
 void Prover::find_left(std::uint32_t f_name, std::uint32_t g_name, std::span<const Stamp> stamps,
                        std::vector<std::uint8_t>& sides, std::vector<std::uint32_t>& left) const {
     const Face &f = face(f_name), &g = face(g_name);
-    const double d = margin(f, g);
+    const double d = margin(f.extent, g);
     const Functional height = g.height;
     constexpr std::uint8_t above = 1, below = 2, neither = 3;
     sides.resize(f.vertex_end - f.vertex);
@@ -397,9 +407,10 @@ Unclear Prover::operator()(const Run& run) {
         all.pairs.insert(all.pairs.end(), b.pairs.begin(), b.pairs.end());
         all.parts.insert(all.parts.end(), b.parts.begin(), b.parts.end());
     }
-    for (const Face& f : faces_.faces) add_unknown(f, all.parts);
+    for (const Face& f : faces_.faces) add_restless(f, all.restless);
     sort_unique(all.pairs);
     sort_unique(all.parts);
+    sort_unique(all.restless);
     return all;
 }
 
@@ -407,7 +418,7 @@ Unclear Prover::operator()(const Run& run) {
 
 Unclear find_unclear(const MovedParts& moved, std::span<const CandidatePair> meeting,
                      const Run& run) {
-    return Prover(moved, meeting)(run);
+    return Prover(moved, meeting, run)(run);
 }
 
 } // namespace terrane

@@ -31,21 +31,20 @@ namespace terrane {
 
 /// Divided faces and their parts, after the move.
 struct MovedParts {
-    std::span<const Point3> face_points;     ///< exact corners of faces
-    std::span<const Triangle> faces;         ///< indices into face_points
-    std::span<const Point3> points;          ///< moved vertices of the parts
-    std::span<const double> moves;           ///< per point: at most this far from its exact place
-    std::span<const Triangle> parts;         ///< indices into points
-    const Lists<std::uint32_t>& faces_of;    ///< per part: the faces that contain it, sorted
-    std::span<const std::uint32_t> patch_of; ///< per part: within one patch none meet improperly;
-                                             ///< or no_group
+    std::span<const Point3> face_points;  ///< exact corners of faces
+    std::span<const Triangle> faces;      ///< indices into face_points
+    std::span<const Point3> points;       ///< moved vertices of the parts
+    std::span<const double> moves;        ///< per point: at most this far from its exact place
+    std::span<const Triangle> parts;      ///< indices into points
+    const Lists<std::uint32_t>& faces_of; ///< per part: the faces that contain it, sorted
 };
 
-/// Whatever meets improperly is among `pairs`, or has one of `parts` in it. The pairs are of those
-/// parts whose faces are in `meeting`, or that have a common face.
+/// Of parts whose faces are a pair of `meeting`, whatever meets improperly is among `pairs` or has
+/// one of `parts` in it; of parts of one face, it has one of `restless` in it.
 struct Unclear {
-    std::vector<CandidatePair> pairs; ///< of parts; sorted, unique
-    std::vector<std::uint32_t> parts; ///< ascending
+    std::vector<CandidatePair> pairs;    ///< of parts; sorted, unique
+    std::vector<std::uint32_t> parts;    ///< ascending
+    std::vector<std::uint32_t> restless; ///< ascending
 };
 
 /// `meeting`: pairs of faces whose boxes overlap and of which one is divided; sorted.

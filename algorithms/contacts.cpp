@@ -7,6 +7,7 @@
 
 #include <terrane/algorithms/construction_table.hpp>
 #include <terrane/algorithms/parallel.hpp>
+#include <terrane/kernel/quick_plane.hpp>
 
 namespace terrane {
 namespace {
@@ -21,13 +22,28 @@ struct PairBlock {
     PredicateCounts predicates;
 };
 
+/// Strictly, by the static filter: no corner is common.
+bool lies_beside(const QuickPlane& plane, const TriangleSoup& soup, std::uint32_t triangle) {
+    const Triangle& t = soup.triangles[triangle];
+    const auto a = plane.side(soup.points[t[0]]);
+    return a && plane.side(soup.points[t[1]]) == a && plane.side(soup.points[t[2]]) == a;
+}
+
 PairBlock test_pairs(const TriangleSoup& soup, std::span<const CandidatePair> pairs) {
     PairBlock block;
     const PredicateCounts before = predicate_counts();
-    for (const CandidatePair& p : pairs)
+    std::uint32_t first = UINT32_MAX;
+    std::optional<QuickPlane> plane; // of the first: pairs come sorted
+    for (const CandidatePair& p : pairs) {
+        if (p.first != first) {
+            const Triangle& t = soup.triangles[first = p.first];
+            plane.emplace(soup.points[t[0]], soup.points[t[1]], soup.points[t[2]]);
+        }
+        if (lies_beside(*plane, soup, p.second)) continue;
         if (const auto contact =
                 improper_contact(soup.points, soup.triangles[p.first], soup.triangles[p.second]))
             block.contacts.push_back({p, *contact});
+    }
     block.predicates = predicate_counts() - before;
     return block;
 }
@@ -109,14 +125,16 @@ PointOrder order_points(const TriangleSoup& soup, const Contacts& contacts) {
     const PointStore& store = contacts.points;
     const auto inputs = static_cast<PointIndex>(store.input_count());
     std::vector<PointIndex> used;
+    std::vector<bool> is_used(inputs, false);
+    const auto use = [&](PointIndex p) {
+        if (p >= inputs || is_used[p]) return;
+        is_used[p] = true;
+        used.push_back(p);
+    };
     for (const FacePiece& p : contacts.pieces) {
-        const Triangle& t = soup.triangles[p.face];
-        used.insert(used.end(), t.begin(), t.end());
-        for (const PointIndex e : p.ends)
-            if (e < inputs) used.push_back(e);
+        for (const PointIndex c : soup.triangles[p.face]) use(c);
+        for (const PointIndex e : p.ends) use(e);
     }
-    std::sort(used.begin(), used.end());
-    used.erase(std::unique(used.begin(), used.end()), used.end());
     for (PointIndex p = inputs; p < store.size(); ++p) used.push_back(p);
 
     const UpwardRounding guard;

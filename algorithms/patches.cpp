@@ -346,18 +346,18 @@ Patches prove_patches(std::span<const Point3> points, std::span<const Triangle> 
 }
 
 void confirm_patches(std::span<const Point3> points, std::span<const Triangle> triangles,
-                     const Adjacency& adjacency, const std::vector<bool>& is_moved,
+                     const Adjacency& adjacency, std::span<const std::uint32_t> moved,
+                     const std::vector<bool>& is_moved,
                      const std::function<Sign(std::uint32_t, Axis)>& turn, Patches& patches) {
     std::vector<bool> holds(patches.axis.size(), true), moved_border(patches.axis.size(), false);
     const auto orient = [&](std::uint32_t t, Axis axis) {
         const Triangle& c = triangles[t];
         return orient2d(axis, points[c[0]], points[c[1]], points[c[2]]);
     };
-    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-        const Triangle& c = triangles[t];
+    for (const std::uint32_t t : moved) {
         const std::uint32_t p = patches.of[t];
-        if (p == no_group || !(is_moved[c[0]] || is_moved[c[1]] || is_moved[c[2]])) continue;
-        if (holds[p] && orient(t, patches.axis[p]) != turn(t, patches.axis[p])) holds[p] = false;
+        if (p != no_group && holds[p] && orient(t, patches.axis[p]) != turn(t, patches.axis[p]))
+            holds[p] = false;
     }
     std::vector<BorderEdge> border;
     for (std::size_t e = 0; e < adjacency.edges.size(); ++e) { // inner ones are within one patch

@@ -41,10 +41,12 @@ Patches prove_patches(std::span<const Point3> points, std::span<const Triangle> 
 /// Shows the same again after some vertices have moved a little; patches for which that fails are
 /// taken out of patches.of. patches.of counts the triangles given here (parts of those for which
 /// it was shown), turn(t) is the sign of triangle t in its patch's projection before the move, and
-/// is_moved says which vertices moved, `adjacency` was made with patches.of. Cost: a predicate per
-/// triangle with a moved corner, and the borders of the patches that have a moved vertex on it.
+/// is_moved says which vertices moved, `moved` lists the triangles at them, `adjacency` was made
+/// with patches.of. Cost: a predicate per triangle with a moved corner, and the borders of the
+/// patches that have a moved vertex on it.
 void confirm_patches(std::span<const Point3> points, std::span<const Triangle> triangles,
-                     const Adjacency& adjacency, const std::vector<bool>& is_moved,
+                     const Adjacency& adjacency, std::span<const std::uint32_t> moved,
+                     const std::vector<bool>& is_moved,
                      const std::function<Sign(std::uint32_t triangle, Axis axis)>& turn,
                      Patches& patches);
 

@@ -185,10 +185,18 @@ std::vector<CandidatePair> Rounding::first_contacts() {
         const auto at = [&](unsigned i) { return a.points.input(c[i]); };
         return orient2d(axis, at(0), at(1), at(2));
     };
-    confirm_patches(state_.points, state_.triangles, a.adjacency, state_.is_dirty, turn, patches);
-    Unclear unclear = find_unclear({a.points.inputs(), a.inputs.corners, state_.points, state_.move,
-                                    state_.triangles, a.parents_of, patches.of},
+    Unclear unclear;
+    both(
+        run_,
+        [&] {
+            confirm_patches(state_.points, state_.triangles, a.adjacency, dirty, state_.is_dirty,
+                            turn, patches);
+        },
+        [&] {
+            unclear = find_unclear({a.points.inputs(), a.inputs.corners, state_.points, state_.move,
+                                    state_.triangles, a.parents_of},
                                    a.neighbours, run_);
+        });
     const auto improper = is_improper();
     std::vector<CandidatePair> pairs;
     {
@@ -198,6 +206,8 @@ std::vector<CandidatePair> Rounding::first_contacts() {
     }
     for (const std::uint32_t t : dirty)
         if (patches.of[t] != a.patches.of[t]) unclear.parts.push_back(t);
+    for (const std::uint32_t t : unclear.restless) // two of one patch are known not to meet
+        if (patches.of[t] == no_group) unclear.parts.push_back(t);
     if (unclear.parts.empty()) return pairs;
     sort_unique(unclear.parts);
     const auto more = candidate_pairs_of({state_.points, state_.triangles}, unclear.parts,

@@ -100,15 +100,16 @@ void examine(Random& random, const Surface& surface, double size, Found& found) 
     if (!a.degenerate.empty() || !a.inputs.duplicates.empty() || a.triangles.size() > 400) return;
     const Moved m = moved(random, a, size);
     if (has_flat(m, a.triangles)) return;
-    const std::vector<std::uint32_t> no_patch(a.triangles.size(), no_group);
-    const Unclear unclear = find_unclear({a.points.inputs(), a.inputs.corners, m.points, m.moves,
-                                          a.triangles, a.parents_of, no_patch},
-                                         all_pairs(a.inputs.first.back()), {});
+    const Unclear unclear = find_unclear(
+        {a.points.inputs(), a.inputs.corners, m.points, m.moves, a.triangles, a.parents_of},
+        all_pairs(a.inputs.first.back()), {});
     const auto is_listed = [&](const CandidatePair& p) {
-        const auto& parts = unclear.parts;
-        return std::binary_search(unclear.pairs.begin(), unclear.pairs.end(), p) ||
-               std::binary_search(parts.begin(), parts.end(), p.first) ||
-               std::binary_search(parts.begin(), parts.end(), p.second);
+        const auto has = [&](const auto& list, const auto& value) {
+            return std::binary_search(list.begin(), list.end(), value);
+        };
+        return has(unclear.pairs, p) || has(unclear.parts, p.first) ||
+               has(unclear.parts, p.second) || has(unclear.restless, p.first) ||
+               has(unclear.restless, p.second);
     };
     for (const CandidatePair& p : all_pairs(static_cast<std::uint32_t>(a.triangles.size()))) {
         const bool listed = is_listed(p);
@@ -146,10 +147,9 @@ TEST_CASE("clearance: hardly any part of a smooth sheet is unclear after roundin
     for (int i = 0; i < cases(200); ++i) {
         const Arrangement a = arrange(std::vector{crossed_sheet(random)}).value();
         const Moved m = moved(random, a, 1e-15);
-        const std::vector<std::uint32_t> no_patch(a.triangles.size(), no_group);
-        const Unclear unclear = find_unclear({a.points.inputs(), a.inputs.corners, m.points,
-                                              m.moves, a.triangles, a.parents_of, no_patch},
-                                             all_pairs(a.inputs.first.back()), {});
+        const Unclear unclear = find_unclear(
+            {a.points.inputs(), a.inputs.corners, m.points, m.moves, a.triangles, a.parents_of},
+            all_pairs(a.inputs.first.back()), {});
         unclear_pairs += unclear.pairs.size();
         parts += a.triangles.size();
     }
