@@ -79,6 +79,7 @@ public:
         check_facets();
         check_regions();
         compare_volumes();
+        out_.shape = shape_of(made_);
         return std::move(out_);
     }
 
@@ -203,9 +204,10 @@ private:
             RegionVolume& region = out_.volumes.emplace_back();
             region.block = nearest_quotient(of_blocks[v], Exact(6));
             region.tetrahedra = nearest_quotient(of_tetrahedra[v], Exact(6));
+            region.difference = nearest_quotient(difference, Exact(6));
             region.bound = 2 * distance * area[v];
             region.equal = exact_sign(difference) == Sign::Zero;
-            if (v > 0 && std::fabs(nearest_quotient(difference, Exact(6))) > region.bound)
+            if (v > 0 && std::fabs(region.difference) > region.bound)
                 violation("block {} has volume {}, its tetrahedra {}", v, region.block,
                           region.tetrahedra);
         }

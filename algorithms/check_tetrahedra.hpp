@@ -10,6 +10,7 @@
 
 #include <terrane/algorithms/mesh.hpp>
 #include <terrane/algorithms/result.hpp>
+#include <terrane/algorithms/tetrahedra_shape.hpp>
 #include <terrane/algorithms/volumes.hpp>
 
 namespace terrane {
@@ -18,6 +19,7 @@ namespace terrane {
 struct RegionVolume {
     double block = 0; ///< nearest to the exact volume; [0]: negative, as the box is not counted
     double tetrahedra = 0; ///< nearest to their exact sum
+    double difference = 0; ///< nearest to the exact one, tetrahedra - block
     double bound = 0;   ///< on the difference of the two, from vertices that were rounded next to
                         ///< triangles: the largest distance of one from its triangle times the
                         ///< area of all faces around the block, doubled
@@ -27,6 +29,7 @@ struct RegionVolume {
 struct TetrahedraReport {
     std::vector<std::string> violations; ///< a sentence each; empty: all is well
     std::vector<RegionVolume> volumes;   ///< per volume; [0], the outside, is not compared
+    TetrahedraShape shape;               ///< judged by nobody
 };
 
 /// Finds

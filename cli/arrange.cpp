@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <algorithm>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/region_points.hpp>
 #include <terrane/algorithms/stopwatch.hpp>
 #include <terrane/cli/command.hpp>
 #include <terrane/cli/pipeline.hpp>
@@ -21,7 +25,7 @@ struct ArrangeCommand {
 };
 
 constexpr auto footer =
-    R"(Writes .vtp .obj .ts .ply .off .stl .msh; -o may be repeated. The mesh is written only if its
+    R"(Writes .vtp .obj .ts .ply .off .stl .msh .inp .mesh .poly .smesh; -o may be repeated. The mesh is written only if its
 doubles are conforming, by an exact check of the doubles themselves. Otherwise the pairs of
 triangles in the way are named, and the exit status is 1.
 
@@ -46,6 +50,44 @@ Result<bool> stl_is_conforming(const Mesh& mesh, const FileOptions& files,
         return false;
     }
     return true;
+}
+
+/// For TetGen's formats: where the blocks are; a warning for those without a point in doubles.
+Result<std::vector<RegionPoint>>
+points_in_blocks(const Mesh& mesh, const std::vector<Output>& outputs, Session& session) {
+    const bool wanted = std::any_of(outputs.begin(), outputs.end(), [](const Output& output) {
+        return output.format == Format::poly || output.format == Format::smesh;
+    });
+    if (!wanted) return std::vector<RegionPoint>();
+    session.begin("volumes", Phase::computing);
+    const auto volumes = find_volumes(mesh, session.run());
+    if (!volumes) return volumes.error();
+    auto points = region_points(mesh, volumes.value(), session.run());
+    session.end_stage();
+    if (!points) return points.error();
+    if (const auto missing = volumes.value().block_count() - points.value().size(); missing > 0)
+        warn(fmt::format("{} too thin for a region point", counted(missing, "block")));
+    return points;
+}
+
+/// What `outputs` get, in their order.
+Status write_outputs(const Mesh& mesh, bool clean, const FileOptions& files,
+                     const std::vector<Output>& outputs, Session& session) {
+    WriteOptions options;
+    options.ascii = files.ascii;
+    std::vector<RegionPoint> regions;
+    if (clean) { // else there are no blocks to speak of
+        auto points = points_in_blocks(mesh, outputs, session);
+        if (!points) return points.error();
+        regions = std::move(points).value();
+    }
+    options.regions = regions;
+    for (const Output& output : outputs) {
+        const auto written = write_output(mesh, output, options, session);
+        if (!written) return written.error();
+        print(summary_stream(files), output.path == "-" ? "" : "wrote " + output.path + "\n");
+    }
+    return Done{};
 }
 
 Result<ExitStatus> arrange_files(const ArrangeCommand& command, Session& session) {
@@ -73,11 +115,9 @@ Result<ExitStatus> arrange_files(const ArrangeCommand& command, Session& session
 
     Stopwatch writing;
     const bool keep = clean || command.keep_unverified;
-    for (const Output& output : outputs.value()) {
-        if (!keep) break;
-        const auto written = write_output(mesh, output, files.ascii, session);
+    if (keep) {
+        const auto written = write_outputs(mesh, clean, files, outputs.value(), session);
         if (!written) return written.error();
-        print(summary_stream(files), output.path == "-" ? "" : "wrote " + output.path + "\n");
     }
     if (!keep) print(stderr, "terrane: nothing written (see --keep-unverified)\n");
     const auto proved =
@@ -102,6 +142,7 @@ Command arrange_command(CLI::App& program) {
         "--keep-unverified", options->keep_unverified,
         "Write the mesh even where its doubles are not conforming (status 1 all the same)");
     app->add_flag("--ascii", options->files.ascii, "STL as text, with doubles, not float32");
+    add_msh(*app, options->files);
     add_proof(*app, options->proof);
     add_threads(*app, options->files);
     add_stats(*app, options->files);

@@ -15,7 +15,7 @@ struct ConvertCommand {
 constexpr auto footer =
     R"(Nothing is arranged, merged or repaired: the same triangles with the same coordinates, bit by bit.
 Binary STL holds float32 only, which is said. Reads .ts .ml .obj .off .stl .ply, writes .vtp .obj
-.ts .ply .off .stl .msh.
+.ts .ply .off .stl .msh .inp .mesh .poly .smesh.
 
 Examples:
   terrane convert faults.ts faults.obj
@@ -54,7 +54,7 @@ Result<ExitStatus> convert_file(const ConvertCommand& command, Session& session)
     if (!inputs) return inputs.error();
     const Mesh mesh = concatenate(inputs.value().surfaces);
     const Output& output = outputs.value().front();
-    const auto written = write_output(mesh, output, files.ascii, session);
+    const auto written = write_output(mesh, output, {.ascii = files.ascii}, session);
     if (!written) return written.error();
     if (output.format == Format::stl && !files.ascii && loses_digits(mesh))
         warn(output.path + ": coordinates were rounded to float32, all that binary STL holds; "
@@ -74,11 +74,13 @@ Command convert_command(CLI::App& program) {
         ->required()
         ->type_name("FILE");
     app->add_option("--format", options->files.format,
-                    "Format of whatever is -: ts, ml, obj, off, stl, ply, vtp, msh")
+                    "Format of whatever is -: ts, ml, obj, off, stl, ply, vtp, msh, inp, "
+                    "mesh, poly, smesh")
         ->type_name("FORMAT");
     app->add_option("--output-format", options->files.output_format,
                     "Format of OUT, where its extension does not tell")
         ->type_name("FORMAT");
+    add_msh(*app, options->files);
     app->add_flag("--ascii", options->files.ascii, "STL as text, with doubles, not float32");
     app->footer(footer);
     return {app, [options] {

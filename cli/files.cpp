@@ -29,6 +29,7 @@ Result<Format> format_of_output(const FileOptions& options, const std::string& p
                                : path == "-"                  ? options.format
                                                               : std::string();
     const auto format = named.empty() ? format_of(path) : format_named(named);
+    if (format == Format::msh && options.msh == "2.2") return Format::msh22;
     if (format) return *format;
     if (!named.empty()) return Error{ErrorCode::unknown_format, "unknown format " + named, ""};
     if (path == "-") return usage("the format must be given: --format FORMAT", "standard output");
@@ -37,8 +38,7 @@ Result<Format> format_of_output(const FileOptions& options, const std::string& p
 }
 
 bool fits(Format format, OutputKind kind) {
-    if (kind == OutputKind::tetrahedra) return format == Format::vtu || format == Format::msh;
-    return format != Format::vtu;
+    return kind == OutputKind::tetrahedra ? holds_tetrahedra(format) : holds_surfaces(format);
 }
 
 Status check_streams(const FileOptions& options) {
@@ -62,12 +62,10 @@ std::vector<std::string> labels_of(const std::vector<Surface>& surfaces) {
 }
 
 template <class AnyMesh>
-Status write_with(const AnyMesh& mesh, const Output& output, bool ascii, Session& session,
+Status write_with(const AnyMesh& mesh, const Output& output, WriteOptions options, Session& session,
                   Status (*write)(const AnyMesh&, const fs::path&, const WriteOptions&)) {
     session.begin("write", output.path == "-" ? Phase::idle : Phase::writing);
-    WriteOptions options;
     options.format = output.format;
-    options.ascii = ascii;
     auto status = write(mesh, output.path, options);
     session.end_stage();
     return status;
@@ -96,7 +94,8 @@ void add_inputs(CLI::App& command, FileOptions& options) {
         ->type_name("FILE");
     command
         .add_option("--format", options.format,
-                    "Format of whatever is -: ts, ml, obj, off, stl, ply, vtp, vtu, msh")
+                    "Format of whatever is -: ts, ml, obj, off, stl, ply, vtp, vtu, msh, inp, "
+                    "mesh, poly, smesh")
         ->type_name("FORMAT");
 }
 
@@ -109,6 +108,12 @@ void add_output(CLI::App& command, FileOptions& options, const char* help) {
         .add_option("--output-format", options.output_format,
                     "Format of OUT, where its extension does not tell")
         ->type_name("FORMAT");
+}
+
+void add_msh(CLI::App& command, FileOptions& options) {
+    command.add_option("--msh", options.msh, "Version of .msh files: 4.1 or 2.2 (default: 4.1)")
+        ->check(CLI::IsMember({"4.1", "2.2"}).description(""))
+        ->type_name("VERSION");
 }
 
 void add_threads(CLI::App& command, FileOptions& options) {
@@ -134,7 +139,7 @@ Result<std::vector<Output>> plan_outputs(const FileOptions& options, OutputKind 
             return Error{ErrorCode::unsupported,
                          kind == OutputKind::surfaces
                              ? "this format is for tetrahedra, not for surfaces"
-                             : "tetrahedra are written as .vtu or .msh",
+                             : "tetrahedra are written as .vtu, .msh, .inp or .mesh",
                          path};
         if (const auto folder = check_folder(path); !folder) return folder.error();
         outputs.push_back({path, format.value()});
@@ -178,12 +183,13 @@ std::string name_of_inputs(const FileOptions& options) {
     return others == 0 ? name : fmt::format("{} and {}", name, counted(others, "more file"));
 }
 
-Status write_output(const Mesh& mesh, const Output& output, bool ascii, Session& session) {
-    return write_with<Mesh>(mesh, output, ascii, session, write_mesh);
+Status write_output(const Mesh& mesh, const Output& output, WriteOptions options,
+                    Session& session) {
+    return write_with<Mesh>(mesh, output, options, session, write_mesh);
 }
 
 Status write_output(const TetrahedralMesh& mesh, const Output& output, Session& session) {
-    return write_with<TetrahedralMesh>(mesh, output, false, session, write_tetrahedra);
+    return write_with<TetrahedralMesh>(mesh, output, {}, session, write_tetrahedra);
 }
 
 std::FILE* summary_stream(const FileOptions& options) {

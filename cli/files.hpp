@@ -27,10 +27,12 @@ struct FileOptions {
     std::string stats;         ///< empty: none
     unsigned threads = 0;      ///< 0: all cores
     bool ascii = false;        ///< STL as text
+    std::string msh = "4.1";   ///< version of MSH, or 2.2
 };
 
 void add_inputs(CLI::App& command, FileOptions& options);
 void add_output(CLI::App& command, FileOptions& options, const char* help);
+void add_msh(CLI::App& command, FileOptions& options);
 void add_threads(CLI::App& command, FileOptions& options);
 void add_stats(CLI::App& command, FileOptions& options);
 
@@ -63,7 +65,8 @@ Result<Inputs> read_inputs(const FileOptions& options, Session& session);
 /// "basin.ts", "basin.ts and 3 more files"
 std::string name_of_inputs(const FileOptions& options);
 
-Status write_output(const Mesh& mesh, const Output& output, bool ascii, Session& session);
+/// `options` but for the format, which is that of the output.
+Status write_output(const Mesh& mesh, const Output& output, WriteOptions options, Session& session);
 Status write_output(const TetrahedralMesh& mesh, const Output& output, Session& session);
 
 /// Where people are told about the result: standard error if a file goes to standard output.

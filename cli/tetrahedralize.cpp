@@ -7,13 +7,16 @@
 #include <charconv>
 #include <optional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/check_tetrahedra.hpp>
 #include <terrane/algorithms/stopwatch.hpp>
 #include <terrane/algorithms/tetrahedra.hpp>
 #include <terrane/cli/pipeline.hpp>
+#include <terrane/cli/tetrahedra_report.hpp>
 #endif
 
 namespace terrane::cli {
@@ -35,12 +38,20 @@ struct TetrahedralizeCommand {
 constexpr auto footer =
     R"(The surfaces are arranged and rounded first, as `terrane arrange` does; where the doubles are not
 a conforming mesh nothing is written, and the exit status is 1. The box closes the domain: what
-touches it is the outside, each further region is a volume that the surfaces enclose. The VTU has
-arrays region, surface and parent; the MSH has physical groups.
+touches it is the outside, each further region is a volume that the surfaces enclose.
+
+The result is checked: tetrahedra have positive volume, each triangle is a union of their faces, each
+region is one block (found in two ways) and has its volume. Where that fails nothing is written, and
+the exit status is 1. The shapes are reported: dihedral angles, ratios of circumradius to shortest
+edge.
+
+VTU has arrays region, surface and parent; MSH physical groups; Abaqus INP element sets, node sets
+and surfaces; MEDIT references: region and surface + 1.
 
 Examples:
   terrane tetrahedralize model.ml -o model.vtu
   terrane tetrahedralize faults.ts topography.ts -o model.msh --edge-length 200
+  terrane tetrahedralize model.ml -o model.msh --msh 2.2 -o model.inp -o model.mesh
   terrane tetrahedralize model.ml -o model.vtu --box 0,0,-3000,10000,10000,500)";
 
 /// "x0,y0,z0,x1,y1,z1"
@@ -67,66 +78,59 @@ Result<TetrahedraOptions> options_of(const TetrahedralizeCommand& command) {
     return options;
 }
 
-struct RegionTally {
-    std::size_t tetrahedra = 0;
-    double volume = 0;
-};
-
-double volume_of(const TetrahedralMesh& mesh, const std::array<std::uint32_t, 4>& t) {
-    const Point3& o = mesh.vertices[t[0]];
-    const auto from_o = [&](std::uint32_t v) {
-        const Point3& p = mesh.vertices[v];
-        return Point3{p.x - o.x, p.y - o.y, p.z - o.z};
-    };
-    const Point3 a = from_o(t[1]), b = from_o(t[2]), c = from_o(t[3]);
-    const double det = a.x * (b.y * c.z - b.z * c.y) - a.y * (b.x * c.z - b.z * c.x) +
-                       a.z * (b.x * c.y - b.y * c.x);
-    return det / 6;
-}
-
-std::vector<RegionTally> tally(const TetrahedralMesh& mesh) {
-    std::vector<RegionTally> regions(mesh.region_count);
-    for (std::size_t i = 0; i < mesh.tetrahedra.size(); ++i) {
-        RegionTally& region = regions[mesh.region_of[i]];
-        ++region.tetrahedra;
-        region.volume += std::abs(volume_of(mesh, mesh.tetrahedra[i]));
-    }
-    return regions;
-}
-
-std::string region_text(const TetrahedralMesh& mesh) {
-    const auto regions = tally(mesh);
-    auto text = fmt::format("{} tetrahedra, {}, {} with the outside\n", mesh.tetrahedra.size(),
-                            counted(mesh.faces.size(), "face"), counted(regions.size(), "region"));
-    for (std::size_t r = 0; r < std::min(regions.size(), most_regions); ++r)
-        text += fmt::format("  region {:<3} {:>9} tetrahedra  volume {:.6g}{}\n", r,
-                            regions[r].tetrahedra, regions[r].volume, r == 0 ? "  (outside)" : "");
-    if (regions.size() > most_regions)
-        text += fmt::format("  and {} more\n", regions.size() - most_regions);
+std::string region_text(const TetrahedralMesh& mesh, const TetrahedraReport& report) {
+    std::vector<std::size_t> tetrahedra(mesh.region_count);
+    for (const std::uint32_t region : mesh.region_of) ++tetrahedra[region];
+    auto text =
+        fmt::format("{} tetrahedra, {}, {} with the outside\n", mesh.tetrahedra.size(),
+                    counted(mesh.faces.size(), "face"), counted(tetrahedra.size(), "region"));
+    for (std::size_t r = 0; r < std::min(tetrahedra.size(), most_regions); ++r)
+        text += fmt::format("  region {:<3} {:>9} tetrahedra  volume {:.6g}{}\n", r, tetrahedra[r],
+                            report.volumes[r].tetrahedra, r == 0 ? "  (outside)" : "");
+    if (tetrahedra.size() > most_regions)
+        text += fmt::format("  and {} more\n", tetrahedra.size() - most_regions);
     return text;
 }
 
-void add_statistics(Json& json, const TetrahedralMesh& mesh, double seconds) {
+void add_statistics(Json& json, const TetrahedralMesh& mesh, const TetrahedraReport& report) {
     json["output"]["volumes"] = mesh.region_count - 1;
     Json volumes = Json::array();
-    for (const auto& region : tally(mesh)) volumes.push_back(region.volume);
-    json["tetrahedra"] = {{"tetrahedra", mesh.tetrahedra.size()},
-                          {"vertices", mesh.vertices.size()},
-                          {"faces", mesh.faces.size()},
-                          {"regions", mesh.region_count},
-                          {"volume_of_region", volumes}};
-    json["seconds"]["tetrahedralize"] = seconds;
+    for (const RegionVolume& region : report.volumes) volumes.push_back(region.tetrahedra);
+    json["tetrahedra"] = {
+        {"tetrahedra", mesh.tetrahedra.size()}, {"vertices", mesh.vertices.size()},
+        {"faces", mesh.faces.size()},           {"regions", mesh.region_count},
+        {"volume_of_region", volumes},          {"check", report_json(report)}};
 }
 
-/// The outputs, the statistics, the last line for people.
-Result<ExitStatus> write_all(const TetrahedralMesh& mesh, const std::vector<Output>& outputs,
-                             const FileOptions& files, Session& session) {
+struct Filled {
+    TetrahedralMesh tetrahedra;
+    TetrahedraReport report;
+};
+
+Result<Filled> fill_and_check(const Mesh& mesh, const TetrahedraOptions& options, Session& session,
+                              Json& statistics) {
+    Stopwatch watch;
+    session.begin("tetrahedralize", Phase::computing);
+    auto made = tetrahedralize(mesh, options, session.run());
+    if (!made) return made.error();
+    statistics["seconds"]["tetrahedralize"] = watch.lap();
+    session.begin("check tetrahedra", Phase::computing);
+    const auto volumes = find_volumes(mesh, session.run());
+    if (!volumes) return volumes.error();
+    auto report = check_tetrahedra(made.value(), mesh, volumes.value());
+    session.end_stage();
+    statistics["seconds"]["check"] = watch.lap();
+    return Filled{std::move(made).value(), std::move(report)};
+}
+
+Status write_all(const TetrahedralMesh& mesh, const std::vector<Output>& outputs,
+                 const FileOptions& files, Session& session) {
     for (const Output& output : outputs) {
         const auto written = write_output(mesh, output, session);
         if (!written) return written.error();
         print(summary_stream(files), output.path == "-" ? "" : "wrote " + output.path + "\n");
     }
-    return ExitStatus::done;
+    return Done{};
 }
 
 Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Session& session) {
@@ -151,19 +155,25 @@ Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Se
         return ExitStatus::negative;
     }
 
-    Stopwatch watch;
-    session.begin("tetrahedralize", Phase::computing);
-    const auto mesh = tetrahedralize(arranged.value().rounded.mesh, options.value(), session.run());
-    session.end_stage();
-    if (!mesh) return mesh.error();
-    add_statistics(statistics, mesh.value(), watch.lap());
-    print(summary_stream(files), region_text(mesh.value()));
-    const auto written = write_all(mesh.value(), outputs.value(), files, session);
-    if (!written) return written.error();
-    statistics["seconds"]["write"] = watch.lap();
+    const auto filled =
+        fill_and_check(arranged.value().rounded.mesh, options.value(), session, statistics);
+    if (!filled) return filled.error();
+    const auto& [tetrahedra, report] = filled.value();
+    add_statistics(statistics, tetrahedra, report);
+    print(summary_stream(files), region_text(tetrahedra, report) + report_text(report));
+    const bool good = report.violations.empty();
+    if (session.stopped()) return Error{ErrorCode::interrupted, "", ""};
+    Stopwatch writing;
+    if (good) {
+        const auto written = write_all(tetrahedra, outputs.value(), files, session);
+        if (!written) return written.error();
+    } else {
+        print(stderr, violations_text(report) + "terrane: nothing written\n");
+    }
+    statistics["seconds"]["write"] = writing.lap();
     const auto status = write_statistics(statistics, files.stats, total.lap());
     if (!status) return status.error();
-    return ExitStatus::done;
+    return good ? ExitStatus::done : ExitStatus::negative;
 }
 
 void add_tetrahedra_options(CLI::App& app, TetrahedralizeCommand& command) {
@@ -191,7 +201,10 @@ Command tetrahedralize_command(CLI::App& program) {
     auto* app = program.add_subcommand("tetrahedralize",
                                        "Fill the regions between the surfaces with tetrahedra");
     add_inputs(*app, command->files);
-    add_output(*app, command->files, "File for the tetrahedra, .vtu or .msh; - is standard output");
+    add_output(
+        *app, command->files,
+        "File for the tetrahedra, .vtu .msh .inp .mesh; - is standard output; may be repeated");
+    add_msh(*app, command->files);
     add_tetrahedra_options(*app, *command);
     add_settings(*app, command->settings);
     add_threads(*app, command->files);

@@ -4,12 +4,16 @@
 #include <array>
 #include <utility>
 
+#include <terrane/io/abaqus.hpp>
 #include <terrane/io/atomic_file.hpp>
 #include <terrane/io/gmsh.hpp>
+#include <terrane/io/gmsh22.hpp>
+#include <terrane/io/medit.hpp>
 #include <terrane/io/memory.hpp>
 #include <terrane/io/obj.hpp>
 #include <terrane/io/off.hpp>
 #include <terrane/io/ply.hpp>
+#include <terrane/io/poly.hpp>
 #include <terrane/io/stl.hpp>
 #include <terrane/io/text.hpp>
 #include <terrane/io/vtk.hpp>
@@ -24,7 +28,7 @@ namespace {
 /// A file has at least 3 bytes per vertex, so below this size 32-bit indices are enough.
 constexpr std::uint64_t max_bytes = 3 * (std::uint64_t(1) << 32) - 3;
 
-constexpr std::array<std::pair<std::string_view, Format>, 11> names{{
+constexpr std::array<std::pair<std::string_view, Format>, 16> names{{
     {"ts", Format::gocad},
     {"ml", Format::gocad},
     {"gp", Format::gocad},
@@ -36,6 +40,11 @@ constexpr std::array<std::pair<std::string_view, Format>, 11> names{{
     {"vtp", Format::vtp},
     {"vtu", Format::vtu},
     {"msh", Format::msh},
+    {"msh22", Format::msh22},
+    {"inp", Format::inp},
+    {"mesh", Format::medit},
+    {"poly", Format::poly},
+    {"smesh", Format::smesh},
 }};
 
 std::string place_of(const fs::path& path, bool reading) {
@@ -95,6 +104,16 @@ Result<std::string> contents_of(const Mesh& mesh, Format format, const WriteOpti
         return to_ply(mesh);
     case Format::msh:
         return to_msh(mesh);
+    case Format::msh22:
+        return to_msh22(mesh);
+    case Format::inp:
+        return to_abaqus(mesh);
+    case Format::medit:
+        return to_medit(mesh);
+    case Format::poly:
+        return to_poly(mesh, options.regions);
+    case Format::smesh:
+        return to_smesh(mesh, options.regions);
     case Format::vtp:
         return to_vtp(mesh, options.compress, options.cells);
     default:
@@ -105,9 +124,21 @@ Result<std::string> contents_of(const Mesh& mesh, Format format, const WriteOpti
 
 Result<std::string> contents_of(const TetrahedralMesh& mesh, Format format,
                                 const WriteOptions& options) {
-    if (format == Format::vtu) return to_vtu(mesh, options.compress, options.cells);
-    if (format == Format::msh) return to_msh(mesh);
-    return Error{ErrorCode::unsupported, "tetrahedra are written as .vtu or .msh", ""};
+    switch (format) {
+    case Format::vtu:
+        return to_vtu(mesh, options.compress, options.cells);
+    case Format::msh:
+        return to_msh(mesh);
+    case Format::msh22:
+        return to_msh22(mesh);
+    case Format::inp:
+        return to_abaqus(mesh);
+    case Format::medit:
+        return to_medit(mesh);
+    default:
+        break;
+    }
+    return Error{ErrorCode::unsupported, "tetrahedra are written as .vtu, .msh, .inp or .mesh", ""};
 }
 
 template <class AnyMesh>
@@ -124,6 +155,15 @@ Status write(const AnyMesh& mesh, const fs::path& path, const WriteOptions& opti
 }
 
 } // namespace
+
+bool holds_surfaces(Format format) {
+    return format != Format::vtu;
+}
+
+bool holds_tetrahedra(Format format) {
+    return format == Format::vtu || format == Format::msh || format == Format::msh22 ||
+           format == Format::inp || format == Format::medit;
+}
 
 std::optional<Format> format_named(std::string_view name) {
     for (const auto& [known, format] : names)

@@ -14,6 +14,7 @@
 #include <terrane/algorithms/result.hpp>
 #include <terrane/io/cell_array.hpp>
 #include <terrane/io/gocad.hpp>
+#include <terrane/io/poly.hpp>
 
 namespace terrane {
 
@@ -26,7 +27,16 @@ enum class Format {
     vtp,   ///< .vtp, written only
     vtu,   ///< .vtu, written only: tetrahedra
     msh,   ///< .msh, written only: MSH 4.1
+    msh22, ///< by its name only: MSH 2.2
+    inp,   ///< .inp, written only: Abaqus
+    medit, ///< .mesh, written only
+    poly,  ///< .poly, written only: TetGen, surfaces
+    smesh, ///< .smesh, written only: the same
 };
+
+/// Whether surfaces, or tetrahedra, can be written in it.
+bool holds_surfaces(Format format);
+bool holds_tetrahedra(Format format);
 
 /// By extension, in any case; none where it is not known.
 std::optional<Format> format_of(const std::filesystem::path& path);
@@ -55,6 +65,7 @@ struct WriteOptions {
     bool ascii = false;                 ///< STL only: text instead of binary
     bool compress = true;               ///< VTP and VTU only: zlib
     std::span<const CellArray> cells{}; ///< VTP and VTU only: further arrays, one value per cell
+    std::span<const RegionPoint> regions{}; ///< .poly and .smesh only
 };
 
 /// Writes the whole file or, where that fails, nothing. "-" is standard output.
@@ -63,7 +74,7 @@ struct WriteOptions {
 Status write_mesh(const Mesh& mesh, const std::filesystem::path& path,
                   const WriteOptions& options = {});
 
-/// .vtu or .msh. Errors: as write_mesh.
+/// .vtu, .msh, .inp or .mesh. Errors: as write_mesh.
 Status write_tetrahedra(const TetrahedralMesh& mesh, const std::filesystem::path& path,
                         const WriteOptions& options = {});
 

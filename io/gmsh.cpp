@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <terrane/io/groups.hpp>
 #include <terrane/io/names.hpp>
 #include <terrane/io/text.hpp>
 
@@ -29,21 +30,14 @@ struct Entity {
     std::size_t first_element = 1;       ///< element of cell 0
 };
 
-/// One entity per set of surfaces that some triangle has; a single surface s gets tag s + 1.
+/// The groups of triangles, each an entity with the physical tags of its surfaces.
 std::vector<Entity> surface_entities(const Lists<std::uint32_t>& surfaces_of,
                                      std::size_t surface_count, std::size_t first_element) {
-    std::map<std::vector<std::uint32_t>, Entity> entity_of;
-    for (std::size_t i = 0; i < surfaces_of.size(); ++i) {
-        const auto list = surfaces_of[i];
-        entity_of[{list.begin(), list.end()}].cells.push_back(i);
-    }
     std::vector<Entity> entities;
-    auto next_tag = surface_count + 1;
-    for (auto& [surfaces, entity] : entity_of) {
-        entity.tag = surfaces.size() == 1 ? surfaces[0] + 1 : next_tag++;
-        for (const auto surface : surfaces) entity.physical.push_back(surface + 1);
-        entity.first_element = first_element;
-        entities.push_back(std::move(entity));
+    for (auto& group : surface_groups(surfaces_of, surface_count)) {
+        for (auto& surface : group.surfaces) ++surface;
+        entities.push_back(
+            {2, group.tag, std::move(group.surfaces), std::move(group.cells), first_element});
     }
     return entities;
 }
@@ -74,9 +68,7 @@ public:
         for (std::size_t s = 0; s < names.size(); ++s)
             out_ += fmt::format("2 {} \"{}\"\n", s + 1, names[s]);
         for (const auto& volume : volumes)
-            out_ += volume.tag == 1
-                        ? "3 1 \"outside\"\n"
-                        : fmt::format("3 {} \"region {}\"\n", volume.tag, volume.tag - 1);
+            out_ += fmt::format("3 {} \"{}\"\n", volume.tag, region_name(volume.tag - 1));
         out_ += "$EndPhysicalNames\n";
     }
 

@@ -24,6 +24,19 @@ std::string quotable(std::string_view name) {
     return result;
 }
 
+/// Bytes beyond ASCII become '_' too.
+std::string label(std::string_view name) {
+    constexpr std::size_t most_characters = 60; // Abaqus has 80; leaves room for endings
+    std::string result;
+    for (const char c : name.substr(0, most_characters)) {
+        const bool small = c >= 'a' && c <= 'z';
+        const bool kept = (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+        result += small ? static_cast<char>(c - 'a' + 'A') : kept ? c : '_';
+    }
+    if (!result.empty() && (result[0] < 'A' || result[0] > 'Z')) result = "S" + result;
+    return result.empty() ? "SURFACE" : result;
+}
+
 template <class Change>
 std::vector<std::string> different_names(const std::vector<SurfaceInfo>& surfaces, Change change) {
     std::vector<std::string> names;
@@ -48,6 +61,10 @@ std::vector<std::string> plain_names(const std::vector<SurfaceInfo>& surfaces) {
 
 std::vector<std::string> quotable_names(const std::vector<SurfaceInfo>& surfaces) {
     return different_names(surfaces, quotable);
+}
+
+std::vector<std::string> label_names(const std::vector<SurfaceInfo>& surfaces) {
+    return different_names(surfaces, label);
 }
 
 std::string one_line(std::string_view name) {

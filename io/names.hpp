@@ -22,6 +22,10 @@ inline constexpr std::array<std::string_view, 4> role_names{"unknown", "horizon"
 /// empty, and all different, as above.
 [[nodiscard]] std::vector<std::string> quotable_names(const std::vector<SurfaceInfo>& surfaces);
 
+/// Names for Abaqus, which takes upper and lower case for the same: capital letters, digits and '_'
+/// only, a letter first, at most 60 characters and the number of a name met again.
+[[nodiscard]] std::vector<std::string> label_names(const std::vector<SurfaceInfo>& surfaces);
+
 /// `name` on one line: control characters become blanks.
 [[nodiscard]] std::string one_line(std::string_view name);
 

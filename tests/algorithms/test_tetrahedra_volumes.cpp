@@ -64,6 +64,7 @@ std::size_t check_and_count_equal(const Filled& f) {
     std::size_t equal = 0;
     for (std::size_t v = 1; v < report.volumes.size(); ++v) {
         CHECK(report.volumes[v].block == f.volumes.measures[v]);
+        CHECK((report.volumes[v].difference == 0) == report.volumes[v].equal);
         equal += report.volumes[v].equal ? 1 : 0;
     }
     return equal;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // What each command does, seen from outside.
+#include <sstream>
+
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
@@ -146,7 +148,83 @@ TEST_CASE("cli: convert changes the format and nothing else", "[cli]") {
     CHECK(folder.run("convert " + in + " f.stl --ascii").err.empty());
 }
 
+TEST_CASE("cli: arrange and convert write for other mesh generators", "[cli]") {
+    const Folder folder;
+    const auto in = folder.input("model.obj", crossing);
+    REQUIRE(folder.run("arrange " + in + " -o a.msh --msh 2.2 -o a.inp -o a.mesh").status == 0);
+    CHECK(contains(folder.read("a.msh"), "$MeshFormat\n2.2 0 8\n"));
+    CHECK(contains(folder.read("a.inp"), "*ELSET, ELSET=FAULT\n"));
+    CHECK(contains(folder.read("a.mesh"), "# 2: fault\n"));
+    REQUIRE(folder.run("convert " + in + " b.msh").status == 0);
+    CHECK(contains(folder.read("b.msh"), "$MeshFormat\n4.1 0 8\n"));
+    REQUIRE(folder.run("convert " + in + " b.msh --msh 2.2").status == 0);
+    CHECK(contains(folder.read("b.msh"), "$MeshFormat\n2.2 0 8\n"));
+    const auto wrong = folder.run("convert " + in + " c.msh --msh 3");
+    CHECK(wrong.status == 2);
+    CHECK(contains(wrong.err, "--msh"));
+    const auto unread = folder.run("convert a.inp c.obj");
+    CHECK(unread.status == 2);
+    CHECK(contains(unread.err, "this format is written, not read"));
+    CHECK(folder.left() == std::set<std::string>{"a.msh", "a.inp", "a.mesh", "b.msh"});
+}
+
+TEST_CASE("cli: arrange puts a point into each block for TetGen", "[cli]") {
+    const Folder folder;
+    const auto in = folder.input("two.off", "OFF\n8 8 0\n0 0 0\n4 0 0\n0 4 0\n0 0 4\n"
+                                            "9 0 0\n13 0 0\n9 4 0\n9 0 4\n"
+                                            "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n"
+                                            "3 4 6 5\n3 4 5 7\n3 4 7 6\n3 5 6 7\n");
+    REQUIRE(folder.run("arrange " + in + " -o a.poly -o a.smesh").status == 0);
+    for (const std::string name : {"a.poly", "a.smesh"}) {
+        const auto text = folder.read(name);
+        INFO(text);
+        std::istringstream regions(text.substr(text.find("# regions\n") + 10));
+        int count = 0;
+        REQUIRE(regions >> count);
+        REQUIRE(count == 2);
+        for (int r = 1; r <= 2; ++r) {
+            double number = 0, x = 0, y = 0, z = 0, block = 0;
+            REQUIRE(regions >> number >> x >> y >> z >> block);
+            CHECK(block == r);
+            x -= r == 1 ? 0 : 9;
+            CHECK((x > 0 && y > 0 && z > 0 && x + y + z < 4));
+        }
+    }
+    REQUIRE(folder.run("convert " + in + " b.smesh").status == 0); // blocks are not looked for
+    CHECK(contains(folder.read("b.smesh"), "# regions\n0\n"));
+}
+
 #ifdef TERRANE_HAS_TETGEN
+TEST_CASE("cli: tetrahedralize reports checks and shapes", "[cli]") {
+    const Folder folder;
+    const auto r = folder.run("tetrahedralize $D/ringmesh/modelA1.ml -o a.msh --msh 2.2 -o a.inp "
+                              "-o a.mesh --stats s.json");
+    INFO(r.err);
+    REQUIRE(r.status == 0);
+    CHECK(contains(r.out, "checked: each triangle is a union of faces, each region is one block"));
+    CHECK(contains(r.out, "of 4 blocks exactly their tetrahedra"));
+    CHECK(contains(r.out, "\ndihedral angles "));
+    CHECK(contains(r.out, "\nratio of circumradius to shortest edge "));
+    const auto json = Json::parse(folder.read("s.json"));
+    const auto& check = json["tetrahedra"]["check"];
+    CHECK(check["violations"].empty());
+    const auto sum = [](const Json& counts) {
+        std::size_t total = 0;
+        for (const auto& count : counts) total += count.get<std::size_t>();
+        return total;
+    };
+    const auto tetrahedra = json["tetrahedra"]["tetrahedra"].get<std::size_t>();
+    CHECK(check["dihedral"]["histogram"].size() == 18);
+    CHECK(sum(check["dihedral"]["histogram"]) == 6 * tetrahedra);
+    CHECK(check["radius_edge"]["histogram"].size() == check["radius_edge"]["bounds"].size() + 1);
+    CHECK(sum(check["radius_edge"]["histogram"]) == tetrahedra);
+    CHECK(check["dihedral"]["min"] < 60);
+    CHECK(check["dihedral"]["max"] > 71);
+    CHECK(contains(folder.read("a.msh"), "$MeshFormat\n2.2 0 8\n"));
+    CHECK(contains(folder.read("a.inp"), "*ELEMENT, TYPE=C3D4, ELSET=region_4\n"));
+    CHECK(contains(folder.read("a.mesh"), "\nTetrahedra\n" + std::to_string(tetrahedra) + "\n"));
+}
+
 TEST_CASE("cli: tetrahedralize finds the regions that the models state", "[cli]") {
     const Folder folder;
     const auto regions = [&](const std::string& model) {
@@ -173,7 +251,7 @@ TEST_CASE("cli: tetrahedralize with a box, and what it refuses", "[cli]") {
     for (const std::string bad :
          {"-o c.vtu --box 0,0,0,1,1,1", "-o c.vtu --box 1,2,3", "-o c.vtu --box a,b,c,d,e,f",
           "-o c.vtu --box -2,-2,-2,6,6,nan", "-o c.vtu --margin -1", "-o c.vtu --edge-length 0",
-          "-o c.vtu --quality 0.5", "-o c.obj", "-o c.vtu -o c.vtp"}) {
+          "-o c.vtu --quality 0.5", "-o c.obj", "-o c.poly", "-o c.vtu -o c.vtp"}) {
         INFO(bad);
         const auto r = folder.run("tetrahedralize " + in + " " + bad);
         CHECK(r.status == 2);

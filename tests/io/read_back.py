@@ -2,6 +2,10 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Opens what Terrane writes with VTK and gmsh and compares it with what was meant.
 
+VTK reads VTP and VTU, gmsh MSH 4.1, MSH 2.2 and MEDIT; Abaqus files, which gmsh does not read, are
+read by the few lines below, from Abaqus' description of the keywords. (TetGen's formats are tested
+in test_poly.cpp.)
+
 usage: read_back.py TERRANE_TESTS
 
 Needs VTK's Python modules and the program gmsh; without either it fails.
@@ -93,7 +97,10 @@ def check_cell_data(path, data, meant):
 
 
 def through_gmsh(path):
-    """Nodes and elements {(type, physical tag, nodes): count}, as gmsh writes them in MSH 2.2."""
+    """Nodes and elements {(type, physical tag, nodes): count}, as gmsh writes them in MSH 2.2.
+
+    MEDIT has no physical groups: gmsh makes entities of the references."""
+    tag = 4 if path.endswith(".mesh") else 3
     out = path + ".22.msh"
     run = subprocess.run(["gmsh", path, "-save", "-format", "msh22", "-o", out, "-v", "2"],
                          capture_output=True, text=True)
@@ -106,17 +113,17 @@ def through_gmsh(path):
     for line in lines:
         if line == "$PhysicalNames":
             for _ in range(int(next(lines))):
-                dimension, tag, name = next(lines).split(" ", 2)
-                names[int(dimension), int(tag)] = name.strip('"')
+                dimension, group, name = next(lines).split(" ", 2)
+                names[int(dimension), int(group)] = name.strip('"')
         if line == "$Nodes":
             for _ in range(int(next(lines))):
-                tag, *xyz = next(lines).split()
-                nodes[int(tag)] = xyz
+                node, *xyz = next(lines).split()
+                nodes[int(node)] = xyz
         if line == "$Elements":
             for _ in range(int(next(lines))):
                 words = [int(word) for word in next(lines).split()]
                 corners = tuple(words[3 + words[2]:])
-                elements[words[1], words[3], corners] += 1
+                elements[words[1], words[tag], corners] += 1
     return nodes, elements, names
 
 
@@ -136,8 +143,124 @@ def check_gmsh(path, meant):
     for corners, region in zip(meant["cells"], meant.get("region_of", [])):
         wanted[4, region + 1, tuple(number[v] for v in corners)] += 1
     check(elements == wanted, f"{path}: elements {elements - wanted}, not {wanted - elements}")
-    check(sum(dimension == 2 for dimension, _ in names) == len(meant["names"]),
+    check([names[2, s + 1] for s in range(len(meant["names"]))] == in_quotes(meant["names"]),
           f"{path}: names {names}")
+    regions = {r: "outside" if r == 0 else f"region {r}" for r in meant.get("region_of", [])}
+    check({tag - 1: name for (dimension, tag), name in names.items() if dimension == 3} == regions,
+          f"{path}: names {names}")
+
+
+def different(names, ending):
+    """Names met again get a number."""
+    return [name + (f"{ending}{names[:i].count(name) + 1}" if name in names[:i] else "")
+            for i, name in enumerate(names)]
+
+
+def in_quotes(names):
+    return different([name.replace('"', "'") for name in names], "_")
+
+
+def references(lists, count):
+    """Per triangle: of its surface from 1, and after those one for each set of several."""
+    several = sorted({tuple(entry) for entry in lists if len(entry) > 1})
+    return [entry[0] + 1 if len(entry) == 1 else count + 1 + several.index(tuple(entry))
+            for entry in lists]
+
+
+def check_medit(path, meant):
+    """By coordinates: gmsh counts the nodes anew."""
+    nodes, elements, _ = through_gmsh(path)
+    triangles = meant.get("faces", meant["cells"])
+    point = [tuple(f"{x:.16g}" for x in p) for p in meant["points"]]
+    wanted = Counter()
+    for corners, reference in zip(triangles, references(meant["surfaces_of"], len(meant["names"]))):
+        wanted[2, reference, tuple(point[v] for v in corners)] += 1
+    for corners, region in zip(meant["cells"], meant.get("region_of", [])):
+        wanted[4, region, tuple(point[v] for v in corners)] += 1
+    found = Counter()
+    for (kind, tag, corners), count in elements.items():
+        found[kind, tag, tuple(tuple(nodes[v]) for v in corners)] += count
+    check(found == wanted, f"{path}: elements {found - wanted}, not {wanted - found}")
+
+
+def read_abaqus(path):
+    """Keyword, parameters and data lines, in order."""
+    blocks = []
+    with open(path, encoding="utf-8") as file:
+        for line in file.read().splitlines():
+            words = [word.strip() for word in line.split(",")]
+            if line.startswith("*"):
+                parameters = dict(word.split("=") for word in words[1:])
+                blocks.append((words[0], parameters, []))
+            else:
+                blocks[-1][2].append([word for word in words if word])
+    return blocks
+
+
+SIDES = {"S1": (0, 1, 2), "S2": (0, 3, 1), "S3": (1, 3, 2), "S4": (2, 3, 0)}
+
+
+def label(name):
+    return "".join(c if c.isascii() and c.isalnum() else "_" for c in name).upper()
+
+
+def check_abaqus(path, meant):
+    blocks = read_abaqus(path)
+    nodes = [data for keyword, _, data in blocks if keyword == "*NODE"][0]
+    check([int(words[0]) for words in nodes] == list(range(1, len(meant["points"]) + 1)),
+          f"{path}: numbers of nodes")
+    for words, wanted in zip(nodes, meant["points"]):
+        check(same_numbers([float(word) for word in words[1:]], wanted), f"{path}: node {words}")
+    elements, element_sets = {}, {}
+    for keyword, parameters, data in blocks:
+        if keyword == "*ELEMENT":
+            check(parameters["TYPE"] == ("C3D4" if "faces" in meant else "S3"), f"{path}: type")
+            for number, *corners in data:
+                elements[int(number)] = [int(v) - 1 for v in corners]
+        if "ELSET" in parameters:
+            numbers = [row[:1] if keyword == "*ELEMENT" else row for row in data]
+            element_sets[parameters["ELSET"]] = [int(n) - 1 for row in numbers for n in row]
+    check([elements[i + 1] for i in range(len(elements))] == meant["cells"], f"{path}: elements")
+    labels = different([label(name) for name in meant["names"]], "_")
+    if "faces" in meant:
+        check_sides(path, meant, blocks, elements, labels)
+        owners = [{f"region_{r}" if r else "outside"} for r in meant["region_of"]]
+    else:
+        owners = [{labels[s] for s in entry} for entry in meant["surfaces_of"]]
+    found = [set() for _ in owners]
+    for name, members in element_sets.items():
+        for i in members:
+            found[i].add(name)
+    check(found == owners, f"{path}: element sets {element_sets}")
+    check(sum(map(len, element_sets.values())) == sum(map(len, owners)), f"{path}: set sizes")
+
+
+def turned(corners):
+    """The same winding from the least corner."""
+    at = corners.index(min(corners))
+    return tuple(corners[at:] + corners[:at])
+
+
+def check_sides(path, meant, blocks, elements, labels):
+    """The sides in a surface are its faces: wound like them in front, the other way behind."""
+    found = {}
+    for keyword, parameters, data in blocks:
+        if keyword == "*SURFACE":
+            check(parameters["TYPE"] == "ELEMENT", f"{path}: type of surface")
+            found[parameters["NAME"]] = sorted(
+                turned([elements[int(e)][i] for i in SIDES[side]]) for e, side in data)
+        if keyword == "*NSET":
+            found[parameters["NSET"]] = [int(n) - 1 for row in data for n in row]
+    sides = {turned([t[i] for i in side]) for t in meant["cells"] for side in SIDES.values()}
+    wanted = {}
+    for s, name in enumerate(labels):
+        faces = [f for f, owners in zip(meant["faces"], meant["surfaces_of"]) if s in owners]
+        wanted[name] = sorted({v for face in faces for v in face})
+        for ending, order in (("_FRONT", 1), ("_BACK", -1)):
+            these = sorted(turned(f[::order]) for f in faces if turned(f[::order]) in sides)
+            if these:
+                wanted[name + ending] = these
+    check(found == wanted, f"{path}: sets and surfaces {found}, not {wanted}")
 
 
 def main():
@@ -153,6 +276,9 @@ def main():
             check_vtk(base + extension, meant)
             check_vtk(base + "_plain" + extension, meant)
             check_gmsh(base + ".msh", meant)
+            check_gmsh(base + "_22.msh", meant)
+            check_medit(base + ".mesh", meant)
+            check_abaqus(base + ".inp", meant)
             print(f"{name}: VTK and gmsh read what was meant")
 
 

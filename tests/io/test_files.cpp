@@ -40,6 +40,11 @@ TEST_CASE("files: the extension tells the format, in any case", "[io][files]") {
     CHECK(format_of("MODEL.ML") == Format::gocad);
     CHECK(format_of("x.tar.Obj") == Format::obj);
     CHECK(format_of("x.msh") == Format::msh);
+    CHECK(format_named("msh22") == Format::msh22);
+    CHECK(format_of("x.inp") == Format::inp);
+    CHECK(format_of("x.mesh") == Format::medit);
+    CHECK(format_of("x.poly") == Format::poly);
+    CHECK(format_of("x.smesh") == Format::smesh);
     CHECK_FALSE(format_of("x.xyz"));
     CHECK_FALSE(format_of("x"));
     CHECK_FALSE(format_of("-"));
@@ -69,6 +74,29 @@ TEST_CASE("files: what is written reads back", "[io][files]") {
     CHECK(message_of(write_tetrahedra(two_tetrahedra(), folder / "b.vtu")) == "no error");
     CHECK(message_of(write_tetrahedra(two_tetrahedra(), folder / "b.msh")) == "no error");
     CHECK(entries(folder.path()) == 10);
+    const auto old = read_file(folder / "a.msh").value();
+    CHECK(message_of(write_mesh(mesh, folder / "a.msh", {.format = Format::msh22})) == "no error");
+    CHECK(read_file(folder / "a.msh").value() != old);
+}
+
+TEST_CASE("files: what holds surfaces, and what tetrahedra", "[io][files]") {
+    TemporaryFolder folder;
+    const std::vector<std::string> names{"ts",  "obj",   "off", "stl",  "ply",  "vtp",  "vtu",
+                                         "msh", "msh22", "inp", "mesh", "poly", "smesh"};
+    std::string of_surfaces, of_tetrahedra;
+    for (const auto& name : names) {
+        const auto format = format_named(name);
+        REQUIRE(format);
+        const auto surfaces = write_mesh(float_mesh(), folder / ("a." + name));
+        const auto tetrahedra = write_tetrahedra(two_tetrahedra(), folder / ("b." + name));
+        INFO(name << ": " << message_of(surfaces) << ", " << message_of(tetrahedra));
+        CHECK(bool(surfaces) == holds_surfaces(*format));
+        CHECK(bool(tetrahedra) == holds_tetrahedra(*format));
+        if (surfaces) of_surfaces += name + " ";
+        if (tetrahedra) of_tetrahedra += name + " ";
+    }
+    CHECK(of_surfaces == "ts obj off stl ply vtp msh msh22 inp mesh poly smesh ");
+    CHECK(of_tetrahedra == "vtu msh msh22 inp mesh ");
 }
 
 TEST_CASE("files: reading what can't be read", "[io][files]") {

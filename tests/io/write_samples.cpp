@@ -83,6 +83,9 @@ void save(const std::filesystem::path& folder, const std::string& name, const An
     write(name + vtk, {});
     write(name + "_plain" + vtk, {.compress = false});
     write(name + ".msh", {});
+    write(name + "_22.msh", {.format = Format::msh22});
+    write(name + ".mesh", {});
+    write(name + ".inp", {});
     std::ofstream(folder / (name + ".json")) << to_json(mesh);
 }
 

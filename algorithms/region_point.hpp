@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+
+#include <terrane/kernel/point.hpp>
+
+namespace terrane {
+
+/// A point inside a volume (see region_points.hpp).
+struct RegionPoint {
+    Point3 place;
+    std::uint32_t region = 0; ///< number of the volume
+};
+
+} // namespace terrane

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/io/gmsh22.hpp>
+
+#include <set>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <terrane/io/groups.hpp>
+#include <terrane/io/names.hpp>
+#include <terrane/io/text.hpp>
+
+namespace terrane {
+
+using namespace detail;
+
+namespace {
+
+std::string physical_names(const std::vector<SurfaceInfo>& surfaces,
+                           const std::set<std::uint32_t>& regions) {
+    auto text = fmt::format("$PhysicalNames\n{}\n", surfaces.size() + regions.size());
+    const auto names = quotable_names(surfaces);
+    for (std::size_t s = 0; s < names.size(); ++s)
+        text += fmt::format("2 {} \"{}\"\n", s + 1, names[s]);
+    for (const auto region : regions)
+        text += fmt::format("3 {} \"{}\"\n", region + 1, region_name(region));
+    return text + "$EndPhysicalNames\n";
+}
+
+std::string nodes(const std::vector<Point3>& vertices) {
+    auto text = fmt::format("$Nodes\n{}\n", vertices.size());
+    for (std::size_t v = 0; v < vertices.size(); ++v) {
+        append_number(text, std::uint64_t(v + 1));
+        text += ' ';
+        append_point(text, vertices[v]);
+        text += '\n';
+    }
+    return text + "$EndNodes\n";
+}
+
+/// The lines of $Elements, numbered from 1.
+class Elements {
+public:
+    template <class Cell>
+    void add(std::string_view type, std::uint64_t group, const Cell& corners) {
+        append_number(text_, ++count_);
+        text_.append(type);
+        for (int tag = 0; tag < 2; ++tag) { // physical, then elementary
+            text_ += ' ';
+            append_number(text_, group);
+        }
+        for (const auto v : corners) {
+            text_ += ' ';
+            append_number(text_, std::uint64_t(v) + 1);
+        }
+        text_ += '\n';
+    }
+
+    void add_triangles(const std::vector<Triangle>& triangles,
+                       const Lists<std::uint32_t>& surfaces_of) {
+        for (std::size_t t = 0; t < triangles.size(); ++t)
+            for (const auto s : surfaces_of[t])
+                add(" 2 2", std::uint64_t(s) + 1, triangles[t]); // type, how many tags
+    }
+
+    [[nodiscard]] std::string section() const {
+        return fmt::format("$Elements\n{}\n", count_) + text_ + "$EndElements\n";
+    }
+
+private:
+    std::string text_;
+    std::uint64_t count_ = 0;
+};
+
+constexpr std::string_view format_section = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
+
+} // namespace
+
+std::string to_msh22(const Mesh& mesh) {
+    Elements elements;
+    elements.add_triangles(mesh.triangles, mesh.surfaces_of);
+    return std::string(format_section) + physical_names(mesh.surfaces, {}) + nodes(mesh.vertices) +
+           elements.section();
+}
+
+std::string to_msh22(const TetrahedralMesh& mesh) {
+    Elements elements;
+    for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
+        elements.add(" 4 2", std::uint64_t(mesh.region_of[t]) + 1, mesh.tetrahedra[t]);
+    elements.add_triangles(mesh.faces, mesh.surfaces_of);
+    const std::set<std::uint32_t> regions(mesh.region_of.begin(), mesh.region_of.end());
+    return std::string(format_section) + physical_names(mesh.surfaces, regions) +
+           nodes(mesh.vertices) + elements.section();
+}
+
+} // namespace terrane
