@@ -10,6 +10,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include <terrane/algorithms/lost_lines.hpp>
 #include <terrane/kernel/predicates.hpp>
 
 namespace terrane {
@@ -83,11 +84,9 @@ void RoundingState::end_round() {
 /// A triangle that lost its area is now a line. Where no triangle that stays has this line as an
 /// edge (or both its halves), its points are up to half its length from the mesh.
 void RoundingState::find_gaps(const std::vector<bool>& gone) {
-    std::set<std::array<std::uint32_t, 2>> lines; // all sides of triangles that go, then: not kept
+    std::set<Side> lines; // all sides of triangles that go, then: not kept
     std::vector<bool> concerned(points.size(), false);
-    const auto side = [&](const Triangle& t, unsigned i) {
-        return std::array{std::min(t[i], t[(i + 1) % 3]), std::max(t[i], t[(i + 1) % 3])};
-    };
+    const auto side = [](const Triangle& t, unsigned i) { return side_of(t, i); };
     for (std::uint32_t t = 0; t < triangles.size(); ++t)
         if (gone[t])
             for (unsigned i = 0; i < 3; ++i) {
@@ -98,7 +97,7 @@ void RoundingState::find_gaps(const std::vector<bool>& gone) {
         if (!gone[t])
             for (unsigned i = 0; i < 3; ++i)
                 if (concerned[triangles[t][i]]) lines.erase(side(triangles[t], i));
-    const auto length = [&](const std::array<std::uint32_t, 2>& l) {
+    const auto length = [&](const Side& l) {
         const Point3 &p = points[l[0]], &q = points[l[1]];
         return length_bound(std::fabs(p.x - q.x), std::fabs(p.y - q.y), std::fabs(p.z - q.z));
     };
@@ -167,7 +166,30 @@ bool RoundingState::tidy() {
     std::vector<bool> gone(triangles.size(), false);
     for (const std::uint32_t t : lost) gone[t] = true;
     if (!lost.empty()) find_gaps(gone);
+    const LostLines lines(points, triangles, lost);
     join_equal(dirty, gone);
+    if (!lost.empty() && divide_sides(lines)) {
+        gone.assign(triangles.size(), false);
+        join_equal(dirty_triangles(), gone);
+    }
+    return true;
+}
+
+/// Divides triangles at the points of lost lines inside their sides. Those points are dirty then,
+/// as the corners between which they lie may be. True if there are any.
+bool RoundingState::divide_sides(const LostLines& lines) {
+    std::vector<Triangle> fresh;
+    Lists<std::uint32_t> faces_of;
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+        const auto within = lines.within(triangles[t]);
+        const std::size_t first = fresh.size();
+        divide_at(triangles[t], within, fresh);
+        for (std::size_t k = first; k < fresh.size(); ++k) faces_of.push_back(std::array{t});
+        for (const auto& side : within)
+            for (const std::uint32_t v : side) is_dirty[v] = true;
+    }
+    if (fresh.size() == triangles.size()) return false;
+    replace_triangles(std::move(fresh), faces_of);
     return true;
 }
 

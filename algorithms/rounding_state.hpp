@@ -13,10 +13,16 @@
 
 namespace terrane {
 
+class LostLines;
+
 /// The mesh of doubles between rounds of snapping.
 ///
 /// A vertex is dirty when it has moved since its triangles were known to be conforming. Two
 /// triangles without a dirty corner meet properly.
+///
+/// Whatever moves, merges or collapses, the parts of an input triangle hang together as they did:
+/// where triangles that became lines go, the sides that met there are the same again, divided at
+/// the same points. So no move opens a slit between parts.
 struct RoundingState {
     std::vector<Point3> points;
     std::vector<double> move;   ///< per point: at most this far from its exact point
@@ -37,8 +43,9 @@ struct RoundingState {
     template <class Snap>
     void move_into(std::span<const Point3> cells, const Snap& snap);
 
-    /// Merges equal points, drops triangles without area, joins equal triangles. True if anything
-    /// changed. Cost: a pass over all points, exact tests for triangles with dirty corners only.
+    /// Merges equal points, drops triangles without area, divides the sides next to those at their
+    /// corners, joins equal triangles. True if anything changed.
+    /// Cost: a pass over all points, exact tests for triangles with dirty corners only.
     bool tidy();
 
     /// Takes new triangles, each contained in the triangles faces_of names.
@@ -54,6 +61,7 @@ private:
     bool merge_points();
     void join_equal(std::span<const std::uint32_t> dirty, std::vector<bool>& gone);
     void find_gaps(const std::vector<bool>& gone);
+    bool divide_sides(const LostLines& lines);
 
     double largest_move_ = 0;
     double largest_gap_ = 0; ///< half the length of a line to which triangles collapsed and that no
