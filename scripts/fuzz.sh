@@ -4,6 +4,7 @@
 # Fuzzes: scripts/fuzz.sh [SECONDS [TARGET...]]
 # Builds the preset fuzz and runs each target (all, unless some are named) for so many seconds, 60
 # unless given, two at a time, from the committed seeds. The readers share the seconds of one target.
+# FUZZ_SEED makes a run repeatable as far as time allows (0, the default: another one each time);
 # FUZZ_CORPUS names a folder in which the corpora are kept from one run to the next. Ends with a
 # table; where something was found with the file that reproduces it, and status 1.
 set -euo pipefail
@@ -31,6 +32,7 @@ export ASAN_OPTIONS=malloc_context_size=1${ASAN_OPTIONS:+:$ASAN_OPTIONS}
 # A finding ends the target: what is found first is to be mended first.
 run_target() {
     local target=$1 time=$seconds options=(-max_len=400 -len_control=10 -entropic=0)
+    local seed=${FUZZ_SEED:-0}
     local seeds=$PWD/fuzz/corpus/$target
     mkdir -p "$corpora/$target"
     if [[ $target == read_* ]]; then
@@ -39,7 +41,7 @@ run_target() {
     fi
     # len_control: inputs may grow sooner. entropic: its book-keeping is linear in the features of
     # a run, and took two thirds of the time.
-    "$binaries/fuzz_$target" "${options[@]}" -max_total_time="$time" -timeout=20 \
+    "$binaries/fuzz_$target" "${options[@]}" -seed="$seed" -max_total_time="$time" -timeout=20 \
         -rss_limit_mb=2048 -print_final_stats=1 -artifact_prefix="$findings/$target-" \
         "$corpora/$target" "$seeds" >"$results/$target.log" 2>&1 ||
         echo "$target" >>"$results/failed"
