@@ -366,7 +366,7 @@ public:
         // coordinates: each triangle gets its own corners' coordinates back.
         for (std::size_t s = 0; s + 1 < in.first.size(); ++s)
             for (std::uint32_t t = in.first[s]; t < in.first[s + 1]; ++t)
-                out[s].triangles.push_back(own_corners(s, in.corners[t], out));
+                out[s].triangles.push_back(own_corners(s, corners_of(t), out));
         return out;
     }
 
@@ -381,6 +381,14 @@ private:
         ++moved_;
         largest_ = std::max(largest_, distance_bound({{p.x, p.y, p.z}, {p.x, p.y, p.z}}, cell));
         return cell;
+    }
+
+    /// What has no area must not get one from the grid: all its corners become the first.
+    [[nodiscard]] Triangle corners_of(std::uint32_t t) const {
+        const Triangle& c = arrangement_.inputs.corners[t];
+        const auto& degenerate = arrangement_.degenerate;
+        if (!std::binary_search(degenerate.begin(), degenerate.end(), t)) return c;
+        return {c[0], c[0], c[0]};
     }
 
     /// Corners as indices into surface s; vertices of other surfaces are added to it.
