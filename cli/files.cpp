@@ -188,8 +188,9 @@ Status write_output(const Mesh& mesh, const Output& output, WriteOptions options
     return write_with<Mesh>(mesh, output, options, session, write_mesh);
 }
 
-Status write_output(const TetrahedralMesh& mesh, const Output& output, Session& session) {
-    return write_with<TetrahedralMesh>(mesh, output, {}, session, write_tetrahedra);
+Status write_output(const TetrahedralMesh& mesh, const Output& output, WriteOptions options,
+                    Session& session) {
+    return write_with<TetrahedralMesh>(mesh, output, options, session, write_tetrahedra);
 }
 
 std::FILE* summary_stream(const FileOptions& options) {

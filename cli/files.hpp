@@ -67,7 +67,8 @@ std::string name_of_inputs(const FileOptions& options);
 
 /// `options` but for the format, which is that of the output.
 Status write_output(const Mesh& mesh, const Output& output, WriteOptions options, Session& session);
-Status write_output(const TetrahedralMesh& mesh, const Output& output, Session& session);
+Status write_output(const TetrahedralMesh& mesh, const Output& output, WriteOptions options,
+                    Session& session);
 
 /// Where people are told about the result: standard error if a file goes to standard output.
 std::FILE* summary_stream(const FileOptions& options);

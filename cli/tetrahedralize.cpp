@@ -6,6 +6,7 @@
 #include <array>
 #include <charconv>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -14,6 +15,7 @@
 
 #include <terrane/algorithms/check_tetrahedra.hpp>
 #include <terrane/algorithms/stopwatch.hpp>
+#include <terrane/algorithms/structure.hpp>
 #include <terrane/algorithms/tetrahedra.hpp>
 #include <terrane/cli/pipeline.hpp>
 #include <terrane/cli/tetrahedra_report.hpp>
@@ -105,6 +107,7 @@ void add_statistics(Json& json, const TetrahedralMesh& mesh, const TetrahedraRep
 struct Filled {
     TetrahedralMesh tetrahedra;
     TetrahedraReport report;
+    std::vector<std::string> block_names; ///< per region, of the surfaces around it
 };
 
 Result<Filled> fill_and_check(const Mesh& mesh, const TetrahedraOptions& options, Session& session,
@@ -120,13 +123,18 @@ Result<Filled> fill_and_check(const Mesh& mesh, const TetrahedraOptions& options
     auto report = check_tetrahedra(made.value(), mesh, volumes.value());
     session.end_stage();
     statistics["seconds"]["check"] = watch.lap();
-    return Filled{std::move(made).value(), std::move(report)};
+    auto structure = build_structure(mesh, volumes.value());
+    std::vector<std::string> names;
+    for (auto& block : structure.blocks) names.push_back(std::move(block.name));
+    return Filled{std::move(made).value(), std::move(report), std::move(names)};
 }
 
-Status write_all(const TetrahedralMesh& mesh, const std::vector<Output>& outputs,
-                 const FileOptions& files, Session& session) {
+Status write_all(const Filled& filled, const std::vector<Output>& outputs, const FileOptions& files,
+                 Session& session) {
+    WriteOptions options;
+    options.region_names = filled.block_names;
     for (const Output& output : outputs) {
-        const auto written = write_output(mesh, output, session);
+        const auto written = write_output(filled.tetrahedra, output, options, session);
         if (!written) return written.error();
         print(summary_stream(files), output.path == "-" ? "" : "wrote " + output.path + "\n");
     }
@@ -158,14 +166,15 @@ Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Se
     const auto filled =
         fill_and_check(arranged.value().rounded.mesh, options.value(), session, statistics);
     if (!filled) return filled.error();
-    const auto& [tetrahedra, report] = filled.value();
+    const TetrahedralMesh& tetrahedra = filled.value().tetrahedra;
+    const TetrahedraReport& report = filled.value().report;
     add_statistics(statistics, tetrahedra, report);
     print(summary_stream(files), region_text(tetrahedra, report) + report_text(report));
     const bool good = report.violations.empty();
     if (session.stopped()) return Error{ErrorCode::interrupted, "", ""};
     Stopwatch writing;
     if (good) {
-        const auto written = write_all(tetrahedra, outputs.value(), files, session);
+        const auto written = write_all(filled.value(), outputs.value(), files, session);
         if (!written) return written.error();
     } else {
         print(stderr, violations_text(report) + "terrane: nothing written\n");

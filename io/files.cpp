@@ -128,9 +128,9 @@ Result<std::string> contents_of(const TetrahedralMesh& mesh, Format format,
     case Format::vtu:
         return to_vtu(mesh, options.compress, options.cells);
     case Format::msh:
-        return to_msh(mesh);
+        return to_msh(mesh, options.region_names);
     case Format::msh22:
-        return to_msh22(mesh);
+        return to_msh22(mesh, options.region_names);
     case Format::inp:
         return to_abaqus(mesh);
     case Format::medit:

@@ -62,13 +62,15 @@ public:
         out_.reserve(vertices.size() * 96);
     }
 
-    void names(const std::vector<SurfaceInfo>& surfaces, std::span<const Entity> volumes) {
+    void names(const std::vector<SurfaceInfo>& surfaces, std::span<const Entity> volumes,
+               std::span<const std::string> region_names) {
         out_ += fmt::format("$PhysicalNames\n{}\n", surfaces.size() + volumes.size());
         const auto names = quotable_names(surfaces);
         for (std::size_t s = 0; s < names.size(); ++s)
             out_ += fmt::format("2 {} \"{}\"\n", s + 1, names[s]);
         for (const auto& volume : volumes)
-            out_ += fmt::format("3 {} \"{}\"\n", volume.tag, region_name(volume.tag - 1));
+            out_ +=
+                fmt::format("3 {} \"{}\"\n", volume.tag, region_name(volume.tag - 1, region_names));
         out_ += "$EndPhysicalNames\n";
     }
 
@@ -144,7 +146,7 @@ private:
 std::string to_msh(const Mesh& mesh) {
     const auto surfaces = surface_entities(mesh.surfaces_of, mesh.surfaces.size(), 1);
     MshWriter out(mesh.vertices);
-    out.names(mesh.surfaces, {});
+    out.names(mesh.surfaces, {}, {});
     out.text(fmt::format("$Entities\n0 0 {} 0", surfaces.size()));
     out.entities<Triangle>(surfaces, mesh.triangles);
     out.text("$EndEntities");
@@ -156,12 +158,12 @@ std::string to_msh(const Mesh& mesh) {
     return out.take();
 }
 
-std::string to_msh(const TetrahedralMesh& mesh) {
+std::string to_msh(const TetrahedralMesh& mesh, std::span<const std::string> region_names) {
     const auto volumes = volume_entities(mesh.region_of);
     const auto surfaces =
         surface_entities(mesh.surfaces_of, mesh.surfaces.size(), mesh.tetrahedra.size() + 1);
     MshWriter out(mesh.vertices);
-    out.names(mesh.surfaces, volumes);
+    out.names(mesh.surfaces, volumes, region_names);
     out.text(fmt::format("$Entities\n0 0 {} {}", surfaces.size(), volumes.size()));
     out.entities<Triangle>(surfaces, mesh.faces);
     out.entities(std::span<const Entity>(volumes), mesh.tetrahedra);

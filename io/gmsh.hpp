@@ -3,6 +3,7 @@
 // Gmsh, MSH 4.1 in ASCII.
 #pragma once
 
+#include <span>
 #include <string>
 
 #include <terrane/algorithms/mesh.hpp>
@@ -15,7 +16,8 @@ namespace terrane {
 std::string to_msh(const Mesh& mesh);
 
 /// The same for faces; region r is volume entity r + 1 and physical volume r + 1, called "outside"
-/// and "region 1", ... Elements: tetrahedra first, then faces.
-std::string to_msh(const TetrahedralMesh& mesh);
+/// and "region 1", ..., or "region 1: NAME" by region_names[1]. Elements: tetrahedra first, then
+/// faces.
+std::string to_msh(const TetrahedralMesh& mesh, std::span<const std::string> region_names = {});
 
 } // namespace terrane

@@ -18,13 +18,14 @@ using namespace detail;
 namespace {
 
 std::string physical_names(const std::vector<SurfaceInfo>& surfaces,
-                           const std::set<std::uint32_t>& regions) {
+                           const std::set<std::uint32_t>& regions,
+                           std::span<const std::string> region_names) {
     auto text = fmt::format("$PhysicalNames\n{}\n", surfaces.size() + regions.size());
     const auto names = quotable_names(surfaces);
     for (std::size_t s = 0; s < names.size(); ++s)
         text += fmt::format("2 {} \"{}\"\n", s + 1, names[s]);
     for (const auto region : regions)
-        text += fmt::format("3 {} \"{}\"\n", region + 1, region_name(region));
+        text += fmt::format("3 {} \"{}\"\n", region + 1, region_name(region, region_names));
     return text + "$EndPhysicalNames\n";
 }
 
@@ -80,17 +81,17 @@ constexpr std::string_view format_section = "$MeshFormat\n2.2 0 8\n$EndMeshForma
 std::string to_msh22(const Mesh& mesh) {
     Elements elements;
     elements.add_triangles(mesh.triangles, mesh.surfaces_of);
-    return std::string(format_section) + physical_names(mesh.surfaces, {}) + nodes(mesh.vertices) +
-           elements.section();
+    return std::string(format_section) + physical_names(mesh.surfaces, {}, {}) +
+           nodes(mesh.vertices) + elements.section();
 }
 
-std::string to_msh22(const TetrahedralMesh& mesh) {
+std::string to_msh22(const TetrahedralMesh& mesh, std::span<const std::string> region_names) {
     Elements elements;
     for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
         elements.add(" 4 2", std::uint64_t(mesh.region_of[t]) + 1, mesh.tetrahedra[t]);
     elements.add_triangles(mesh.faces, mesh.surfaces_of);
     const std::set<std::uint32_t> regions(mesh.region_of.begin(), mesh.region_of.end());
-    return std::string(format_section) + physical_names(mesh.surfaces, regions) +
+    return std::string(format_section) + physical_names(mesh.surfaces, regions, region_names) +
            nodes(mesh.vertices) + elements.section();
 }
 

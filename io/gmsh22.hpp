@@ -3,6 +3,7 @@
 // Gmsh, MSH 2.2 in ASCII: what most other programs still read.
 #pragma once
 
+#include <span>
 #include <string>
 
 #include <terrane/algorithms/mesh.hpp>
@@ -15,7 +16,7 @@ namespace terrane {
 std::string to_msh22(const Mesh& mesh);
 
 /// The same for faces; region r is physical volume and entity r + 1, called "outside" and
-/// "region 1", ... Elements: tetrahedra first, then faces.
-std::string to_msh22(const TetrahedralMesh& mesh);
+/// "region 1", ..., or "region 1: NAME" by region_names[1]. Elements: tetrahedra first, then faces.
+std::string to_msh22(const TetrahedralMesh& mesh, std::span<const std::string> region_names = {});
 
 } // namespace terrane

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/io/groups.hpp>
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -50,8 +51,13 @@ std::string tag_comments(const std::vector<SurfaceGroup>& groups,
     return text;
 }
 
-std::string region_name(std::size_t region) {
-    return region == 0 ? "outside" : fmt::format("region {}", region);
+std::string region_name(std::size_t region, std::span<const std::string> names) {
+    if (region == 0) return "outside";
+    auto name = fmt::format("region {}", region);
+    if (region >= names.size() || names[region].empty()) return name;
+    auto said = one_line(names[region]);
+    std::replace(said.begin(), said.end(), '"', '\'');
+    return name + ": " + said;
 }
 
 } // namespace terrane::detail

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -33,7 +34,7 @@ struct SurfaceGroup {
 [[nodiscard]] std::string tag_comments(const std::vector<SurfaceGroup>& groups,
                                        const std::vector<SurfaceInfo>& surfaces);
 
-/// "outside" for 0, else "region 1", ...
-[[nodiscard]] std::string region_name(std::size_t region);
+/// "outside" for 0, else "region 1", ..., and what the names given say: "region 1: top/base".
+[[nodiscard]] std::string region_name(std::size_t region, std::span<const std::string> names = {});
 
 } // namespace terrane::detail

@@ -48,3 +48,12 @@ TEST_CASE("MSH 2.2: tetrahedra by region, then faces", "[io][gmsh]") {
     CHECK(text.ends_with("$Elements\n5\n1 4 2 1 1 1 2 3 4\n2 4 2 3 3 1 3 2 5\n"
                          "3 2 2 1 1 1 2 3\n4 2 2 2 2 1 2 3\n5 2 2 3 3 1 2 4\n$EndElements\n"));
 }
+
+TEST_CASE("MSH: regions are called after the blocks, where those have names", "[io][gmsh]") {
+    const std::vector<std::string> names{"ignored", "", "top/\"base\"|fault"};
+    const std::string section = "3 1 \"outside\"\n3 3 \"region 2: top/'base'|fault\"\n$EndPhys";
+    CHECK(to_msh(two_tetrahedra(), names).find(section) != std::string::npos);
+    CHECK(to_msh22(two_tetrahedra(), names).find(section) != std::string::npos);
+    const std::vector<std::string> too_few{"ignored"};
+    CHECK(to_msh(two_tetrahedra(), too_few) == to_msh(two_tetrahedra()));
+}
