@@ -22,6 +22,7 @@ enum class ErrorCode {
     not_closed,       ///< a closed surface was needed
     out_of_memory,
     interrupted, ///< stop requested by the caller
+    timed_out,   ///< a limit of time that the caller set is over
     internal,    ///< a promise was broken: please report
 };
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cfenv>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <limits>
@@ -190,7 +191,7 @@ Error from_tetgen(int code) {
 /// The running child and the end of the pipe that its message comes from.
 class ChildProcess {
 public:
-    explicit ChildProcess(const TetgenInput& input) {
+    explicit ChildProcess(const TetgenInput& input) : time_limit_(input.time_limit) {
         // A child that another thread forks now would keep our pipe open, and hide a crash.
         static std::mutex mutex;
         const std::lock_guard lock(mutex);
@@ -223,6 +224,9 @@ public:
         while (size > 0) {
             if (stop.stop_requested())
                 return Error{ErrorCode::interrupted, "stopped while TetGen ran", ""};
+            if (seconds_since_start() > time_limit_)
+                return Error{ErrorCode::timed_out,
+                             fmt::format("TetGen took longer than {} seconds", time_limit_), ""};
             pollfd waiting{fd_, POLLIN, 0};
             if (poll(&waiting, 1, poll_milliseconds) <= 0) continue;
             const ssize_t got = read(fd_, bytes, size);
@@ -254,8 +258,15 @@ private:
                 ""};
     }
 
+    [[nodiscard]] double seconds_since_start() const {
+        const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start_;
+        return taken.count();
+    }
+
     pid_t pid_ = -1;
     int fd_ = -1;
+    double time_limit_; ///< seconds
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
 template <class T>

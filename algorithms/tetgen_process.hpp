@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <stop_token>
 #include <vector>
@@ -26,6 +27,7 @@ struct TetgenInput {
     std::optional<double> max_volume; ///< of a tetrahedron
     std::optional<double> max_area;   ///< of a face on a facet
     std::optional<double> radius_edge_ratio;
+    double time_limit = std::numeric_limits<double>::infinity(); ///< seconds
 };
 
 /// What TetGen says. Nothing is checked but the array lengths.
@@ -37,8 +39,8 @@ struct TetgenOutput {
 };
 
 /// Errors: unsupported (too many, or too close to tell apart), out_of_memory, interrupted (the
-/// child is killed), internal. The same input gives the same output: each child starts from the
-/// same state.
+/// child is killed), timed_out (likewise), internal. The same input gives the same output: each
+/// child starts from the same state.
 Result<TetgenOutput> run_tetgen(const TetgenInput& input, const std::stop_token& stop);
 
 } // namespace terrane

@@ -57,6 +57,7 @@ Status check_options(const TetrahedraOptions& options) {
     if (ratio && !(std::isfinite(*ratio) && *ratio >= smallest_ratio))
         return bad_option(
             fmt::format("radius_edge_ratio must be at least {}, not {}", smallest_ratio, *ratio));
+    if (!(options.time_limit > 0)) return bad_option("time_limit must be positive");
     if (Status length = check_length("edge_length", options.edge_length); !length) return length;
     return check_length("max_volume", options.max_volume);
 }
@@ -256,15 +257,16 @@ Result<TetgenInput> tetgen_input(const TetgenDomain& domain, const TetrahedraOpt
                                  const Scale& scale) {
     TetgenInput input;
     for (const Point3& p : domain.points) input.points.push_back(scale.down(p));
+    input.time_limit = options.time_limit;
     add_facets(domain, input);
     if (Status sizes = set_sizes(domain, options, scale, input); !sizes) return sizes.error();
     return input;
 }
 
-/// Where TetGen fails, or fails the checks, it is asked again: to leave out its last step, the
-/// improvement of shapes, and then to split facets. All that with the points along a curve, as is
-/// its custom, then as they come: in 1.5.0 the former ends in an assertion for points as regular as
-/// those of two cubes that overlap.
+/// Where TetGen fails, runs out of time, or fails the checks, it is asked again: to leave out its
+/// last step, the improvement of shapes, and then to split facets. All that with the points along a
+/// curve, as is its custom, then as they come: in 1.5.0 the former ends in an assertion for points
+/// as regular as those of two cubes that overlap.
 Result<TetrahedralMesh> try_in_turn(const Mesh& mesh, const Volumes& volumes,
                                     const TetgenDomain& domain, TetgenInput& input,
                                     const Scale& scale, const Run& run) {

@@ -25,6 +25,8 @@ struct TetrahedraOptions {
     std::optional<double> radius_edge_ratio{}; ///< TetGen's quality bound (>= 1.1); none: no bound,
                                                ///< or 2 with edge_length or max_volume
     std::optional<double> max_volume{};        ///< of a tetrahedron, cubic unit
+    double time_limit = 600; ///< seconds, > 0, for each way in which TetGen is asked: it may run
+                             ///< forever
 };
 
 /// Tetrahedra of a box in which every triangle of the mesh is a union of faces.
@@ -42,7 +44,7 @@ struct TetrahedraOptions {
 /// (5) Regions are what the mesh parts the box into, found by diffusion over the tetrahedra (the
 ///     paper, section 3: regions one dimension up). They have the numbers of find_volumes(mesh);
 ///     that each is one of its volumes, and the other way round, is checked at every face.
-/// (6) The same arguments give the same result.
+/// (6) The same arguments give the same result, unless one of TetGen's ways runs out of time.
 ///
 /// The mesh must be conforming (see check.hpp); that is tested, exactly, since TetGen may crash or
 /// run forever on another. TetGen runs in a child process: nothing is printed, a crash is an error
@@ -50,8 +52,8 @@ struct TetrahedraOptions {
 /// other. Where it fails, or (3) does not hold, it is asked again in other ways.
 ///
 /// Errors: improper_contact with the place, bad_index, bad_number, bad_option, nothing_to_do (no
-/// triangle and no box), interrupted, out_of_memory, unsupported (too large for TetGen, or surfaces
-/// too close for its tolerance), internal.
+/// triangle and no box), interrupted, timed_out (in all ways), out_of_memory, unsupported (too
+/// large for TetGen, or surfaces too close for its tolerance), internal.
 ///
 /// Source: TetGen 1.5 (H. Si).
 Result<TetrahedralMesh> tetrahedralize(const Mesh& mesh, const TetrahedraOptions& options,

@@ -201,6 +201,9 @@ void add_tetrahedra_options(CLI::App& app, TetrahedralizeCommand& command) {
     app.add_option("--quality", options.radius_edge_ratio,
                    "Largest ratio of circumradius to shortest edge, at least 1.1 (default: none)")
         ->type_name("RATIO");
+    app.add_option("--time-limit", options.time_limit,
+                   "For each of the ways in which TetGen is tried (default: 600)")
+        ->type_name("SECONDS");
 }
 
 } // namespace

@@ -11,7 +11,7 @@ if [[ ! -e cli/CMakeLists.txt ]]; then
     exit 0
 fi
 
-presets=(release debug clang) # the first is what the others are compared with
+presets=(release asan clang) # the first is what the others are compared with; asan is a debug build
 data=tests/data
 cases=(
     "$data/ringmesh/split_cube.ml"

@@ -374,11 +374,26 @@ TEST_CASE("tetrahedra: each option that makes no sense is an error", "[tetrahedr
         {.max_volume = 0.0},
         {.max_volume = infinity},
         {.max_volume = 1e-30},
+        {.time_limit = 0},
+        {.time_limit = nan_value},
     };
     for (std::size_t i = 0; i < std::size(bad); ++i) {
         INFO(i);
         CHECK(must_fail(rectangle(), bad[i]).code == ErrorCode::bad_option);
     }
+}
+
+TEST_CASE("tetrahedra: TetGen is given up when its time is over", "[tetrahedra]") {
+    CHECK(must_fail(rectangle(), {.time_limit = 1e-9}).code == ErrorCode::timed_out);
+}
+
+TEST_CASE("tetrahedra: where one way of TetGen never ends, another one does", "[tetrahedra]") {
+    const auto surfaces =
+        read_surfaces(std::string(TERRANE_TEST_DATA) + "/regression/009-tetgen-never-ends.obj");
+    REQUIRE(surfaces);
+    const auto rounded = round_to_doubles(arrange(surfaces.value()).value()).value();
+    REQUIRE(rounded.report.clean);
+    CHECK(tetrahedralize(rounded.mesh, {.time_limit = 2}, {}));
 }
 
 TEST_CASE("tetrahedra: a stop request ends the work, before and between steps", "[tetrahedra]") {
