@@ -11,7 +11,7 @@ using namespace detail;
 
 namespace {
 
-std::string quoted(std::string_view name) {
+std::string in_quotes(std::string_view name) {
     const auto text = one_line(name);
     const bool plain = !text.empty() && trimmed(text).size() == text.size() &&
                        text.find_first_of("\"{}") == std::string::npos;
@@ -34,7 +34,7 @@ std::string_view feature_of_role(Role role) {
 
 void append_header(std::string& out, const SurfaceInfo& surface) {
     out += "GOCAD TSurf 1\nHEADER {\nname: ";
-    out += quoted(surface.name);
+    out += in_quotes(surface.name);
     out += "\n}\nGOCAD_ORIGINAL_COORDINATE_SYSTEM\nNAME Default\nAXIS_NAME \"X\" \"Y\" \"Z\"\n"
            "ZPOSITIVE Elevation\nEND_ORIGINAL_COORDINATE_SYSTEM\n";
     out += feature_of_role(surface.role);

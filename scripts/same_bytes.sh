@@ -11,7 +11,7 @@ if [[ ! -e cli/CMakeLists.txt ]]; then
     exit 0
 fi
 
-presets=(release asan clang) # the first is what the others are compared with; asan is a debug build
+presets=(release asan fuzz) # the first is what the others are compared with; asan: gcc, debug; fuzz: clang
 data=tests/data
 cases=(
     "$data/ringmesh/split_cube.ml"
