@@ -394,8 +394,8 @@ TEST_CASE("tetrahedra: where TetGen never ends, the work does", "[tetrahedra]") 
     const auto rounded = round_to_doubles(arrange(surfaces.value()).value()).value();
     REQUIRE(rounded.report.clean);
     const auto made = tetrahedralize(rounded.mesh, {.time_limit = 2}, {});
-    REQUIRE_FALSE(made); // all ways run out of time, or fail otherwise
-    CHECK(made.error().code == ErrorCode::timed_out);
+    REQUIRE_FALSE(made); // all ways run out of time, or crash
+    CHECK(made.error().sentence.find("TetGen") == 0);
 }
 
 TEST_CASE("tetrahedra: a stop request ends the work, before and between steps", "[tetrahedra]") {
