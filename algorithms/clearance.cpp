@@ -12,22 +12,18 @@
 #include <terrane/algorithms/intersection.hpp>
 #include <terrane/algorithms/parallel.hpp>
 #include <terrane/algorithms/sets.hpp>
+#include <terrane/algorithms/vectors.hpp>
 
 namespace terrane {
 namespace {
 
 constexpr std::uint32_t none = UINT32_MAX;
 constexpr double unit = std::numeric_limits<double>::epsilon(); // of one operation, in any mode
+// Lengths between these have squares, and areas of triangles whose squares, are normal doubles; an
+// area, and an altitude, is not below the square of the shortest. Range of a type, no tolerance.
+constexpr double longest_length = 0x1p+249, shortest_length = 0x1p-249;
+constexpr double smallest_area = shortest_length * shortest_length;
 
-Point3 minus(const Point3& a, const Point3& b) {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-double dot(const Point3& a, const Point3& b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-Point3 cross(const Point3& a, const Point3& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
 double length(const Point3& a) {
     return std::sqrt(dot(a, a));
 }
@@ -68,7 +64,7 @@ Face measure(const std::array<Point3, 3>& c) {
     f.height = {c[0], {n.x * factor, n.y * factor, n.z * factor}};
     const double squared = std::max({dot(u, u), dot(v, v), dot(w, w)});
     f.extent = std::sqrt(squared);
-    const bool usable = size > 1e-150 && f.extent < 1e75; // no underflow, no overflow above
+    const bool usable = size > smallest_area && f.extent < longest_length;
     f.functional_error =
         usable ? 64 * unit * squared * factor : std::numeric_limits<double>::infinity();
     return f;
@@ -238,7 +234,7 @@ void Prover::measure_parts(Face& f) {
         const Point3 &p = place[c[0]], &q = place[c[1]], &r = place[c[2]];
         const Point3 u = minus(q, p), v = minus(r, p), w = minus(r, q);
         const double l = std::sqrt(std::max({dot(u, u), dot(v, v), dot(w, w)}));
-        const bool usable = l > 1e-75 && l < 1e75; // no underflow, no overflow
+        const bool usable = l > shortest_length && l < longest_length;
         const double a = usable ? length(cross(u, v)) / l : 0;
         for (const std::uint32_t corner : c) {
             Sizes& at = faces_.sizes[f.vertex + corner];
@@ -250,7 +246,7 @@ void Prover::measure_parts(Face& f) {
 
 /// a^2 >= 64 d l; also false where anything has underflown.
 bool is_calm(const Sizes& s, double d) {
-    return s.altitude > 1e-150 && s.altitude * s.altitude >= 64 * d * s.longest;
+    return s.altitude > smallest_area && s.altitude * s.altitude >= 64 * d * s.longest;
 }
 
 /// Parts of it that may meet another one of it improperly.

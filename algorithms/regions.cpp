@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <terrane/algorithms/sets.hpp>
 
@@ -15,7 +16,9 @@ double area_of(std::span<const Point3> v, const Triangle& t) {
     const double wx = c.x - a.x, wy = c.y - a.y, wz = c.z - a.z;
     const double x = uy * wz - uz * wy, y = uz * wx - ux * wz, z = ux * wy - uy * wx;
     const double squared = x * x + y * y + z * z;
-    const bool in_range = squared > 1e-280 && squared < 1e300; // no underflow, no overflow
+    // Range of the type, no tolerance: below, squares that matter may have underflown.
+    const bool in_range = squared > std::numeric_limits<double>::min() * 0x1p+100 &&
+                          squared <= std::numeric_limits<double>::max();
     return 0.5 * (in_range ? std::sqrt(squared) : std::hypot(x, y, z));
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/algorithms/triangle_tree.hpp>
+#include <terrane/algorithms/vectors.hpp>
 
 #include <algorithm>
 #include <array>
@@ -12,15 +13,6 @@ namespace {
 
 constexpr std::uint32_t most_in_leaf = 4;
 
-Point3 minus(const Point3& a, const Point3& b) {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-double dot(const Point3& a, const Point3& b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-Point3 cross(const Point3& a, const Point3& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
 double length(const Point3& a) {
     return std::hypot(a.x, a.y, a.z);
 }
