@@ -12,6 +12,7 @@
 #include <catch2/catch.hpp>
 #include <gmpxx.h>
 
+#include "../support/found_volumes.hpp"
 #include "../support/solids.hpp"
 #include "../support/volume_oracle.hpp"
 #include <terrane/algorithms/rounding.hpp>
@@ -21,22 +22,14 @@ using namespace test_support;
 
 namespace {
 
-struct Found {
-    Arrangement arrangement;
-    Volumes volumes;
-};
-
 /// Arranges, finds the volumes, and has them judged.
 Found find(const std::vector<Surface>& surfaces) {
-    auto arrangement = arrange(surfaces);
-    REQUIRE(arrangement);
-    auto volumes = find_volumes(arrangement.value());
-    INFO((volumes ? std::string() : volumes.error().message()));
-    REQUIRE(volumes);
-    const VolumeOracle judge(arrangement.value());
-    CHECK(volumes.value().block_count() == judge.block_count());
-    const auto exact = exact_volumes(arrangement.value(), volumes.value());
-    const auto expected = judge.measures(volumes.value());
+    Found found = find_in(surfaces);
+    const auto& [arrangement, volumes] = found;
+    const VolumeOracle judge(arrangement);
+    CHECK(volumes.block_count() == judge.block_count());
+    const auto exact = exact_volumes(arrangement, volumes);
+    const auto expected = judge.measures(volumes);
     mpq_class sum;
     for (std::size_t v = 0; v < exact.size(); ++v) {
         CHECK(mpq_class(exact[v]) == expected[v]);
@@ -44,8 +37,8 @@ Found find(const std::vector<Surface>& surfaces) {
     }
     CHECK(sum == mpq_class(exact[0]));
     std::mt19937_64 random(1);
-    for (int i = 0; i < 20; ++i) CHECK(judge.flaw_on_segment(volumes.value(), random).empty());
-    return {std::move(arrangement).value(), std::move(volumes).value()};
+    for (int i = 0; i < 20; ++i) CHECK(judge.flaw_on_segment(volumes, random).empty());
+    return found;
 }
 
 std::vector<double> sorted_measures(const Volumes& volumes) {

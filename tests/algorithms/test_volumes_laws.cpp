@@ -15,6 +15,7 @@
 #include <gmpxx.h>
 
 #include "../support/certified_inputs.hpp"
+#include "../support/found_volumes.hpp"
 #include "../support/points.hpp"
 #include "../support/solids.hpp"
 #include "../support/volume_oracle.hpp"
@@ -24,20 +25,6 @@ using namespace terrane;
 using namespace test_support;
 
 namespace {
-
-struct Found {
-    Arrangement arrangement;
-    Volumes volumes;
-};
-
-Found find(const std::vector<Surface>& surfaces) {
-    auto arrangement = arrange(surfaces);
-    REQUIRE(arrangement);
-    auto volumes = find_volumes(arrangement.value());
-    INFO((volumes ? std::string() : volumes.error().message()));
-    REQUIRE(volumes);
-    return {std::move(arrangement).value(), std::move(volumes).value()};
-}
 
 /// Models with something to find.
 std::vector<Model> models() {
@@ -106,9 +93,9 @@ TEST_CASE("volumes: numbers and measures do not depend on the order of the input
     std::mt19937_64 random(5);
     for (const Model& model : models()) {
         INFO(model.name);
-        const Found found = find(model.surfaces);
+        const Found found = find_in(model.surfaces);
         for (int i = 0; i < 2; ++i) {
-            const Found other = find(shuffled(model.surfaces, random));
+            const Found other = find_in(shuffled(model.surfaces, random));
             CHECK(other.volumes.measures == found.volumes.measures);
             CHECK(exact(other) == exact(found));
             CHECK(neighbours(other.volumes) == neighbours(found.volumes));
@@ -124,8 +111,8 @@ TEST_CASE("volumes: scaling by a power of two scales the measures, exactly", "[v
             for (const Point3& p : s.vertices)
                 largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
         if (largest > 0x1p+200 || largest < 0x1p-200) continue;
-        const Found found = find(model.surfaces);
-        const Found other = find(moved(model.surfaces, [](const Point3& p) {
+        const Found found = find_in(model.surfaces);
+        const Found other = find_in(moved(model.surfaces, [](const Point3& p) {
             return Point3{8 * p.x, 8 * p.y, 8 * p.z};
         }));
         auto expected = exact(found);
@@ -138,8 +125,8 @@ TEST_CASE("volumes: scaling by a power of two scales the measures, exactly", "[v
 TEST_CASE("volumes: a reflection keeps the measures, and swaps front and back", "[volumes]") {
     for (const Model& model : models()) {
         INFO(model.name);
-        const Found found = find(model.surfaces);
-        const Found mirror = find(moved(model.surfaces, [](const Point3& p) {
+        const Found found = find_in(model.surfaces);
+        const Found mirror = find_in(moved(model.surfaces, [](const Point3& p) {
             return Point3{-p.x, p.y, p.z};
         }));
         auto a = exact(found), b = exact(mirror);
@@ -148,8 +135,8 @@ TEST_CASE("volumes: a reflection keeps the measures, and swaps front and back", 
         std::sort(b.begin(), b.end());
         CHECK(a == b);
     }
-    const Found cube_before = find({cube(0, 1)});
-    const Found cube_after = find(moved({cube(0, 1)}, [](const Point3& p) {
+    const Found cube_before = find_in({cube(0, 1)});
+    const Found cube_after = find_in(moved({cube(0, 1)}, [](const Point3& p) {
         return Point3{-p.x, p.y, p.z};
     }));
     for (std::size_t t = 0; t < cube_before.volumes.of_sides.size(); ++t) {
@@ -163,7 +150,7 @@ TEST_CASE("volumes: the certified inputs hold for the oracle", "[volumes]") {
     std::size_t blocks = 0;
     for (const Model& model : certified_inputs(300)) {
         INFO(model.name);
-        const Found found = find(model.surfaces);
+        const Found found = find_in(model.surfaces);
         if (found.arrangement.triangles.empty()) continue;
         const VolumeOracle judge(found.arrangement);
         CHECK(found.volumes.block_count() == judge.block_count());
@@ -272,7 +259,7 @@ TEST_CASE("volumes: random planes through a box make as many blocks as Euler's f
             for (std::size_t k = 0; k < j; ++k)
                 cells += point_in_box(all[i], all[j], all[k]) ? 1 : 0;
         }
-    const Found found = find(model);
+    const Found found = find_in(model);
     const auto blocks = blocks_inside(found, static_cast<double>(half_width));
     CHECK(blocks.size() == cells);
     CHECK(cells > 5000);
@@ -288,7 +275,7 @@ TEST_CASE("volumes: real models have the regions that they state", "[volumes]") 
         const auto model = read_model(std::string(TERRANE_TEST_DATA) + "/ringmesh/" + name + ".ml");
         REQUIRE(model);
         const GocadModel& stated = model.value();
-        const Found found = find(stated.surfaces);
+        const Found found = find_in(stated.surfaces);
         CHECK(found.volumes.block_count() + 1 == stated.regions.size());
         if (name == "split_cube") continue; // its signs do not fit its triangles
         // Each triangle of the file is one of the arrangement, so that the sides can be compared.
