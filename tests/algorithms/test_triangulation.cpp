@@ -26,7 +26,6 @@ using Edges = std::map<std::array<std::uint32_t, 2>, std::vector<std::uint32_t>>
 
 struct Uv {
     std::int64_t u = 0, v = 0;
-    friend bool operator==(const Uv&, const Uv&) = default;
 };
 
 Uv operator-(Uv a, Uv b) {
