@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 #
 # Fuzzes: scripts/fuzz.sh [SECONDS [TARGET...]]
-# Builds the preset fuzz and runs each target (all, unless some are named) for so many seconds, 60
+# Builds the preset fuzz (FUZZ_PRESET: another one) and runs each target (all, unless some are named) for so many seconds, 60
 # unless given, two at a time, from the committed seeds. The readers share the seconds of one target.
 # FUZZ_SEED makes a run repeatable as far as time allows (0, the default: another one each time);
 # FUZZ_CORPUS names a folder in which the corpora are kept from one run to the next. Ends with a
@@ -17,12 +17,13 @@ targets=("$@")
 [[ ${#targets[@]} -gt 0 ]] ||
     targets=(corefine arrange rounding tetrahedra predicates tri_tri search regions "${readers[@]}")
 
-cmake --preset fuzz >/dev/null
-cmake --build --preset fuzz --target fuzzers
+preset=${FUZZ_PRESET:-fuzz}
+cmake --preset "$preset" >/dev/null
+cmake --build --preset "$preset" --target fuzzers
 
-binaries=$PWD/build/fuzz/fuzz
-results=$PWD/build/fuzz/campaign
-findings=$PWD/build/fuzz/findings
+binaries=$PWD/build/$preset/fuzz
+results=$PWD/build/$preset/campaign
+findings=$PWD/build/$preset/findings
 corpora=${FUZZ_CORPUS:-$results/corpus}
 rm -rf "$results" && mkdir -p "$results" "$findings" "$corpora"
 

@@ -11,7 +11,7 @@ if [[ ! -e cli/CMakeLists.txt ]]; then
     exit 0
 fi
 
-presets=(release asan fuzz) # the first is what the others are compared with; asan: gcc, debug; fuzz: clang
+presets=(release asan) # gcc, optimised, is what the other is compared with: clang, debug
 data=tests/data
 cases=(
     "$data/ringmesh/split_cube.ml"
