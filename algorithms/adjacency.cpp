@@ -21,26 +21,34 @@ void add_edge(Adjacency& a, const Edge& edge, std::span<const std::uint32_t> tri
     a.triangles_at.push_back(triangles);
 }
 
-/// Triangles without counterpart in the old mesh, and those that may share an edge with one:
-/// ascending. `is_new` tells the vertices of the former.
-std::vector<std::uint32_t> triangles_near_new(const Divided& divided, std::vector<bool>& is_new) {
-    std::vector<bool> is_kept(divided.triangles.size(), false);
-    for (const std::uint32_t t : divided.kept_as)
-        if (t != none) is_kept[t] = true;
-    for (std::size_t t = 0; t < divided.triangles.size(); ++t)
-        if (!is_kept[t])
-            for (const std::uint32_t v : divided.triangles[t]) is_new[v] = true;
-    std::vector<std::uint32_t> near;
-    for (std::uint32_t t = 0; t < divided.triangles.size(); ++t) {
-        const Triangle& c = divided.triangles[t];
-        if (!is_kept[t] || is_new[c[0]] + is_new[c[1]] + is_new[c[2]] > 1) near.push_back(t);
-    }
-    return near;
+/// Marks the vertices of triangles without counterpart in the old mesh in `is_new`; returns these
+/// triangles and all that may share an edge with one: ascending.
+std::vector<std::uint32_t> triangles_near_new(const Divided& divided, std::vector<char>& is_new,
+                                              const Run& run) {
+    const std::size_t count = divided.triangles.size();
+    std::vector<char> is_kept(count, 0);
+    for_ranges(divided.kept_as.size(), run, [&](std::size_t first, std::size_t last) {
+        for (std::size_t f = first; f < last; ++f)
+            if (divided.kept_as[f] != none) is_kept[divided.kept_as[f]] = 1;
+    });
+    for (std::size_t t = 0; t < count; ++t)
+        if (is_kept[t] == 0)
+            for (const std::uint32_t v : divided.triangles[t]) is_new[v] = 1;
+    return concatenated(parts_of_ranges<std::vector<std::uint32_t>>(
+        count, run, [&](std::size_t first, std::size_t last) {
+            std::vector<std::uint32_t> part;
+            for (auto t = static_cast<std::uint32_t>(first); t < last; ++t) {
+                const Triangle& c = divided.triangles[t];
+                if (is_kept[t] == 0 || is_new[c[0]] + is_new[c[1]] + is_new[c[2]] > 1)
+                    part.push_back(t);
+            }
+            return part;
+        }));
 }
 
 /// All edges between vertices of new triangles, for both ends of which is_new holds.
 Adjacency edges_of_new(const Divided& divided, const Labels& old_labels,
-                       std::span<const std::uint32_t> near, const std::vector<bool>& is_new) {
+                       std::span<const std::uint32_t> near, const std::vector<char>& is_new) {
     std::vector<Triangle> corners;
     Labels labels;
     for (const std::uint32_t t : near) {
@@ -53,7 +61,7 @@ Adjacency edges_of_new(const Divided& divided, const Labels& old_labels,
     std::vector<std::uint32_t> triangles;
     group_edges(corners, divided.vertex_count)
         .for_each([&](std::uint32_t low, std::uint32_t high, auto sides) {
-            if (!is_new[low] || !is_new[high]) return;
+            if (is_new[low] == 0 || is_new[high] == 0) return;
             triangles.clear();
             for (const auto& s : sides) triangles.push_back(near[s.triangle]);
             if (sides.size() == 2 && is_inner(labels[sides[0].triangle], labels[sides[1].triangle]))
@@ -114,8 +122,8 @@ Adjacency adjacency_of(const EdgeSides& edges, const Labels& labels) {
 
 Adjacency adjacency_after(const EdgeSides& old, const Labels& old_labels, const Divided& divided,
                           const Run& run) {
-    std::vector<bool> is_new(divided.vertex_count, false);
-    const auto near = triangles_near_new(divided, is_new);
+    std::vector<char> is_new(divided.vertex_count, 0);
+    const auto near = triangles_near_new(divided, is_new, run);
     const auto kept_edges = [&](std::size_t first, std::size_t last) {
         Adjacency a;
         Adjacency::Inner& inner = a.inner.emplace_back();
@@ -124,7 +132,7 @@ Adjacency adjacency_after(const EdgeSides& old, const Labels& old_labels, const 
         old.for_each(first, last, [&](std::uint32_t low, std::uint32_t high, auto sides) {
             const Edge edge{divided.named_as[low], divided.named_as[high]};
             // All triangles at an edge between two vertices of new ones are near.
-            if (is_new[edge[0]] && is_new[edge[1]]) return;
+            if (is_new[edge[0]] != 0 && is_new[edge[1]] != 0) return;
             const auto kept = [&](std::size_t i) { return divided.kept_as[sides[i].triangle]; };
             if (sides.size() == 2 &&
                 is_inner(old_labels[sides[0].triangle], old_labels[sides[1].triangle])) {

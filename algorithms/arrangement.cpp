@@ -2,6 +2,7 @@
 #include <terrane/algorithms/arrangement.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <new>
 #include <stdexcept>
 #include <utility>
@@ -47,38 +48,46 @@ Lists<std::uint32_t> parents_of_faces(const Soup& soup, const Lists<std::uint32_
 }
 
 /// A triangle is in the patch of its face; in none where it has several faces.
-Patches patches_of_faces(Patches of_soup, const Lists<std::uint32_t>& faces_of) {
+Patches patches_of_faces(Patches of_soup, const Lists<std::uint32_t>& faces_of, const Run& run) {
     Patches patches;
     patches.axis = std::move(of_soup.axis);
-    patches.of.reserve(faces_of.size());
-    for (std::size_t t = 0; t < faces_of.size(); ++t)
-        patches.of.push_back(faces_of[t].size() == 1 ? of_soup.of[faces_of[t][0]] : no_group);
+    patches.of.resize(faces_of.size());
+    for_ranges(faces_of.size(), run, [&](std::size_t first, std::size_t last) {
+        for (std::size_t t = first; t < last; ++t)
+            patches.of[t] = faces_of[t].size() == 1 ? of_soup.of[faces_of[t][0]] : no_group;
+    });
     return patches;
 }
 
 /// Candidates of which one has a constructed point on it, as input triangles.
 std::vector<CandidatePair> neighbours_of_divided(const Soup& soup, const Division& division,
-                                                 std::span<const CandidatePair> candidates) {
-    std::vector<bool> has_constructed(soup.triangles.size(), false);
+                                                 std::span<const CandidatePair> candidates,
+                                                 const Run& run) {
+    std::vector<char> has_constructed(soup.triangles.size(), 0);
     const auto inputs = static_cast<PointIndex>(division.points.input_count());
-    for (std::size_t t = 0; t < division.triangles.size(); ++t) {
-        const Triangle& c = division.triangles[t];
-        if (c[0] < inputs && c[1] < inputs && c[2] < inputs) continue;
-        for (const std::uint32_t f : division.faces_of[t]) has_constructed[f] = true;
-    }
+    for_ranges(division.triangles.size(), run, [&](std::size_t first, std::size_t last) {
+        for (std::size_t t = first; t < last; ++t) {
+            const Triangle& c = division.triangles[t];
+            if (c[0] < inputs && c[1] < inputs && c[2] < inputs) continue;
+            for (const std::uint32_t f : division.faces_of[t])
+                std::atomic_ref(has_constructed[f]).store(1, std::memory_order_relaxed);
+        }
+    });
     std::vector<CandidatePair> neighbours;
     for (const CandidatePair& p : candidates)
-        if (has_constructed[p.first] || has_constructed[p.second])
+        if (has_constructed[p.first] != 0 || has_constructed[p.second] != 0)
             neighbours.push_back({soup.input_of[p.first], soup.input_of[p.second]});
     return neighbours;
 }
 
 /// By patch, and by surface where there is none.
-Labels labels_of(const Soup& soup, const Patches& patches) {
-    Labels labels = patches.of;
-    for (std::size_t t = 0; t < labels.size(); ++t)
-        if (labels[t] == no_group)
-            labels[t] = static_cast<std::uint32_t>(patches.axis.size()) + soup.surface_of[t];
+Labels labels_of(const Soup& soup, const Patches& patches, const Run& run) {
+    Labels labels(patches.of.size());
+    const auto count = static_cast<std::uint32_t>(patches.axis.size());
+    for_ranges(labels.size(), run, [&](std::size_t first, std::size_t last) {
+        for (std::size_t t = first; t < last; ++t)
+            labels[t] = patches.of[t] == no_group ? count + soup.surface_of[t] : patches.of[t];
+    });
     for (const auto& [repeated, first] : soup.duplicates)
         labels[static_cast<std::size_t>(
             std::lower_bound(soup.input_of.begin(), soup.input_of.end(), first) -
@@ -86,25 +95,19 @@ Labels labels_of(const Soup& soup, const Patches& patches) {
     return labels;
 }
 
-/// Per triangle of the soup, the same triangle of the arrangement, where it came out whole.
-std::vector<std::uint32_t> kept_triangles(const Soup& soup, const Division& division) {
-    std::vector<std::uint32_t> kept(soup.triangles.size(), UINT32_MAX);
-    for (std::uint32_t t = 0; t < division.triangles.size(); ++t) {
-        const auto faces = division.faces_of[t];
-        if (faces.size() == 1 && division.triangles[t] == soup.triangles[faces[0]])
-            kept[faces[0]] = t;
-    }
-    return kept;
-}
-
 /// Points in use become vertices: input ones by number, constructed ones in lexicographic order.
 /// Returns the vertex of each point.
-std::vector<std::uint32_t> name_vertices(Arrangement& a, std::span<const PointIndex> ascending) {
+std::vector<std::uint32_t> name_vertices(Arrangement& a, std::span<const PointIndex> ascending,
+                                         const Run& run) {
     const auto inputs = static_cast<PointIndex>(a.points.input_count());
     constexpr std::uint32_t unused = UINT32_MAX;
     std::vector<std::uint32_t> vertex_of(a.points.size(), unused);
-    for (const Triangle& t : a.triangles)
-        for (const PointIndex p : t) vertex_of[p] = 0;
+    for_ranges(a.triangles.size(), run, [&](std::size_t first, std::size_t last) {
+        for (std::size_t t = first; t < last; ++t)
+            for (const PointIndex p : a.triangles[t])
+                std::atomic_ref(vertex_of[p]).store(0, std::memory_order_relaxed);
+    });
+    a.vertices.reserve(inputs + ascending.size());
     const auto name = [&](PointIndex p) {
         if (vertex_of[p] == unused) return;
         vertex_of[p] = static_cast<std::uint32_t>(a.vertices.size());
@@ -112,8 +115,10 @@ std::vector<std::uint32_t> name_vertices(Arrangement& a, std::span<const PointIn
     };
     for (PointIndex p = 0; p < inputs; ++p) name(p);
     for (const PointIndex p : ascending) name(p);
-    for (Triangle& t : a.triangles)
-        for (PointIndex& p : t) p = vertex_of[p];
+    for_ranges(a.triangles.size(), run, [&](std::size_t first, std::size_t last) {
+        for (std::size_t t = first; t < last; ++t)
+            for (PointIndex& p : a.triangles[t]) p = vertex_of[p];
+    });
     return vertex_of;
 }
 
@@ -159,9 +164,9 @@ Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
     a.inputs = {soup.first_input_triangle, soup.first_input_vertex, std::move(soup.input_corners),
                 soup.duplicates};
     a.degenerate = soup.degenerate;
-    a.neighbours = neighbours_of_divided(soup, division, candidates);
-    const Labels labels = labels_of(soup, patches);
-    std::vector<std::uint32_t> kept, vertex_of;
+    a.neighbours = neighbours_of_divided(soup, division, candidates, run);
+    const Labels labels = labels_of(soup, patches, run);
+    std::vector<std::uint32_t> vertex_of;
     both(
         run,
         [&] {
@@ -169,16 +174,15 @@ Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
             a.surfaces_of = surfaces_of_parents(a.inputs, a.parents_of);
         },
         [&] {
-            a.patches = patches_of_faces(std::move(patches), division.faces_of);
-            kept = kept_triangles(soup, division);
+            a.patches = patches_of_faces(std::move(patches), division.faces_of, run);
             a.points = std::move(division.points);
             a.triangles = std::move(division.triangles);
-            vertex_of = name_vertices(a, division.ascending);
+            vertex_of = name_vertices(a, division.ascending, run);
         });
     report(0.9);
-    a.adjacency =
-        adjacency_after(soup.edges, labels,
-                        {a.triangles, division.faces_of, kept, vertex_of, a.vertices.size()}, run);
+    a.adjacency = adjacency_after(
+        soup.edges, labels,
+        {a.triangles, division.faces_of, division.kept_as, vertex_of, a.vertices.size()}, run);
     a.intersection_edges = find_intersection_edges(a.adjacency, a.inputs, a.parents_of);
     a.statistics.seconds_stitch = d.seconds_stitch + watch.lap();
     report(1);

@@ -144,20 +144,29 @@ std::vector<Part> divide_faces(const TriangleSoup& soup, const Contacts& contact
 class Stitcher {
 public:
     Stitcher(const TriangleSoup& soup, const Contacts& contacts, std::span<const Part> parts,
-             Division& out) :
+             const Run& run, Division& out) :
         soup_(soup),
-        contacts_(contacts), parts_(parts), out_(out) {}
+        contacts_(contacts), parts_(parts), run_(run), out_(out) {}
 
     void operator()() {
         collect_repeated();
-        const std::size_t expected = soup_.triangles.size() + parts_.size();
-        out_.triangles.reserve(expected);
-        out_.faces_of.values.reserve(expected);
-        out_.faces_of.offsets.reserve(expected + 1);
-        for_each_part([&](const Part& part) { add_part(part); });
+        out_.kept_as.resize(soup_.triangles.size());
+        auto blocks = parts_of_ranges<Block>(
+            soup_.triangles.size(), run_,
+            [&](std::size_t first, std::size_t last) { return stitch(first, last); }, 1);
+        out_.triangles = std::move(blocks.front().triangles);
+        out_.faces_of = std::move(blocks.front().faces_of);
+        for (std::size_t b = 1; b < blocks.size(); ++b) append(blocks[b]);
     }
 
 private:
+    /// What comes of a range of the soup; kept_as counts from its own first triangle.
+    struct Block {
+        std::size_t first, last;
+        std::vector<Triangle> triangles;
+        Lists<std::uint32_t> faces_of;
+    };
+
     struct Hash {
         std::size_t operator()(const Triangle& c) const {
             const std::uint64_t h = (c[0] * 0x9e3779b97f4a7c15u ^ c[1]) * 0x9e3779b97f4a7c15u;
@@ -170,36 +179,72 @@ private:
         return c;
     }
 
-    // In the order of the soup; an undivided triangle is its own part (another may have it as one).
+    /// In the order of the soup; an undivided triangle is its own part (another may have it as
+    /// one).
     template <class Visit>
-    void for_each_part(const Visit& visit) const {
-        for (std::uint32_t f = 0, p = 0; f < soup_.triangles.size(); ++f) {
-            if (p == parts_.size() || parts_[p].face != f) visit(Part{f, soup_.triangles[f]});
-            for (; p < parts_.size() && parts_[p].face == f; ++p) visit(parts_[p]);
+    void for_each_part(std::size_t first, std::size_t last, const Visit& visit) const {
+        const auto before = [](const Part& p, std::size_t face) { return p.face < face; };
+        auto p = std::lower_bound(parts_.begin(), parts_.end(), first, before);
+        for (auto f = static_cast<std::uint32_t>(first); f < last; ++f) {
+            if (p == parts_.end() || p->face != f) visit(Part{f, soup_.triangles[f]});
+            for (; p != parts_.end() && p->face == f; ++p) visit(*p);
         }
     }
 
     // Only triangles that some coplanar one overlaps can have a part in common with another.
     void collect_repeated() {
-        for_each_part([&](const Part& p) {
+        if (std::find(contacts_.overlapped.begin(), contacts_.overlapped.end(), true) ==
+            contacts_.overlapped.end())
+            return;
+        for_each_part(0, soup_.triangles.size(), [&](const Part& p) {
             if (contacts_.overlapped[p.face]) faces_of_[sorted(p.corners)].push_back(p.face);
         });
     }
 
-    void add_part(const Part& part) {
-        if (!contacts_.overlapped[part.face]) return add(part.corners, {&part.face, 1});
-        const auto& faces = faces_of_[sorted(part.corners)];
-        if (faces.front() == part.face) add(part.corners, faces);
+    Block stitch(std::size_t first, std::size_t last) {
+        Block block{first, last, {}, {}};
+        const std::size_t share = first == 0 ? soup_.triangles.size() : last - first;
+        const std::size_t expected = share + parts_.size();
+        block.triangles.reserve(expected);
+        block.faces_of.values.reserve(expected);
+        block.faces_of.offsets.reserve(expected + 1);
+        std::fill(out_.kept_as.begin() + static_cast<std::ptrdiff_t>(first),
+                  out_.kept_as.begin() + static_cast<std::ptrdiff_t>(last), none);
+        for_each_part(first, last, [&](const Part& part) { add_part(part, block); });
+        return block;
     }
 
-    void add(const Triangle& corners, std::span<const std::uint32_t> faces) {
-        out_.triangles.push_back(corners);
-        out_.faces_of.push_back(faces);
+    void add_part(const Part& part, Block& block) {
+        const std::span<const std::uint32_t> alone(&part.face, 1);
+        const auto faces =
+            contacts_.overlapped[part.face]
+                ? std::span<const std::uint32_t>(faces_of_.find(sorted(part.corners))->second)
+                : alone;
+        if (faces.front() != part.face) return;
+        const Triangle& whole = soup_.triangles[part.face];
+        const bool is_whole = part.corners[0] == whole[0] && part.corners[1] == whole[1] &&
+                              part.corners[2] == whole[2];
+        if (faces.size() == 1 && is_whole)
+            out_.kept_as[part.face] = static_cast<std::uint32_t>(block.triangles.size());
+        block.triangles.push_back(part.corners);
+        for (const std::uint32_t f : faces) block.faces_of.values.push_back(f);
+        block.faces_of.close();
     }
+
+    void append(const Block& block) {
+        const auto offset = static_cast<std::uint32_t>(out_.triangles.size());
+        for (std::size_t f = block.first; f < block.last; ++f)
+            if (out_.kept_as[f] != none) out_.kept_as[f] += offset;
+        out_.triangles.insert(out_.triangles.end(), block.triangles.begin(), block.triangles.end());
+        out_.faces_of.append(block.faces_of);
+    }
+
+    static constexpr std::uint32_t none = UINT32_MAX;
 
     const TriangleSoup& soup_;
     const Contacts& contacts_;
     std::span<const Part> parts_;
+    const Run& run_;
     Division& out_;
     std::unordered_map<Triangle, std::vector<std::uint32_t>, Hash> faces_of_;
 };
@@ -222,7 +267,7 @@ Division divide(const TriangleSoup& soup, std::span<const CandidatePair> candida
     if (run.stop.stop_requested()) return out;
     out.statistics.seconds_triangulate = watch.lap();
 
-    Stitcher(soup, contacts, parts, out)();
+    Stitcher(soup, contacts, parts, run, out)();
     out.points = std::move(contacts.points);
     out.ascending = std::move(order.ascending);
     out.statistics.seconds_stitch = watch.lap();

@@ -27,13 +27,15 @@ struct DivisionStatistics {
 /// Conforming, unique triangles; each triangle of the soup is exactly the union of those that name
 /// it.
 struct Division {
-    PointStore points;                 ///< the soup's points, then constructed ones
-    std::vector<PointIndex> ascending; ///< constructed points in use, in lexicographic order,
-                                       ///< distinct from each other and from the soup's points
-    std::vector<Triangle> triangles;   ///< corners by point; in the order of the soup; oriented
-                                       ///< as the first face
-    Lists<std::uint32_t> faces_of;     ///< per triangle: triangles of the soup that contain it,
-                                       ///< ascending, >= 1
+    PointStore points;                  ///< the soup's points, then constructed ones
+    std::vector<PointIndex> ascending;  ///< constructed points in use, in lexicographic order,
+                                        ///< distinct from each other and from the soup's points
+    std::vector<Triangle> triangles;    ///< corners by point; in the order of the soup; oriented
+                                        ///< as the first face
+    Lists<std::uint32_t> faces_of;      ///< per triangle: triangles of the soup that contain it,
+                                        ///< ascending, >= 1
+    std::vector<std::uint32_t> kept_as; ///< per triangle of the soup: the same triangle here, where
+                                        ///< it came out whole and alone; UINT32_MAX where not
     DivisionStatistics statistics;
 };
 

@@ -21,13 +21,15 @@ Lists<std::uint32_t> surfaces_of_parents(const InputTriangles& inputs,
     Lists<std::uint32_t> surfaces;
     surfaces.offsets.reserve(parents_of.offsets.size());
     surfaces.values.reserve(parents_of.values.size());
+    std::uint32_t s = 0; // mostly that of the triangle before
     for (std::size_t t = 0; t < parents_of.size(); ++t) {
-        std::uint32_t last = UINT32_MAX; // parents ascend, so do their surfaces
-        for (const std::uint32_t p : parents_of[t]) {
-            const bool same = last != UINT32_MAX && p < inputs.first[last + 1];
-            if (same) continue;
-            last = inputs.surface_of(p);
-            surfaces.values.push_back(last);
+        bool any = false;
+        for (const std::uint32_t p : parents_of[t]) { // they ascend, so do their surfaces
+            const bool same = inputs.first[s] <= p && p < inputs.first[s + 1];
+            if (any && same) continue;
+            if (!same) s = inputs.surface_of(p);
+            surfaces.values.push_back(s);
+            any = true;
         }
         surfaces.close();
     }

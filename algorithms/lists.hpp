@@ -24,6 +24,13 @@ struct Lists {
         values.insert(values.end(), list.begin(), list.end());
         close();
     }
+    /// All lists of another one, after these.
+    void append(const Lists& other) {
+        const auto start = static_cast<std::uint32_t>(values.size());
+        values.insert(values.end(), other.values.begin(), other.values.end());
+        for (std::size_t i = 1; i < other.offsets.size(); ++i)
+            offsets.push_back(start + other.offsets[i]);
+    }
     friend bool operator==(const Lists&, const Lists&) = default;
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include <terrane/algorithms/parallel.hpp>
 #include <terrane/algorithms/sets.hpp>
 
 namespace terrane {
@@ -26,15 +27,13 @@ double area_of(std::span<const Point3> v, const Triangle& t) {
 class Diffusion {
 public:
     Diffusion(std::span<const Triangle> triangles, const Lists<std::uint32_t>& surfaces_of,
-              std::span<const Edge> stops) :
+              std::span<const Edge> stops, const Run& run) :
         triangles_(triangles),
-        surfaces_of_(surfaces_of), stops_(stops), sets_(surfaces_of.values.size()) {}
+        surfaces_of_(surfaces_of), stops_(stops), run_(run), sets_(surfaces_of.values.size()) {}
 
     /// Spreads over all edges that are no stops; lists the sides of the others.
     void spread(const Adjacency& adjacency) {
-        for (const auto& list : adjacency.inner)
-            for (const auto& [t, u] : list)
-                sets_.join(surfaces_of_.offsets[t], surfaces_of_.offsets[u]);
+        spread_within(adjacency.inner);
         auto stop = stops_.begin();
         for (std::size_t e = 0; e < adjacency.edges.size(); ++e) {
             const auto sides = adjacency.triangles_at[e];
@@ -49,13 +48,19 @@ public:
     Regions number(std::span<const Point3> vertices) {
         Regions out;
         const auto& surfaces = surfaces_of_;
-        std::vector<std::uint32_t> order; // first slots of regions, by surface then by triangle
+        const auto& first_slot = sets_.flattened();
         std::vector<std::uint32_t> triangle_of(surfaces.values.size());
-        for (std::uint32_t t = 0; t < surfaces.size(); ++t)
-            for (std::uint32_t s = surfaces.offsets[t]; s < surfaces.offsets[t + 1]; ++s) {
-                triangle_of[s] = t;
-                if (sets_.find(s) == s) order.push_back(s);
+        std::vector<double> area(surfaces.values.size());
+        for_ranges(surfaces.size(), run_, [&](std::size_t first, std::size_t last) {
+            for (auto t = static_cast<std::uint32_t>(first); t < last; ++t) {
+                const double size = area_of(vertices, triangles_[t]);
+                for (std::uint32_t s = surfaces.offsets[t]; s < surfaces.offsets[t + 1]; ++s) {
+                    triangle_of[s] = t;
+                    area[s] = size;
+                }
             }
+        });
+        auto order = first_slots(first_slot); // of regions, by surface then by triangle
         std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
             return surfaces.values[a] < surfaces.values[b];
         });
@@ -64,22 +69,63 @@ public:
             number_of[s] = static_cast<std::uint32_t>(out.regions.size());
             out.regions.push_back({surfaces.values[s], triangle_of[s], 0, 0, {}});
         }
-        out.regions_of = surfaces;
-        for (std::uint32_t s = 0; s < surfaces.values.size(); ++s) {
-            const std::uint32_t r = out.regions_of.values[s] = number_of[sets_.find(s)];
-            ++out.regions[r].triangles;
-            out.regions[r].area += area_of(vertices, triangles_[triangle_of[s]]);
+        out.regions_of.offsets = surfaces.offsets;
+        auto& region_of = out.regions_of.values;
+        region_of.resize(surfaces.values.size());
+        for_ranges(region_of.size(), run_, [&](std::size_t first, std::size_t last) {
+            for (std::size_t s = first; s < last; ++s) region_of[s] = number_of[first_slot[s]];
+        });
+        // One after the other: the last digits of a sum depend on its order.
+        for (std::size_t s = 0; s < region_of.size(); ++s) {
+            Region& r = out.regions[region_of[s]];
+            ++r.triangles;
+            r.area += area[s];
         }
         find_neighbours(out);
         return out;
     }
 
 private:
+    /// Each range of triangles has its own sets, so threads do not disturb each other; what joins
+    /// two ranges comes after.
+    void spread_within(const std::vector<Adjacency::Inner>& inner) {
+        const auto crossing = parts_of_ranges<Adjacency::Inner>(
+            surfaces_of_.size(), run_,
+            [&](std::size_t first, std::size_t last) {
+                Adjacency::Inner others;
+                for (const auto& list : inner)
+                    for (const auto& [t, u] : list) {
+                        if (t < first || t >= last) continue;
+                        if (u >= first && u < last)
+                            sets_.join(surfaces_of_.offsets[t], surfaces_of_.offsets[u]);
+                        else
+                            others.push_back({t, u});
+                    }
+                return others;
+            },
+            1);
+        for (const auto& part : crossing)
+            for (const auto& [t, u] : part)
+                sets_.join(surfaces_of_.offsets[t], surfaces_of_.offsets[u]);
+    }
+
     // Two triangles of an edge that is no stop lie in the same surfaces.
     void join(std::uint32_t t, std::uint32_t u) {
         const std::uint32_t a = surfaces_of_.offsets[t], b = surfaces_of_.offsets[u];
         const auto n = surfaces_of_[t].size();
         for (std::uint32_t k = 0; k < n; ++k) sets_.join(a + k, b + k);
+    }
+
+    /// Those that stand for themselves, ascending.
+    [[nodiscard]] std::vector<std::uint32_t>
+    first_slots(const std::vector<std::uint32_t>& first_slot) const {
+        return concatenated(parts_of_ranges<std::vector<std::uint32_t>>(
+            first_slot.size(), run_, [&](std::size_t first, std::size_t last) {
+                std::vector<std::uint32_t> part;
+                for (auto s = static_cast<std::uint32_t>(first); s < last; ++s)
+                    if (first_slot[s] == s) part.push_back(s);
+                return part;
+            }));
     }
 
     void find_neighbours(Regions& out) const {
@@ -106,6 +152,7 @@ private:
     std::span<const Triangle> triangles_;
     const Lists<std::uint32_t>& surfaces_of_;
     std::span<const Edge> stops_;
+    const Run& run_;
     Sets sets_;
     Lists<std::uint32_t> at_stop_; ///< per stop: the triangles at it
 };
@@ -114,8 +161,8 @@ private:
 
 Regions find_regions(std::span<const Point3> vertices, std::span<const Triangle> triangles,
                      const Lists<std::uint32_t>& surfaces_of, const Adjacency& adjacency,
-                     std::span<const Edge> intersection_edges) {
-    Diffusion diffusion(triangles, surfaces_of, intersection_edges);
+                     std::span<const Edge> intersection_edges, const Run& run) {
+    Diffusion diffusion(triangles, surfaces_of, intersection_edges, run);
     diffusion.spread(adjacency);
     return diffusion.number(vertices);
 }

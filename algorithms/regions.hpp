@@ -15,6 +15,7 @@
 #include <terrane/algorithms/adjacency.hpp>
 #include <terrane/algorithms/lists.hpp>
 #include <terrane/algorithms/mesh.hpp>
+#include <terrane/algorithms/run.hpp>
 
 namespace terrane {
 
@@ -35,6 +36,6 @@ struct Regions {
 /// `intersection_edges` are sorted, none of them is an inner edge.
 Regions find_regions(std::span<const Point3> vertices, std::span<const Triangle> triangles,
                      const Lists<std::uint32_t>& surfaces_of, const Adjacency& adjacency,
-                     std::span<const Edge> intersection_edges);
+                     std::span<const Edge> intersection_edges, const Run& run = {});
 
 } // namespace terrane

@@ -78,9 +78,8 @@ public:
 
     Result<RoundedMesh> operator()() {
         to_nearest();
-        std::vector<CandidatePair> pairs;
-        both(
-            run_, [&] { pairs = first_contacts(); }, [&] { find_first_regions(); });
+        auto pairs = first_contacts();
+        find_first_regions();
         out_.report.naive_contacts = pairs.size();
         if (!pairs.empty()) repair(pairs);
         if (run_.stop.stop_requested())
@@ -114,16 +113,17 @@ private:
 
 void Rounding::to_nearest() {
     const Arrangement& a = arrangement_;
-    state_.triangles = a.triangles;
-    state_.parents_of = a.parents_of;
+    both(
+        run_, [&] { state_.triangles = a.triangles; }, [&] { state_.parents_of = a.parents_of; });
     state_.points.resize(a.vertices.size());
     state_.move.assign(a.vertices.size(), 0);
     state_.is_dirty.assign(a.vertices.size(), false);
     const auto first_constructed = static_cast<std::size_t>(
         std::lower_bound(a.vertices.begin(), a.vertices.end(), a.points.input_count()) -
         a.vertices.begin());
-    for (std::size_t v = 0; v < first_constructed; ++v)
-        state_.points[v] = a.points.input(a.vertices[v]);
+    for_ranges(first_constructed, run_, [&](std::size_t first, std::size_t last) {
+        for (std::size_t v = first; v < last; ++v) state_.points[v] = a.points.input(a.vertices[v]);
+    });
     state_.input_vertices = first_constructed;
     struct Nothing {};
     const std::size_t constructed = a.vertices.size() - first_constructed;
@@ -138,7 +138,7 @@ void Rounding::to_nearest() {
     for (std::size_t v = first_constructed; v < a.vertices.size(); ++v)
         state_.is_dirty[v] = state_.move[v] > 0;
     state_.end_round();
-    changed_ = state_.tidy();
+    changed_ = state_.tidy(run_);
 }
 
 /// Rounds of local snapping, as long as they help; the mesh with fewest contacts stays.
@@ -167,7 +167,7 @@ PairFilter Rounding::is_improper() const {
 
 /// The pairs that meet improperly. Two triangles without a dirty corner never do.
 std::vector<CandidatePair> Rounding::contacts() {
-    const auto dirty = state_.dirty_triangles();
+    const auto dirty = state_.dirty_triangles(run_);
     if (dirty.empty()) return {};
     return candidate_pairs_of({state_.points, state_.triangles}, dirty, {}, is_improper(), run_);
 }
@@ -177,7 +177,7 @@ std::vector<CandidatePair> Rounding::contacts() {
 std::vector<CandidatePair> Rounding::first_contacts() {
     if (changed_) return contacts();
     const Arrangement& a = arrangement_;
-    const auto dirty = state_.dirty_triangles();
+    const auto dirty = state_.dirty_triangles(run_);
     if (dirty.empty()) return {};
     Patches patches = a.patches;
     const auto turn = [&](std::uint32_t t, Axis axis) { // as that of its parent
@@ -220,10 +220,10 @@ std::vector<CandidatePair> Rounding::first_contacts() {
 void Rounding::snap_round(std::span<const CandidatePair> pairs, const SnapGrid& grid) {
     changed_ = true;
     snap_corners(pairs, grid);
-    state_.tidy();
+    state_.tidy(run_);
     divide_again();
     state_.end_round();
-    state_.tidy();
+    state_.tidy(run_);
 }
 
 void Rounding::snap_corners(std::span<const CandidatePair> pairs, const SnapGrid& grid) {
@@ -282,13 +282,17 @@ void Rounding::find_first_regions() {
     Stopwatch watch;
     const Arrangement& a = arrangement_;
     regions_ = find_regions(state_.points, state_.triangles, a.surfaces_of, a.adjacency,
-                            a.intersection_edges);
+                            a.intersection_edges, run_);
     out_.report.seconds_regions = watch.lap();
 }
 
 void Rounding::finish(std::span<const CandidatePair> pairs) {
     out_.report.clean = pairs.empty();
-    report_moves();
+    both(
+        run_, [&] { report_moves(); },
+        [&] {
+            if (!changed_) out_.mesh.surfaces_of = arrangement_.surfaces_of;
+        });
     report_vanished();
     if (changed_) state_.drop_unused_points();
     for (const CandidatePair& p : pairs) {
@@ -313,10 +317,9 @@ void Rounding::finish(std::span<const CandidatePair> pairs) {
                          labels_of(mesh.surfaces_of, mesh.parents_of));
         mesh.intersection_edges = find_intersection_edges(adjacency, inputs, mesh.parents_of);
         regions_ = find_regions(mesh.vertices, mesh.triangles, mesh.surfaces_of, adjacency,
-                                mesh.intersection_edges);
+                                mesh.intersection_edges, run_);
         out_.report.seconds_regions = watch.lap();
     } else {
-        mesh.surfaces_of = arrangement_.surfaces_of;
         mesh.intersection_edges = arrangement_.intersection_edges;
     }
     mesh.regions_of = std::move(regions_->regions_of);

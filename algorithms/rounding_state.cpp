@@ -11,6 +11,7 @@
 #include <utility>
 
 #include <terrane/algorithms/lost_lines.hpp>
+#include <terrane/algorithms/parallel.hpp>
 #include <terrane/kernel/predicates.hpp>
 
 namespace terrane {
@@ -48,13 +49,16 @@ std::size_t PointHash::operator()(const Point3& p) const {
     return h ^ (h >> 31);
 }
 
-std::vector<std::uint32_t> RoundingState::dirty_triangles() const {
-    std::vector<std::uint32_t> dirty;
-    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-        const Triangle& c = triangles[t];
-        if (is_dirty[c[0]] || is_dirty[c[1]] || is_dirty[c[2]]) dirty.push_back(t);
-    }
-    return dirty;
+std::vector<std::uint32_t> RoundingState::dirty_triangles(const Run& run) const {
+    return concatenated(parts_of_ranges<std::vector<std::uint32_t>>(
+        triangles.size(), run, [&](std::size_t first, std::size_t last) {
+            std::vector<std::uint32_t> dirty;
+            for (auto t = static_cast<std::uint32_t>(first); t < last; ++t) {
+                const Triangle& c = triangles[t];
+                if (is_dirty[c[0]] || is_dirty[c[1]] || is_dirty[c[2]]) dirty.push_back(t);
+            }
+            return dirty;
+        }));
 }
 
 void RoundingState::add_point(const Point3& p, double moved) {
@@ -116,7 +120,7 @@ void RoundingState::find_gaps(const std::vector<bool>& gone) {
 }
 
 /// Equal points get one name: the lowest. Only a dirty point can have become equal to another.
-bool RoundingState::merge_points() {
+bool RoundingState::merge_points(const Run& run) {
     std::unordered_map<Point3, std::uint32_t, PointHash> first;
     std::vector<bool> maybe(std::size_t{1} << 20, false); // by hash: spares most look-ups
     const auto slot = [&](const Point3& p) { return PointHash{}(p) & (maybe.size() - 1); };
@@ -125,9 +129,15 @@ bool RoundingState::merge_points() {
             first.emplace(points[v], none);
             maybe[slot(points[v])] = true;
         }
+    const auto candidates = concatenated(parts_of_ranges<std::vector<std::uint32_t>>(
+        points.size(), run, [&](std::size_t begin, std::size_t end) {
+            std::vector<std::uint32_t> part;
+            for (auto v = static_cast<std::uint32_t>(begin); v < end; ++v)
+                if (maybe[slot(points[v])]) part.push_back(v);
+            return part;
+        }));
     std::vector<std::uint32_t> name;
-    for (std::uint32_t v = 0; v < points.size(); ++v) {
-        if (!maybe[slot(points[v])]) continue;
+    for (const std::uint32_t v : candidates) {
         const auto it = first.find(points[v]);
         if (it == first.end()) continue;
         if (it->second == none) {
@@ -151,13 +161,13 @@ bool RoundingState::merge_points() {
     return true;
 }
 
-bool RoundingState::tidy() {
-    const bool merged_any = merge_points();
+bool RoundingState::tidy(const Run& run) {
+    const bool merged_any = merge_points(run);
     const auto has_area = [&](const Triangle& t) {
         if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return false;
         return !collinear(points[t[0]], points[t[1]], points[t[2]]);
     };
-    const auto dirty = dirty_triangles();
+    const auto dirty = dirty_triangles(run);
     std::vector<std::uint32_t> lost;
     for (const std::uint32_t t : dirty)
         if (!has_area(triangles[t])) lost.push_back(t);
@@ -170,7 +180,7 @@ bool RoundingState::tidy() {
     join_equal(dirty, gone);
     if (!lost.empty() && divide_sides(lines)) {
         gone.assign(triangles.size(), false);
-        join_equal(dirty_triangles(), gone);
+        join_equal(dirty_triangles(run), gone);
     }
     return true;
 }

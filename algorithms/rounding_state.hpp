@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <terrane/algorithms/lists.hpp>
+#include <terrane/algorithms/run.hpp>
 #include <terrane/algorithms/surface.hpp>
 #include <terrane/kernel/point_store.hpp>
 
@@ -34,7 +35,7 @@ struct RoundingState {
     std::size_t collapsed = 0;       ///< triangles that lost their area
     double deviation = 0;            ///< sum over the ended rounds of the largest move
 
-    [[nodiscard]] std::vector<std::uint32_t> dirty_triangles() const;
+    [[nodiscard]] std::vector<std::uint32_t> dirty_triangles(const Run& run) const;
 
     /// Appends a dirty point that is at most `moved` from its exact place.
     void add_point(const Point3& p, double moved);
@@ -46,7 +47,7 @@ struct RoundingState {
     /// Merges equal points, drops triangles without area, divides the sides next to those at their
     /// corners, joins equal triangles. True if anything changed.
     /// Cost: a pass over all points, exact tests for triangles with dirty corners only.
-    bool tidy();
+    bool tidy(const Run& run);
 
     /// Takes new triangles, each contained in the triangles faces_of names.
     void replace_triangles(std::vector<Triangle> fresh, const Lists<std::uint32_t>& faces_of);
@@ -58,7 +59,7 @@ struct RoundingState {
 
 private:
     void move_point(std::size_t v, const Point3& to);
-    bool merge_points();
+    bool merge_points(const Run& run);
     void join_equal(std::span<const std::uint32_t> dirty, std::vector<bool>& gone);
     void find_gaps(const std::vector<bool>& gone);
     bool divide_sides(const LostLines& lines);

@@ -30,6 +30,11 @@ public:
         b = find(b);
         parent_[std::max(a, b)] = std::min(a, b);
     }
+    /// The element that stands for each set, as long as nothing is joined after.
+    const std::vector<std::uint32_t>& flattened() {
+        for (std::uint32_t& p : parent_) p = parent_[p]; // never above: already final
+        return parent_;
+    }
 
 private:
     std::vector<std::uint32_t> parent_;

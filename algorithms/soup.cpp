@@ -82,8 +82,8 @@ std::vector<std::uint32_t> first_at_same_place(const std::vector<Point3>& points
             if (run.threads <= 1 ? once.set(h) : once.set_atomically(h)) twice.set_atomically(h);
         }
     });
-    std::vector<std::uint32_t> first(points.size()), others;
-    const auto parts = parts_of_ranges<std::vector<std::uint32_t>>(
+    std::vector<std::uint32_t> first(points.size());
+    const auto others = concatenated(parts_of_ranges<std::vector<std::uint32_t>>(
         points.size(), run, [&](std::size_t begin, std::size_t end) {
             std::vector<std::uint32_t> part;
             for (auto v = static_cast<std::uint32_t>(begin); v < end; ++v) {
@@ -91,8 +91,7 @@ std::vector<std::uint32_t> first_at_same_place(const std::vector<Point3>& points
                 if (twice.has(hash(points[v]))) part.push_back(v);
             }
             return part;
-        });
-    for (const auto& part : parts) others.insert(others.end(), part.begin(), part.end());
+        }));
     FirstIndex seen(others.size());
     for (const std::uint32_t v : others) first[v] = seen.enter(points, v);
     return first;
@@ -103,39 +102,50 @@ bool has_area(const std::vector<Point3>& points, const Triangle& t) {
     return !collinear(points[t[0]], points[t[1]], points[t[2]]);
 }
 
-// Per triangle, the first one with the same corners; nothing if all differ. Two such triangles are
-// at the edge of their two lower vertices.
-std::vector<std::uint32_t> first_with_same_corners(const Soup& soup) {
+using Pairs = std::vector<std::array<std::uint32_t, 2>>;
+
+// Triangles that have the same corners as an earlier one, with the first of these. Two such
+// triangles are at the edge of their two lower vertices.
+Pairs repeated_triangles(const Soup& soup, std::size_t first_vertex, std::size_t last_vertex) {
+    Pairs repeated, by_third;
+    soup.edges.for_each(first_vertex, last_vertex,
+                        [&](std::uint32_t low, std::uint32_t high, auto sides) {
+                            if (sides.size() < 2) return;
+                            by_third.clear();
+                            for (const auto& s : sides) {
+                                const Triangle& t = soup.triangles[s.triangle];
+                                const std::uint32_t third = t[0] ^ t[1] ^ t[2] ^ low ^ high;
+                                if (third > high) by_third.push_back({third, s.triangle});
+                            }
+                            if (by_third.size() < 2) return;
+                            std::sort(by_third.begin(), by_third.end());
+                            for (std::size_t i = 1, lead = 0; i < by_third.size(); ++i)
+                                if (by_third[i][0] != by_third[lead][0])
+                                    lead = i;
+                                else
+                                    repeated.push_back({by_third[i][1], by_third[lead][1]});
+                        });
+    return repeated;
+}
+
+// Per triangle, the first one with the same corners; nothing if all differ.
+std::vector<std::uint32_t> first_with_same_corners(const Soup& soup, const Run& run) {
+    const auto parts = parts_of_ranges<Pairs>(
+        soup.edges.starts.size() - 1, run,
+        [&](std::size_t first, std::size_t last) { return repeated_triangles(soup, first, last); });
     std::vector<std::uint32_t> first;
-    std::vector<std::array<std::uint32_t, 2>> by_third;
-    soup.edges.for_each([&](std::uint32_t low, std::uint32_t high, auto sides) {
-        if (sides.size() < 2) return;
-        by_third.clear();
-        for (const auto& s : sides) {
-            const Triangle& t = soup.triangles[s.triangle];
-            const std::uint32_t third = t[0] ^ t[1] ^ t[2] ^ low ^ high;
-            if (third > high) by_third.push_back({third, s.triangle});
-        }
-        if (by_third.size() < 2) return;
-        std::sort(by_third.begin(), by_third.end());
-        for (std::size_t i = 1, lead = 0; i < by_third.size(); ++i) {
-            if (by_third[i][0] != by_third[lead][0]) {
-                lead = i;
-                continue;
-            }
-            if (first.empty()) {
-                first.resize(soup.triangles.size());
-                std::iota(first.begin(), first.end(), 0u);
-            }
-            first[by_third[i][1]] = by_third[lead][1];
-        }
-    });
+    if (std::all_of(parts.begin(), parts.end(), [](const Pairs& p) { return p.empty(); }))
+        return first;
+    first.resize(soup.triangles.size());
+    std::iota(first.begin(), first.end(), 0u);
+    for (const Pairs& part : parts)
+        for (const auto& [triangle, lead] : part) first[triangle] = lead;
     return first;
 }
 
 // Keeps the distinct triangles of the soup, lists the rest.
 void set_duplicates_aside(Soup& soup, const Run& run) {
-    const auto first = first_with_same_corners(soup);
+    const auto first = first_with_same_corners(soup, run);
     if (first.empty()) return;
     std::uint32_t kept = 0;
     const auto input_of = soup.input_of;
@@ -172,31 +182,34 @@ void name_corners(Soup& soup, std::span<const Surface> surfaces,
 
 // Those with an area.
 void take_triangles(Soup& soup, const Run& run) {
-    const auto flat = parts_of_ranges<std::vector<std::uint32_t>>(
+    soup.degenerate = concatenated(parts_of_ranges<std::vector<std::uint32_t>>(
         soup.input_corners.size(), run, [&](std::size_t begin, std::size_t end) {
             std::vector<std::uint32_t> part;
             for (auto t = static_cast<std::uint32_t>(begin); t < end; ++t)
                 if (!has_area(soup.points, soup.input_corners[t])) part.push_back(t);
             return part;
-        });
-    for (const auto& part : flat)
-        soup.degenerate.insert(soup.degenerate.end(), part.begin(), part.end());
-    const std::size_t count = soup.input_corners.size() - soup.degenerate.size();
-    soup.triangles.reserve(count);
-    soup.input_of.reserve(count);
-    soup.surface_of.reserve(count);
-    auto next = soup.degenerate.begin();
-    for (std::uint32_t s = 0; s + 1 < soup.first_input_triangle.size(); ++s)
-        for (std::uint32_t t = soup.first_input_triangle[s]; t < soup.first_input_triangle[s + 1];
-             ++t) {
+        }));
+    const std::size_t inputs = soup.input_corners.size();
+    soup.triangles.resize(inputs - soup.degenerate.size());
+    soup.input_of.resize(soup.triangles.size());
+    soup.surface_of.resize(soup.triangles.size());
+    for_ranges(inputs, run, [&](std::size_t begin, std::size_t end) {
+        auto next = std::lower_bound(soup.degenerate.begin(), soup.degenerate.end(), begin);
+        const auto& starts = soup.first_input_triangle;
+        auto s = static_cast<std::uint32_t>(std::upper_bound(starts.begin(), starts.end(), begin) -
+                                            starts.begin() - 1);
+        std::size_t to = begin - static_cast<std::size_t>(next - soup.degenerate.begin());
+        for (auto t = static_cast<std::uint32_t>(begin); t < end; ++t) {
+            while (t >= starts[s + 1]) ++s;
             if (next != soup.degenerate.end() && *next == t) {
                 ++next;
                 continue;
             }
-            soup.triangles.push_back(soup.input_corners[t]);
-            soup.input_of.push_back(t);
-            soup.surface_of.push_back(s);
+            soup.triangles[to] = soup.input_corners[t];
+            soup.input_of[to] = t;
+            soup.surface_of[to++] = s;
         }
+    });
 }
 
 } // namespace
@@ -212,9 +225,14 @@ Soup merge_surfaces(std::span<const Surface> surfaces, const Run& run) {
     }
     soup.first_input_vertex.push_back(static_cast<std::uint32_t>(vertices));
     soup.first_input_triangle.push_back(static_cast<std::uint32_t>(triangles));
-    soup.points.reserve(vertices);
-    for (const Surface& s : surfaces)
-        soup.points.insert(soup.points.end(), s.vertices.begin(), s.vertices.end());
+    soup.points.resize(vertices);
+    for (std::size_t s = 0; s < surfaces.size(); ++s) {
+        const auto& from = surfaces[s].vertices;
+        Point3* const to = soup.points.data() + soup.first_input_vertex[s];
+        for_ranges(from.size(), run, [&](std::size_t begin, std::size_t end) {
+            std::copy(from.data() + begin, from.data() + end, to + begin);
+        });
+    }
 
     const auto first = first_at_same_place(soup.points, run);
     name_corners(soup, surfaces, first, run);

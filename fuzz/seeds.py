@@ -304,7 +304,7 @@ def main():
     folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else
                           pathlib.Path(__file__).parent / "corpus")
     targets = {"tri_tri": tri_tri, "corefine": corefine, "predicates": predicates, "search": search,
-               "arrange": soups, "rounding": soups, "regions": soups, "tetrahedra": soups}
+               "arrange": soups, "rounding": soups, "regions": soups, "volumes": soups, "tetrahedra": soups}
     seeds = {t: dict(make()) for t, make in targets.items()}
     for fmt, files in FILES.items():
         seeds["read_" + fmt] = {n: f if isinstance(f, bytes) else f.encode()

@@ -15,7 +15,7 @@ shift || true
 readers=(read_ts read_ml read_obj read_off read_stl read_ply)
 targets=("$@")
 [[ ${#targets[@]} -gt 0 ]] ||
-    targets=(corefine arrange rounding tetrahedra predicates tri_tri search regions "${readers[@]}")
+    targets=(corefine arrange rounding tetrahedra predicates tri_tri search regions volumes "${readers[@]}")
 
 preset=${FUZZ_PRESET:-fuzz}
 cmake --preset "$preset" >/dev/null

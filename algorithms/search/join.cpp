@@ -126,7 +126,7 @@ std::vector<CandidatePair> hierarchy_pairs(const BoxSource& boxes,
     const PairFilter none;
     if (groups.empty())
         return sorted(join_all(select_all(boxes), {boxes, groups, none, run}), boxes.size());
-    const Selection selection = select_meeting(boxes, groups);
+    const Selection selection = select_meeting(boxes, groups, run);
     const auto parts = by_group(selection, groups);
     return sorted(parts.empty() ? join_all(selection, {boxes, groups, none, run})
                                 : join_groups(parts, {boxes, groups, none, run}),
@@ -137,7 +137,7 @@ std::vector<CandidatePair> active_pairs(const BoxSource& boxes,
                                         std::span<const std::uint32_t> active,
                                         std::span<const std::uint32_t> groups,
                                         const PairFilter& filter, const Run& run) {
-    const Selection selection = select_near(boxes, active);
+    const Selection selection = select_near(boxes, active, run);
     const Task task{boxes, groups, filter, run};
     Selection chosen, others;
     auto next = active.begin();

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include <terrane/algorithms/parallel.hpp>
+
 namespace terrane::search {
 namespace {
 
@@ -38,20 +40,22 @@ struct Blocks {
     static constexpr std::uint32_t size = 8;
 
     std::vector<Box> boxes;  ///< per block: of all in it
-    std::vector<bool> alike; ///< per block: all in it are of one group
+    std::vector<char> alike; ///< per block, 1: all in it are of one group; 0: not
 
-    Blocks(const BoxSource& all, std::span<const std::uint32_t> groups) :
-        boxes((all.size() + size - 1) / size, empty_box), alike(boxes.size(), true) {
-        for (std::uint32_t k = 0; k < boxes.size(); ++k) {
-            Box box = all[std::size_t{k} * size];
-            bool same = true;
-            for_each(k, all.size(), [&](std::uint32_t i) {
-                extend(box, all[i]);
-                if (!groups.empty()) same = same && groups[i] == groups[k * size];
-            });
-            boxes[k] = box;
-            alike[k] = same;
-        }
+    Blocks(const BoxSource& all, std::span<const std::uint32_t> groups, const Run& run) :
+        boxes((all.size() + size - 1) / size), alike(boxes.size()) {
+        for_ranges(boxes.size(), run, [&](std::size_t first, std::size_t last) {
+            for (auto k = static_cast<std::uint32_t>(first); k < last; ++k) {
+                Box box = all[std::size_t{k} * size];
+                bool same = true;
+                for_each(k, all.size(), [&](std::uint32_t i) {
+                    extend(box, all[i]);
+                    if (!groups.empty()) same = same && groups[i] == groups[k * size];
+                });
+                boxes[k] = box;
+                alike[k] = same ? 1 : 0;
+            }
+        });
     }
 
     template <class Visit>
@@ -69,7 +73,7 @@ public:
         last_(group_count(groups)) {
         std::vector<Box> own(last_ + 1, empty_box);
         for (std::uint32_t k = 0; k < blocks.boxes.size(); ++k)
-            if (blocks.alike[k])
+            if (blocks.alike[k] != 0)
                 extend(own[place(groups[k * Blocks::size])], blocks.boxes[k]);
             else
                 Blocks::for_each(k, boxes.size(),
@@ -153,15 +157,16 @@ public:
         if (work > left_) return false;
         left_ -= work;
         if (group == empty) group = mixed;
-        any_of(b, [&](std::uint32_t& in) {
+        any_of(b, [&](std::size_t cell) {
+            std::uint32_t& in = in_[cell];
             in = in == empty || in == group ? group : mixed;
             return false;
         });
         return true;
     }
 
-    [[nodiscard]] bool meets_mixed(const PackedBox& b) {
-        return any_of(b, [](std::uint32_t in) { return in == mixed; });
+    [[nodiscard]] bool meets_mixed(const PackedBox& b) const {
+        return any_of(b, [this](std::size_t cell) { return in_[cell] == mixed; });
     }
 
 private:
@@ -180,14 +185,14 @@ private:
         return r;
     }
 
-    /// Visits what is in the cells until it returns true; says whether it did.
+    /// Visits the cells until it returns true; says whether it did.
     template <class Visit>
-    bool any_of(const PackedBox& b, const Visit& visit) {
+    bool any_of(const PackedBox& b, const Visit& visit) const {
         const Range r = range(b);
         for (std::size_t z = r.from[2]; z <= r.to[2]; ++z)
             for (std::size_t y = r.from[1]; y <= r.to[1]; ++y)
                 for (std::size_t x = r.from[0]; x <= r.to[0]; ++x)
-                    if (visit(in_[z * layer_ + y * row_ + x])) return true;
+                    if (visit(z * layer_ + y * row_ + x)) return true;
         return false;
     }
 
@@ -203,7 +208,7 @@ constexpr std::size_t most_cells = 2 * Blocks::size; ///< of a block; with more,
 bool enter_all(const BoxSource& boxes, std::span<const std::uint32_t> groups, const Blocks& blocks,
                const Regions& regions, const Lattice& lattice, Cells& cells) {
     for (std::uint32_t k = 0; k < blocks.boxes.size(); ++k) {
-        if (blocks.alike[k]) {
+        if (blocks.alike[k] != 0) {
             const std::uint32_t group = groups[k * Blocks::size];
             if (!blocks.boxes[k].overlaps(regions.of(group))) continue;
             const PackedBox b = lattice.pack(blocks.boxes[k]);
@@ -224,26 +229,36 @@ bool enter_all(const BoxSource& boxes, std::span<const std::uint32_t> groups, co
 
 /// The boxes that overlap region(i) and a mixed cell (any, if there are no cells).
 template <class Region>
-Selection select(const BoxSource& boxes, const Blocks& blocks, const Lattice& lattice, Cells* cells,
-                 const Region& region) {
-    Selection s;
-    const auto test = [&](std::uint32_t i) {
-        if (!boxes[i].overlaps(region(i))) return;
-        const PackedBox b = lattice.pack(boxes[i]);
-        if (cells != nullptr && !cells->meets_mixed(b)) return;
-        s.boxes.push_back(b);
-        s.indices.push_back(i);
-    };
-    for (std::uint32_t k = 0; k < blocks.boxes.size(); ++k) {
-        if (blocks.alike[k]) {
-            if (!blocks.boxes[k].overlaps(region(k * Blocks::size))) continue;
-            const PackedBox b = lattice.pack(blocks.boxes[k]);
-            if (cells != nullptr && cells->covered(b) <= 2 * most_cells && !cells->meets_mixed(b))
-                continue;
+Selection select(const BoxSource& boxes, const Blocks& blocks, const Lattice& lattice,
+                 const Cells* cells, const Region& region, const Run& run) {
+    const auto of_blocks = [&](std::size_t first, std::size_t last) {
+        Selection s;
+        const auto test = [&](std::uint32_t i) {
+            if (!boxes[i].overlaps(region(i))) return;
+            const PackedBox b = lattice.pack(boxes[i]);
+            if (cells != nullptr && !cells->meets_mixed(b)) return;
+            s.boxes.push_back(b);
+            s.indices.push_back(i);
+        };
+        for (auto k = static_cast<std::uint32_t>(first); k < last; ++k) {
+            if (blocks.alike[k] != 0) {
+                if (!blocks.boxes[k].overlaps(region(k * Blocks::size))) continue;
+                const PackedBox b = lattice.pack(blocks.boxes[k]);
+                if (cells != nullptr && cells->covered(b) <= 2 * most_cells &&
+                    !cells->meets_mixed(b))
+                    continue;
+            }
+            Blocks::for_each(k, boxes.size(), test);
         }
-        Blocks::for_each(k, boxes.size(), test);
+        return s;
+    };
+    auto parts = parts_of_ranges<Selection>(blocks.boxes.size(), run, of_blocks);
+    Selection all = std::move(parts.front());
+    for (std::size_t p = 1; p < parts.size(); ++p) {
+        all.boxes.insert(all.boxes.end(), parts[p].boxes.begin(), parts[p].boxes.end());
+        all.indices.insert(all.indices.end(), parts[p].indices.begin(), parts[p].indices.end());
     }
-    return s;
+    return all;
 }
 
 } // namespace
@@ -263,18 +278,21 @@ Selection select_all(const BoxSource& boxes) {
     return s;
 }
 
-Selection select_meeting(const BoxSource& boxes, std::span<const std::uint32_t> groups) {
-    const Blocks blocks(boxes, groups);
+Selection select_meeting(const BoxSource& boxes, std::span<const std::uint32_t> groups,
+                         const Run& run) {
+    const Blocks blocks(boxes, groups, run);
     const Regions regions(boxes, groups, blocks);
     if (is_empty(regions.any())) return {};
     const Lattice lattice(regions.any());
     Cells cells(boxes, lattice);
     const bool entered = enter_all(boxes, groups, blocks, regions, lattice, cells);
-    return select(boxes, blocks, lattice, entered ? &cells : nullptr,
-                  [&](std::uint32_t i) -> const Box& { return regions.of(groups[i]); });
+    return select(
+        boxes, blocks, lattice, entered ? &cells : nullptr,
+        [&](std::uint32_t i) -> const Box& { return regions.of(groups[i]); }, run);
 }
 
-Selection select_near(const BoxSource& boxes, std::span<const std::uint32_t> active) {
+Selection select_near(const BoxSource& boxes, std::span<const std::uint32_t> active,
+                      const Run& run) {
     if (active.empty()) return {};
     Box region = empty_box;
     for (const std::uint32_t i : active) extend(region, boxes[i]);
@@ -283,8 +301,9 @@ Selection select_near(const BoxSource& boxes, std::span<const std::uint32_t> act
     bool entered = true;
     for (const std::uint32_t i : active)
         entered = entered && cells.enter(lattice.pack(boxes[i]), no_group);
-    return select(boxes, Blocks(boxes, {}), lattice, entered ? &cells : nullptr,
-                  [&](std::uint32_t) -> const Box& { return region; });
+    return select(
+        boxes, Blocks(boxes, {}, run), lattice, entered ? &cells : nullptr,
+        [&](std::uint32_t) -> const Box& { return region; }, run);
 }
 
 } // namespace terrane::search

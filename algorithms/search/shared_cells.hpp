@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include <terrane/algorithms/run.hpp>
 #include <terrane/algorithms/search/packed_box.hpp>
 
 namespace terrane::search {
@@ -26,10 +27,12 @@ Selection select_all(const BoxSource& boxes);
 /// group. Unlike in the paper a box is entered in each cell that it overlaps, so two boxes that
 /// overlap share a cell, and no cell need be searched around it. Cost: linear; where a few boxes
 /// cover very many cells the second step is left out.
-Selection select_meeting(const BoxSource& boxes, std::span<const std::uint32_t> groups);
+Selection select_meeting(const BoxSource& boxes, std::span<const std::uint32_t> groups,
+                         const Run& run);
 
 /// At least all boxes that overlap an active one, and the active ones themselves.
 /// active: indices, ascending.
-Selection select_near(const BoxSource& boxes, std::span<const std::uint32_t> active);
+Selection select_near(const BoxSource& boxes, std::span<const std::uint32_t> active,
+                      const Run& run);
 
 } // namespace terrane::search

@@ -13,6 +13,7 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <span>
@@ -226,20 +227,20 @@ TEST_CASE("rounding: triangles that became a line leave no corner inside their n
     state.is_dirty.assign(state.points.size(), false);
     state.is_dirty[2] = true;
     REQUIRE_FALSE(verify_conforming(state.points, state.triangles).empty());
-    CHECK(state.tidy());
+    CHECK(state.tidy({}));
     CHECK(state.collapsed == 2);
     CHECK(state.triangles ==
           std::vector<Triangle>{{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {1, 0, 5}, {2, 1, 5}, {3, 2, 5}});
     CHECK(state.parents_of.values == std::vector<std::uint32_t>{0, 0, 0, 3, 4, 5});
     CHECK(state.is_dirty[1]);
     CHECK(verify_conforming(state.points, state.triangles).empty());
-    CHECK_FALSE(state.tidy());
+    CHECK_FALSE(state.tidy({}));
 }
 
 TEST_CASE("rounding: what is equal once it is divided is one triangle with both parents") {
     auto state =
         state_of({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {1, 1, 0}}, {{0, 2, 3}, {3, 1, 0}, {0, 1, 2}});
-    CHECK(state.tidy());
+    CHECK(state.tidy({}));
     CHECK(state.triangles == std::vector<Triangle>{{0, 1, 3}, {1, 2, 3}});
     CHECK(state.parents_of[0].size() == 2);
     CHECK(state.parents_of[1].size() == 1);
@@ -282,4 +283,70 @@ TEST_CASE("rounding: a sliver that becomes a line opens no slit between its neig
     CHECK(r.report.rounds == 0); // nothing meets improperly but for that sliver's corner
     for (const unsigned rounds : {8U, 1U, 0U})
         CHECK(soup_laws::rounding_flaw(model, a, {.max_rounds = rounds}).empty());
+}
+
+namespace {
+
+/// A wavy sheet of 2 n^2 triangles over a square.
+Surface waves(std::uint32_t n, double height, double phase) {
+    Surface s{"waves", Role::unknown, {}, {}};
+    for (std::uint32_t j = 0; j <= n; ++j)
+        for (std::uint32_t i = 0; i <= n; ++i) {
+            const double x = 4.0 * i / n, y = 4.0 * j / n;
+            s.vertices.push_back({x, y, height * std::sin(2 * x + phase) * std::cos(3 * y)});
+        }
+    for (std::uint32_t j = 0; j < n; ++j)
+        for (std::uint32_t i = 0; i < n; ++i) {
+            const std::uint32_t a = j * (n + 1) + i, b = a + n + 1;
+            s.triangles.push_back({a, a + 1, b + 1});
+            s.triangles.push_back({a, b + 1, b});
+        }
+    return s;
+}
+
+} // namespace
+
+// Threads share passes over triangles, points and edges only where there are tens of thousands.
+TEST_CASE("rounding: what threads share gives the same as one thread") {
+    std::vector<Surface> surfaces{waves(120, 0.3, 0), waves(110, 0.2, 1), waves(120, 0.3, 0)};
+    surfaces[2].triangles.resize(9000);         // duplicates, and the surface ends within others
+    surfaces[2].triangles.push_back({0, 1, 2}); // on a line: no area
+    surfaces[1].vertices.push_back({0.5, 0.5, 0});
+    surfaces[1].triangles.push_back(
+        {5, 40, static_cast<std::uint32_t>(surfaces[1].vertices.size()) - 1});
+    const auto one = arrange(surfaces);
+    REQUIRE(one);
+    const auto expected = round_to_doubles(one.value());
+    REQUIRE(expected);
+    CHECK(one.value().inputs.duplicates.size() == 9000);
+    for (const unsigned threads : {2U, 3U}) {
+        const Run run{.threads = threads, .stop = {}, .progress = {}};
+        const auto several = arrange(surfaces, {}, run);
+        REQUIRE(several);
+        const Arrangement &a = one.value(), &b = several.value();
+        CHECK(a.triangles == b.triangles);
+        CHECK(a.vertices == b.vertices);
+        CHECK(a.parents_of == b.parents_of);
+        CHECK(a.surfaces_of == b.surfaces_of);
+        CHECK(a.intersection_edges == b.intersection_edges);
+        CHECK(a.degenerate == b.degenerate);
+        CHECK(a.inputs.duplicates == b.inputs.duplicates);
+        CHECK(a.neighbours == b.neighbours);
+        CHECK(a.patches.of == b.patches.of);
+        CHECK(a.adjacency.edges == b.adjacency.edges);
+        CHECK(a.adjacency.triangles_at == b.adjacency.triangles_at);
+        const auto rounded = round_to_doubles(b, {}, run);
+        REQUIRE(rounded);
+        const RoundedMesh &m = expected.value(), &n = rounded.value();
+        CHECK(m.mesh.vertices == n.mesh.vertices);
+        CHECK(m.mesh.triangles == n.mesh.triangles);
+        CHECK(m.mesh.regions_of == n.mesh.regions_of);
+        CHECK(m.mesh.surfaces_of == n.mesh.surfaces_of);
+        CHECK(m.report.max_move == n.report.max_move);
+        REQUIRE(m.regions.size() == n.regions.size());
+        for (std::size_t r = 0; r < m.regions.size(); ++r) {
+            CHECK(m.regions[r].area == n.regions[r].area); // to the last bit
+            CHECK(m.regions[r].neighbours == n.regions[r].neighbours);
+        }
+    }
 }
