@@ -5,12 +5,13 @@
 //
 // Guarantee: what is returned has the role boundary, is closed (each edge has an even number of
 // triangles) and meets itself only in shared vertices and edges: by exact predicates on its
-// doubles. Faces of a rotated box need not be planar in doubles; nothing depends on that. Names:
-// "boundary top", "boundary bottom", "boundary side 1", ...: one surface each, so that blocks and
-// interfaces tell them apart; sides are counterclockwise seen from above, side 1 between the first
-// two corners (of a box: the one at the least y). More than 12 sides are one surface, "boundary
-// sides". All are wound outward. Cost: of polygons n log n for n corners, expected; of the test one
-// box search. Source: the paper, section 5.3 (volume of interest).
+// doubles. Faces of a rotated box need not be planar in doubles; nothing depends on that.
+// Names: "boundary top", "boundary bottom", "boundary side 1", ...: one surface each, so that
+// blocks and interfaces tell them apart; sides are counterclockwise seen from above, side 1 between
+// the first two corners (the last two of a clockwise polygon; of a box, at the least y). More than
+// 12 sides are one surface, "boundary sides". All are wound outward.
+// Cost: of polygons n log n for n corners, expected; of the test one box search.
+// Source: the paper, section 5.3 (volume of interest).
 #pragma once
 
 #include <array>

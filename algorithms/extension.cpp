@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <new>
+#include <set>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
@@ -20,8 +21,9 @@ namespace terrane {
 namespace {
 
 constexpr std::uint32_t none = UINT32_MAX;
-constexpr double least_cosine = 0.4; ///< strips at corners are wider by at most the inverse
-constexpr double past_targets = 1.5; ///< see StripEdge::targets
+constexpr double least_cosine = 0.4;   ///< strips at corners are wider by at most the inverse
+constexpr unsigned most_doublings = 3; ///< of the length along which directions are averaged
+constexpr double past_targets = 1.5;   ///< see StripEdge::targets
 
 double length(const Point3& a) {
     return std::hypot(a.x, a.y, a.z);
@@ -49,8 +51,8 @@ public:
         for (std::uint32_t e = 0; e < edges.size(); ++e) total[sets.find(e)] += lengths_[e];
         for (std::uint32_t e = 0; e < edges.size(); ++e)
             windows_.push_back(std::min(limit / 2, total[sets.find(e)] / 8));
+        for (unsigned i = 0; i < most_doublings; ++i) widen_where_folded(sets);
     }
-
     /// The point that the strip aims at from a vertex, so that past it by half it is as far from
     /// the border as the limit.
     [[nodiscard]] Point3 target(std::uint32_t surface, std::uint32_t vertex) const {
@@ -65,8 +67,22 @@ public:
     }
 
 private:
-    [[nodiscard]] const Point3& at(std::uint32_t v) const { return a_.points.input(v); }
+    /// Doubles the windows along borders whose strip runs backwards somewhere.
+    void widen_where_folded(Sets& borders) {
+        std::vector<bool> folded(edges_.size(), false);
+        for (std::uint32_t e = 0; e < edges_.size(); ++e) {
+            const BorderEdge& edge = edges_[e];
+            const Point3 along_border = minus(at(edge.to), at(edge.from));
+            const Point3 from = minus(target(edge.surface, edge.from), at(edge.from)),
+                         to = minus(target(edge.surface, edge.to), at(edge.to));
+            const Point3 outer = along(along_border, past_targets, minus(to, from));
+            if (!(dot(outer, along_border) > 0)) folded[borders.find(e)] = true;
+        }
+        for (std::uint32_t e = 0; e < edges_.size(); ++e)
+            if (folded[borders.find(e)]) windows_[e] *= 2;
+    }
 
+    [[nodiscard]] const Point3& at(std::uint32_t v) const { return a_.points.input(v); }
     /// In the plane of the edge's triangle, away from it, of length 1.
     [[nodiscard]] Point3 outward_of(const BorderEdge& e) const {
         const Triangle& c = a_.inputs.corners[e.triangle];
@@ -121,12 +137,28 @@ std::vector<StripTriangle> strips_beyond(const Arrangement& a, std::span<const B
                                      directions.target(edge.surface, edge.to)},
                           e});
     }
-    auto strips = make_strips(a, wanted);
-    std::erase_if(strips, [](const StripTriangle& t) { return t.is_fan; });
-    return strips;
+    return make_strips(a, wanted);
 }
 
-/// Per piece whether the strip comes out of the volume: no outer corner is inside. Exact.
+/// Whether a part of a strip, inside the volume, reaches the strip's outer edge, or its outer
+/// corner: it ends inside. Exact.
+bool ends_here(const Arrangement& a, std::uint32_t t, std::uint32_t parent,
+               const StripTriangle& strip) {
+    const Triangle &corners = a.inputs.corners[parent], &part = a.triangles[t];
+    for (unsigned k = 0; k < 3; ++k) {
+        const unsigned next = (k + 1) % 3;
+        const bool is_outer =
+            strip.is_fan ? k != strip.side : !strip.is_base[k] && !strip.is_base[next];
+        for (unsigned i = 0; i < 3; ++i) {
+            if (!strip.is_base[k] && a.vertices[part[i]] == corners[k]) return true;
+            const Edge edge{part[i], part[(i + 1) % 3]};
+            if (is_outer && lies_on(a, edge, parent, corners[k], corners[next])) return true;
+        }
+    }
+    return false;
+}
+
+/// Per piece, of which there are so many and fans, whether it comes out of the volume all along.
 Result<std::vector<bool>> find_reached(std::vector<Surface> surfaces,
                                        std::span<const StripTriangle> strips, std::size_t pieces,
                                        std::span<const std::uint32_t> boundary,
@@ -137,21 +169,29 @@ Result<std::vector<bool>> find_reached(std::vector<Surface> surfaces,
     const auto where = locate(a.value(), boundary, run);
     if (!where) return where.error();
     const auto by_input = strips_by_input(a.value(), strips);
+    for (const StripTriangle& t : strips) pieces = std::max(pieces, t.piece + std::size_t{1});
     std::vector<bool> reached(pieces, false);
     for (const StripTriangle& t : strips) reached[t.piece] = true; // but for those without area
-    for (std::size_t t = 0; t < a.value().triangles.size(); ++t) {
+    const UpwardRounding guard;
+    for (std::uint32_t t = 0; t < a.value().triangles.size(); ++t) {
         if (where.value()[t] != Where::inside) continue;
-        for (const std::uint32_t p : a.value().parents_of[t]) {
-            if (by_input[p] == none) continue;
-            const StripTriangle& strip = strips[by_input[p]];
-            const Triangle& corners = a.value().inputs.corners[p];
-            for (unsigned k = 0; k < 3; ++k)
-                for (const std::uint32_t v : a.value().triangles[t])
-                    if (!strip.is_base[k] && a.value().vertices[v] == corners[k])
-                        reached[strip.piece] = false;
-        }
+        for (const std::uint32_t p : a.value().parents_of[t])
+            if (by_input[p] != none && ends_here(a.value(), t, p, strips[by_input[p]]))
+                reached[strips[by_input[p]].piece] = false;
     }
     return reached;
+}
+
+/// Fans beside pieces that are gone.
+void drop_lone_fans(std::vector<StripTriangle>& strips) {
+    std::set<std::pair<Point3, Point3>> sides;
+    const auto side_of = [](const StripTriangle& t) {
+        return std::minmax({t.corners[t.side], t.corners[(t.side + 1) % 3]});
+    };
+    for (const StripTriangle& t : strips)
+        if (!t.is_fan) sides.insert(side_of(t));
+    std::erase_if(strips,
+                  [&](const StripTriangle& t) { return t.is_fan && !sides.contains(side_of(t)); });
 }
 
 /// Connected edges with the same fate are one entry.
@@ -199,6 +239,7 @@ Result<Extended> extend(std::vector<Surface> surfaces, std::span<const std::uint
     const auto reached = find_reached(surfaces, strips, edges.size(), boundary, options, run);
     if (!reached) return reached.error();
     std::erase_if(strips, [&](const StripTriangle& t) { return !reached.value()[t.piece]; });
+    drop_lone_fans(strips);
     append_strips(surfaces, strips);
     return Extended{std::move(surfaces), list(inside, edges, reached.value())};
 }

@@ -5,8 +5,8 @@
 // Beyond each free border inside the volume a strip of new triangles goes on along the border's
 // tangent plane, as far as the limit; the cut (volume_of_interest.hpp) ends it exactly at the
 // boundary. It crosses whatever is in its way, as a horizon crosses faults: the arrangement sees to
-// that. Directions are means along half the limit of the border, so that strips of rough borders do
-// not fold; at corners the strip is mitred.
+// that. Directions are means along half the limit of the border, and farther where strips of rough
+// borders would fold; at corners the strip is mitred.
 // All surfaces are extended but faults, which may end anywhere, and boundaries. A border edge whose
 // strip does not come out of the volume within the limit is left as it is, and listed; that is
 // decided exactly.

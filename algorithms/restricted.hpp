@@ -14,9 +14,9 @@ namespace terrane {
 /// (2) Adjacency, intersection edges and neighbours are those of the kept triangles alone. So
 ///     rounding, volumes, structure and tetrahedra work on it as on any other.
 /// (3) Surfaces and the numbers of input triangles stay, also of those with nothing left.
-/// (4) Where rounding can't do without moving input vertices it may only where restrict_again of
-/// the
-///     result is set, which is left as it was.
+/// (4) Rounding may move input vertices, as it does where nothing else helps, only if
+/// restrict_again
+///     is set. It is left as it was.
 /// (5) Input triangles are no longer the union of those that name them: `whole` becomes false, and
 ///     there is no certificate for it.
 /// Cost: linear.

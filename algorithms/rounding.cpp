@@ -466,6 +466,11 @@ void name_input(const Arrangement& a, Arrangement& snapped) {
         find_intersection_edges(snapped.adjacency, snapped.inputs, snapped.parents_of);
 }
 
+/// Whether an error has nothing to do with the surfaces.
+bool is_external(ErrorCode code) {
+    return code == ErrorCode::interrupted || code == ErrorCode::out_of_memory;
+}
+
 /// Arranges the input anew with snapped vertices, ever coarser, until the doubles are conforming.
 Result<RoundedMesh> snap_input(const Arrangement& a, RoundedMesh first,
                                const RoundingOptions& options, const Run& run) {
@@ -479,7 +484,8 @@ Result<RoundedMesh> snap_input(const Arrangement& a, RoundedMesh first,
             name_input(a, again.value());
             if (a.restrict_again) {
                 again = a.restrict_again(std::move(again).value(), run);
-                if (!again) return again.error();
+                if (!again && is_external(again.error().code)) return again.error();
+                if (!again) return first; // too coarse: a boundary is no longer closed
             }
             auto rounded = Rounding(again.value(), options, run)();
             if (!rounded) return rounded;

@@ -27,6 +27,8 @@ namespace {
 constexpr std::uint32_t none = UINT32_MAX;
 constexpr double along_plane = 4; ///< how far strips go for each unit of gap: enough where surfaces
                                   ///< meet at 15 degrees or more
+constexpr unsigned most_rounds = 4;  ///< of taking useless strips out: one is enough but where
+                                     ///< strips depend on each other
 constexpr double least_steps = 1024; ///< shortest strip, in steps of doubles at its coordinates:
                                      ///< shorter ones have no direction
 
@@ -235,23 +237,26 @@ private:
         return std::ldexp(1.0, std::ilogb(largest) - 52);
     }
 
-    /// Keeps of the fresh strips those of which some part closes a gap.
+    /// Takes the fresh strips in, and those out of which no part closes a gap, until all do.
     Status add_useful(std::vector<StripTriangle> fresh) {
-        auto all = strips_;
-        all.insert(all.end(), fresh.begin(), fresh.end());
-        auto a = arrange(with(all), options_.arrange, run_);
-        if (!a) return a.error();
-        const Judged judged = judge(a.value(), all, options_.distance, run_);
-        const auto by_input = strips_by_input(a.value(), all);
-        const auto of = strips_by_triangle(a.value(), by_input);
-        std::vector<bool> used(all.size(), false);
-        for (std::uint32_t t = 0; t < of.size(); ++t)
-            if (of[t] != none && judged.keep[t])
-                for (const std::uint32_t p : a.value().parents_of[t]) used[by_input[p]] = true;
-        strips_.clear();
-        for (std::size_t i = 0; i < all.size(); ++i)
-            if (used[i]) strips_.push_back(all[i]);
+        strips_.insert(strips_.end(), fresh.begin(), fresh.end());
+        for (unsigned round = 0; round < most_rounds; ++round) {
+            if (auto done = update(); !done) return done;
+            if (!drop_useless()) return Done{};
+        }
         return update();
+    }
+
+    /// Whole pieces: halves would end at a diagonal. True if there was one.
+    bool drop_useless() {
+        const auto by_input = strips_by_input(whole_, strips_);
+        const auto of = strips_by_triangle(whole_, by_input);
+        std::vector<bool> used(gaps_.size(), false);
+        for (std::uint32_t t = 0; t < of.size(); ++t)
+            if (of[t] != none && judged_.keep[t])
+                for (const std::uint32_t p : whole_.parents_of[t])
+                    used[strips_[by_input[p]].piece] = true;
+        return std::erase_if(strips_, [&](const StripTriangle& t) { return !used[t.piece]; }) > 0;
     }
 
     void finish() {

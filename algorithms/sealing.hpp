@@ -8,15 +8,17 @@
 //   Where that closes nothing (surfaces at a small angle), the strip goes towards the nearest
 //   points. Tangent planes come first since gaps of real models are far smaller than their
 //   triangles: the surface continues as it was, and strips of neighbouring edges fit together,
-//   round corners too.
+//   round corners too. A strip is judged by what closes, see strip_cells.hpp.
 // - Trimmed: the part of a surface between its free border and the curve with another one, if no
 //   point of it is farther than the distance from the curve.
 // Guarantees: the result is an exact arrangement; nothing but what is listed changes; no vertex of
 // the input moves; a strip that closes no gap is not there, and parts none of the others. Where no
 // gap is small enough it is the arrangement of the input itself.
 // Distances are in floating point, from the ends and middles of the free parts of border edges to
-// the nearest other surface; a part of an edge is extended as a whole or not at all; a gap of a surface to itself is none.
-// Cost: three arrangements at least where there is something to do, up to seven.
+// the nearest other surface; a part of an edge is extended as a whole or not at all; a gap of a
+// surface to itself is none.
+// Cost: one arrangement where there is nothing to do, then two or three for each way of making
+// strips.
 #pragma once
 
 #include <cstdint>

@@ -124,16 +124,13 @@ private:
         return any;
     }
 
-    /// Whether the edge lies on the side of a quadrilateral, or on that of a fan which it shares.
+    /// Whether the edge lies on the side of a quadrilateral.
     [[nodiscard]] bool is_side(std::uint32_t t, const Edge& edge) const {
         for (const std::uint32_t p : a_.parents_of[t]) {
             const StripTriangle& strip = strips_[by_input_[p]];
             const Triangle& c = a_.inputs.corners[p];
-            if (strip.is_fan) continue;
-            for (unsigned k = 0; k < 3; ++k) {
-                const bool from = strip.is_base[k], to = strip.is_base[(k + 1) % 3];
-                if (from != to && lies_on(a_, edge, p, c[k], c[(k + 1) % 3])) return true;
-            }
+            const unsigned k = strip.side;
+            if (!strip.is_fan && lies_on(a_, edge, p, c[k], c[(k + 1) % 3])) return true;
         }
         return false;
     }

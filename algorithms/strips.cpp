@@ -118,17 +118,18 @@ private:
     }
 
     void add(const StripEdge& e, std::uint32_t piece, bool is_fan,
-             const std::array<Point3, 3>& corners, const std::array<bool, 3>& is_base) {
+             const std::array<Point3, 3>& corners, const std::array<bool, 3>& is_base,
+             unsigned side) {
         if (collinear(corners[0], corners[1], corners[2])) return;
-        strips_.push_back({e.edge.surface, piece, is_fan, corners, is_base});
+        strips_.push_back({e.edge.surface, piece, is_fan, corners, is_base, side});
     }
 
     void add_quad(const StripEdge& e) {
         const Point3 &a = at(e.edge.from), &b = at(e.edge.to);
         const Point3 a1 = vertices_.at({e.edge.surface, e.edge.from}).beyond,
                      b1 = vertices_.at({e.edge.surface, e.edge.to}).beyond;
-        add(e, e.piece, false, {b, a, a1}, {true, true, false});
-        add(e, e.piece, false, {b, a1, b1}, {true, false, false});
+        add(e, e.piece, false, {b, a, a1}, {true, true, false}, 1);
+        add(e, e.piece, false, {b, a1, b1}, {true, false, false}, 2);
     }
 
     /// At the end of a chain, sideways by as much as beyond.
@@ -141,9 +142,9 @@ private:
                                               vertex.beyond.z - at(v).z));
         const Point3 side = plus(vertex.beyond, times(reach, away));
         if (starts)
-            add(e, piece, true, {at(v), side, vertex.beyond}, {true, false, false});
+            add(e, piece, true, {at(v), side, vertex.beyond}, {true, false, false}, 2);
         else
-            add(e, piece, true, {at(v), vertex.beyond, side}, {true, false, false});
+            add(e, piece, true, {at(v), vertex.beyond, side}, {true, false, false}, 0);
     }
 
     const Arrangement& a_;

@@ -36,6 +36,8 @@ struct StripTriangle {
     bool is_fan = false;
     std::array<Point3, 3> corners{};
     std::array<bool, 3> is_base{}; ///< the corner is one of the border's
+    unsigned side = 3; ///< the edge from this corner on is the side of a quadrilateral, which a fan
+                       ///< shares with it
 };
 
 /// How far a strip goes beyond one border edge.

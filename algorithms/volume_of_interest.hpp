@@ -2,19 +2,14 @@
 //
 // Surfaces cut by the closed boundary of a volume of interest: the inside is kept, exactly.
 //
-//   auto surfaces = horizons_and_faults;
-//   const auto first = surfaces.size();
-//   for (auto& face : box_boundary(low, high).value()) surfaces.push_back(face);
-//   const auto boundary = ...; // first, first + 1, ...
-//   auto cut = cut_to_volume(arrange(surfaces).value(), boundary);
-//
 // Where a triangle lies: the volumes of the whole arrangement (volumes.hpp) are found and joined
 // across all triangles that are not of the boundary; what is left are the parts of space that the
-// boundary alone leaves. From one to the next an odd number of times from the outside is inside. So
-// a cavity of the boundary is outside.
+// boundary alone leaves. A part is inside if one crosses the boundary an odd number of times on the
+// way there from the outside. So a cavity of the boundary is outside.
 // Guarantees: exact, no tolerance; the boundary is kept whole, with triangles of other surfaces
-// that lie in it; the inside is closed: a block of it has all its faces. Cost: that of
-// find_volumes. Source: the paper, section 5.3.
+// that lie in it; the inside is closed: a block of it has all its faces.
+// Cost: that of find_volumes.
+// Source: the paper, section 5.3 (volume of interest).
 #pragma once
 
 #include <cstdint>

@@ -14,6 +14,7 @@
 #include <catch2/catch.hpp>
 #include <gmpxx.h>
 
+#include "../support/certified_inputs.hpp"
 #include "../support/effort.hpp"
 #include "../support/points.hpp"
 #include "../support/solids.hpp"
@@ -464,4 +465,46 @@ TEST_CASE("volume of interest: the same for any number of threads; it can be sto
     one.stop = source.get_token();
     CHECK(cut_to_volume(arrange(surfaces).value(), ids, one).error().code ==
           ErrorCode::interrupted);
+}
+
+TEST_CASE(
+    "volume of interest: hard inputs cut in two halves add up, and round where the whole does",
+    "[voi]") {
+    std::size_t tried = 0, moved = 0;
+    for (const Model& model : certified_inputs(cases(400))) {
+        Point3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+        for (const Surface& s : model.surfaces)
+            for (const Point3& p : s.vertices) {
+                low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+                high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+            }
+        const double w = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+        const double middle = low.x + (high.x - low.x) / 2;
+        const Point3 least{low.x - w, low.y - w, low.z - w},
+            most{high.x + w, high.y + w, high.z + w};
+        const auto left = box_boundary(least, {middle, most.y, most.z}),
+                   right = box_boundary({middle, least.y, least.z}, most);
+        if (!left || !right) continue; // beyond the largest double
+        INFO(model.name);
+        ++tried;
+        const auto a = cut(model.surfaces, left.value()), b = cut(model.surfaces, right.value());
+        check_consistent(a.cut.arrangement);
+        check_consistent(b.cut.arrangement);
+        for (std::size_t s = 0; s < model.surfaces.size(); ++s) {
+            const SurfaceCut &l = a.cut.report.surfaces[s], &r = b.cut.report.surfaces[s];
+            CHECK(l.area_inside == Approx(r.area_outside).margin(1e-9 * w * w));
+            CHECK(l.area_outside == Approx(r.area_inside).margin(1e-9 * w * w));
+            CHECK(l.area_on_boundary == Approx(r.area_on_boundary).margin(1e-9 * w * w));
+        }
+        CHECK(find_volumes(a.cut.arrangement).value().measures[0] ==
+              Approx(volume_of(left.value()).get_d()));
+        const auto whole = round_to_doubles(a.whole), part = round_to_doubles(a.cut.arrangement);
+        REQUIRE(whole);
+        REQUIRE(part);
+        if (!whole.value().report.clean) continue;
+        CHECK(part.value().report.clean);
+        moved += part.value().report.moved_input_vertices > 0 ? 1U : 0U;
+    }
+    CHECK(tried > 40);
+    if (effort_divisor == 1) CHECK(moved > 0); // rounding had to arrange some anew
 }
