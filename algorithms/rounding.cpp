@@ -469,6 +469,11 @@ void name_input(const Arrangement& a, Arrangement& snapped) {
         find_intersection_edges(snapped.adjacency, snapped.inputs, snapped.parents_of);
 }
 
+/// Whether an error has nothing to do with the surfaces.
+bool is_external(ErrorCode code) {
+    return code == ErrorCode::interrupted || code == ErrorCode::out_of_memory;
+}
+
 /// Arranges the input anew with snapped vertices, ever coarser, until the doubles are conforming.
 Result<RoundedMesh> snap_input(const Arrangement& a, RoundedMesh first,
                                const RoundingOptions& options, const Run& run) {
@@ -480,6 +485,11 @@ Result<RoundedMesh> snap_input(const Arrangement& a, RoundedMesh first,
             auto again = arrange(snapped.surfaces(digits), {}, run);
             if (!again) return again.error();
             name_input(a, again.value());
+            if (a.restrict_again) {
+                again = a.restrict_again(std::move(again).value(), run);
+                if (!again && is_external(again.error().code)) return again.error();
+                if (!again) return first; // too coarse: a boundary is no longer closed
+            }
             auto rounded = Rounding(again.value(), options, run)();
             if (!rounded) return rounded;
             ++rounds;
@@ -499,7 +509,10 @@ Result<RoundedMesh> round_to_doubles(const Arrangement& arrangement, const Round
                                      const Run& run) {
     try {
         auto rounded = Rounding(arrangement, options, run)();
-        if (rounded && !rounded.value().report.clean && options.max_rounds > 0)
+        // Arranged anew, the input gets back what was taken out.
+        const bool may_snap_input =
+            (arrangement.whole || arrangement.restrict_again) && options.max_rounds > 0;
+        if (rounded && !rounded.value().report.clean && may_snap_input)
             rounded = snap_input(arrangement, std::move(rounded).value(), options, run);
         if (rounded && (rounded.value().report.collapsed_triangles > 0 ||
                         !rounded.value().report.vanished.empty()))

@@ -16,6 +16,7 @@
 #include <terrane/algorithms/check_tetrahedra.hpp>
 #include <terrane/algorithms/intersection.hpp>
 #include <terrane/algorithms/search/search.hpp>
+#include <terrane/algorithms/sharpest_angle.hpp>
 #include <terrane/algorithms/soup.hpp>
 #include <terrane/algorithms/tetgen_assembly.hpp>
 #include <terrane/algorithms/tetgen_process.hpp>
@@ -263,6 +264,20 @@ Result<TetgenInput> tetgen_input(const TetgenDomain& domain, const TetrahedraOpt
     return input;
 }
 
+/// A failure of TetGen's own gets the place where it is most likely to have failed.
+Error with_place(Error error, const Mesh& mesh) {
+    if (error.code != ErrorCode::internal || !error.place.empty()) return error;
+    const auto sharp = sharpest_angle(mesh);
+    if (!sharp) return error;
+    error.code = ErrorCode::unsupported;
+    error.sentence +=
+        fmt::format(", in every way in which it was tried; the sharpest angle between "
+                    "triangles, {:.2g} degrees, is here",
+                    sharp->degrees);
+    error.place = fmt::format("({}, {}, {})", sharp->place.x, sharp->place.y, sharp->place.z);
+    return error;
+}
+
 /// Where TetGen fails, runs out of time, or fails the checks, it is asked again: to leave out its
 /// last step, the improvement of shapes, and then to split facets. All that with the points along a
 /// curve, as is its custom, then as they come: in 1.5.0 the former ends in an assertion for points
@@ -299,7 +314,7 @@ Result<TetrahedralMesh> try_in_turn(const Mesh& mesh, const Volumes& volumes,
             return output.error();
         if (!first) first = output.error();
     }
-    return *first;
+    return with_place(*first, mesh);
 }
 
 // ---- 5. The stage -----------------------------------------------------------------------------

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -114,23 +116,97 @@ void add_settings(CLI::App& command, ArrangeSettings& settings) {
                     "0: only to the nearest double (default: 8)")
         ->check(CLI::Range(0U, most_rounds).description(""))
         ->type_name("N");
+    command
+        .add_option(
+            "--seal", settings.seal,
+            "Extend or trim free borders that end short of another surface, or beyond it, by at "
+            "most this distance; every change is listed (default: nothing moves)")
+        ->type_name("D");
+    add_volume_options(command, settings.volume);
 }
 
-Result<Arranged> arrange_and_round(const Inputs& inputs, const ArrangeSettings& settings,
-                                   Session& session, Json& statistics) {
-    session.begin("arrange", Phase::computing);
-    auto exact = arrange(inputs.surfaces, {.search = settings.search}, session.run());
+namespace {
+
+/// The surfaces of the boundary, added to the inputs: their indices.
+Result<std::vector<std::uint32_t>> add_boundary(Inputs& inputs, const VolumeOptions& options,
+                                                Session& session) {
+    auto boundary = boundary_of(options, session);
+    if (!boundary) return boundary.error();
+    const auto first = static_cast<std::uint32_t>(inputs.surfaces.size());
+    append(inputs, std::move(boundary).value(), "volume of interest");
+    std::vector<std::uint32_t> indices(inputs.surfaces.size() - first);
+    std::iota(indices.begin(), indices.end(), first);
+    return indices;
+}
+
+Result<Arrangement> arrange_or_seal(Inputs& inputs, const ArrangeSettings& settings,
+                                    Session& session, Json& statistics, Arranged& arranged) {
+    const ArrangeOptions options{.search = settings.search};
+    if (settings.seal == 0) {
+        session.begin("arrange", Phase::computing);
+        auto exact = arrange(inputs.surfaces, options, session.run());
+        session.end_stage();
+        return exact;
+    }
+    Stopwatch watch;
+    session.begin("seal", Phase::computing);
+    auto sealed = seal(inputs.surfaces, {settings.seal, options}, session.run());
     session.end_stage();
+    if (!sealed) return sealed.error();
+    statistics["seconds"]["seal"] = watch.lap();
+    Sealed& s = sealed.value();
+    inputs.surfaces = std::move(s.surfaces);
+    arranged.sealed = SealReport{settings.seal, std::move(s.changes), s.left};
+    add_statistics(statistics, *arranged.sealed, inputs);
+    return std::move(s.arrangement);
+}
+
+} // namespace
+
+Result<Arranged> arrange_and_round(Inputs& inputs, const ArrangeSettings& settings,
+                                   Session& session, Json& statistics) {
+    std::vector<std::uint32_t> boundary;
+    if (settings.volume.wanted()) {
+        auto added = add_boundary(inputs, settings.volume, session);
+        if (!added) return added.error();
+        boundary = std::move(added).value();
+    }
+    Stopwatch watch;
+    Arranged arranged;
+    if (settings.volume.extend != 0) {
+        session.begin("extend", Phase::computing);
+        auto extended = extend_to_boundary(
+            inputs.surfaces, boundary, {settings.volume.extend, {settings.search}}, session.run());
+        session.end_stage();
+        if (!extended) return extended.error();
+        inputs.surfaces = std::move(extended.value().surfaces);
+        arranged.extended = std::move(extended.value().borders);
+        add_statistics(statistics, *arranged.extended);
+        statistics["seconds"]["extend"] = watch.lap();
+    }
+    auto exact = arrange_or_seal(inputs, settings, session, statistics, arranged);
     if (!exact) return exact.error();
     add_statistics(statistics, exact.value(), settings.search);
-
-    Stopwatch watch;
+    watch.lap();
+    if (settings.volume.wanted()) {
+        session.begin("volume of interest", Phase::computing);
+        auto cut = cut_to_volume(std::move(exact).value(), boundary, session.run());
+        session.end_stage();
+        if (!cut) return cut.error();
+        arranged.exact = std::move(cut.value().arrangement);
+        arranged.cut = std::move(cut.value().report);
+        add_statistics(statistics, *arranged.cut, inputs);
+        statistics["seconds"]["volume_of_interest"] = watch.lap();
+    } else {
+        arranged.exact = std::move(exact).value();
+    }
     session.begin("round", Phase::computing);
-    auto rounded = round_to_doubles(exact.value(), {.max_rounds = settings.rounds}, session.run());
+    auto rounded = round_to_doubles(arranged.exact, {.max_rounds = settings.rounds}, session.run());
     session.end_stage();
     if (!rounded) return rounded.error();
     add_statistics(statistics, rounded.value(), watch.lap());
-    return Arranged{std::move(exact).value(), std::move(rounded).value()};
+    arranged.rounded = std::move(rounded).value();
+    return arranged;
 }
 
 std::string summary(const Inputs& inputs, const Arranged& arranged) {
@@ -141,6 +217,9 @@ std::string summary(const Inputs& inputs, const Arranged& arranged) {
                             counted(arranged.rounded.regions.size(), "region"));
     text += surface_table(inputs, arranged.rounded);
     text += set_aside(arranged.exact);
+    if (arranged.extended) text += text_of(*arranged.extended, inputs);
+    if (arranged.sealed) text += text_of(*arranged.sealed, inputs);
+    if (arranged.cut) text += text_of(*arranged.cut, inputs);
     text += rounding_text(arranged.rounded.report);
     return text;
 }

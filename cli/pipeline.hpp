@@ -3,32 +3,42 @@
 // What arrange and tetrahedralize share: files to a mesh of doubles, and what is said about it.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
 #include <terrane/algorithms/arrangement.hpp>
 #include <terrane/algorithms/rounding.hpp>
 #include <terrane/cli/files.hpp>
+#include <terrane/cli/seal_report.hpp>
 #include <terrane/cli/session.hpp>
 #include <terrane/cli/statistics.hpp>
+#include <terrane/cli/volume_options.hpp>
 
 namespace terrane::cli {
 
 struct ArrangeSettings {
     Search search = Search::automatic;
     unsigned rounds = RoundingOptions{}.max_rounds;
+    VolumeOptions volume; ///< of interest
+    double seal = 0;      ///< distance; 0: not at all
 };
 
 void add_settings(CLI::App& command, ArrangeSettings& settings);
 
 struct Arranged {
-    Arrangement exact;
+    Arrangement exact; ///< with a volume of interest: restricted to it
     RoundedMesh rounded;
+    std::optional<VolumeReport> cut;  ///< with a volume of interest
+    std::optional<SealReport> sealed; ///< where asked for, as the next one
+    std::optional<std::vector<ExtendedBorder>> extended;
 };
 
-/// Adds to `statistics`. Errors: those of arrange and round_to_doubles.
-Result<Arranged> arrange_and_round(const Inputs& inputs, const ArrangeSettings& settings,
+/// Adds to `statistics`; to `inputs` the boundary of a volume of interest, and the triangles by
+/// which gaps were closed. Errors: those of arrange, cut_to_volume and round_to_doubles.
+Result<Arranged> arrange_and_round(Inputs& inputs, const ArrangeSettings& settings,
                                    Session& session, Json& statistics);
 
 /// Surfaces with their triangles, regions and areas; what was set aside; how the rounding went.

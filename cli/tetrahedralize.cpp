@@ -17,6 +17,7 @@
 #include <terrane/algorithms/stopwatch.hpp>
 #include <terrane/algorithms/structure.hpp>
 #include <terrane/algorithms/tetrahedra.hpp>
+#include <terrane/algorithms/without_outside.hpp>
 #include <terrane/cli/pipeline.hpp>
 #include <terrane/cli/tetrahedra_report.hpp>
 #endif
@@ -33,14 +34,16 @@ constexpr std::size_t most_regions = 50; ///< listed on the terminal
 struct TetrahedralizeCommand {
     FileOptions files;
     ArrangeSettings settings;
-    std::string box; ///< as given
+    std::string around; ///< as given
     TetrahedraOptions options;
 };
 
 constexpr auto footer =
     R"(The surfaces are arranged and rounded first, as `terrane arrange` does; where the doubles are not
-a conforming mesh nothing is written, and the exit status is 1. The box closes the domain: what
-touches it is the outside, each further region is a volume that the surfaces enclose.
+a conforming mesh nothing is written, and the exit status is 1. A box round
+all closes the domain: what touches it is region 0, the outside, each further region is a volume that
+the surfaces enclose. With a volume of interest (--box, --rotated-box, --polygon, --within) all
+surfaces are cut by its boundary, and only what is inside gets tetrahedra: there is no region 0.
 
 The result is checked: tetrahedra have positive volume, each triangle is a union of their faces, each
 region is one block (found in two ways) and has its volume. Where that fails nothing is written, and
@@ -54,7 +57,7 @@ Examples:
   terrane tetrahedralize model.ml -o model.vtu
   terrane tetrahedralize faults.ts topography.ts -o model.msh --edge-length 200
   terrane tetrahedralize model.ml -o model.msh --msh 2.2 -o model.inp -o model.mesh
-  terrane tetrahedralize model.ml -o model.vtu --box 0,0,-3000,10000,10000,500)";
+  terrane tetrahedralize horizons.ts faults.ts -o model.vtu --box 0,0,-3000,10000,10000,500)";
 
 /// "x0,y0,z0,x1,y1,z1"
 std::optional<Box3> parse_box(std::string_view text) {
@@ -73,20 +76,21 @@ std::optional<Box3> parse_box(std::string_view text) {
 
 Result<TetrahedraOptions> options_of(const TetrahedralizeCommand& command) {
     TetrahedraOptions options = command.options;
-    if (command.box.empty()) return options;
-    options.box = parse_box(command.box);
+    if (command.around.empty()) return options;
+    options.box = parse_box(command.around);
     if (!options.box)
-        return Error{ErrorCode::bad_option, "needs six numbers: x0,y0,z0,x1,y1,z1", "--box"};
+        return Error{ErrorCode::bad_option, "needs six numbers: x0,y0,z0,x1,y1,z1", "--around"};
     return options;
 }
 
 std::string region_text(const TetrahedralMesh& mesh, const TetrahedraReport& report) {
     std::vector<std::size_t> tetrahedra(mesh.region_count);
     for (const std::uint32_t region : mesh.region_of) ++tetrahedra[region];
-    auto text =
-        fmt::format("{} tetrahedra, {}, {} with the outside\n", mesh.tetrahedra.size(),
-                    counted(mesh.faces.size(), "face"), counted(tetrahedra.size(), "region"));
-    for (std::size_t r = 0; r < std::min(tetrahedra.size(), most_regions); ++r)
+    const std::size_t first = tetrahedra[0] == 0 ? 1 : 0; // in a volume of interest
+    auto text = fmt::format(
+        "{} tetrahedra, {}, {}{}\n", mesh.tetrahedra.size(), counted(mesh.faces.size(), "face"),
+        counted(tetrahedra.size() - first, "region"), first == 0 ? " with the outside" : "");
+    for (std::size_t r = first; r < std::min(tetrahedra.size(), most_regions); ++r)
         text += fmt::format("  region {:<3} {:>9} tetrahedra  volume {:.6g}{}\n", r, tetrahedra[r],
                             report.volumes[r].tetrahedra, r == 0 ? "  (outside)" : "");
     if (tetrahedra.size() > most_regions)
@@ -148,7 +152,9 @@ Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Se
     if (!options) return options.error();
     const auto outputs = plan_outputs(files, OutputKind::tetrahedra);
     if (!outputs) return outputs.error();
-    const auto inputs = read_inputs(files, session);
+    if (const auto sound = check_volume_options(command.settings.volume); !sound)
+        return sound.error();
+    auto inputs = read_inputs(files, session);
     if (!inputs) return inputs.error();
     Json statistics = statistics_of(inputs.value());
 
@@ -163,9 +169,11 @@ Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Se
         return ExitStatus::negative;
     }
 
-    const auto filled =
+    auto filled =
         fill_and_check(arranged.value().rounded.mesh, options.value(), session, statistics);
     if (!filled) return filled.error();
+    if (command.settings.volume.wanted())
+        filled.value().tetrahedra = without_outside(std::move(filled.value().tetrahedra));
     const TetrahedralMesh& tetrahedra = filled.value().tetrahedra;
     const TetrahedraReport& report = filled.value().report;
     add_statistics(statistics, tetrahedra, report);
@@ -187,11 +195,11 @@ Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Se
 
 void add_tetrahedra_options(CLI::App& app, TetrahedralizeCommand& command) {
     TetrahedraOptions& options = command.options;
-    app.add_option("--box", command.box,
-                   "Box that closes the domain, x0,y0,z0,x1,y1,z1, around all surfaces")
+    app.add_option("--around", command.around,
+                   "Box that closes the domain, x0,y0,z0,x1,y1,z1, around all that is kept")
         ->type_name("BOX");
     app.add_option("--margin", options.margin,
-                   "Without --box: the bounding box, larger on each side by this share of its "
+                   "Without --around: the bounding box, larger on each side by this share of its "
                    "longest edge (default: 0.1)")
         ->type_name("SHARE");
     app.add_option("--edge-length", options.edge_length,

@@ -43,8 +43,16 @@ surfaces enclose, 1, 2, ...; 0 is the outside. DIR must not exist, or be empty. 
 Neighbours have the same vertices, to the last bit. Open surfaces are no error: they dangle, and the
 summary says which, and how far their free borders are from other surfaces.
 
+--seal D closes gaps: free borders that end short of another surface by at most D are extended onto it,
+those that reach beyond by at most D are trimmed. Every change is listed, and is in model.json.
+
+With a volume of interest (--box, --rotated-box, --polygon, --within) all surfaces are cut by its
+boundary, exactly, the inside is kept, and the boundary closes it: its faces are surfaces of their
+own, "boundary top", "boundary side 1", ... --extend D extends horizons that end inside.
 Examples:
-  terrane volume model.ml -o model
+  terrane volume model.ml -o model  terrane volume model.ml -o model --seal 0.01
+  terrane volume horizons.ts faults.ts -o model --box 0,0,-3000,10000,10000,500
+  terrane volume *.ts -o model --polygon licence.txt --between -4000,0
   terrane volume top.ts base.ts F1.ts box.ts -o model --role F1=fault --role box=boundary)";
 
 Status set_role(const std::string& text, Inputs& inputs) {
@@ -205,9 +213,13 @@ std::vector<std::int32_t> side_cells(const Volumes& volumes, std::size_t side) {
 class FolderWriter {
 public:
     FolderWriter(const Mesh& mesh, const Model& model, const VolumeCommand& command,
-                 const std::filesystem::path& folder) :
+                 const std::filesystem::path& folder, const std::optional<SealReport>& sealed) :
         mesh_(mesh),
-        model_(model), command_(command), folder_(folder) {}
+        model_(model), command_(command), folder_(folder) {
+        if (!sealed) return;
+        extras_.seal_distance = sealed->distance;
+        extras_.seal_changes = sealed->changes;
+    }
 
     Status operator()(const Session& session) {
         for (const char* inner : {"blocks", "interfaces"}) {
@@ -280,12 +292,13 @@ private:
     StructureExtras extras_;
 };
 
-Status write_folder(const VolumeCommand& command, const Mesh& mesh, const Model& model,
+Status write_folder(const VolumeCommand& command, const Arranged& arranged, const Model& model,
                     Session& session) {
     session.begin("write", Phase::computing);
     auto folder = NewFolder::create(command.folder);
     if (!folder) return folder.error();
-    FolderWriter writer(mesh, model, command, folder.value().temporary());
+    FolderWriter writer(arranged.rounded.mesh, model, command, folder.value().temporary(),
+                        arranged.sealed);
     if (auto done = writer(session); !done) return done;
     auto published = folder.value().publish();
     session.end_stage();
@@ -298,6 +311,8 @@ Result<ExitStatus> find_blocks(const VolumeCommand& command, Session& session) {
     if (const auto planned = plan_outputs(files, OutputKind::surfaces); !planned)
         return planned.error();
     if (const auto good = check_new_folder(command.folder); !good) return good.error();
+    if (const auto sound = check_volume_options(command.settings.volume); !sound)
+        return sound.error();
     auto inputs = read_inputs(files, session);
     if (!inputs) return inputs.error();
     for (const std::string& role : command.roles)
@@ -319,8 +334,7 @@ Result<ExitStatus> find_blocks(const VolumeCommand& command, Session& session) {
                                          dangling_text(inputs.value(), model.value()) +
                                          leaks_text(inputs.value(), model.value()));
         Stopwatch writing;
-        const auto written =
-            write_folder(command, arranged.value().rounded.mesh, model.value(), session);
+        const auto written = write_folder(command, arranged.value(), model.value(), session);
         if (!written) return written.error();
         print(summary_stream(files), "wrote " + command.folder + "\n");
         statistics["seconds"]["write"] = writing.lap();
