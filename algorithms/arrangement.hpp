@@ -64,6 +64,8 @@ struct Arrangement {
                                            ///< with constructed points, not both within one patch;
                                            ///< no duplicates; sorted
     Adjacency adjacency;                   ///< of the triangles, for what follows
+    bool whole = true;                     ///< false: some triangles were taken out, see
+                                           ///< restricted.hpp
     ArrangeStatistics statistics;
 };
 

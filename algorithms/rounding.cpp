@@ -496,7 +496,9 @@ Result<RoundedMesh> round_to_doubles(const Arrangement& arrangement, const Round
                                      const Run& run) {
     try {
         auto rounded = Rounding(arrangement, options, run)();
-        if (rounded && !rounded.value().report.clean && options.max_rounds > 0)
+        // Arranged anew, the input would get back what was taken out.
+        const bool may_snap_input = arrangement.whole && options.max_rounds > 0;
+        if (rounded && !rounded.value().report.clean && may_snap_input)
             rounded = snap_input(arrangement, std::move(rounded).value(), options, run);
         if (rounded && (rounded.value().report.collapsed_triangles > 0 ||
                         !rounded.value().report.vanished.empty()))
