@@ -32,6 +32,7 @@ triangles in the way are named, and the exit status is 1.
 Examples:
   terrane arrange horizons.ts faults.ts -o model.vtp
   terrane arrange *.obj -o model.obj -o model.vtp --stats model.json
+  terrane arrange horizons.ts faults.ts -o part.vtp --box 0,0,-3000,10000,10000,500
   terrane arrange --format ts --output-format obj - -o - < in.ts > out.obj)";
 
 /// Binary STL holds other numbers than those that were verified: they are checked as well.
@@ -96,7 +97,13 @@ Result<ExitStatus> arrange_files(const ArrangeCommand& command, Session& session
     const auto outputs = plan_outputs(files, OutputKind::surfaces);
     if (!outputs) return outputs.error();
     if (const auto named = plan_proof(command.proof, files); !named) return named.error();
-    const auto inputs = read_inputs(files, session);
+    if (const auto sound = check_volume_options(command.settings.volume); !sound)
+        return sound.error();
+    if (command.settings.volume.wanted() && !command.proof.certificate.empty())
+        return Error{ErrorCode::bad_option,
+                     "a certificate is about whole surfaces, not about a volume of interest",
+                     "--certificate"};
+    auto inputs = read_inputs(files, session);
     if (!inputs) return inputs.error();
     Json statistics = statistics_of(inputs.value());
 

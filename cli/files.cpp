@@ -176,6 +176,14 @@ Result<Inputs> read_inputs(const FileOptions& options, Session& session) {
     return all;
 }
 
+void append(Inputs& inputs, std::vector<Surface> surfaces, const std::string& origin) {
+    for (Surface& s : surfaces) {
+        inputs.surfaces.push_back(std::move(s));
+        inputs.files.push_back(origin);
+    }
+    inputs.labels = labels_of(inputs.surfaces);
+}
+
 std::string name_of_inputs(const FileOptions& options) {
     const auto& first = options.inputs.front();
     const std::string name = first == "-" ? "standard input" : first;

@@ -64,9 +64,9 @@ ExitStatus run(int argc, char** argv) {
     program.require_subcommand(1);
     program.footer(footer);
     const std::array commands{arrange_command(program), bench_command(program),
-                              check_command(program),   tetrahedralize_command(program),
-                              convert_command(program), verify_command(program),
-                              volume_command(program)};
+                              build_command(program),   check_command(program),
+                              convert_command(program), tetrahedralize_command(program),
+                              verify_command(program),  volume_command(program)};
     try {
         program.parse(argc, argv);
     } catch (const CLI::ParseError& stop) {

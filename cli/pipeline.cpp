@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -114,10 +116,26 @@ void add_settings(CLI::App& command, ArrangeSettings& settings) {
                     "0: only to the nearest double (default: 8)")
         ->check(CLI::Range(0U, most_rounds).description(""))
         ->type_name("N");
+    add_volume_options(command, settings.volume);
 }
 
-Result<Arranged> arrange_and_round(const Inputs& inputs, const ArrangeSettings& settings,
+Result<Arranged> arrange_and_round(Inputs& inputs, const ArrangeSettings& settings,
                                    Session& session, Json& statistics) {
+    std::vector<Surface> boundary;
+    if (settings.volume.wanted()) {
+        auto made = boundary_of(settings.volume, session);
+        if (!made) return made.error();
+        boundary = std::move(made).value();
+    }
+    return arrange_within(inputs, std::move(boundary), settings, session, statistics);
+}
+
+Result<Arranged> arrange_within(Inputs& inputs, std::vector<Surface> boundary,
+                                const ArrangeSettings& settings, Session& session,
+                                Json& statistics) {
+    std::vector<std::uint32_t> added(boundary.size()); // indices of the boundary
+    std::iota(added.begin(), added.end(), static_cast<std::uint32_t>(inputs.surfaces.size()));
+    append(inputs, std::move(boundary), "volume of interest");
     session.begin("arrange", Phase::computing);
     auto exact = arrange(inputs.surfaces, {.search = settings.search}, session.run());
     session.end_stage();
@@ -125,12 +143,26 @@ Result<Arranged> arrange_and_round(const Inputs& inputs, const ArrangeSettings& 
     add_statistics(statistics, exact.value(), settings.search);
 
     Stopwatch watch;
+    Arranged arranged;
+    if (!added.empty()) {
+        session.begin("volume of interest", Phase::computing);
+        auto cut = cut_to_volume(std::move(exact).value(), added, session.run());
+        session.end_stage();
+        if (!cut) return cut.error();
+        arranged.exact = std::move(cut.value().arrangement);
+        arranged.cut = std::move(cut.value().report);
+        add_statistics(statistics, *arranged.cut, inputs);
+        statistics["seconds"]["volume_of_interest"] = watch.lap();
+    } else {
+        arranged.exact = std::move(exact).value();
+    }
     session.begin("round", Phase::computing);
-    auto rounded = round_to_doubles(exact.value(), {.max_rounds = settings.rounds}, session.run());
+    auto rounded = round_to_doubles(arranged.exact, {.max_rounds = settings.rounds}, session.run());
     session.end_stage();
     if (!rounded) return rounded.error();
     add_statistics(statistics, rounded.value(), watch.lap());
-    return Arranged{std::move(exact).value(), std::move(rounded).value()};
+    arranged.rounded = std::move(rounded).value();
+    return arranged;
 }
 
 std::string summary(const Inputs& inputs, const Arranged& arranged) {
@@ -141,6 +173,7 @@ std::string summary(const Inputs& inputs, const Arranged& arranged) {
                             counted(arranged.rounded.regions.size(), "region"));
     text += surface_table(inputs, arranged.rounded);
     text += set_aside(arranged.exact);
+    if (arranged.cut) text += text_of(*arranged.cut, inputs);
     text += rounding_text(arranged.rounded.report);
     return text;
 }

@@ -3,7 +3,9 @@
 // What arrange and tetrahedralize share: files to a mesh of doubles, and what is said about it.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -12,24 +14,33 @@
 #include <terrane/cli/files.hpp>
 #include <terrane/cli/session.hpp>
 #include <terrane/cli/statistics.hpp>
+#include <terrane/cli/volume_options.hpp>
 
 namespace terrane::cli {
 
 struct ArrangeSettings {
     Search search = Search::automatic;
     unsigned rounds = RoundingOptions{}.max_rounds;
+    VolumeOptions volume; ///< of interest
 };
 
 void add_settings(CLI::App& command, ArrangeSettings& settings);
 
 struct Arranged {
-    Arrangement exact;
+    Arrangement exact; ///< with a volume of interest: restricted to it
     RoundedMesh rounded;
+    std::optional<VolumeReport> cut; ///< with a volume of interest
 };
 
-/// Adds to `statistics`. Errors: those of arrange and round_to_doubles.
-Result<Arranged> arrange_and_round(const Inputs& inputs, const ArrangeSettings& settings,
+/// Adds to `statistics`, and the boundary of a volume of interest to `inputs`. Errors: those of
+/// arrange, cut_to_volume and round_to_doubles.
+Result<Arranged> arrange_and_round(Inputs& inputs, const ArrangeSettings& settings,
                                    Session& session, Json& statistics);
+
+/// The same with a boundary that was made already; without surfaces: no volume of interest.
+Result<Arranged> arrange_within(Inputs& inputs, std::vector<Surface> boundary,
+                                const ArrangeSettings& settings, Session& session,
+                                Json& statistics);
 
 /// Surfaces with their triangles, regions and areas; what was set aside; how the rounding went.
 std::string summary(const Inputs& inputs, const Arranged& arranged);

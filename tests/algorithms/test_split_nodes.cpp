@@ -14,7 +14,7 @@
 #include "../support/effort.hpp"
 #include "../support/points.hpp"
 #include "../support/solids.hpp"
-#include <terrane/algorithms/inner_tetrahedra.hpp>
+#include <terrane/algorithms/without_outside.hpp>
 #include <terrane/algorithms/rounding.hpp>
 #include <terrane/algorithms/tetrahedra.hpp>
 #include <terrane/io/files.hpp>
@@ -237,7 +237,7 @@ TEST_CASE("split nodes: where faults cross, each sector has its node", "[split_n
     CHECK(nodes_at(check_split(before, {1}), {4, 4, 3}) == 2);
     // On the border of the box the cuts end, unless nothing is beyond it.
     CHECK(nodes_at(check_split(before, {1, 2}), {4, 4, 0}) == 1);
-    const auto inner = inner_tetrahedra(before);
+    const auto inner = without_outside(before);
     CHECK(nodes_at(check_split(inner, {1, 2}), {4, 4, 0}) == 4);
     // A branch that ends on the other one: three sectors.
     const std::vector<Surface> branching{
@@ -282,7 +282,7 @@ TEST_CASE("split nodes: random models hold for the oracle", "[split_nodes]") {
 TEST_CASE("split nodes: without the outside, the blocks are left as they were", "[split_nodes]") {
     const auto before =
         filled({cube(0, 4), cube(1, 2), level(3, -1, -1, 5, 5), level(9, 0, 0, 2, 2, "apart")});
-    const auto inner = inner_tetrahedra(before);
+    const auto inner = without_outside(before);
     CHECK(inner.surfaces.size() == 4);
     std::vector<std::array<Point3, 4>> wanted, found;
     std::set<Point3> used;

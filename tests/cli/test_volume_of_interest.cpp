@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// The volume of interest, seen from outside.
+#include <cstddef>
+#include <sstream>
+#include <string>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "program.hpp"
+
+using namespace program_test;
+using Json = nlohmann::json;
+
+namespace {
+
+/// Two horizons and a fault that end inside a box from 0 to 8 on some sides and cross it on others.
+constexpr auto model = R"(o base
+v -1 -1 3
+v 9 -1 3
+v 9 9 3
+v -1 9 3
+f 1 2 3 4
+o top
+v -1 -1 5
+v 6 -1 5
+v 6 9 5
+v -1 9 5
+f 5 6 7 8
+o F1
+v 4 -1 -1
+v 4 9 -1
+v 4 9 9
+v 4 -1 9
+f 9 10 11 12
+o elsewhere
+v 20 0 0
+v 21 0 0
+v 20 1 0
+f 13 14 15
+)";
+
+constexpr auto cube = R"(v 0 0 0
+v 8 0 0
+v 8 8 0
+v 0 8 0
+v 0 0 8
+v 8 0 8
+v 8 8 8
+v 0 8 8
+f 1 4 3 2
+f 5 6 7 8
+f 1 2 6 5
+f 2 3 7 6
+f 3 4 8 7
+f 4 1 5 8
+)";
+
+} // namespace
+
+TEST_CASE("cli: all ways to name the same volume of interest give the same blocks", "[cli]") {
+    const Folder folder;
+    const auto in = folder.input("model.obj", model);
+    folder.input("cube.obj", cube);
+    folder.input("square.txt", "# the licence\n0 0\n8, 0 # metres\n\n8 8 17\n0 8\n");
+    int number = 0;
+    for (const std::string way :
+         {"--box 0,0,0,8,8,8", "--rotated-box 4,4,4,8,8,8,0", "--rotated-box 4,4,4,8,8,8,90,0,180",
+          "--rotated-box 0,0,0,8,8,8,0 --corner", "--polygon 0,0,8,0,8,8,0,8 --between 8,0",
+          "--polygon in/square.txt --between 0,8", "--within in/cube.obj"}) {
+        INFO(way);
+        const auto out = "out" + std::to_string(number++);
+        const auto r = folder.run("volume " + in + " -o " + out + " --stats s.json " + way);
+        INFO(r.err);
+        REQUIRE(r.status == 0);
+        CHECK(r.err.empty());
+        CHECK(contains(r.out, "5 closed blocks, volume 512 in all\n"));
+        CHECK(contains(r.out, "1 surface outside\n"));
+        CHECK(contains(r.out, "top ends inside: along 8 at (6, 0, 5)\n"));
+        const auto json = Json::parse(folder.read(out + "/model.json"));
+        REQUIRE(json["blocks"].size() == 6);
+        CHECK(json["surfaces"][4]["role"] == "boundary");
+        const auto statistics = Json::parse(folder.read("s.json"));
+        CHECK(statistics["input"]["surfaces"] == 4);
+        const auto& cut = statistics["volume_of_interest"];
+        CHECK(cut["surfaces"][0]["area_inside"] == 64);
+        CHECK(cut["surfaces"][0]["area_outside"] == 36);
+        CHECK(cut["surfaces"][3]["pieces"] == 0);
+        REQUIRE(cut["open_borders"].size() == 1);
+        CHECK(cut["open_borders"][0]["length"] == 8);
+    }
+}
+
+TEST_CASE("cli: faces of the boundary have names", "[cli]") {
+    const Folder folder;
+    const auto in = folder.input("model.obj", model);
+    REQUIRE(folder.run("volume " + in + " -o out --box 0,0,0,8,8,8 --role base=horizon").status ==
+            0);
+    const auto json = Json::parse(folder.read("out/model.json"));
+    CHECK(json["surfaces"][4]["name"] == "boundary top");
+    CHECK(json["surfaces"][6]["name"] == "boundary side 1");
+    bool found = false;
+    for (const auto& block : json["blocks"])
+        found = found || block["name"] == "base/boundary bottom|F1+boundary side 1+boundary side "
+                                          "2+boundary side 3";
+    CHECK(found);
+}
+
+TEST_CASE("cli: arrange in a volume of interest, conforming and without certificate", "[cli]") {
+    const Folder folder;
+    const auto in = folder.input("model.obj", model);
+    const auto r = folder.run("arrange " + in + " -o a.obj --box 0,0,0,8,8,8");
+    CHECK(r.status == 0);
+    CHECK(folder.run("check a.obj").status == 0);
+    // what is cut once more by the same box stays as it is
+    CHECK(folder.run("arrange a.obj -o b.obj --box 0,0,0,8,8,8").status == 0);
+    CHECK(contains(folder.run("volume b.obj -o out").out, "5 closed blocks, volume 512 in all\n"));
+    const auto refused =
+        folder.run("arrange " + in + " -o c.obj --box 0,0,0,8,8,8 --certificate c.json");
+    CHECK(refused.status == 2);
+    CHECK(contains(refused.err, "--certificate"));
+}
+
+TEST_CASE("cli: volumes of interest that are none are refused by name", "[cli]") {
+    const Folder folder;
+    const auto in = folder.input("model.obj", model);
+    folder.input("open.obj", std::string(cube).substr(0, std::string(cube).rfind("f 4")));
+    folder.input("one.txt", "0 0\n1\n");
+    const auto refused = [&](const std::string& options, const std::string& reason) {
+        for (const std::string& command :
+             {"volume " + in + " -o out ", "arrange " + in + " -o a.obj "}) {
+            const auto r = folder.run(command + options);
+            INFO(options << "\n" << r.err);
+            CHECK(r.status == 2);
+            CHECK(contains(r.err, reason));
+        }
+    };
+    refused("--box 0,0,0,8,8", "needs six numbers");
+    refused("--box 0,0,0,8,8,nan", "");
+    refused("--box 0,0,8,8,8,0", "must be below");
+    refused("--rotated-box 0,0,0,8,8,8", "needs seven or nine numbers");
+    refused("--rotated-box 0,0,0,8,-8,8,0", "must be positive");
+    refused("--corner", "needs --rotated-box");
+    refused("--polygon 0,0,8,0,8,8", "each needs the other one");
+    refused("--between 0,8", "each needs the other one");
+    refused("--polygon 0,0,8,0,8 --between 0,8", "pairs of numbers");
+    refused("--polygon 0,0,8,8,8,0,0,8 --between 0,8", "edge 1 from (0, 0) to (8, 8) and edge 3");
+    refused("--polygon nowhere.txt --between 0,8", "nowhere.txt");
+    refused("--polygon in/one.txt --between 0,8", "one.txt:2");
+    refused("--within in/open.obj", "not closed");
+    refused("--within nowhere.obj", "nowhere.obj");
+    refused("--box 0,0,0,8,8,8 --within in/open.obj", "only one");
+    CHECK(folder.left().empty());
+}
+
+#ifdef TERRANE_HAS_TETGEN
+TEST_CASE("cli: tetrahedra only inside the volume of interest", "[cli]") {
+    const Folder folder;
+    const auto in = folder.input("model.obj", model);
+    const auto r = folder.run("tetrahedralize " + in +
+                              " -o a.msh --msh 2.2 -o a.vtu --box 0,0,0,8,8,8 --stats s.json");
+    INFO(r.err);
+    REQUIRE(r.status == 0);
+    CHECK(contains(r.out, ", 5 regions\n"));
+    CHECK_FALSE(contains(r.out, "outside)"));
+    const auto json = Json::parse(folder.read("s.json"))["tetrahedra"];
+    CHECK(json["check"]["violations"].empty());
+    // The tetrahedra of the file, element type 4, fill the box exactly: no region is the outside.
+    std::string line;
+    std::size_t tetrahedra = 0;
+    std::istringstream file(folder.read("a.msh"));
+    while (std::getline(file, line)) {
+        std::istringstream words(line);
+        int id = 0, type = 0, tags = 0, physical = 0, rest = 0, count = 4;
+        if (!(words >> id >> type >> tags >> physical) || type != 4 || tags != 2) continue;
+        while (words >> rest) ++count;
+        if (count != 9) continue;
+        ++tetrahedra;
+        CHECK(physical != 0);
+    }
+    CHECK(tetrahedra == json["tetrahedra"].get<std::size_t>());
+}
+#endif
