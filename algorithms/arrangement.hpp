@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -66,6 +67,9 @@ struct Arrangement {
     Adjacency adjacency;                   ///< of the triangles, for what follows
     bool whole = true;                     ///< false: some triangles were taken out, see
                                            ///< restricted.hpp
+    /// Takes the same out of an arrangement of the same surfaces after a small move of their
+    /// vertices: rounding needs it where it arranges anew. Empty where `whole`, or not known.
+    std::function<Result<Arrangement>(Arrangement, const Run&)> restrict_again{};
     ArrangeStatistics statistics;
 };
 

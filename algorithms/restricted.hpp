@@ -14,7 +14,10 @@ namespace terrane {
 /// (2) Adjacency, intersection edges and neighbours are those of the kept triangles alone. So
 ///     rounding, volumes, structure and tetrahedra work on it as on any other.
 /// (3) Surfaces and the numbers of input triangles stay, also of those with nothing left.
-/// (4) Input triangles are no longer the union of those that name them: `whole` becomes false, and
+/// (4) Where rounding can't do without moving input vertices it may only where restrict_again of
+/// the
+///     result is set, which is left as it was.
+/// (5) Input triangles are no longer the union of those that name them: `whole` becomes false, and
 ///     there is no certificate for it.
 /// Cost: linear.
 Arrangement restricted(Arrangement arrangement, const std::vector<bool>& keep, const Run& run = {});

@@ -477,6 +477,10 @@ Result<RoundedMesh> snap_input(const Arrangement& a, RoundedMesh first,
             auto again = arrange(snapped.surfaces(digits), {}, run);
             if (!again) return again.error();
             name_input(a, again.value());
+            if (a.restrict_again) {
+                again = a.restrict_again(std::move(again).value(), run);
+                if (!again) return again.error();
+            }
             auto rounded = Rounding(again.value(), options, run)();
             if (!rounded) return rounded;
             ++rounds;
@@ -496,8 +500,9 @@ Result<RoundedMesh> round_to_doubles(const Arrangement& arrangement, const Round
                                      const Run& run) {
     try {
         auto rounded = Rounding(arrangement, options, run)();
-        // Arranged anew, the input would get back what was taken out.
-        const bool may_snap_input = arrangement.whole && options.max_rounds > 0;
+        // Arranged anew, the input gets back what was taken out.
+        const bool may_snap_input =
+            (arrangement.whole || arrangement.restrict_again) && options.max_rounds > 0;
         if (rounded && !rounded.value().report.clean && may_snap_input)
             rounded = snap_input(arrangement, std::move(rounded).value(), options, run);
         if (rounded && (rounded.value().report.collapsed_triangles > 0 ||

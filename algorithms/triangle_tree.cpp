@@ -17,11 +17,23 @@ double length(const Point3& a) {
     return std::hypot(a.x, a.y, a.z);
 }
 
-double distance_to_segment(const Point3& p, const Point3& a, const Point3& b) {
+/// How far along a b the nearest point is, from 0 to 1.
+double nearest_share(const Point3& p, const Point3& a, const Point3& b) {
     const Point3 d = minus(b, a), from = minus(p, a);
     const double square = dot(d, d);
-    const double t = square > 0 ? std::clamp(dot(from, d) / square, 0.0, 1.0) : 0;
+    return square > 0 ? std::clamp(dot(from, d) / square, 0.0, 1.0) : 0;
+}
+
+double distance_to_segment(const Point3& p, const Point3& a, const Point3& b) {
+    const Point3 d = minus(b, a), from = minus(p, a);
+    const double t = nearest_share(p, a, b);
     return length(minus(from, {t * d.x, t * d.y, t * d.z}));
+}
+
+Point3 nearest_on_segment(const Point3& p, const Point3& a, const Point3& b) {
+    const double t = nearest_share(p, a, b);
+    const Point3 d = minus(b, a);
+    return {a.x + t * d.x, a.y + t * d.y, a.z + t * d.z};
 }
 
 double distance_to_box(const Point3& p, const Point3& low, const Point3& high) {
@@ -42,6 +54,23 @@ double distance_to_triangle(const Point3& p, const Point3& a, const Point3& b, c
         return std::fabs(dot(minus(p, a), n)) / size;
     return std::min(
         {distance_to_segment(p, a, b), distance_to_segment(p, b, c), distance_to_segment(p, c, a)});
+}
+
+Point3 nearest_on_triangle(const Point3& p, const Point3& a, const Point3& b, const Point3& c) {
+    const Point3 n = cross(minus(b, a), minus(c, a));
+    const auto inside = [&](const Point3& from, const Point3& to) {
+        return dot(cross(minus(to, from), minus(p, from)), n) >= 0;
+    };
+    const double square = dot(n, n);
+    if (square > 0 && inside(a, b) && inside(b, c) && inside(c, a)) {
+        const double f = dot(minus(p, a), n) / square;
+        return {p.x - f * n.x, p.y - f * n.y, p.z - f * n.z};
+    }
+    const std::array sides{nearest_on_segment(p, a, b), nearest_on_segment(p, b, c),
+                           nearest_on_segment(p, c, a)};
+    return *std::min_element(sides.begin(), sides.end(), [&](const Point3& q, const Point3& r) {
+        return length(minus(q, p)) < length(minus(r, p));
+    });
 }
 
 TriangleTree::TriangleTree(std::span<const Point3> points, std::vector<Triangle> triangles) :
@@ -89,8 +118,9 @@ std::uint32_t TriangleTree::build(std::uint32_t first, std::uint32_t last) {
     return at;
 }
 
-double TriangleTree::distance(const Point3& p, double bound) const {
-    if (nodes_.empty()) return bound;
+template <class Visit>
+void TriangleTree::for_near(const Point3& p, const double& bound, const Visit& visit) const {
+    if (nodes_.empty()) return;
     const auto to_box = [&](std::uint32_t n) {
         return distance_to_box(p, nodes_[n].low, nodes_[n].high);
     };
@@ -101,18 +131,34 @@ double TriangleTree::distance(const Point3& p, double bound) const {
         const Node& node = nodes_[stack[--top]];
         if (distance_to_box(p, node.low, node.high) >= bound) continue;
         if (node.left == 0) {
-            for (std::uint32_t t = node.first; t < node.last; ++t) {
-                const auto& [a, b, c] = triangles_[t];
-                bound =
-                    std::min(bound, distance_to_triangle(p, points_[a], points_[b], points_[c]));
-            }
+            for (std::uint32_t t = node.first; t < node.last; ++t) visit(triangles_[t]);
             continue;
         }
         const bool left_first = to_box(node.left) <= to_box(node.right);
         stack[top++] = left_first ? node.right : node.left;
         stack[top++] = left_first ? node.left : node.right;
     }
+}
+
+double TriangleTree::distance(const Point3& p, double bound) const {
+    for_near(p, bound, [&](const Triangle& t) {
+        const auto& [a, b, c] = t;
+        bound = std::min(bound, distance_to_triangle(p, points_[a], points_[b], points_[c]));
+    });
     return bound;
+}
+
+std::optional<TriangleTree::Near> TriangleTree::nearest(const Point3& p, double bound) const {
+    std::optional<Near> best;
+    for_near(p, bound, [&](const Triangle& t) {
+        const auto& [a, b, c] = t;
+        const Point3 q = nearest_on_triangle(p, points_[a], points_[b], points_[c]);
+        const double d = length(minus(q, p));
+        if (d >= bound) return;
+        bound = d;
+        best = Near{q, d};
+    });
+    return best;
 }
 
 } // namespace terrane

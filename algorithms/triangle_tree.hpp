@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,7 +20,18 @@ public:
     /// Cost: about O(log n) where the bound or the distance is small against the tree.
     [[nodiscard]] double distance(const Point3& p, double bound) const;
 
+    struct Near {
+        Point3 place{};
+        double distance = 0;
+    };
+    /// The nearest point on the triangles if it is nearer than `bound`. Cost: the same.
+    [[nodiscard]] std::optional<Near> nearest(const Point3& p, double bound) const;
+
 private:
+    /// Calls visit(triangle) for those that may be nearer than `bound`, which it may lower.
+    template <class Visit>
+    void for_near(const Point3& p, const double& bound, const Visit& visit) const;
+
     struct Node {
         Point3 low, high;
         std::uint32_t first = 0, last = 0; ///< triangles of the node
@@ -37,4 +49,6 @@ private:
 /// Distance from p to the triangle, in floating point.
 double distance_to_triangle(const Point3& p, const Point3& a, const Point3& b, const Point3& c);
 
+/// The point of the triangle that is nearest to p, in floating point.
+Point3 nearest_on_triangle(const Point3& p, const Point3& a, const Point3& b, const Point3& c);
 } // namespace terrane

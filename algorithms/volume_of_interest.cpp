@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <new>
 #include <tuple>
@@ -77,6 +78,23 @@ private:
     Sets parts_;                       ///< of volumes
     std::vector<std::uint8_t> parity_; ///< per part
 };
+
+/// What was done before, then the cut.
+std::function<Result<Arrangement>(Arrangement, const Run&)>
+again(std::function<Result<Arrangement>(Arrangement, const Run&)> before,
+      std::vector<std::uint32_t> boundary) {
+    return [before = std::move(before),
+            boundary = std::move(boundary)](Arrangement a, const Run& run) -> Result<Arrangement> {
+        if (before) {
+            auto done = before(std::move(a), run);
+            if (!done) return done.error();
+            a = std::move(done).value();
+        }
+        auto cut = cut_to_volume(std::move(a), boundary, run);
+        if (!cut) return cut.error();
+        return std::move(cut.value().arrangement);
+    };
+}
 
 // ---- Report
 // --------------------------------------------------------------------------------------
@@ -200,7 +218,11 @@ Result<VolumeOfInterest> cut_to_volume(Arrangement a, std::span<const std::uint3
         cut.report.surfaces = areas(a, where.value());
         std::vector<bool> keep(a.triangles.size());
         for (std::size_t t = 0; t < keep.size(); ++t) keep[t] = where.value()[t] != Where::outside;
+        auto before = std::move(a.restrict_again);
         cut.arrangement = restricted(std::move(a), keep, run);
+        if (!cut.arrangement.whole)
+            cut.arrangement.restrict_again =
+                again(std::move(before), {boundary.begin(), boundary.end()});
         count_pieces(cut.arrangement, cut.report.surfaces);
         cut.report.borders = open_borders(cut.arrangement, boundary);
         for (const OpenBorder& b : cut.report.borders) {

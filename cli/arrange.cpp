@@ -99,9 +99,10 @@ Result<ExitStatus> arrange_files(const ArrangeCommand& command, Session& session
     if (const auto named = plan_proof(command.proof, files); !named) return named.error();
     if (const auto sound = check_volume_options(command.settings.volume); !sound)
         return sound.error();
-    if (command.settings.volume.wanted() && !command.proof.certificate.empty())
+    const bool whole = !command.settings.volume.wanted() && command.settings.seal == 0;
+    if (!whole && !command.proof.certificate.empty())
         return Error{ErrorCode::bad_option,
-                     "a certificate is about whole surfaces, not about a volume of interest",
+                     "a certificate is about the surfaces as they are, not cut or sealed",
                      "--certificate"};
     auto inputs = read_inputs(files, session);
     if (!inputs) return inputs.error();

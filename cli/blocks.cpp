@@ -126,10 +126,14 @@ std::vector<std::int32_t> side_cells(const Volumes& volumes, std::size_t side) {
 
 class FolderWriter {
 public:
-    FolderWriter(const Mesh& mesh, const Model& model, const std::string& part_format,
-                 const std::filesystem::path& folder) :
+    FolderWriter(const Mesh& mesh, const Model& model, const std::optional<SealReport>& sealed,
+                 const std::string& part_format, const std::filesystem::path& folder) :
         mesh_(mesh),
-        model_(model), part_format_(part_format), folder_(folder) {}
+        model_(model), part_format_(part_format), folder_(folder) {
+        if (!sealed) return;
+        extras_.seal_distance = sealed->distance;
+        extras_.seal_changes = sealed->changes;
+    }
 
     Status operator()(const Session& session) {
         for (const char* inner : {"blocks", "interfaces"}) {
@@ -233,9 +237,10 @@ std::string model_text(const Inputs& inputs, const Model& model) {
            leaks_text(inputs, model);
 }
 
-Status write_model(const Mesh& mesh, const Model& model, const std::string& part_format,
-                   const std::filesystem::path& folder, const Session& session) {
-    return FolderWriter(mesh, model, part_format, folder)(session);
+Status write_model(const Mesh& mesh, const Model& model, const std::optional<SealReport>& sealed,
+                   const std::string& part_format, const std::filesystem::path& folder,
+                   const Session& session) {
+    return FolderWriter(mesh, model, sealed, part_format, folder)(session);
 }
 
 } // namespace terrane::cli

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,9 +32,10 @@ Result<Model> make_model(const Arranged& arranged, Session& session, Json& stati
 /// Blocks, structure, what dangles, leaks.
 std::string model_text(const Inputs& inputs, const Model& model);
 
-/// model.json, result.vtp, blocks, interfaces (`part_format`: vtp or obj), in a folder that is
-/// there and empty. Errors: those of writing; interrupted.
-Status write_model(const Mesh& mesh, const Model& model, const std::string& part_format,
-                   const std::filesystem::path& folder, const Session& session);
+/// model.json (with what was sealed, if anything), result.vtp, blocks, interfaces (`part_format`:
+/// vtp or obj), in a folder that is there and empty. Errors: those of writing; interrupted.
+Status write_model(const Mesh& mesh, const Model& model, const std::optional<SealReport>& sealed,
+                   const std::string& part_format, const std::filesystem::path& folder,
+                   const Session& session);
 
 } // namespace terrane::cli

@@ -141,8 +141,11 @@ private:
         auto boundary = boundary_of(project_, source_, session_);
         if (!boundary) return boundary.error();
         journal_.note("arrange");
+        ArrangeSettings settings;
+        settings.seal = project_.seal.value_or(0);
+        settings.volume.extend = project_.extend.value_or(0);
         auto arranged =
-            arrange_within(inputs_, std::move(boundary).value(), {}, session_, statistics_);
+            arrange_within(inputs_, std::move(boundary).value(), settings, session_, statistics_);
         if (!arranged) return arranged.error();
         arranged_ = std::move(arranged).value();
         journal_.say(summary(inputs_, *arranged_));
@@ -275,7 +278,8 @@ private:
             return Error{ErrorCode::cannot_open, "cannot be made: " + failed.message(),
                          (to / "model").string()};
         written_.emplace_back("model/");
-        return write_model(mesh(), *model_, project_.outputs.blocks, to / "model", session_);
+        return write_model(mesh(), *model_, arranged_->sealed, project_.outputs.blocks,
+                           to / "model", session_);
     }
 
     Status write_certificate(const fs::path& to) {

@@ -116,8 +116,40 @@ void add_settings(CLI::App& command, ArrangeSettings& settings) {
                     "0: only to the nearest double (default: 8)")
         ->check(CLI::Range(0U, most_rounds).description(""))
         ->type_name("N");
+    command
+        .add_option(
+            "--seal", settings.seal,
+            "Extend or trim free borders that end short of another surface, or beyond it, by at "
+            "most this distance; every change is listed (default: nothing moves)")
+        ->type_name("D");
     add_volume_options(command, settings.volume);
 }
+
+namespace {
+
+Result<Arrangement> arrange_or_seal(Inputs& inputs, const ArrangeSettings& settings,
+                                    Session& session, Json& statistics, Arranged& arranged) {
+    const ArrangeOptions options{.search = settings.search};
+    if (settings.seal == 0) {
+        session.begin("arrange", Phase::computing);
+        auto exact = arrange(inputs.surfaces, options, session.run());
+        session.end_stage();
+        return exact;
+    }
+    Stopwatch watch;
+    session.begin("seal", Phase::computing);
+    auto sealed = seal(inputs.surfaces, {settings.seal, options}, session.run());
+    session.end_stage();
+    if (!sealed) return sealed.error();
+    statistics["seconds"]["seal"] = watch.lap();
+    Sealed& s = sealed.value();
+    inputs.surfaces = std::move(s.surfaces);
+    arranged.sealed = SealReport{settings.seal, std::move(s.changes), s.left};
+    add_statistics(statistics, *arranged.sealed, inputs);
+    return std::move(s.arrangement);
+}
+
+} // namespace
 
 Result<Arranged> arrange_and_round(Inputs& inputs, const ArrangeSettings& settings,
                                    Session& session, Json& statistics) {
@@ -130,23 +162,32 @@ Result<Arranged> arrange_and_round(Inputs& inputs, const ArrangeSettings& settin
     return arrange_within(inputs, std::move(boundary), settings, session, statistics);
 }
 
-Result<Arranged> arrange_within(Inputs& inputs, std::vector<Surface> boundary,
+Result<Arranged> arrange_within(Inputs& inputs, std::vector<Surface> surfaces,
                                 const ArrangeSettings& settings, Session& session,
                                 Json& statistics) {
-    std::vector<std::uint32_t> added(boundary.size()); // indices of the boundary
-    std::iota(added.begin(), added.end(), static_cast<std::uint32_t>(inputs.surfaces.size()));
-    append(inputs, std::move(boundary), "volume of interest");
-    session.begin("arrange", Phase::computing);
-    auto exact = arrange(inputs.surfaces, {.search = settings.search}, session.run());
-    session.end_stage();
-    if (!exact) return exact.error();
-    add_statistics(statistics, exact.value(), settings.search);
-
+    std::vector<std::uint32_t> boundary(surfaces.size()); // their indices
+    std::iota(boundary.begin(), boundary.end(), static_cast<std::uint32_t>(inputs.surfaces.size()));
+    append(inputs, std::move(surfaces), "volume of interest");
     Stopwatch watch;
     Arranged arranged;
-    if (!added.empty()) {
+    if (settings.volume.extend != 0) {
+        session.begin("extend", Phase::computing);
+        auto extended = extend_to_boundary(
+            inputs.surfaces, boundary, {settings.volume.extend, {settings.search}}, session.run());
+        session.end_stage();
+        if (!extended) return extended.error();
+        inputs.surfaces = std::move(extended.value().surfaces);
+        arranged.extended = std::move(extended.value().borders);
+        add_statistics(statistics, *arranged.extended);
+        statistics["seconds"]["extend"] = watch.lap();
+    }
+    auto exact = arrange_or_seal(inputs, settings, session, statistics, arranged);
+    if (!exact) return exact.error();
+    add_statistics(statistics, exact.value(), settings.search);
+    watch.lap();
+    if (!boundary.empty()) {
         session.begin("volume of interest", Phase::computing);
-        auto cut = cut_to_volume(std::move(exact).value(), added, session.run());
+        auto cut = cut_to_volume(std::move(exact).value(), boundary, session.run());
         session.end_stage();
         if (!cut) return cut.error();
         arranged.exact = std::move(cut.value().arrangement);
@@ -173,6 +214,8 @@ std::string summary(const Inputs& inputs, const Arranged& arranged) {
                             counted(arranged.rounded.regions.size(), "region"));
     text += surface_table(inputs, arranged.rounded);
     text += set_aside(arranged.exact);
+    if (arranged.extended) text += text_of(*arranged.extended, inputs);
+    if (arranged.sealed) text += text_of(*arranged.sealed, inputs);
     if (arranged.cut) text += text_of(*arranged.cut, inputs);
     text += rounding_text(arranged.rounded.report);
     return text;

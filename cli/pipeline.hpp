@@ -12,6 +12,7 @@
 #include <terrane/algorithms/arrangement.hpp>
 #include <terrane/algorithms/rounding.hpp>
 #include <terrane/cli/files.hpp>
+#include <terrane/cli/seal_report.hpp>
 #include <terrane/cli/session.hpp>
 #include <terrane/cli/statistics.hpp>
 #include <terrane/cli/volume_options.hpp>
@@ -22,6 +23,7 @@ struct ArrangeSettings {
     Search search = Search::automatic;
     unsigned rounds = RoundingOptions{}.max_rounds;
     VolumeOptions volume; ///< of interest
+    double seal = 0;      ///< distance; 0: not at all
 };
 
 void add_settings(CLI::App& command, ArrangeSettings& settings);
@@ -29,15 +31,18 @@ void add_settings(CLI::App& command, ArrangeSettings& settings);
 struct Arranged {
     Arrangement exact; ///< with a volume of interest: restricted to it
     RoundedMesh rounded;
-    std::optional<VolumeReport> cut; ///< with a volume of interest
+    std::optional<VolumeReport> cut;  ///< with a volume of interest
+    std::optional<SealReport> sealed; ///< where asked for, as the next one
+    std::optional<std::vector<ExtendedBorder>> extended;
 };
 
-/// Adds to `statistics`, and the boundary of a volume of interest to `inputs`. Errors: those of
-/// arrange, cut_to_volume and round_to_doubles.
+/// Adds to `statistics`; to `inputs` the boundary of a volume of interest, and the triangles by
+/// which gaps were closed. Errors: those of arrange, cut_to_volume and round_to_doubles.
 Result<Arranged> arrange_and_round(Inputs& inputs, const ArrangeSettings& settings,
                                    Session& session, Json& statistics);
 
-/// The same with a boundary that was made already; without surfaces: no volume of interest.
+/// The same with the boundary of a volume of interest that was made already; none: there is no such
+/// volume. Of settings.volume only `extend` counts.
 Result<Arranged> arrange_within(Inputs& inputs, std::vector<Surface> boundary,
                                 const ArrangeSettings& settings, Session& session,
                                 Json& statistics);

@@ -124,7 +124,8 @@ Result<std::vector<Surface>> boundary_of(const Project& project, const std::stri
                 return std::vector<Surface>();
         },
         project.volume);
-    if (made || !made.error().place.empty()) return made;
+    const bool has_files = std::holds_alternative<ProjectWithin>(project.volume);
+    if (made || (has_files && !made.error().place.empty())) return made;
     Error error = made.error();
     error.place = source + ": volume_of_interest";
     return error;

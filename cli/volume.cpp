@@ -33,17 +33,21 @@ surfaces enclose, 1, 2, ...; 0 is the outside. DIR must not exist, or be empty. 
 Neighbours have the same vertices, to the last bit. Open surfaces are no error: they dangle, and the
 summary says which, and how far their free borders are from other surfaces.
 
+--seal D closes gaps: free borders that end short of another surface by at most D are extended onto it,
+those that reach beyond by at most D are trimmed. Every change is listed, and is in model.json.
+
 With a volume of interest (--box, --rotated-box, --polygon, --within) all surfaces are cut by its
 boundary, exactly, the inside is kept, and the boundary closes it: its faces are surfaces of their
-own, "boundary top", "boundary side 1", ...
+own, "boundary top", "boundary side 1", ... --extend D extends horizons that end inside.
 
 Examples:
   terrane volume model.ml -o model
+  terrane volume model.ml -o model --seal 0.01
   terrane volume horizons.ts faults.ts -o model --box 0,0,-3000,10000,10000,500
   terrane volume *.ts -o model --polygon licence.txt --between -4000,0
   terrane volume top.ts base.ts F1.ts box.ts -o model --role F1=fault --role box=boundary)";
 
-Status write_folder(const VolumeCommand& command, const Mesh& mesh, const Model& model,
+Status write_folder(const VolumeCommand& command, const Arranged& arranged, const Model& model,
                     Session& session) {
     session.begin("write", Phase::computing);
     auto folder = NewFolder::create(command.folder);
@@ -82,8 +86,7 @@ Result<ExitStatus> find_blocks(const VolumeCommand& command, Session& session) {
         if (!model) return model.error();
         print(summary_stream(files), model_text(inputs.value(), model.value()));
         Stopwatch writing;
-        const auto written =
-            write_folder(command, arranged.value().rounded.mesh, model.value(), session);
+        const auto written = write_folder(command, arranged.value(), model.value(), session);
         if (!written) return written.error();
         print(summary_stream(files), "wrote " + command.folder + "\n");
         statistics["seconds"]["write"] = writing.lap();

@@ -152,6 +152,13 @@ void add_volume_options(CLI::App& command, VolumeOptions& options) {
         ->allow_extra_args(false)
         ->type_name("FILE")
         ->group(group);
+    command
+        .add_option(
+            "--extend", options.extend,
+            "Extend surfaces that end inside, other than faults, along their tangent plane to "
+            "the boundary where it is no farther than this (default: they end inside)")
+        ->type_name("D")
+        ->group(group);
 }
 
 Status check_volume_options(const VolumeOptions& o) {
@@ -161,17 +168,30 @@ Status check_volume_options(const VolumeOptions& o) {
         return bad("--box, --rotated-box, --polygon, --within", "only one of these can be given");
     if (o.polygon.empty() != o.between.empty())
         return bad("--polygon, --between", "each needs the other one");
+    if (o.extend != 0 && given == 0) return bad("--extend", "needs a volume of interest");
     if (o.corner && o.rotated_box.empty()) return bad("--corner", "needs --rotated-box");
     return Done{};
 }
 
-Result<std::vector<Surface>> boundary_of(const VolumeOptions& options, Session& session) {
+namespace {
+
+Result<std::vector<Surface>> make_boundary(const VolumeOptions& options, Session& session) {
     if (!options.box.empty()) return box_of(options.box);
     if (!options.rotated_box.empty()) return rotated_box_of(options);
     if (!options.polygon.empty()) return prism_of(options);
     return closed_of(options, session.run());
 }
 
+} // namespace
+
+Result<std::vector<Surface>> boundary_of(const VolumeOptions& options, Session& session) {
+    auto made = make_boundary(options, session);
+    if (made) return made;
+    Error error = made.error();
+    if (error.code == ErrorCode::not_closed || error.code == ErrorCode::improper_contact)
+        error.code = ErrorCode::bad_option; // bad usage, not an answer about the surfaces
+    return error;
+}
 std::string text_of(const VolumeReport& report, const Inputs& inputs) {
     std::string text = "volume of interest: areas inside, of all, and where surfaces end inside\n";
     std::size_t width = 7, shown = 0, outside = 0;
@@ -201,6 +221,28 @@ std::string text_of(const VolumeReport& report, const Inputs& inputs) {
     if (report.borders.size() > most_borders)
         text += fmt::format("  and {} more\n", report.borders.size() - most_borders);
     return text;
+}
+
+std::string text_of(std::span<const ExtendedBorder> borders, const Inputs& inputs) {
+    if (borders.empty()) return "extended: no surface ends inside\n";
+    std::string text = "borders inside the volume, extended to its boundary or too far from it\n";
+    for (std::size_t b = 0; b < std::min(borders.size(), most_borders); ++b)
+        text += fmt::format("  {}: along {:.4g} at {}: {}\n", inputs.labels[borders[b].surface],
+                            borders[b].length, text_of(borders[b].place),
+                            borders[b].reached ? "extended" : "too far");
+    if (borders.size() > most_borders)
+        text += fmt::format("  and {} more\n", borders.size() - most_borders);
+    return text;
+}
+
+void add_statistics(Json& json, std::span<const ExtendedBorder> borders) {
+    Json list = Json::array();
+    for (const ExtendedBorder& b : borders)
+        list.push_back({{"surface", b.surface},
+                        {"reached", b.reached},
+                        {"length", b.length},
+                        {"place", {b.place.x, b.place.y, b.place.z}}});
+    json["extended"] = std::move(list);
 }
 
 void add_statistics(Json& json, const VolumeReport& report, const Inputs& inputs) {

@@ -3,11 +3,13 @@
 // The volume of interest, as it is named on the command line: the same options for all commands.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 
+#include <terrane/algorithms/extension.hpp>
 #include <terrane/algorithms/volume_of_interest.hpp>
 #include <terrane/cli/files.hpp>
 #include <terrane/cli/session.hpp>
@@ -22,6 +24,7 @@ struct VolumeOptions {
     std::string polygon;             ///< x,y,x,y,..., or a file
     std::string between;             ///< z0,z1, of the polygon
     std::vector<std::string> within; ///< files of a closed surface
+    double extend = 0;               ///< limit for horizons that end inside; 0: not at all
 
     /// Whether there is a volume of interest at all.
     [[nodiscard]] bool wanted() const {
@@ -40,6 +43,12 @@ Result<std::vector<Surface>> boundary_of(const VolumeOptions& options, Session& 
 
 /// What the cut left of each surface, and where surfaces end inside.
 std::string text_of(const VolumeReport& report, const Inputs& inputs);
+
+/// Which borders inside were extended, and which not.
+std::string text_of(std::span<const ExtendedBorder> borders, const Inputs& inputs);
+
+/// extended: surface, reached, length, place.
+void add_statistics(Json& json, std::span<const ExtendedBorder> borders);
 
 /// volume_of_interest: surfaces (name, area_inside, ...), open_borders.
 void add_statistics(Json& json, const VolumeReport& report, const Inputs& inputs);

@@ -26,9 +26,9 @@ using Keys = std::span<const std::string_view>;
 
 // ---- The keys of each object. project.schema.json says the same.
 
-constexpr std::array<std::string_view, 8> project_level{
-    "format",  "folder",     "threads", "surfaces", "volume_of_interest",
-    "improve", "tetrahedra", "outputs"};
+constexpr std::array<std::string_view, 10> project_level{
+    "format", "folder", "threads", "surfaces",   "volume_of_interest",
+    "extend", "seal",   "improve", "tetrahedra", "outputs"};
 constexpr std::array<std::string_view, 4> surfaces_level{"file", "objects", "name", "role"};
 constexpr std::array<std::string_view, 4> volume_level{"box", "rotated_box", "polygon", "within"};
 constexpr std::array<std::string_view, 2> box_level{"low", "high"};
@@ -243,12 +243,19 @@ private:
             project.folder = path_of(in_.text(*v, "folder"));
         if (const Json* v = in_.find(json, "threads")) project.threads = threads(*v);
         if (const Json* v = in_.find(json, "volume_of_interest")) volume(*v, project);
+        if (const Json* v = in_.find(json, "extend")) {
+            project.extend = in_.positive(*v, "extend");
+            if (project.volume.index() == 0)
+                in_.fail("extend", "needs volume_of_interest, to whose boundary it extends");
+        }
+        if (const Json* v = in_.find(json, "seal")) project.seal = in_.positive(*v, "seal");
         if (const Json* v = in_.find(json, "improve")) project.improve = improve(*v);
         if (const Json* v = in_.find(json, "tetrahedra")) project.tetrahedra = tetrahedra(*v);
-        const bool parts = project.volume.index() != 0 || project.improve.has_value();
-        if (project.outputs.certificate && parts)
-            in_.fail("outputs.certificate", "must be false with volume_of_interest or improve: a "
-                                            "certificate is about whole surfaces as they are");
+        const bool changed = project.volume.index() != 0 || project.seal || project.improve;
+        if (project.outputs.certificate && changed)
+            in_.fail("outputs.certificate",
+                     "must be false with volume_of_interest, seal or improve: a certificate is "
+                     "about whole surfaces as they are");
     }
 
     unsigned threads(const Json& value) {

@@ -75,6 +75,8 @@ struct Project {
     std::filesystem::path folder{};          ///< for the results; empty: not stated
     std::vector<ProjectSurfaces> surfaces{}; ///< >= 1
     std::variant<std::monostate, ProjectBox, RotatedBox, ProjectPolygon, ProjectWithin> volume{};
+    std::optional<double> extend{}; ///< limit for horizons that end inside the volume
+    std::optional<double> seal{};   ///< distance of gaps that are closed
     std::optional<ProjectImprove> improve{};
     ProjectTetrahedra tetrahedra{};
     ProjectOutputs outputs{};

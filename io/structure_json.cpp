@@ -174,6 +174,22 @@ std::string text_of(const Json& json) {
 
 } // namespace
 
+namespace {
+
+Json seal_json(const StructureExtras& extras) {
+    Json changes = Json::array();
+    for (const SealChange& c : extras.seal_changes)
+        changes.push_back({{"kind", c.kind == SealKind::extended ? "extended" : "trimmed"},
+                           {"surface", c.surface},
+                           {"length", c.length},
+                           {"distance", c.largest},
+                           {"place", {c.place.x, c.place.y, c.place.z}},
+                           {"triangles", c.triangles}});
+    return {{"distance", extras.seal_distance}, {"changes", std::move(changes)}};
+}
+
+} // namespace
+
 std::string to_json(const Mesh& mesh, const Structure& structure, const StructureExtras& extras) {
     Json json{{"format", "terrane-model 1"}};
     json["surfaces"] = surfaces_json(mesh, structure);
@@ -184,6 +200,7 @@ std::string to_json(const Mesh& mesh, const Structure& structure, const Structur
     json["corners"] = corners_json(mesh, structure);
     json["free_borders"] = borders_json(extras.free_borders);
     json["leaks"] = leaks_json(extras.free_borders);
+    if (extras.seal_distance > 0) json["seal"] = seal_json(extras);
     return text_of(json);
 }
 

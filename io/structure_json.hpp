@@ -24,6 +24,9 @@
 //               least and largest distance, place of the latter
 //   leaks       the same by pairs: from (ends), to (nearest), borders (number of parts), length,
 //               least, largest, place; the smallest distances first
+//   seal        only where gaps were closed on request: distance (as asked for), changes: kind
+//               (extended, trimmed), surface, length of the border there, largest distance, place,
+//               triangles (added or removed)
 //
 // A block that is too thin for doubles has a volume, but nothing else: volume_written is 0.
 // All numbers of things are positions in these arrays, from 0. Lengths, areas and volumes are in
@@ -37,6 +40,7 @@
 
 #include <terrane/algorithms/free_borders.hpp>
 #include <terrane/algorithms/mesh.hpp>
+#include <terrane/algorithms/sealing.hpp>
 #include <terrane/algorithms/structure.hpp>
 
 namespace terrane {
@@ -47,6 +51,8 @@ struct StructureExtras {
     std::vector<std::string> block_files{};     ///< per volume; empty: none
     std::vector<std::string> interface_files{}; ///< per interface; empty: none
     std::span<const FreeBorder> free_borders{};
+    double seal_distance = 0; ///< 0: not asked for
+    std::span<const SealChange> seal_changes{};
 };
 
 /// Precondition: lists of extras are empty or have the lengths stated.

@@ -33,6 +33,7 @@ json full() {
         "surfaces": [{"file": "a.ts", "objects": ["top", "base"], "role": "horizon"},
                      {"file": "/b.ts", "objects": ["x"], "name": "F1", "role": "fault"}],
         "volume_of_interest": {"box": {"low": [0, 0, -1.5], "high": [1, 2, 3]}},
+        "extend": 100, "seal": 0.25,
         "improve": {"edge_length": 4, "max_deviation": 0.125, "edge_length_of": {"top": 3}},
         "tetrahedra": {"edge_length": 2, "max_volume": 3.5, "quality": 1.4,
                        "size_of": {"F1": 0.5, "top": 1}, "size_in": {"2": 0.25, "top/base": 1},
@@ -56,7 +57,7 @@ std::vector<json> samples() {
     }
     all.push_back(full());
     all.back().erase("volume_of_interest");
-    all.back().erase("improve");
+    for (const char* key : {"extend", "seal", "improve"}) all.back().erase(key);
     all.back()["outputs"]["certificate"] = true;
     all.push_back(json::parse(R"({"format": "terrane-project 1", "surfaces": [{"file": "a"}],
                                   "outputs": {"blocks": "obj"}})"));
@@ -104,6 +105,11 @@ bool holds(const json& schema, const json& value) {
             if (value.is_object())
                 for (const auto& key : rule)
                     if (!value.contains(key.get<std::string>())) return false;
+        } else if (word == "dependentRequired") {
+            for (const auto& [key, needed] : rule.items())
+                if (value.is_object() && value.contains(key))
+                    for (const auto& other : needed)
+                        if (!value.contains(other.get<std::string>())) return false;
         } else if (word == "items") {
             if (value.is_array())
                 for (const auto& entry : value)
@@ -216,6 +222,8 @@ TEST_CASE("project: all keys are read", "[io][project]") {
     CHECK(p.improve->edge_length == 4.0);
     CHECK(p.improve->max_deviation == 0.125);
     CHECK(p.improve->edge_length_of == std::vector<ProjectSize>{{"top", 3}});
+    CHECK(p.extend == 100.0);
+    CHECK(p.seal == 0.25);
     CHECK(p.tetrahedra.edge_length == 2.0);
     CHECK(p.tetrahedra.max_volume == 3.5);
     CHECK(p.tetrahedra.quality == 1.4);

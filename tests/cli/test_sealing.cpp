@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// --seal and --extend, seen from outside.
+#include <string>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "program.hpp"
+
+using namespace program_test;
+using Json = nlohmann::json;
+
+namespace {
+
+/// In the box from 0 to 8, a horizon that ends 0.1 short of a fault at x = 4.
+constexpr auto model = R"(o horizon
+v -1 -1 3
+v 3.9 -1 3
+v 3.9 9 3
+v -1 9 3
+f 1 2 3 4
+o fault
+v 4 -1 -1
+v 4 9 -1
+v 4 9 9
+v 4 -1 9
+f 5 6 7 8
+)";
+
+const std::string box = " --box 0,0,0,8,8,8 ";
+
+} // namespace
+
+TEST_CASE("cli: --seal closes gaps up to its distance and lists what it did", "[cli]") {
+    const Folder folder;
+    const auto in = folder.input("model.obj", model);
+    const auto open = folder.run("volume " + in + " -o open" + box);
+    CHECK(contains(open.out, "2 closed blocks, volume 512 in all\n"));
+    CHECK_FALSE(contains(open.out, "sealed"));
+    CHECK_FALSE(Json::parse(folder.read("open/model.json")).contains("seal"));
+
+    const auto sealed = folder.run("volume " + in + " -o sealed --seal 0.11 --stats s.json" + box);
+    REQUIRE(sealed.status == 0);
+    CHECK(contains(sealed.out, "sealed by at most 0.11: 1 change"));
+    CHECK(contains(sealed.out, "horizon extended along"));
+    CHECK(contains(sealed.out, "3 closed blocks, volume 512 in all\n"));
+    for (const Json& seal : {Json::parse(folder.read("s.json"))["seal"],
+                             Json::parse(folder.read("sealed/model.json"))["seal"]}) {
+        CHECK(seal["distance"] == 0.11);
+        REQUIRE(seal["changes"].size() == 1);
+        const Json& change = seal["changes"][0];
+        CHECK(change["kind"] == "extended");
+        CHECK(change["surface"] == 0);
+        CHECK(change["distance"].get<double>() == Approx(0.1));
+        CHECK(change["triangles"].get<int>() > 0);
+    }
+    // the same in the other commands
+    CHECK(folder.run("arrange " + in + " -o a.obj --seal 0.11" + box).status == 0);
+    CHECK(contains(folder.run("volume a.obj -o again").out, "3 closed blocks, volume 512"));
+}
+
+TEST_CASE("cli: nothing moves where no gap is small enough: the same bytes", "[cli]") {
+    const Folder folder;
+    const auto in = folder.input("model.obj", model);
+    REQUIRE(folder.run("arrange " + in + " -o a.vtp -o a.obj").status == 0);
+    const auto r = folder.run("arrange " + in + " -o b.vtp -o b.obj --seal 0.0999");
+    REQUIRE(r.status == 0);
+    CHECK(contains(r.out, "sealed by at most 0.0999: no gap is so small"));
+    CHECK(folder.shell("cmp a.vtp b.vtp && cmp a.obj b.obj").status == 0);
+    REQUIRE(folder.run("arrange " + in + " -o c.vtp --seal 0.11 --threads 1").status == 0);
+    REQUIRE(folder.run("arrange " + in + " -o d.vtp --seal 0.11 --threads 2").status == 0);
+    CHECK(folder.shell("cmp c.vtp d.vtp").status == 0);
+    CHECK(folder.shell("cmp a.vtp c.vtp").status == 1);
+}
+
+TEST_CASE("cli: --extend takes horizons to the boundary within its limit", "[cli]") {
+    const Folder folder;
+    const auto in = folder.input("model.obj", model);
+    const std::string roles = " --role fault=fault --role horizon=horizon";
+    const auto r = folder.run("volume " + in + " -o out --extend 5 --stats s.json" + roles + box);
+    INFO(r.err);
+    REQUIRE(r.status == 0);
+    CHECK(contains(r.out, "horizon: along 8 at (3.9, 0, 3): extended\n"));
+    CHECK(contains(r.out, "4 closed blocks, volume 512 in all\n"));
+    const auto extended = Json::parse(folder.read("s.json"))["extended"];
+    REQUIRE(extended.size() == 1);
+    CHECK(extended[0]["reached"] == true);
+    const auto far = folder.run("volume " + in + " -o far --extend 4" + roles + box);
+    CHECK(contains(far.out, "horizon: along 8 at (3.9, 0, 3): too far\n"));
+    CHECK(contains(far.out, "2 closed blocks, volume 512 in all\n"));
+}
+
+TEST_CASE("cli: --seal and --extend refuse what makes no sense", "[cli]") {
+    const Folder folder;
+    const auto in = folder.input("model.obj", model);
+    for (const std::string options :
+         {"--seal -1", "--seal nan", "--seal x", "--extend 1", "--extend -1 --box 0,0,0,8,8,8",
+          "--seal 0.1 --certificate c.json"}) {
+        const auto r = folder.run("arrange " + in + " -o a.obj " + options);
+        INFO(options << "\n" << r.err);
+        CHECK(r.status == 2);
+        CHECK_FALSE(r.err.empty());
+    }
+    CHECK(folder.left().empty());
+}
