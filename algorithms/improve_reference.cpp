@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/improve_reference.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <terrane/algorithms/vectors.hpp>
+#include <terrane/kernel/predicates.hpp>
+
+namespace terrane::improving {
+namespace {
+
+constexpr unsigned most_steps = 256;    ///< of a walk
+constexpr unsigned most_covered = 2048; ///< triangles under one
+constexpr unsigned most_parts = 48;     ///< of one triangle
+constexpr double unit = std::numeric_limits<double>::epsilon();
+
+double length(const Point3& a) {
+    return std::sqrt(dot(a, a));
+}
+
+Point3 towards(const Point3& a, const Point3& b, double share) {
+    return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y), a.z + share * (b.z - a.z)};
+}
+
+/// At most the distance of p to the segment, but for rounding: to a point that is on it.
+double to_segment(const Point3& p, const Point3& a, const Point3& b) {
+    const Point3 d = minus(b, a);
+    const double square = dot(d, d);
+    const double share = square > 0 ? std::clamp(dot(minus(p, a), d) / square, 0.0, 1.0) : 0;
+    return length(minus(p, towards(a, b, share)));
+}
+
+/// No less than the distance of p to the triangle: to a point that is on it, however ill-shaped.
+double to_triangle(const Point3& p, const Point3& a, const Point3& b, const Point3& c) {
+    double least = std::min({to_segment(p, a, b), to_segment(p, b, c), to_segment(p, c, a)});
+    const Point3 n = cross(minus(b, a), minus(c, a));
+    const double square = dot(n, n);
+    if (!(square > 0)) return least;
+    const double share_b = dot(cross(minus(p, a), minus(c, a)), n) / square;
+    const double share_c = dot(cross(minus(b, a), minus(p, a)), n) / square;
+    if (!(share_b >= 0) || !(share_c >= 0) || !(share_b + share_c <= 1)) return least;
+    const Point3 foot{a.x + share_b * (b.x - a.x) + share_c * (c.x - a.x),
+                      a.y + share_b * (b.y - a.y) + share_c * (c.y - a.y),
+                      a.z + share_b * (b.z - a.z) + share_c * (c.z - a.z)};
+    return std::min(least, length(minus(p, foot)));
+}
+
+double longest_edge(const Corners& t) {
+    return std::max(
+        {length(minus(t[1], t[0])), length(minus(t[2], t[1])), length(minus(t[0], t[2]))});
+}
+
+} // namespace
+
+Reference::Reference(std::span<const Point3> points, const Features& features) :
+    points_(points), features_(features), turns_(features.triangles.size()),
+    seen_(features.triangles.size(), 0) {
+    double largest = 0;
+    for (std::size_t t = 0; t < features.triangles.size(); ++t) {
+        const auto& [a, b, c] = features.triangles[t];
+        for (const Axis axis : {Axis::x, Axis::y, Axis::z})
+            turns_[t][static_cast<std::size_t>(axis)] =
+                static_cast<std::int8_t>(orient2d(axis, points[a], points[b], points[c]));
+        for (const std::uint32_t v : features.triangles[t])
+            largest = std::max(
+                {largest, std::fabs(points[v].x), std::fabs(points[v].y), std::fabs(points[v].z)});
+    }
+    slack_ = 256 * unit * largest;
+}
+
+Reference::Flat Reference::flat(Axis axis, const Point3& origin, const Point3& p) {
+    const Point3 d = minus(p, origin);
+    if (axis == Axis::x) return {d.y, d.z, d.x};
+    if (axis == Axis::y) return {d.z, d.x, d.y};
+    return {d.x, d.y, d.z};
+}
+
+/// None for a triangle so thin that the heights of its plane mean nothing.
+std::optional<Reference::Target> Reference::target_of(const Corners& triangle, double bound) {
+    const auto& [a, b, c] = triangle;
+    const Point3 n = cross(minus(b, a), minus(c, a));
+    const double x = std::fabs(n.x), y = std::fabs(n.y), z = std::fabs(n.z);
+    const double longest = longest_edge(triangle);
+    Target target;
+    target.axis = z >= x && z >= y ? Axis::z : x >= y ? Axis::x : Axis::y;
+    const double along = std::max({x, y, z});
+    if (!(along > 1e-6 * longest * longest)) return std::nullopt;
+    const double signed_along = target.axis == Axis::z ? n.z : target.axis == Axis::x ? n.x : n.y;
+    target.turn = signed_along > 0 ? 1 : -1;
+    target.origin = a;
+    const Flat normal = flat(target.axis, {0, 0, 0}, n);
+    target.slope_u = -normal.u / normal.w;
+    target.slope_v = -normal.v / normal.w;
+    const std::array<Flat, 3> whole{Flat{}, flat(target.axis, a, b), flat(target.axis, a, c)};
+    const Point3 middle{(b.x - a.x + c.x - a.x) / 3, (b.y - a.y + c.y - a.y) / 3,
+                        (b.z - a.z + c.z - a.z) / 3};
+    target.middle = flat(target.axis, {0, 0, 0}, middle);
+    const double reach = std::max(
+        {length(middle), length(minus(minus(b, a), middle)), length(minus(minus(c, a), middle))});
+    const double share = std::min(0.25, bound / 4 / reach);
+    for (std::size_t i = 0; i < 3; ++i)
+        target.corners[i] = {whole[i].u + share * (target.middle.u - whole[i].u),
+                             whole[i].v + share * (target.middle.v - whole[i].v),
+                             whole[i].w + share * (target.middle.w - whole[i].w)};
+    target.error = 32 * unit * longest * longest / along;
+    target.bound = bound - share * reach;
+    return target;
+}
+
+/// From triangle to triangle, always over an edge that has the goal beyond it.
+Reference::Walk Reference::walk(Axis axis, const Point3& origin, const Flat& to, int turn,
+                                std::uint32_t from) const {
+    std::uint32_t t = from, before = none;
+    for (unsigned step = 0; step < most_steps; ++step) {
+        if (turn_of(t, axis) != turn) return {t, false};
+        const Triangle& c = features_.triangles[t];
+        std::array<Flat, 3> p;
+        for (std::size_t i = 0; i < 3; ++i) p[i] = flat(axis, origin, points_[c[i]]);
+        std::uint32_t next = t;
+        bool blocked = false;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Flat &a = p[i], &b = p[(i + 1) % 3];
+            const double side = (b.u - a.u) * (to.v - a.v) - (b.v - a.v) * (to.u - a.u);
+            if (!(side * turn < 0)) continue;
+            const std::uint32_t beyond = features_.across[t][i];
+            if (beyond == none || beyond == before)
+                blocked = true;
+            else
+                next = beyond;
+        }
+        if (next == t) return {t, !blocked};
+        before = t;
+        t = next;
+    }
+    return {t, false};
+}
+
+/// Of the heights of a triangle over the target's plane, given at its corners: whether all over the
+/// target are within its bound.
+bool Reference::is_near(const Target& target, const std::array<Flat, 3>& corners,
+                        const std::array<double, 3>& heights) {
+    const Flat &a = corners[0], &b = corners[1], &c = corners[2];
+    const double area = (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);
+    const double size =
+        std::max({std::fabs(b.u - a.u), std::fabs(b.v - a.v), std::fabs(c.u - a.u),
+                  std::fabs(c.v - a.v), std::fabs(c.u - b.u), std::fabs(c.v - b.v)});
+    for (const Flat& p : target.corners) {
+        std::array<double, 3> shares{};
+        double least = 1;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Flat &from = corners[(i + 1) % 3], &to = corners[(i + 2) % 3];
+            shares[i] =
+                ((to.u - from.u) * (p.v - from.v) - (to.v - from.v) * (p.u - from.u)) / area;
+            least = std::min(least, shares[i]);
+        }
+        const double far = std::max({size, std::fabs(p.u - a.u), std::fabs(p.v - a.v)});
+        const double error = 32 * unit * far * far / std::fabs(area);
+        if (!(least >= -error)) {
+            if (std::isnan(least) || std::isnan(error)) return false;
+            continue; // outside
+        }
+        const double spread = std::max({heights[0], heights[1], heights[2]}) -
+                              std::min({heights[0], heights[1], heights[2]});
+        const double height =
+            shares[0] * heights[0] + shares[1] * heights[1] + shares[2] * heights[2];
+        if (!(std::fabs(height) + 3 * error * spread <= target.bound)) return false;
+    }
+    return true;
+}
+
+/// Looks at one triangle: false where it shows that the target is not near.
+bool Reference::visit(const Target& target, std::uint32_t t) {
+    if (turn_of(t, target.axis) != target.turn) return false;
+    const Triangle& c = features_.triangles[t];
+    std::array<Flat, 3> p;
+    std::array<double, 3> heights{};
+    bool all_near = true;
+    for (std::size_t i = 0; i < 3; ++i) {
+        p[i] = flat(target.axis, target.origin, points_[c[i]]);
+        heights[i] = p[i].w - (target.slope_u * p[i].u + target.slope_v * p[i].v);
+        heights[i] += std::copysign(
+            target.error * (std::fabs(p[i].u) + std::fabs(p[i].v) + std::fabs(p[i].w)), heights[i]);
+        all_near = all_near && std::fabs(heights[i]) <= target.bound;
+    }
+    // inside[j][i]: how far corner i lies inside of edge j of the target, at least
+    std::array<std::array<double, 3>, 3> inside{};
+    for (std::size_t j = 0; j < 3; ++j) {
+        const Flat &a = target.corners[j], &b = target.corners[(j + 1) % 3];
+        const double eu = (b.u - a.u) * target.turn, ev = (b.v - a.v) * target.turn;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const double du = p[i].u - a.u, dv = p[i].v - a.v;
+            inside[j][i] =
+                eu * dv - ev * du + 16 * unit * (std::fabs(eu * dv) + std::fabs(ev * du));
+        }
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t k = (i + 1) % 3;
+        double low = 0, high = 1;
+        bool misses = false;
+        for (std::size_t j = 0; j < 3; ++j) {
+            const double from = inside[j][i], to = inside[j][k];
+            if (from < 0 && to < 0) misses = true;
+            if (from < 0 && to >= 0) low = std::max(low, from / (from - to));
+            if (to < 0 && from >= 0) high = std::min(high, from / (from - to));
+        }
+        if (misses || low > high + 1e-9) continue;
+        const std::uint32_t beyond = features_.across[t][i];
+        if (beyond == none) return false;
+        if (seen_[beyond] != search_) {
+            seen_[beyond] = search_;
+            front_.push_back(beyond);
+        }
+        if (all_near) continue;
+        const double rise = heights[k] - heights[i];
+        const double most = target.bound - 1e-8 * std::fabs(rise);
+        if (!(std::fabs(heights[i] + low * rise) <= most) ||
+            !(std::fabs(heights[i] + high * rise) <= most))
+            return false;
+    }
+    return all_near || is_near(target, p, heights);
+}
+
+bool Reference::covered(const Target& target, std::uint32_t start) {
+    ++search_;
+    if (search_ == 0) { // counted round
+        std::fill(seen_.begin(), seen_.end(), 0U);
+        ++search_;
+    }
+    front_.assign(1, start);
+    seen_[start] = search_;
+    for (unsigned count = 0; !front_.empty(); ++count) {
+        if (count == most_covered) return false;
+        const std::uint32_t t = front_.back();
+        front_.pop_back();
+        if (!visit(target, t)) return false;
+    }
+    return true;
+}
+
+bool Reference::near_one(const Corners& triangle, std::uint32_t t, double bound) const {
+    const auto& [a, b, c] = features_.triangles[t];
+    return std::all_of(triangle.begin(), triangle.end(), [&](const Point3& p) {
+        return to_triangle(p, points_[a], points_[b], points_[c]) <= bound;
+    });
+}
+
+bool Reference::part_follows(const Corners& triangle, std::uint32_t& hint, double bound,
+                             unsigned& budget) {
+    if (budget == 0) return false;
+    --budget;
+    if (const auto target = target_of(triangle, bound)) {
+        const Walk way = walk(target->axis, target->origin, target->middle, target->turn, hint);
+        hint = way.end;
+        if (way.arrived && covered(*target, way.end)) return true;
+    }
+    if (near_one(triangle, hint, bound)) return true;
+    const std::array<double, 3> lengths{length(minus(triangle[1], triangle[0])),
+                                        length(minus(triangle[2], triangle[1])),
+                                        length(minus(triangle[0], triangle[2]))};
+    const auto i = static_cast<std::size_t>(std::max_element(lengths.begin(), lengths.end()) -
+                                            lengths.begin());
+    if (lengths[i] < bound / 4) return false;
+    const Point3 &a = triangle[i], &b = triangle[(i + 1) % 3], &c = triangle[(i + 2) % 3];
+    const Point3 middle = towards(a, b, 0.5);
+    std::uint32_t other = hint;
+    return part_follows({a, middle, c}, hint, bound, budget) &&
+           part_follows({middle, b, c}, other, bound, budget);
+}
+
+std::optional<std::uint32_t> Reference::follows(const Corners& triangle, std::uint32_t hint,
+                                                double bound) {
+    unsigned budget = most_parts;
+    if (!part_follows(triangle, hint, bound - slack_, budget)) return std::nullopt;
+    return hint;
+}
+
+std::optional<Reference::Place> Reference::above(const Point3& p, const Point3& normal,
+                                                 std::uint32_t hint) const {
+    const double x = std::fabs(normal.x), y = std::fabs(normal.y), z = std::fabs(normal.z);
+    const Axis axis = z >= x && z >= y ? Axis::z : x >= y ? Axis::x : Axis::y;
+    const int turn = turn_of(hint, axis);
+    if (turn == 0) return std::nullopt;
+    const Walk way = walk(axis, p, {}, turn, hint);
+    if (!way.arrived) return std::nullopt;
+    const auto& [i, j, k] = features_.triangles[way.end];
+    const std::array<Flat, 3> c{flat(axis, p, points_[i]), flat(axis, p, points_[j]),
+                                flat(axis, p, points_[k])};
+    std::array<double, 3> shares{};
+    double sum = 0;
+    for (std::size_t e = 0; e < 3; ++e) {
+        const Flat &a = c[(e + 1) % 3], &b = c[(e + 2) % 3];
+        shares[e] = std::max(0.0, (a.u * b.v - a.v * b.u) * turn);
+        sum += shares[e];
+    }
+    if (!(sum > 0)) return std::nullopt;
+    const double height = (shares[0] * c[0].w + shares[1] * c[1].w + shares[2] * c[2].w) / sum;
+    Point3 place = p;
+    (axis == Axis::x ? place.x : axis == Axis::y ? place.y : place.z) += height;
+    return Place{place, way.end};
+}
+
+} // namespace terrane::improving
