@@ -167,7 +167,7 @@ private:
     Result<Improved> assembled();
     [[nodiscard]] Mesh output() const;
     void add_intersection_edges(std::span<const std::uint32_t> name_of, Mesh& out) const;
-    WorstCause cause_of_worst(const Triangle& t);
+    WorstCause cause_of_worst(Triangle t);
 
     const Mesh& input_;
     const ImproveOptions& options_;
@@ -217,7 +217,7 @@ Mesh Improver::output() const {
 }
 
 /// By what it is, or by what keeps it from being changed.
-WorstCause Improver::cause_of_worst(const Triangle& t) {
+WorstCause Improver::cause_of_worst(Triangle t) {
     std::array<double, 3> lengths{};
     std::array<std::uint32_t, 3> curves{};
     bool all_on_curves = true;
