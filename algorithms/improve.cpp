@@ -122,11 +122,22 @@ private:
             guard_.group_again(run_);
     }
 
+    /// Slivers would only be split into more of them.
+    void clean_first() {
+        report_.collapses += collapse_curves(shop_);
+        if (!stopped()) guard_.group_again(run_);
+        report_.collapses += collapse_edges(shop_);
+        regroup_if_needed();
+        report_.swaps += swap_edges(shop_);
+        regroup_if_needed();
+    }
+
     /// Returns whether the next one is worth it.
     bool one_pass(unsigned pass) {
         if (run_.progress)
             run_.progress("improve", static_cast<double>(pass) / (options_.passes + 1));
         ++report_.passes;
+        if (pass == 0) clean_first();
         const std::size_t splits = split_curves(shop_);
         const std::size_t collapses = collapse_curves(shop_);
         report_.moves += slide_curves(shop_);

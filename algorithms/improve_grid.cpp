@@ -49,6 +49,7 @@ Grid::Cell& Grid::Level::find_or_make(const Place& at, std::uint32_t patch) {
 }
 
 void Grid::reset(double size) {
+    entries_ = 0;
     levels_.assign(most_levels, {});
     for (Level& level : levels_) {
         level.size = size;
@@ -73,6 +74,7 @@ void Grid::enter(std::uint32_t t, const Box& box, std::uint32_t patch) {
                 Cell& cell = level.find_or_make({x, y, z}, patch);
                 if (cell.patch != patch) cell.patch = no_group;
                 cell.entries.push_back(t);
+                ++entries_;
             }
 }
 
@@ -90,7 +92,9 @@ void Grid::move(std::uint32_t t, const Box& before, const Box& box, std::uint32_
                 if (is_there && patch != no_group) continue;
                 Cell& cell = level.find_or_make({x, y, z}, patch);
                 if (cell.patch != patch) cell.patch = no_group;
-                if (!is_there) cell.entries.push_back(t);
+                if (is_there) continue;
+                cell.entries.push_back(t);
+                ++entries_;
             }
 }
 

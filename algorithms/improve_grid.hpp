@@ -21,6 +21,8 @@ public:
     /// Empties it. `size`: of the smallest cells.
     void reset(double size);
 
+    [[nodiscard]] std::size_t entries() const { return entries_; }
+
     /// Enters triangle t of this patch. A triangle may be entered again.
     void enter(std::uint32_t t, const Box& box, std::uint32_t patch);
     /// The same for one that was entered with the box `before`.
@@ -101,6 +103,7 @@ private:
     }
     [[nodiscard]] std::size_t level_of(const Box& box) const;
 
+    std::size_t entries_ = 0;
     std::vector<Level> levels_; ///< each with cells twice as large as those of the one before
 };
 

@@ -18,15 +18,6 @@ Sign turn_in(Axis axis, std::span<const Point3> points, const Triangle& t) {
     return orient2d(axis, points[t[0]], points[t[1]], points[t[2]]);
 }
 
-double mean_edge(std::span<const Point3> points, std::span<const Triangle> triangles) {
-    double sum = 0;
-    for (const Triangle& t : triangles) {
-        const Point3 d = minus(points[t[1]], points[t[0]]);
-        sum += std::sqrt(dot(d, d));
-    }
-    return triangles.empty() ? 1 : sum / static_cast<double>(triangles.size());
-}
-
 } // namespace
 
 void Guard::group_again(const Run& run) {
@@ -36,18 +27,33 @@ void Guard::group_again(const Run& run) {
     patch_of_ = std::move(patches.of);
     axis_ = std::move(patches.axis);
     turn_.assign(axis_.size(), Sign::Zero);
-    grid_.reset(3 * mean_edge(mesh_.points, mesh_.triangles));
-    box_of_.resize(mesh_.triangles.size());
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
         const std::uint32_t p = patch_of_[t];
         if (p != no_group && turn_[p] == Sign::Zero)
             turn_[p] = turn_in(axis_[p], mesh_.points, mesh_.triangles[t]);
-        box_of_[t] = box_of(mesh_.points, mesh_.triangles[t]);
-        grid_.enter(t, box_of_[t], p);
     }
+    fill_grid();
     seen_.assign(mesh_.triangles.size(), 0);
     change_ = 0;
     ungrouped_ = 0;
+}
+
+void Guard::fill_grid() {
+    double sum = 0;
+    std::size_t count = 0;
+    box_of_.resize(mesh_.triangles.size());
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+        if (!mesh_.in_use(t)) continue;
+        sum += mesh_.edge_length(mesh_.triangles[t][0], mesh_.triangles[t][1]);
+        ++count;
+    }
+    grid_.reset(count > 0 ? 3 * sum / static_cast<double>(count) : 1);
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+        if (!mesh_.in_use(t)) continue;
+        box_of_[t] = box_of(mesh_.points, mesh_.triangles[t]);
+        grid_.enter(t, box_of_[t], patch_of_[t]);
+    }
+    first_entries_ = grid_.entries();
 }
 
 bool Guard::in_one_patch(std::span<const std::uint32_t> triangles) const {
@@ -158,6 +164,7 @@ Verdict Guard::apply(const Change& change) {
             grid_.enter(t, boxes_[i], patch);
         box_of_[t] = boxes_[i];
     }
+    if (grid_.entries() > 2 * first_entries_ + 1000) fill_grid(); // most are of what has gone
     return verdict;
 }
 

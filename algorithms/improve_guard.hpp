@@ -56,6 +56,7 @@ public:
     [[nodiscard]] std::size_t ungrouped() const { return ungrouped_; }
 
 private:
+    void fill_grid();
     Verdict judge(const Change& change);
     [[nodiscard]] bool shapes_hold(const Change& change, std::uint32_t patch) const;
     bool bounds_hold(const Change& change);
@@ -70,6 +71,7 @@ private:
     std::vector<Sign> turn_;              ///< per patch: of all its triangles there
     std::vector<Box> box_of_;             ///< per triangle
     Grid grid_;
+    std::size_t first_entries_ = 0; ///< of the grid when it was filled
     std::size_t ungrouped_ = 0;
 
     std::vector<std::uint32_t> hints_, numbers_; ///< of the change at hand

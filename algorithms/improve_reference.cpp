@@ -56,10 +56,12 @@ double longest_edge(const Corners& t) {
 
 Reference::Reference(std::span<const Point3> points, const Features& features) :
     points_(points), features_(features), turns_(features.triangles.size()),
-    seen_(features.triangles.size(), 0) {
+    normals_(features.triangles.size()), seen_(features.triangles.size(), 0) {
     double largest = 0;
     for (std::size_t t = 0; t < features.triangles.size(); ++t) {
         const auto& [a, b, c] = features.triangles[t];
+        const Point3 ab = minus(points[b], points[a]), ac = minus(points[c], points[a]);
+        normals_[t] = {cross(ab, ac), 8 * unit * length(ab) * length(ac)};
         for (const Axis axis : {Axis::x, Axis::y, Axis::z})
             turns_[t][static_cast<std::size_t>(axis)] =
                 static_cast<std::int8_t>(orient2d(axis, points[a], points[b], points[c]));
@@ -70,54 +72,82 @@ Reference::Reference(std::span<const Point3> points, const Features& features) :
     slack_ = 256 * unit * largest;
 }
 
-Reference::Flat Reference::flat(Axis axis, const Point3& origin, const Point3& p) {
-    const Point3 d = minus(p, origin);
-    if (axis == Axis::x) return {d.y, d.z, d.x};
-    if (axis == Axis::y) return {d.z, d.x, d.y};
+Reference::Flat Reference::Frame::flat(const Point3& d) const {
+    if (!axis) return {dot(u, d), dot(v, d), dot(w, d)};
+    if (*axis == Axis::x) return {d.y, d.z, d.x};
+    if (*axis == Axis::y) return {d.z, d.x, d.y};
     return {d.x, d.y, d.z};
 }
 
-/// None for a triangle so thin that the heights of its plane mean nothing.
-std::optional<Reference::Target> Reference::target_of(const Corners& triangle, double bound) {
+Reference::Frame Reference::frame_of(Axis axis) {
+    const Point3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+    if (axis == Axis::x) return {y, z, x, axis};
+    if (axis == Axis::y) return {z, x, y, axis};
+    return {x, y, z, axis};
+}
+
+int Reference::turn_of(std::uint32_t t, const Frame& frame) const {
+    if (frame.axis) return turns_[t][static_cast<std::size_t>(*frame.axis)];
+    const Normal& n = normals_[t];
+    const double along = dot(n.n, frame.w);
+    // The sides of the frame are a few units off from being upright.
+    const double error = 4 * n.error + 64 * unit * length(n.n);
+    return along > error ? 1 : along < -error ? -1 : 0;
+}
+
+/// Along its normal, and along an axis; none for a triangle so thin that the heights of its plane
+/// mean nothing.
+std::array<std::optional<Reference::Target>, 2> Reference::targets_of(const Corners& triangle,
+                                                                      double bound) {
     const auto& [a, b, c] = triangle;
     const Point3 n = cross(minus(b, a), minus(c, a));
     const double x = std::fabs(n.x), y = std::fabs(n.y), z = std::fabs(n.z);
-    const double longest = longest_edge(triangle);
-    Target target;
-    target.axis = z >= x && z >= y ? Axis::z : x >= y ? Axis::x : Axis::y;
-    const double along = std::max({x, y, z});
-    if (!(along > 1e-6 * longest * longest)) return std::nullopt;
-    const double signed_along = target.axis == Axis::z ? n.z : target.axis == Axis::x ? n.x : n.y;
-    target.turn = signed_along > 0 ? 1 : -1;
-    target.origin = a;
-    const Flat normal = flat(target.axis, {0, 0, 0}, n);
-    target.slope_u = -normal.u / normal.w;
-    target.slope_v = -normal.v / normal.w;
-    const std::array<Flat, 3> whole{Flat{}, flat(target.axis, a, b), flat(target.axis, a, c)};
+    const double longest = longest_edge(triangle), along = std::max({x, y, z});
+    if (!(along > 1e-6 * longest * longest)) return {};
     const Point3 middle{(b.x - a.x + c.x - a.x) / 3, (b.y - a.y + c.y - a.y) / 3,
                         (b.z - a.z + c.z - a.z) / 3};
-    target.middle = flat(target.axis, {0, 0, 0}, middle);
     const double reach = std::max(
         {length(middle), length(minus(minus(b, a), middle)), length(minus(minus(c, a), middle))});
     const double share = std::min(0.25, bound / 4 / reach);
-    for (std::size_t i = 0; i < 3; ++i)
-        target.corners[i] = {whole[i].u + share * (target.middle.u - whole[i].u),
-                             whole[i].v + share * (target.middle.v - whole[i].v),
-                             whole[i].w + share * (target.middle.w - whole[i].w)};
-    target.error = 32 * unit * longest * longest / along;
-    target.bound = bound - share * reach;
-    return target;
+    Frame upright;
+    const double size = length(n);
+    upright.w = {n.x / size, n.y / size, n.z / size};
+    const Point3 ab = minus(b, a);
+    const double base = length(ab);
+    upright.u = {ab.x / base, ab.y / base, ab.z / base};
+    upright.v = cross(upright.w, upright.u);
+    const Axis axis = z >= x && z >= y ? Axis::z : x >= y ? Axis::x : Axis::y;
+    std::array<std::optional<Target>, 2> targets;
+    for (std::size_t k = 0; k < 2; ++k) {
+        Target& target = targets[k].emplace();
+        target.frame = k == 0 ? upright : frame_of(axis);
+        target.origin = a;
+        const Flat normal = target.frame.flat(n);
+        target.turn = normal.w > 0 ? 1 : -1;
+        target.slope_u = k == 0 ? 0 : -normal.u / normal.w;
+        target.slope_v = k == 0 ? 0 : -normal.v / normal.w;
+        target.middle = target.frame.flat(middle);
+        const std::array<Flat, 3> whole{Flat{}, target.frame.flat(ab),
+                                        target.frame.flat(minus(c, a))};
+        for (std::size_t i = 0; i < 3; ++i)
+            target.corners[i] = {whole[i].u + share * (target.middle.u - whole[i].u),
+                                 whole[i].v + share * (target.middle.v - whole[i].v),
+                                 whole[i].w + share * (target.middle.w - whole[i].w)};
+        target.error = 64 * unit * longest * longest / along;
+        target.bound = bound - share * reach;
+    }
+    return targets;
 }
 
 /// From triangle to triangle, always over an edge that has the goal beyond it.
-Reference::Walk Reference::walk(Axis axis, const Point3& origin, const Flat& to, int turn,
+Reference::Walk Reference::walk(const Frame& frame, const Point3& origin, const Flat& to, int turn,
                                 std::uint32_t from) const {
     std::uint32_t t = from, before = none;
     for (unsigned step = 0; step < most_steps; ++step) {
-        if (turn_of(t, axis) != turn) return {t, false};
+        if (turn_of(t, frame) != turn) return {t, false};
         const Triangle& c = features_.triangles[t];
         std::array<Flat, 3> p;
-        for (std::size_t i = 0; i < 3; ++i) p[i] = flat(axis, origin, points_[c[i]]);
+        for (std::size_t i = 0; i < 3; ++i) p[i] = frame.flat(minus(points_[c[i]], origin));
         std::uint32_t next = t;
         bool blocked = false;
         for (std::size_t i = 0; i < 3; ++i) {
@@ -170,15 +200,15 @@ bool Reference::is_near(const Target& target, const std::array<Flat, 3>& corners
     return true;
 }
 
-/// Looks at one triangle: false where it shows that the target is not near.
-bool Reference::visit(const Target& target, std::uint32_t t) {
-    if (turn_of(t, target.axis) != target.turn) return false;
+/// Looks at one triangle under the target.
+Reference::Cover Reference::visit(const Target& target, std::uint32_t t) {
+    if (turn_of(t, target.frame) != target.turn) return Cover::open;
     const Triangle& c = features_.triangles[t];
     std::array<Flat, 3> p;
     std::array<double, 3> heights{};
     bool all_near = true;
     for (std::size_t i = 0; i < 3; ++i) {
-        p[i] = flat(target.axis, target.origin, points_[c[i]]);
+        p[i] = target.frame.flat(minus(points_[c[i]], target.origin));
         heights[i] = p[i].w - (target.slope_u * p[i].u + target.slope_v * p[i].v);
         heights[i] += std::copysign(
             target.error * (std::fabs(p[i].u) + std::fabs(p[i].v) + std::fabs(p[i].w)), heights[i]);
@@ -191,8 +221,9 @@ bool Reference::visit(const Target& target, std::uint32_t t) {
         const double eu = (b.u - a.u) * target.turn, ev = (b.v - a.v) * target.turn;
         for (std::size_t i = 0; i < 3; ++i) {
             const double du = p[i].u - a.u, dv = p[i].v - a.v;
-            inside[j][i] =
-                eu * dv - ev * du + 16 * unit * (std::fabs(eu * dv) + std::fabs(ev * du));
+            inside[j][i] = eu * dv - ev * du +
+                           64 * unit * (std::fabs(eu) + std::fabs(ev)) *
+                               (std::fabs(du) + std::fabs(dv) + std::fabs(p[i].w));
         }
     }
     for (std::size_t i = 0; i < 3; ++i) {
@@ -207,7 +238,7 @@ bool Reference::visit(const Target& target, std::uint32_t t) {
         }
         if (misses || low > high + 1e-9) continue;
         const std::uint32_t beyond = features_.across[t][i];
-        if (beyond == none) return false;
+        if (beyond == none) return Cover::open;
         if (seen_[beyond] != search_) {
             seen_[beyond] = search_;
             front_.push_back(beyond);
@@ -217,12 +248,12 @@ bool Reference::visit(const Target& target, std::uint32_t t) {
         const double most = target.bound - 1e-8 * std::fabs(rise);
         if (!(std::fabs(heights[i] + low * rise) <= most) ||
             !(std::fabs(heights[i] + high * rise) <= most))
-            return false;
+            return Cover::far;
     }
-    return all_near || is_near(target, p, heights);
+    return all_near || is_near(target, p, heights) ? Cover::near : Cover::far;
 }
 
-bool Reference::covered(const Target& target, std::uint32_t start) {
+Reference::Cover Reference::covered(const Target& target, std::uint32_t start) {
     ++search_;
     if (search_ == 0) { // counted round
         std::fill(seen_.begin(), seen_.end(), 0U);
@@ -231,12 +262,13 @@ bool Reference::covered(const Target& target, std::uint32_t start) {
     front_.assign(1, start);
     seen_[start] = search_;
     for (unsigned count = 0; !front_.empty(); ++count) {
-        if (count == most_covered) return false;
+        if (count == most_covered) return Cover::open;
         const std::uint32_t t = front_.back();
         front_.pop_back();
-        if (!visit(target, t)) return false;
+        const Cover cover = visit(target, t);
+        if (cover != Cover::near) return cover;
     }
-    return true;
+    return Cover::near;
 }
 
 bool Reference::near_one(const Corners& triangle, std::uint32_t t, double bound) const {
@@ -250,10 +282,14 @@ bool Reference::part_follows(const Corners& triangle, std::uint32_t& hint, doubl
                              unsigned& budget) {
     if (budget == 0) return false;
     --budget;
-    if (const auto target = target_of(triangle, bound)) {
-        const Walk way = walk(target->axis, target->origin, target->middle, target->turn, hint);
+    for (const auto& target : targets_of(triangle, bound)) {
+        if (!target) continue;
+        const Walk way = walk(target->frame, target->origin, target->middle, target->turn, hint);
         hint = way.end;
-        if (way.arrived && covered(*target, way.end)) return true;
+        if (!way.arrived) continue;
+        const Cover cover = covered(*target, way.end);
+        if (cover == Cover::near) return true;
+        if (cover == Cover::far) return false;
     }
     if (near_one(triangle, hint, bound)) return true;
     const std::array<double, 3> lengths{length(minus(triangle[1], triangle[0])),
@@ -280,13 +316,14 @@ std::optional<Reference::Place> Reference::above(const Point3& p, const Point3& 
                                                  std::uint32_t hint) const {
     const double x = std::fabs(normal.x), y = std::fabs(normal.y), z = std::fabs(normal.z);
     const Axis axis = z >= x && z >= y ? Axis::z : x >= y ? Axis::x : Axis::y;
-    const int turn = turn_of(hint, axis);
+    const Frame frame = frame_of(axis);
+    const int turn = turn_of(hint, frame);
     if (turn == 0) return std::nullopt;
-    const Walk way = walk(axis, p, {}, turn, hint);
+    const Walk way = walk(frame, p, {}, turn, hint);
     if (!way.arrived) return std::nullopt;
     const auto& [i, j, k] = features_.triangles[way.end];
-    const std::array<Flat, 3> c{flat(axis, p, points_[i]), flat(axis, p, points_[j]),
-                                flat(axis, p, points_[k])};
+    const std::array<Flat, 3> c{frame.flat(minus(points_[i], p)), frame.flat(minus(points_[j], p)),
+                                frame.flat(minus(points_[k], p))};
     std::array<double, 3> shares{};
     double sum = 0;
     for (std::size_t e = 0; e < 3; ++e) {

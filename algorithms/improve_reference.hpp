@@ -4,11 +4,11 @@
 //
 // Guarantee of follows(): every point of the triangle is within the bound of its sheet as it was.
 // Two reasons are tried, on the triangle and, where both fail, on parts of it:
-// (1) Along an axis the triangle, drawn in a little, is covered. A set of triangles of the sheet,
-//     all wound alike in this projection, is spread from one that meets it over every edge that
-//     meets it, and meets no curve edge. Over the triangle, which is connected and simply
-//     connected, that set is a covering, so one part of it is the graph of a function over it. The
-//     difference in height is linear on each common part: bounded at its corners.
+// (1) Along its normal, or along an axis, the triangle, drawn in a little, is covered. A set of
+//     triangles of the sheet, all wound alike in this projection, is spread from one that meets it
+//     over every edge that meets it, and meets no curve edge. Over the triangle, which is connected
+//     and simply connected, that set is a covering, so one part of it is the graph of a function
+//     over it. The difference in height is linear on each common part: bounded at its corners.
 // (2) All its corners are within the bound of one triangle of the sheet: the distance to a convex
 //     set is a convex function.
 // Rounding errors are counted in. Cost: about the number of triangles that it covers.
@@ -53,43 +53,55 @@ public:
 
 private:
     struct Flat {
-        double u = 0, v = 0, w = 0; ///< in a projection, relative to an origin; w is along the axis
+        double u = 0, v = 0, w = 0; ///< in a projection, relative to an origin; w is along it
+    };
+    /// Directions in which flat coordinates are measured, and whether they are axes.
+    struct Frame {
+        Point3 u, v, w;
+        std::optional<Axis> axis;
+
+        [[nodiscard]] Flat flat(const Point3& d) const;
     };
     /// A triangle drawn in, in one projection.
     struct Target {
-        Axis axis = Axis::z;
+        Frame frame;
         int turn = 1;                ///< +1: counterclockwise in the projection
         Point3 origin;               ///< of the flat coordinates
         std::array<Flat, 3> corners; ///< drawn in
         Flat middle;
-        double slope_u = 0, slope_v = 0; ///< height of its plane: slope_u u + slope_v v + base
-        double base = 0;
-        double error = 0; ///< of a height, per unit of distance
-        double bound = 0; ///< of heights
+        double slope_u = 0, slope_v = 0; ///< height of its plane: slope_u u + slope_v v
+        double error = 0;                ///< of a height, per unit of distance
+        double bound = 0;                ///< of heights
     };
     struct Walk {
         std::uint32_t end = 0;
         bool arrived = false;
     };
+    enum class Cover : std::uint8_t { near, far, open }; ///< open: not covered, or not for sure
 
-    [[nodiscard]] static Flat flat(Axis axis, const Point3& origin, const Point3& p);
-    [[nodiscard]] static std::optional<Target> target_of(const Corners& triangle, double bound);
-    [[nodiscard]] Walk walk(Axis axis, const Point3& origin, const Flat& to, int turn,
+    static Frame frame_of(Axis axis);
+    [[nodiscard]] static std::array<std::optional<Target>, 2> targets_of(const Corners& triangle,
+                                                                         double bound);
+    /// How the triangle is wound in the projection; 0 where that is not sure.
+    [[nodiscard]] int turn_of(std::uint32_t t, const Frame& frame) const;
+    [[nodiscard]] Walk walk(const Frame& frame, const Point3& origin, const Flat& to, int turn,
                             std::uint32_t from) const;
-    bool covered(const Target& target, std::uint32_t start);
-    bool visit(const Target& target, std::uint32_t t);
+    Cover covered(const Target& target, std::uint32_t start);
+    Cover visit(const Target& target, std::uint32_t t);
     [[nodiscard]] static bool is_near(const Target& target, const std::array<Flat, 3>& corners,
                                       const std::array<double, 3>& heights);
     [[nodiscard]] bool near_one(const Corners& triangle, std::uint32_t t, double bound) const;
     bool part_follows(const Corners& triangle, std::uint32_t& hint, double bound, unsigned& budget);
-    [[nodiscard]] int turn_of(std::uint32_t t, Axis axis) const {
-        return turns_[t][static_cast<std::size_t>(axis)];
-    }
 
     std::span<const Point3> points_;
     const Features& features_;
     std::vector<std::array<std::int8_t, 3>> turns_; ///< per triangle and axis, exactly
-    double slack_ = 0; ///< more than the errors of distances from rounded coordinates
+    struct Normal {
+        Point3 n;
+        double error; ///< of each coordinate, at most
+    };
+    std::vector<Normal> normals_; ///< per triangle
+    double slack_ = 0;            ///< more than the errors of distances from rounded coordinates
     std::vector<std::uint32_t> seen_; ///< per triangle: the last search that saw it
     std::uint32_t search_ = 0;
     std::vector<std::uint32_t> front_;
