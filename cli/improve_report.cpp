@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/cli/improve_report.hpp>
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+#include <terrane/cli/console.hpp>
+#include <terrane/io/histogram_svg.hpp>
+
+namespace terrane::cli {
+namespace {
+
+std::string quality_row(const char* name, const QualityReport& q) {
+    return fmt::format(
+        "  {:<7} {:>9}  {:.4f}  {:.4f}  {:>6.2f}  {:>8.3f}  {:>8.3f}  {:.4g}, {:.4g}, {:.4g}\n",
+        name, q.triangles, q.q.mean, q.q.min, 100 * q.share_above_08, q.smallest_angle.min,
+        q.largest_angle.max, q.edge_length.min, q.edge_length.mean, q.edge_length.max);
+}
+
+std::string worst_text(const Improved& improved) {
+    const ImproveReport& r = improved.report;
+    if (r.after.worst == UINT32_MAX) return {};
+    const Mesh& m = improved.mesh;
+    const Triangle& t = m.triangles[r.after.worst];
+    return fmt::format("worst: triangle {} of {}, q {:.4f}, at {}: {}\n", r.after.worst,
+                       m.surfaces[m.surfaces_of[r.after.worst][0]].name, r.after.q.min,
+                       text_of(m.vertices[t[0]]), name_of(r.worst_cause));
+}
+
+Json json_of(const Spread& s) {
+    return {{"min", s.min},
+            {"mean", s.mean},
+            {"max", s.max},
+            {"percentiles_1_5_50_95_99", s.percentiles}};
+}
+
+Json json_of(const QualityReport& q) {
+    return {{"triangles", q.triangles},
+            {"q", json_of(q.q)},
+            {"share_above_08", q.share_above_08},
+            {"smallest_angle", json_of(q.smallest_angle)},
+            {"largest_angle", json_of(q.largest_angle)},
+            {"edge_length", json_of(q.edge_length)},
+            {"histogram", q.histogram}};
+}
+
+} // namespace
+
+std::string improve_text(const Improved& improved, std::span<const Deviation> deviations,
+                         const Inputs& inputs) {
+    const ImproveReport& r = improved.report;
+    std::string text =
+        "quality  triangles  mean q   least  % > 0.8  angle min       max  edges min, mean, max\n";
+    text += quality_row("before", r.before) + quality_row("after", r.after);
+    text += worst_text(improved);
+    text +=
+        fmt::format("{} splits, {} collapses, {} swaps, {} moves; {} curves and {} corners kept\n",
+                    r.splits, r.collapses, r.swaps, r.moves, r.curves, r.corners);
+    Deviation most;
+    std::size_t where = 0;
+    for (std::size_t s = 0; s < deviations.size(); ++s) {
+        if (deviations[s].out > most.out) where = s;
+        most.out = std::max(most.out, deviations[s].out);
+        most.back = std::max(most.back, deviations[s].back);
+    }
+    text += fmt::format("shown: no point is more than {:.4g} from its surface as it was; measured: "
+                        "{:.4g}, on {}, and {:.4g} from the old surface to the new one\n",
+                        r.max_bound, most.out, inputs.labels[where], most.back);
+    return text + "verified: the improved mesh is conforming, by exact check\n";
+}
+
+void add_statistics(Json& json, const Improved& improved, std::span<const Deviation> deviations) {
+    const ImproveReport& r = improved.report;
+    json["output"]["triangles"] = improved.mesh.triangles.size();
+    json["output"]["vertices"] = improved.mesh.vertices.size();
+    json["output"]["intersection_edges"] = improved.mesh.intersection_edges.size();
+    json["improve"] = {{"passes", r.passes},
+                       {"splits", r.splits},
+                       {"collapses", r.collapses},
+                       {"swaps", r.swaps},
+                       {"moves", r.moves},
+                       {"refused_contact", r.refused_contact},
+                       {"refused_deviation", r.refused_deviation},
+                       {"refused_shape", r.refused_shape},
+                       {"corners", r.corners},
+                       {"curves", r.curves},
+                       {"sheets", r.sheets},
+                       {"worst_cause", name_of(r.worst_cause)}};
+    json["quality"] = {{"before", json_of(r.before)}, {"after", json_of(r.after)}};
+    Json out = Json::array(), back = Json::array();
+    for (const Deviation& d : deviations) {
+        out.push_back(d.out);
+        back.push_back(d.back);
+    }
+    json["deviation"] = {{"least_bound", r.min_bound},
+                         {"largest_bound", r.max_bound},
+                         {"measured_of_surfaces", out},
+                         {"measured_back", back}};
+}
+
+std::string histogram_of(const ImproveReport& report) {
+    const auto title = [](const char* when, const QualityReport& q) {
+        return fmt::format("{}: {} triangles, mean {:.3f}, least {:.3f}", when, q.triangles,
+                           q.q.mean, q.q.min);
+    };
+    const std::string before = title("before", report.before), after = title("after", report.after);
+    const std::array histograms{Histogram{before, report.before.histogram, report.before.q.mean},
+                                Histogram{after, report.after.histogram, report.after.q.mean}};
+    return histogram_svg(histograms);
+}
+
+} // namespace terrane::cli
