@@ -100,12 +100,13 @@ public:
     }
 
     Result<Improved> operator()() {
-        const auto [least, most] =
-            std::minmax_element(sizes_.bound_of.begin(), sizes_.bound_of.end());
-        if (*least < reference_.least_bound())
+        const double least = *std::min_element(sizes_.bound_of.begin(), sizes_.bound_of.end());
+        if (least < reference_.least_bound())
             return wrong("max_deviation is too small for coordinates of this size");
-        report_.min_bound = *least;
-        report_.max_bound = *most;
+        report_.bound_of.assign(input_.surfaces.size(), 0);
+        for (std::size_t s = 0; s < sizes_.bound_of.size(); ++s)
+            for (const std::uint32_t surface : input_.surfaces_of[features_.first_of[s]])
+                report_.bound_of[surface] = std::max(report_.bound_of[surface], sizes_.bound_of[s]);
         guard_.group_again(run_);
         for (unsigned pass = 0; pass < options_.passes && !stopped(); ++pass)
             if (!one_pass(pass)) break;
@@ -146,7 +147,11 @@ private:
         regroup_if_needed();
         const std::size_t inner_collapses = collapse_edges(shop_);
         regroup_if_needed();
-        const std::size_t swaps = swap_edges(shop_);
+        if (pass < 2) report_.moves += shake(shop_);
+        std::size_t swaps = even_out(shop_);
+        regroup_if_needed();
+        report_.moves += smooth(shop_);
+        swaps += swap_edges(shop_);
         regroup_if_needed();
         const std::size_t moves = smooth(shop_);
         report_.splits += splits + inner_splits;

@@ -62,7 +62,7 @@ std::string_view name_of(WorstCause cause);
 
 struct ImproveReport {
     QualityReport before, after;
-    double min_bound = 0, max_bound = 0; ///< least and largest deviation that a surface may have
+    std::vector<double> bound_of; ///< per surface: no point of it is farther from what it was
     std::size_t corners = 0, curves = 0, sheets = 0;
     std::size_t splits = 0, collapses = 0, swaps = 0, moves = 0;
     std::size_t refused_contact = 0, refused_deviation = 0, refused_shape = 0; ///< changes

@@ -9,8 +9,6 @@
 namespace terrane::improving {
 namespace {
 
-constexpr double long_share = 4.0 / 3, short_share = 4.0 / 5; ///< of the wanted length
-
 /// An edge of a curve, in its direction.
 struct CurveEdge {
     std::uint32_t curve = 0, from = 0, to = 0;

@@ -12,7 +12,8 @@ WorkMesh::WorkMesh(const Mesh& mesh, const Features& features) :
     points(mesh.vertices), sizes(mesh.vertices.size(), 0), kinds(features.kinds),
     curve_of(features.curve_of), place_on(mesh.vertices.size(), 0),
     along(mesh.vertices.size(), {none, none}), triangles(features.triangles),
-    sheet_of(features.sheet_of), hint_of(features.triangles.size()), star(mesh.vertices.size()) {
+    sheet_of(features.sheet_of), hint_of(features.triangles.size()),
+    changed_at(features.triangles.size(), 1), star(mesh.vertices.size()) {
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {
         hint_of[t] = t;
         for (const std::uint32_t v : triangles[t]) star[v].push_back(t);
@@ -110,6 +111,7 @@ void WorkMesh::apply(const Change& change, std::span<const std::uint32_t> hints,
     if (change.in_place) {
         for (std::size_t i = 0; i < change.removed.size(); ++i) {
             hint_of[change.removed[i]] = hints[i];
+            changed_at[change.removed[i]] = now;
             numbers.push_back(change.removed[i]);
         }
         return;
@@ -133,10 +135,12 @@ void WorkMesh::apply(const Change& change, std::span<const std::uint32_t> hints,
             triangles.emplace_back();
             sheet_of.push_back(0);
             hint_of.push_back(0);
+            changed_at.push_back(0);
         }
         triangles[t] = change.added[i];
         sheet_of[t] = sheets[i];
         hint_of[t] = hints[i];
+        changed_at[t] = now;
         for (const std::uint32_t v : triangles[t]) star[v].push_back(t);
         numbers.push_back(t);
     }
@@ -149,11 +153,13 @@ void WorkMesh::compact() {
         triangles[count] = triangles[t];
         sheet_of[count] = sheet_of[t];
         hint_of[count] = hint_of[t];
+        changed_at[count] = changed_at[t];
         ++count;
     }
     triangles.resize(count);
     sheet_of.resize(count);
     hint_of.resize(count);
+    changed_at.resize(count);
     for (auto& at : star) at.clear();
     for (std::uint32_t t = 0; t < count; ++t)
         for (const std::uint32_t v : triangles[t]) star[v].push_back(t);

@@ -52,9 +52,11 @@ public:
     std::vector<std::array<std::uint32_t, 2>>
         along; ///< per vertex of kind curve: the vertices before and after it
 
-    std::vector<Triangle> triangles;     ///< [0] is none: not in use
-    std::vector<std::uint32_t> sheet_of; ///< per triangle
-    std::vector<std::uint32_t> hint_of;  ///< per triangle: one of the input near it, in its sheet
+    std::vector<Triangle> triangles;       ///< [0] is none: not in use
+    std::vector<std::uint32_t> sheet_of;   ///< per triangle
+    std::vector<std::uint32_t> hint_of;    ///< per triangle: one of the input near it, in its sheet
+    std::vector<std::uint32_t> changed_at; ///< per triangle: when it or its place changed last
+    std::uint32_t now = 1;                 ///< counts sweeps over the mesh
     std::vector<std::vector<std::uint32_t>> star; ///< per vertex: the triangles at it, in any order
 
     [[nodiscard]] bool in_use(std::uint32_t t) const { return triangles[t][0] != none; }
@@ -84,6 +86,13 @@ public:
     /// Carries it out. The numbers of the added triangles are in `numbers` then.
     void apply(const Change& change, std::span<const std::uint32_t> hints,
                std::vector<std::uint32_t>& numbers);
+
+    /// Whether a triangle at v has changed at this time or later.
+    [[nodiscard]] bool changed_since(std::uint32_t v, std::uint32_t time) const {
+        for (const std::uint32_t t : star[v])
+            if (changed_at[t] >= time) return true;
+        return false;
+    }
 
     /// Numbers the triangles anew, without gaps.
     void compact();

@@ -25,6 +25,9 @@
 
 namespace terrane::improving {
 
+constexpr double long_share = 4.0 / 3;  ///< of the wanted length: longer edges are split
+constexpr double short_share = 4.0 / 5; ///< of the wanted length: shorter ones are collapsed
+
 /// What all operations work on; what is named must outlive them.
 struct Workshop {
     WorkMesh& mesh;
@@ -34,6 +37,9 @@ struct Workshop {
     const std::vector<Curve>& curves; ///< of the input
     std::vector<double> curve_bound;  ///< per curve: how far an edge may be from it
     const Run& run;
+    // When sweeps were made last: what has not changed since need not be looked at.
+    std::uint32_t evened_at = 0, swapped_at = 0;
+    std::vector<std::uint32_t> smoothed_at{}; ///< per vertex: when it was tried in vain
 };
 
 /// Whether the straight edge between two places of a curve is within its bound of all between them,
@@ -56,7 +62,13 @@ std::size_t collapse_edges(Workshop& shop);
 /// Collapses at triangles worse than `below`, where the worst gets better.
 std::size_t collapse_bad(Workshop& shop, double below);
 std::size_t swap_edges(Workshop& shop);
+/// Swaps that bring numbers of edges at vertices nearer to six, unless an angle becomes large: what
+/// smoothing then makes better than what was.
+std::size_t even_out(Workshop& shop);
 std::size_t smooth(Workshop& shop);
+/// Moves inner vertices at triangles like halves of squares a little, by their number: a regular
+/// grid of those is a balance that smoothing alone does not leave, though not the best one.
+std::size_t shake(Workshop& shop);
 /// Moves inner vertices of triangles worse than `below` so that the worst of them gets better.
 std::size_t lift_worst(Workshop& shop, double below);
 

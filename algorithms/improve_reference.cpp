@@ -47,11 +47,6 @@ double to_triangle(const Point3& p, const Point3& a, const Point3& b, const Poin
     return std::min(least, length(minus(p, foot)));
 }
 
-double longest_edge(const Corners& t) {
-    return std::max(
-        {length(minus(t[1], t[0])), length(minus(t[2], t[1])), length(minus(t[0], t[2]))});
-}
-
 } // namespace
 
 Reference::Reference(std::span<const Point3> points, const Features& features) :
@@ -72,13 +67,6 @@ Reference::Reference(std::span<const Point3> points, const Features& features) :
     slack_ = 256 * unit * largest;
 }
 
-Reference::Flat Reference::Frame::flat(const Point3& d) const {
-    if (!axis) return {dot(u, d), dot(v, d), dot(w, d)};
-    if (*axis == Axis::x) return {d.y, d.z, d.x};
-    if (*axis == Axis::y) return {d.z, d.x, d.y};
-    return {d.x, d.y, d.z};
-}
-
 Reference::Frame Reference::frame_of(Axis axis) {
     const Point3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
     if (axis == Axis::x) return {y, z, x, axis};
@@ -95,48 +83,44 @@ int Reference::turn_of(std::uint32_t t, const Frame& frame) const {
     return along > error ? 1 : along < -error ? -1 : 0;
 }
 
-/// Along its normal, and along an axis; none for a triangle so thin that the heights of its plane
-/// mean nothing.
-std::array<std::optional<Reference::Target>, 2> Reference::targets_of(const Corners& triangle,
-                                                                      double bound) {
-    const auto& [a, b, c] = triangle;
-    const Point3 n = cross(minus(b, a), minus(c, a));
+Reference::Frame Reference::frame_along(const Point3& normal, const Point3& side) {
+    const double size = length(normal), base = length(side);
+    Frame frame;
+    frame.w = {normal.x / size, normal.y / size, normal.z / size};
+    frame.u = {side.x / base, side.y / base, side.z / base};
+    frame.v = cross(frame.w, frame.u);
+    return frame;
+}
+
+std::optional<Reference::Target> Reference::target_of(const Corners& triangle, double bound,
+                                                      bool along_axis) {
+    const Point3& a = triangle[0];
+    const Point3 ab = minus(triangle[1], a), ac = minus(triangle[2], a), n = cross(ab, ac);
     const double x = std::fabs(n.x), y = std::fabs(n.y), z = std::fabs(n.z);
-    const double longest = longest_edge(triangle), along = std::max({x, y, z});
-    if (!(along > 1e-6 * longest * longest)) return {};
-    const Point3 middle{(b.x - a.x + c.x - a.x) / 3, (b.y - a.y + c.y - a.y) / 3,
-                        (b.z - a.z + c.z - a.z) / 3};
-    const double reach = std::max(
-        {length(middle), length(minus(minus(b, a), middle)), length(minus(minus(c, a), middle))});
-    const double share = std::min(0.25, bound / 4 / reach);
-    Frame upright;
-    const double size = length(n);
-    upright.w = {n.x / size, n.y / size, n.z / size};
-    const Point3 ab = minus(b, a);
-    const double base = length(ab);
-    upright.u = {ab.x / base, ab.y / base, ab.z / base};
-    upright.v = cross(upright.w, upright.u);
+    const double longest =
+        std::sqrt(std::max({dot(ab, ab), dot(ac, ac), dot(minus(ac, ab), minus(ac, ab))}));
+    const double along = std::max({x, y, z});
+    if (!(along > 1e-6 * longest * longest)) return std::nullopt;
     const Axis axis = z >= x && z >= y ? Axis::z : x >= y ? Axis::x : Axis::y;
-    std::array<std::optional<Target>, 2> targets;
-    for (std::size_t k = 0; k < 2; ++k) {
-        Target& target = targets[k].emplace();
-        target.frame = k == 0 ? upright : frame_of(axis);
-        target.origin = a;
-        const Flat normal = target.frame.flat(n);
-        target.turn = normal.w > 0 ? 1 : -1;
-        target.slope_u = k == 0 ? 0 : -normal.u / normal.w;
-        target.slope_v = k == 0 ? 0 : -normal.v / normal.w;
-        target.middle = target.frame.flat(middle);
-        const std::array<Flat, 3> whole{Flat{}, target.frame.flat(ab),
-                                        target.frame.flat(minus(c, a))};
-        for (std::size_t i = 0; i < 3; ++i)
-            target.corners[i] = {whole[i].u + share * (target.middle.u - whole[i].u),
-                                 whole[i].v + share * (target.middle.v - whole[i].v),
-                                 whole[i].w + share * (target.middle.w - whole[i].w)};
-        target.error = 64 * unit * longest * longest / along;
-        target.bound = bound - share * reach;
-    }
-    return targets;
+    Target target;
+    target.frame = along_axis ? frame_of(axis) : frame_along(n, ab);
+    target.origin = a;
+    const Flat normal = target.frame.flat(n);
+    target.turn = normal.w > 0 ? 1 : -1;
+    target.slope_u = along_axis ? -normal.u / normal.w : 0;
+    target.slope_v = along_axis ? -normal.v / normal.w : 0;
+    const std::array<Flat, 3> whole{Flat{}, target.frame.flat(ab), target.frame.flat(ac)};
+    target.middle = {(whole[1].u + whole[2].u) / 3, (whole[1].v + whole[2].v) / 3,
+                     (whole[1].w + whole[2].w) / 3};
+    const double reach = 2 * longest / 3; // no corner is farther from the middle
+    const double share = std::min(0.25, bound / 4 / reach);
+    for (std::size_t i = 0; i < 3; ++i)
+        target.corners[i] = {whole[i].u + share * (target.middle.u - whole[i].u),
+                             whole[i].v + share * (target.middle.v - whole[i].v),
+                             whole[i].w + share * (target.middle.w - whole[i].w)};
+    target.error = 64 * unit * longest * longest / along;
+    target.bound = bound - share * reach;
+    return target;
 }
 
 /// From triangle to triangle, always over an edge that has the goal beyond it.
@@ -282,8 +266,9 @@ bool Reference::part_follows(const Corners& triangle, std::uint32_t& hint, doubl
                              unsigned& budget) {
     if (budget == 0) return false;
     --budget;
-    for (const auto& target : targets_of(triangle, bound)) {
-        if (!target) continue;
+    for (const bool along_axis : {false, true}) {
+        const auto target = target_of(triangle, bound, along_axis);
+        if (!target) break;
         const Walk way = walk(target->frame, target->origin, target->middle, target->turn, hint);
         hint = way.end;
         if (!way.arrived) continue;

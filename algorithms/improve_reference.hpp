@@ -60,7 +60,14 @@ private:
         Point3 u, v, w;
         std::optional<Axis> axis;
 
-        [[nodiscard]] Flat flat(const Point3& d) const;
+        [[nodiscard]] Flat flat(const Point3& d) const {
+            if (!axis)
+                return {u.x * d.x + u.y * d.y + u.z * d.z, v.x * d.x + v.y * d.y + v.z * d.z,
+                        w.x * d.x + w.y * d.y + w.z * d.z};
+            if (*axis == Axis::x) return {d.y, d.z, d.x};
+            if (*axis == Axis::y) return {d.z, d.x, d.y};
+            return {d.x, d.y, d.z};
+        }
     };
     /// A triangle drawn in, in one projection.
     struct Target {
@@ -80,8 +87,10 @@ private:
     enum class Cover : std::uint8_t { near, far, open }; ///< open: not covered, or not for sure
 
     static Frame frame_of(Axis axis);
-    [[nodiscard]] static std::array<std::optional<Target>, 2> targets_of(const Corners& triangle,
-                                                                         double bound);
+    static Frame frame_along(const Point3& normal, const Point3& side);
+    /// None for a triangle so thin that the heights of its plane mean nothing.
+    [[nodiscard]] static std::optional<Target> target_of(const Corners& triangle, double bound,
+                                                         bool along_axis);
     /// How the triangle is wound in the projection; 0 where that is not sure.
     [[nodiscard]] int turn_of(std::uint32_t t, const Frame& frame) const;
     [[nodiscard]] Walk walk(const Frame& frame, const Point3& origin, const Flat& to, int turn,

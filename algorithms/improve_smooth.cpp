@@ -9,7 +9,9 @@
 namespace terrane::improving {
 namespace {
 
-constexpr double least_gain = 1e-3; ///< share of the sum of 1 / q that a move must take away
+constexpr double least_gain = 1e-3;   ///< share of the sum of 1 / q that a move must take away
+constexpr double shake_share = 0.2;   ///< of the wanted length
+constexpr double square_shape = 0.86; ///< q of half a square is 0.83
 
 /// Where trapezium drawing puts the vertex.
 Point3 drawn(const WorkMesh& mesh, std::uint32_t v) {
@@ -144,6 +146,19 @@ bool lift_vertex(Workshop& shop, Mover& mover, std::uint32_t v) {
     return moved;
 }
 
+/// Each coordinate in [-1, 1), from the number alone.
+Point3 scattered(std::uint32_t v) {
+    std::uint64_t h = v * 0x9E3779B97F4A7C15ULL;
+    const auto next = [&] {
+        h ^= h >> 31U;
+        h *= 0xBF58476D1CE4E5B9ULL;
+        h ^= h >> 29U;
+        return static_cast<double>(h >> 11U) * 0x1p-52 - 1;
+    };
+    const double x = next(), y = next(), z = next();
+    return {x, y, z};
+}
+
 /// Inner vertices that `wanted` names: those in one patch first.
 template <class Wanted, class Work>
 std::size_t for_inner(Workshop& shop, const Wanted& wanted, const Work& work) {
@@ -169,9 +184,34 @@ std::size_t for_inner(Workshop& shop, const Wanted& wanted, const Work& work) {
 
 std::size_t smooth(Workshop& shop) {
     Mover mover(shop);
-    return for_inner(
-        shop, [](std::uint32_t) { return true; },
-        [&](std::uint32_t v) { return smooth_vertex(shop, mover, v); });
+    ++shop.mesh.now;
+    shop.smoothed_at.resize(shop.mesh.kinds.size(), 0);
+    const auto is_new = [&](std::uint32_t v) {
+        return shop.mesh.changed_since(v, shop.smoothed_at[v]);
+    };
+    return for_inner(shop, is_new, [&](std::uint32_t v) {
+        const bool moved = smooth_vertex(shop, mover, v);
+        shop.smoothed_at[v] = moved ? 0 : ++shop.mesh.now;
+        return moved;
+    });
+}
+
+std::size_t shake(Workshop& shop) {
+    Mover mover(shop);
+    const auto is_square = [&](std::uint32_t v) {
+        return std::any_of(shop.mesh.star[v].begin(), shop.mesh.star[v].end(),
+                           [&](std::uint32_t t) {
+                               return shape_of(shop.mesh, shop.mesh.triangles[t]) < square_shape;
+                           });
+    };
+    return for_inner(shop, is_square, [&](std::uint32_t v) {
+        mover.look_at(v);
+        const double size = shake_share * shop.mesh.sizes[v];
+        const Point3& p = shop.mesh.points[v];
+        const auto off = scattered(v);
+        return mover.move({p.x + size * off.x, p.y + size * off.y, p.z + size * off.z},
+                          [](const Badness&, const Badness& now) { return now.largest < 2; });
+    });
 }
 
 std::size_t lift_worst(Workshop& shop, double below) {

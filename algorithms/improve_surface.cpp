@@ -7,11 +7,13 @@
 #include <cmath>
 #include <tuple>
 
+#include <terrane/algorithms/sets.hpp>
+
 namespace terrane::improving {
 namespace {
 
-constexpr double long_share = 4.0 / 3, short_share = 4.0 / 5; ///< of the wanted length
-constexpr double least_shape = 0.3; ///< that collapses may leave where there was better
+constexpr double least_even_cosine = -0.35; ///< of angles that evening out may make
+constexpr double least_shape = 0.3;         ///< that collapses may leave where there was better
 
 /// Inner edges with the lower vertex first, each once, from the triangles in their order.
 template <class Wanted>
@@ -26,6 +28,20 @@ std::vector<std::pair<double, Edge>> inner_edges(const WorkMesh& mesh, const Wan
             if (measure > 0 && mesh.curve_at(a, b) == none) edges.push_back({measure, {a, b}});
         }
     }
+    return edges;
+}
+
+/// Inner edges of triangles that have changed at this time or later, each once.
+std::vector<Edge> edges_changed_since(const WorkMesh& mesh, std::uint32_t time) {
+    std::vector<Edge> edges;
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+        if (!mesh.in_use(t) || mesh.changed_at[t] < time) continue;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::uint32_t a = mesh.triangles[t][i], b = mesh.triangles[t][(i + 1) % 3];
+            if (mesh.curve_at(a, b) == none) edges.push_back({std::min(a, b), std::max(a, b)});
+        }
+    }
+    sort_unique(edges);
     return edges;
 }
 
@@ -67,7 +83,19 @@ double least_cosine(const WorkMesh& mesh, const Triangle& t) {
     return least;
 }
 
-bool swap(Workshop& shop, const Edge& e) {
+/// How far the numbers of edges at four vertices are from six, squared, when those of a and b have
+/// one more than now, or less.
+int unevenness(const WorkMesh& mesh, std::array<std::uint32_t, 4> v, int change) {
+    int sum = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+        if (mesh.kinds[v[i]] != VertexKind::inner) continue;
+        const int off = static_cast<int>(mesh.star[v[i]].size()) + (i < 2 ? -change : change) - 6;
+        sum += off * off;
+    }
+    return sum;
+}
+
+bool swap(Workshop& shop, const Edge& e, bool even) {
     WorkMesh& mesh = shop.mesh;
     const auto [a, b] = e;
     Change change;
@@ -82,7 +110,14 @@ bool swap(Workshop& shop, const Edge& e) {
     const Triangle left{c, a, d}, right{d, b, c};
     const double before = std::min(least_cosine(mesh, first), least_cosine(mesh, second));
     const double after = std::min(least_cosine(mesh, left), least_cosine(mesh, right));
-    if (!(after > before + 1e-6) || mesh.are_neighbours(c, d)) return false;
+    if (even) {
+        if (!(after > least_even_cosine) ||
+            unevenness(mesh, {a, b, c, d}, 1) >= unevenness(mesh, {a, b, c, d}, 0))
+            return false;
+    } else if (!(after > before + 1e-6)) {
+        return false;
+    }
+    if (mesh.are_neighbours(c, d)) return false;
     set_facing(mesh, change);
     change.add(left, t);
     change.add(right, u);
@@ -151,6 +186,8 @@ bool collapse(Workshop& shop, std::uint32_t gone, std::uint32_t kept, double lon
         const Triangle& corners = mesh.triangles[t];
         worst_before = std::min(worst_before, shape_of(mesh, corners));
         if (has(corners, kept)) {
+            // All that a sheet has between the two edges of the curve must not vanish.
+            if (on_curve && opposite(corners, gone, kept) == other) return false;
             at_edge.push_back(t);
             continue;
         }
@@ -264,14 +301,25 @@ std::size_t collapse_bad(Workshop& shop, double below) {
     return count;
 }
 
+std::size_t even_out(Workshop& shop) {
+    std::size_t count = 0;
+    for (const Edge& e : edges_changed_since(shop.mesh, shop.evened_at)) {
+        if (shop.run.stop.stop_requested()) return count;
+        count += swap(shop, e, true);
+    }
+    shop.evened_at = ++shop.mesh.now;
+    return count;
+}
+
 std::size_t swap_edges(Workshop& shop) {
     std::size_t count = 0;
     for (unsigned round = 0; round < 6; ++round) {
         std::size_t more = 0;
-        for (const auto& [one, e] :
-             inner_edges(shop.mesh, [](std::uint32_t, std::uint32_t) { return 1.0; })) {
+        const auto edges = edges_changed_since(shop.mesh, shop.swapped_at);
+        shop.swapped_at = ++shop.mesh.now;
+        for (const Edge& e : edges) {
             if (shop.run.stop.stop_requested()) return count;
-            more += swap(shop, e);
+            more += swap(shop, e, false);
         }
         count += more;
         if (100 * more < shop.mesh.triangles.size()) break;

@@ -110,10 +110,10 @@ Result<Measured> improve_and_measure(const Mesh& mesh, const ImproveOptions& opt
     session.end_stage();
     if (session.stopped()) return Error{ErrorCode::interrupted, "stopped on request", ""};
     statistics["seconds"]["measure"] = watch.lap();
-    double largest = 0;
-    for (const Deviation& d : deviations) largest = std::max(largest, d.out);
-    if (largest > improved.value().report.max_bound)
-        return Error{ErrorCode::internal, "the improved mesh is farther away than was shown", ""};
+    for (std::size_t s = 0; s < deviations.size(); ++s)
+        if (deviations[s].out > improved.value().report.bound_of[s])
+            return Error{ErrorCode::internal, "the surface is farther away than was shown",
+                         mesh.surfaces[s].name};
     return Measured{std::move(improved).value(), std::move(deviations)};
 }
 

@@ -203,7 +203,9 @@ int run_one(const std::string& name, const std::vector<Surface>& surfaces,
     }
     const auto& report = improved.value().report;
     std::printf("%s: %zu surfaces, bound %.3g to %.3g, worst: %s\n", name.c_str(),
-                mesh.surfaces.size(), report.min_bound, report.max_bound,
+                mesh.surfaces.size(),
+                *std::min_element(report.bound_of.begin(), report.bound_of.end()),
+                *std::max_element(report.bound_of.begin(), report.bound_of.end()),
                 std::string(name_of(report.worst_cause)).c_str());
     print_row("before", report.before, 0, 0, 0, 0);
     const auto ours = split_by_surface(improved.value().mesh);
