@@ -208,6 +208,22 @@ private:
 
 } // namespace
 
+namespace {
+
+/// What follows from the volumes.
+Result<Model> finished(Model model, const Mesh& mesh, Session& session, Json& statistics) {
+    Stopwatch watch;
+    model.structure = build_structure(mesh, model.volumes);
+    model.borders = find_free_borders(mesh, model.structure);
+    statistics["seconds"]["structure"] = watch.lap();
+    session.end_stage();
+    if (session.stopped()) return Error{ErrorCode::interrupted, "stopped on request", ""};
+    add_statistics(statistics, model);
+    return model;
+}
+
+} // namespace
+
 Result<Model> make_model(const Arranged& arranged, Session& session, Json& statistics) {
     Stopwatch watch;
     const Mesh& mesh = arranged.rounded.mesh;
@@ -223,13 +239,19 @@ Result<Model> make_model(const Arranged& arranged, Session& session, Json& stati
     model.lost = model.exact.measures.size() - (match.size() - model.made);
     model.volumes = renumbered(rounded.value(), match, model.exact.measures.size());
     statistics["seconds"]["volumes"] = watch.lap();
-    model.structure = build_structure(mesh, model.volumes);
-    model.borders = find_free_borders(mesh, model.structure);
-    statistics["seconds"]["structure"] = watch.lap();
-    session.end_stage();
-    if (session.stopped()) return Error{ErrorCode::interrupted, "stopped on request", ""};
-    add_statistics(statistics, model);
-    return model;
+    return finished(std::move(model), mesh, session, statistics);
+}
+
+Result<Model> make_model(const Mesh& mesh, Session& session, Json& statistics) {
+    Stopwatch watch;
+    session.begin("volumes", Phase::computing);
+    auto volumes = find_volumes(mesh, session.run());
+    if (!volumes) return volumes.error();
+    Model model;
+    model.exact = volumes.value();
+    model.volumes = std::move(volumes).value();
+    statistics["seconds"]["volumes"] = watch.lap();
+    return finished(std::move(model), mesh, session, statistics);
 }
 
 std::string model_text(const Inputs& inputs, const Model& model) {

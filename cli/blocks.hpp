@@ -29,6 +29,9 @@ struct Model {
 /// Adds to `statistics`. Errors: those of find_volumes, interrupted.
 Result<Model> make_model(const Arranged& arranged, Session& session, Json& statistics);
 
+/// The same of a mesh alone: there are no other exact blocks than its own.
+Result<Model> make_model(const Mesh& mesh, Session& session, Json& statistics);
+
 /// Blocks, structure, what dangles, leaks.
 std::string model_text(const Inputs& inputs, const Model& model);
 

@@ -11,8 +11,10 @@
 #include <terrane/algorithms/stopwatch.hpp>
 #include <terrane/cli/blocks.hpp>
 #include <terrane/cli/command.hpp>
+#include <terrane/cli/improve_report.hpp>
 #include <terrane/cli/project_inputs.hpp>
 #include <terrane/cli/proof.hpp>
+#include <terrane/cli/roles.hpp>
 #include <terrane/cli/tetrahedra_report.hpp>
 #include <terrane/cli/tetrahedra_stage.hpp>
 #include <terrane/io/atomic_file.hpp>
@@ -35,8 +37,9 @@ struct BuildCommand {
 
 constexpr auto footer =
     R"(The whole chain from one file: surfaces are read, cut by the boundary of the volume of interest
-where there is one, arranged and rounded as `terrane arrange` does, their blocks found as `terrane
-volume` does and filled as `terrane tetrahedralize` does. All results go to one new folder:
+where there is one, arranged and rounded as `terrane arrange` does, made better on request as `terrane
+improve` does, their blocks found as `terrane volume` does and filled as `terrane tetrahedralize`
+does. All results go to one new folder:
 
   surfaces.vtp, ...      the conforming mesh, in the formats that outputs.surfaces names
   tetrahedra.vtu, ...    likewise, outputs.tetrahedra
@@ -100,6 +103,7 @@ public:
             print(stderr, "terrane: no blocks without a conforming mesh; nothing written\n");
             return ExitStatus::negative;
         }
+        if (auto done = improve_triangles(); !done) return done.error();
         if (auto done = find_blocks(); !done) return done.error();
         if (auto done = fill_blocks(); !done) return done.error();
 #ifdef TERRANE_HAS_TETGEN
@@ -153,12 +157,36 @@ private:
     }
 
     [[nodiscard]] const Mesh& mesh() const {
-        return arranged_->rounded.mesh;
+        return better_ ? better_->mesh : arranged_->rounded.mesh;
+    }
+
+    Status improve_triangles() {
+        if (!project_.improve) return Done{};
+        journal_.note("improve");
+        const ProjectImprove& wanted = *project_.improve;
+        ImproveOptions options;
+        options.edge_length = wanted.edge_length.value_or(0);
+        options.max_deviation = wanted.max_deviation.value_or(0);
+        if (!wanted.edge_length_of.empty()) options.edge_length_of.resize(mesh().surfaces.size());
+        for (const auto& [name, length] : wanted.edge_length_of) {
+            const auto found = surfaces_called(name, mesh().surfaces, inputs_.labels);
+            if (found.empty())
+                return Error{ErrorCode::bad_option, "no surface is called " + name,
+                             source_ + ": improve.edge_length_of." + name};
+            for (const std::uint32_t s : found) options.edge_length_of[s] = length;
+        }
+        auto measured = improve_and_measure(mesh(), options, session_, statistics_);
+        if (!measured) return measured.error();
+        add_statistics(statistics_, measured.value().improved, measured.value().deviations);
+        journal_.say(improve_text(measured.value().improved, measured.value().deviations, inputs_));
+        better_ = std::move(measured.value().improved);
+        return Done{};
     }
 
     Status find_blocks() {
         journal_.note("blocks");
-        auto model = make_model(*arranged_, session_, statistics_);
+        auto model = better_ ? make_model(mesh(), session_, statistics_)
+                             : make_model(*arranged_, session_, statistics_);
         if (!model) return model.error();
         model_ = std::move(model).value();
         journal_.say(model_text(inputs_, *model_));
@@ -306,6 +334,7 @@ private:
     Inputs inputs_;
     std::vector<SurfaceInfo> as_read_; ///< per surface of a file
     std::optional<Arranged> arranged_;
+    std::optional<Improved> better_; ///< where the project asks for it
     std::optional<Model> model_;
 #ifdef TERRANE_HAS_TETGEN
     std::optional<Filled> filled_;

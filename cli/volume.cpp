@@ -52,8 +52,8 @@ Status write_folder(const VolumeCommand& command, const Arranged& arranged, cons
     session.begin("write", Phase::computing);
     auto folder = NewFolder::create(command.folder);
     if (!folder) return folder.error();
-    if (auto done =
-            write_model(mesh, model, command.part_format, folder.value().temporary(), session);
+    if (auto done = write_model(arranged.rounded.mesh, model, arranged.sealed, command.part_format,
+                                folder.value().temporary(), session);
         !done)
         return done;
     auto published = folder.value().publish();

@@ -147,6 +147,42 @@ TEST_CASE("cli: build: each kind of volume of interest", "[cli]") {
     CHECK(contains(flat.err, "p.json: volume_of_interest: "));
 }
 
+TEST_CASE("cli: build: gaps are closed, horizons extended, triangles made better", "[cli]") {
+    const Case c;
+    // The fault ends 0.25 below the top and above the base; the horizons end inside the box.
+    c.folder.input("fault.obj", "v 4 -1 3.25\nv 4 9 3.25\nv 4 9 4.75\nv 4 -1 4.75\nf 1 2 3 4\n");
+    c.folder.input("layers.obj", "o base\nv 1 1 3\nv 7 1 3\nv 7 7 3\nv 1 7 3\nf 1 2 3 4\n"
+                                 "o top\nv 1 1 5\nv 7 1 5\nv 7 7 5\nv 1 7 5\nf 5 6 7 8\n");
+    auto json = project();
+    const auto blocks = [&](const std::string& to) {
+        const auto r = c.build(json, "-o " + to);
+        INFO(r.err);
+        REQUIRE(r.status == 0);
+        const auto statistics = Json::parse(c.folder.read(to + "/statistics.json"));
+        CHECK(double(statistics["volumes"]["all"]) == Approx(512));
+        return int(statistics["volumes"]["blocks"].size());
+    };
+    CHECK(blocks("open") == 1);
+    json["extend"] = 1.5;
+    CHECK(blocks("extended") == 3);
+    json["seal"] = 0.5;
+    CHECK(blocks("sealed") == 4);
+    const auto model = Json::parse(c.folder.read("sealed/model/model.json"));
+    CHECK_FALSE(model["seal"].empty());
+    json["improve"] = {{"edge_length", 1}, {"edge_length_of", {{"F1", 0.5}}}};
+    CHECK(blocks("better") == 4);
+    CHECK(contains(c.folder.read("better/log.txt"), "s] improve\n"));
+    const auto before = Json::parse(c.folder.read("sealed/statistics.json"));
+    const auto after = Json::parse(c.folder.read("better/statistics.json"));
+    CHECK(int(after["output"]["triangles"]) > int(before["output"]["triangles"]));
+    CHECK(double(after["quality"]["after"]["q"]["mean"]) >
+          double(after["quality"]["before"]["q"]["mean"]));
+    json["improve"] = {{"edge_length_of", {{"F2", 0.5}}}};
+    const auto r = c.build(json, "-o refused");
+    CHECK(r.status == 2);
+    CHECK(contains(r.err, "in/p.json: improve.edge_length_of.F2: no surface is called F2"));
+}
+
 TEST_CASE("cli: build: a certificate that verify takes", "[cli]") {
     const Case c;
     auto json = project();
