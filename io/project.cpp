@@ -354,7 +354,7 @@ private:
             return all;
         }
         for (const auto& [name, length] : json.items())
-            all.emplace_back(name, in_.positive(length, path + "." + name));
+            all.emplace_back(name, in_.positive(length, Parser::join(path, name)));
         return all;
     }
 
