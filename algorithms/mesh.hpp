@@ -48,7 +48,10 @@ struct TetrahedralMesh {
     std::vector<std::uint32_t> face_triangle; ///< per face: triangle of the mesh it is part of,
                                               ///< or UINT32_MAX on the box
     Lists<std::uint32_t> surfaces_of;         ///< per face: indices into surfaces, sorted, >= 1
-    std::uint32_t region_count = 0;           ///< with the outside
+    std::vector<std::array<std::uint32_t, 2>>
+        twins; ///< pairs of faces, in front of and behind a cut (split_nodes.hpp): corner by
+               ///< corner at the same place; none: nodes are not split
+    std::uint32_t region_count = 0; ///< with the outside
 };
 
 } // namespace terrane

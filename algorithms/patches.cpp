@@ -164,7 +164,8 @@ public:
     Patches operator()() {
         // Whole surfaces first: nothing in the proof needs them to be connected.
         patch_of_.assign(surface_of_.begin(), surface_of_.end());
-        proven_.assign(surface_of_.empty() ? 0 : surface_of_.back() + std::size_t{1}, std::nullopt);
+        const auto last = std::max_element(surface_of_.begin(), surface_of_.end());
+        proven_.assign(last == surface_of_.end() ? 0 : *last + std::size_t{1}, std::nullopt);
         prove();
         if (is_done()) return {std::move(group_), std::move(axis_)};
         find_components();

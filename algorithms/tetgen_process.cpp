@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cfenv>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <limits>
@@ -14,6 +15,7 @@
 #include <new>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 #include <fcntl.h>
 #include <poll.h>
@@ -71,6 +73,28 @@ void set_facet(tetgenio::facet& facet, std::span<const std::uint32_t> corners) {
     std::copy(corners.begin(), corners.end(), polygon.vertexlist);
 }
 
+/// Pairs of marker and area.
+void set_area_bounds(tetgenio& io, const TetgenInput& input) {
+    std::vector<double> list;
+    for (std::size_t i = 0; i < input.max_areas.size(); ++i)
+        if (std::isfinite(input.max_areas[i]))
+            list.insert(list.end(), {static_cast<double>(i + 1), input.max_areas[i]});
+    if (list.empty()) return;
+    io.numberoffacetconstraints = static_cast<int>(list.size() / 2);
+    io.facetconstraintlist = new double[list.size()];
+    std::copy(list.begin(), list.end(), io.facetconstraintlist);
+}
+
+/// Five numbers each: a point, an attribute (of no use here), the volume.
+void set_region_bounds(tetgenio& io, const TetgenInput& input) {
+    if (input.regions.empty()) return;
+    io.numberofregions = static_cast<int>(input.regions.size());
+    io.regionlist = new double[5 * input.regions.size()];
+    double* next = io.regionlist;
+    for (const auto& [place, max_volume] : input.regions)
+        for (const double number : {place.x, place.y, place.z, 0.0, max_volume}) *next++ = number;
+}
+
 void fill(tetgenio& io, const TetgenInput& input) {
     io.firstnumber = 0;
     io.numberofpoints = static_cast<int>(input.points.size());
@@ -89,26 +113,23 @@ void fill(tetgenio& io, const TetgenInput& input) {
         set_facet(io.facetlist[i], input.facets[i]);
         io.facetmarkerlist[i] = static_cast<int>(i) + 1; // 0 means "no marker" to TetGen
     }
-    if (!input.max_area) return;
-    io.numberoffacetconstraints = static_cast<int>(facets);
-    io.facetconstraintlist = new double[2 * facets];
-    for (std::size_t i = 0; i < facets; ++i) {
-        io.facetconstraintlist[2 * i] = static_cast<double>(i + 1);
-        io.facetconstraintlist[2 * i + 1] = *input.max_area;
-    }
+    set_area_bounds(io, input);
+    set_region_bounds(io, input);
 }
 
 /// p: facets are given. z: count from 0. J: keep all points. M: merge neither coplanar facets (each
 /// has its own marker) nor close vertices. Q: quiet. Y: split no facet.
 /// O0: leave shapes as they are. b0: insert points as they come.
 tetgenbehavior behavior_for(const TetgenInput& input) {
-    const bool refine = input.max_volume || input.max_area || input.radius_edge_ratio;
+    const bool refine = input.max_volume || !input.regions.empty() || !input.max_areas.empty() ||
+                        input.radius_edge_ratio;
     tetgenbehavior behavior;
     std::string switches = "pzJMQ";
     if (input.keep_facets) switches += "Y";
     if (!input.improve) switches += "O0";
     if (!input.sort_points) switches += "b0";
     if (refine) switches += "q";
+    if (!input.regions.empty()) switches += "Aa"; // without A 1.5.0 ignores the bounds of regions
     if (input.max_volume) switches += "a1";
     behavior.parse_commandline(switches.data());
     if (input.max_volume) behavior.maxvolume = *input.max_volume; // exact, not through text

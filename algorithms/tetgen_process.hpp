@@ -17,15 +17,22 @@
 
 namespace terrane {
 
+/// A bound on the tetrahedra of what facets enclose.
+struct RegionBound {
+    Point3 place;          ///< inside of it
+    double max_volume = 0; ///< of a tetrahedron, > 0
+};
+
 /// What TetGen gets: convex planar facets that meet in shared vertices and edges only.
 struct TetgenInput {
     std::vector<Point3> points;       ///< pairwise distinct, all used
     Lists<std::uint32_t> facets;      ///< per facet its corners, in order around it
-    bool keep_facets = true;          ///< split none: not with any of the last three
+    bool keep_facets = true;          ///< split none: not with any of the last four
     bool improve = true;              ///< flip and smooth where shapes are bad
     bool sort_points = true;          ///< insert them along a curve, not as they come
-    std::optional<double> max_volume; ///< of a tetrahedron
-    std::optional<double> max_area;   ///< of a face on a facet
+    std::optional<double> max_volume; ///< of a tetrahedron, anywhere
+    std::vector<RegionBound> regions; ///< what other bounds there are
+    std::vector<double> max_areas;    ///< per facet: of a face on it, infinite: no bound; or empty
     std::optional<double> radius_edge_ratio;
     double time_limit = std::numeric_limits<double>::infinity(); ///< seconds
 };

@@ -20,6 +20,7 @@
 #include <terrane/algorithms/soup.hpp>
 #include <terrane/algorithms/tetgen_assembly.hpp>
 #include <terrane/algorithms/tetgen_process.hpp>
+#include <terrane/algorithms/tetgen_sizes.hpp>
 #include <terrane/algorithms/volumes.hpp>
 #include <terrane/kernel/predicates.hpp>
 
@@ -230,37 +231,75 @@ void add_facets(const TetgenDomain& domain, TetgenInput& input) {
     }
 }
 
-/// A wanted edge length becomes the volume of a regular tetrahedron and the area of its faces.
-Status set_sizes(const TetgenDomain& domain, const TetrahedraOptions& options, const Scale& scale,
+/// Bounds on volumes and areas as TetGen gets them.
+class ScaledSizes {
+public:
+    ScaledSizes(const Sizes& sizes, const Scale& scale) : sizes_(sizes), scale_(scale) {}
+
+    [[nodiscard]] double volume_in(std::size_t volume) const {
+        constexpr double no_bound = 8; // coordinates are at most 1
+        const auto& [length, max_volume] = sizes_.in_volumes[volume];
+        return std::min({volume_of(scale_.down(length, 1)), scale_.down(max_volume, 3), no_bound});
+    }
+    [[nodiscard]] double area_for(double length) const { return area_of(scale_.down(length, 1)); }
+
+private:
+    const Sizes& sizes_;
+    const Scale& scale_;
+};
+
+/// More than TetGen can count, or memory hold, is said before it is tried.
+Status check_count(const Volumes& volumes, const Box3& scaled_box, const Sizes& sizes,
+                   const ScaledSizes& scaled, const Scale& scale) {
+    const auto& [low, high] = scaled_box;
+    const double whole = (high.x - low.x) * (high.y - low.y) * (high.z - low.z);
+    double count = 0, rest = whole;
+    for (std::size_t v = volumes.measures.size(); v-- > 0;) { // the outside at last
+        const double measure = v == 0 ? rest : std::min(scale.down(volumes.measures[v], 3), rest);
+        rest -= measure;
+        if (sizes.in_volumes[v].bounded()) count += measure / scaled.volume_in(v);
+    }
+    if (count <= most_tetrahedra) return Done{};
+    return bad_option(
+        fmt::format("the wanted sizes would need more than {} tetrahedra", most_tetrahedra));
+}
+
+/// Wanted edge lengths become volumes of regular tetrahedra and areas of their faces.
+Status set_sizes(const Mesh& mesh, const Volumes& volumes, const TetgenDomain& domain,
+                 const TetrahedraOptions& options, const Scale& scale, const Run& run,
                  TetgenInput& input) {
-    const Point3 low = scale.down(domain.box.low), high = scale.down(domain.box.high);
-    const double box_volume = (high.x - low.x) * (high.y - low.y) * (high.z - low.z);
-    double volume = std::numeric_limits<double>::infinity();
-    if (options.max_volume) volume = scale.down(*options.max_volume, 3);
-    if (options.edge_length) {
-        const double length = scale.down(*options.edge_length, 1);
-        volume = std::min(volume, length * length * length / (6 * std::sqrt(2.0)));
-        input.max_area = std::min(length * length * std::sqrt(3.0) / 4, 8.0);
-    }
-    if (options.edge_length || options.max_volume) {
-        if (box_volume / volume > most_tetrahedra)
-            return bad_option(fmt::format("{} would need more than {} tetrahedra",
-                                          options.edge_length ? "edge_length" : "max_volume",
-                                          most_tetrahedra));
-        input.max_volume = std::min(volume, 8.0); // 8: no bound, coordinates are at most 1
-    }
+    const auto sizes = sizes_of(mesh, volumes, options);
+    if (!sizes) return sizes.error();
+    const ScaledSizes scaled(sizes.value(), scale);
     input.radius_edge_ratio = options.radius_edge_ratio;
-    input.keep_facets = !input.max_volume && !input.radius_edge_ratio;
+    input.keep_facets = !sizes.value().any() && !input.radius_edge_ratio;
+    if (!sizes.value().any()) return Done{};
+    const Box3 box{scale.down(domain.box.low), scale.down(domain.box.high)};
+    if (Status good = check_count(volumes, box, sizes.value(), scaled, scale); !good) return good;
+    for (const double length : sizes.value().on_triangles)
+        input.max_areas.push_back(scaled.area_for(length));
+    input.max_areas.resize(input.facets.size(),
+                           scaled.area_for(sizes.value().in_volumes[0].length));
+    if (sizes.value().same_everywhere()) {
+        if (sizes.value().in_volumes[0].bounded()) input.max_volume = scaled.volume_in(0);
+        return Done{};
+    }
+    const auto points = points_of_bounded(mesh, volumes, domain.box, sizes.value(), run);
+    if (!points) return points.error();
+    for (const auto& [place, region] : points.value())
+        input.regions.push_back({scale.down(place), scaled.volume_in(region)});
     return Done{};
 }
 
-Result<TetgenInput> tetgen_input(const TetgenDomain& domain, const TetrahedraOptions& options,
-                                 const Scale& scale) {
+Result<TetgenInput> tetgen_input(const Mesh& mesh, const Volumes& volumes,
+                                 const TetgenDomain& domain, const TetrahedraOptions& options,
+                                 const Scale& scale, const Run& run) {
     TetgenInput input;
     for (const Point3& p : domain.points) input.points.push_back(scale.down(p));
     input.time_limit = options.time_limit;
     add_facets(domain, input);
-    if (Status sizes = set_sizes(domain, options, scale, input); !sizes) return sizes.error();
+    if (Status sizes = set_sizes(mesh, volumes, domain, options, scale, run, input); !sizes)
+        return sizes.error();
     return input;
 }
 
@@ -339,10 +378,11 @@ Result<TetrahedralMesh> tetrahedralize(const Mesh& mesh, const TetrahedraOptions
     if (Status go = proceed(run, 0.1); !go) return go.error();
 
     const Scale scale(domain.value().points);
-    Result<TetgenInput> input = tetgen_input(domain.value(), options, scale);
-    if (!input) return input.error();
     const Result<Volumes> volumes = find_volumes(mesh, {.stop = run.stop});
     if (!volumes) return volumes.error();
+    Result<TetgenInput> input =
+        tetgen_input(mesh, volumes.value(), domain.value(), options, scale, run);
+    if (!input) return input.error();
     Result<TetrahedralMesh> result =
         try_in_turn(mesh, volumes.value(), domain.value(), input.value(), scale, run);
     if (!result) return result;

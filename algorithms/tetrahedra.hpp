@@ -16,6 +16,18 @@ struct Box3 {
     Point3 low, high;
 };
 
+/// A length of edges that is wanted on a surface, and near it; unit of the mesh.
+struct SurfaceSize {
+    std::uint32_t surface = 0; ///< of the mesh
+    double edge_length = 0;
+};
+
+/// The same in a block (0: between the mesh and the box).
+struct BlockSize {
+    std::uint32_t block = 0; ///< as find_volumes(mesh) counts them
+    double edge_length = 0;
+};
+
 struct TetrahedraOptions {
     std::optional<Box3> box{}; ///< closes the domain; must contain the mesh strictly inside
     double margin = 0.1;       ///< without a box: the bounding box, enlarged on each side by this
@@ -23,16 +35,18 @@ struct TetrahedraOptions {
     std::optional<double> edge_length{};       ///< wanted length, unit of the mesh; none: as few
                                                ///< tetrahedra as possible
     std::optional<double> radius_edge_ratio{}; ///< TetGen's quality bound (>= 1.1); none: no bound,
-                                               ///< or 2 with edge_length or max_volume
+                                               ///< or 2 with any size
     std::optional<double> max_volume{};        ///< of a tetrahedron, cubic unit
+    std::vector<BlockSize> block_sizes{};      ///< instead of edge_length and max_volume there
+    std::vector<SurfaceSize> surface_sizes{};  ///< where they are less than what else holds there
     double time_limit = 600; ///< seconds, > 0, for each way in which TetGen is asked: it may run
                              ///< forever
 };
 
 /// Tetrahedra of a box in which every triangle of the mesh is a union of faces.
 ///
-/// (1) Without edge_length, radius_edge_ratio and max_volume the faces on the mesh are its
-///     triangles, undivided, unless TetGen can't do without more vertices on them. Vertices added
+/// (1) Without sizes and radius_edge_ratio the faces on the mesh are its triangles, undivided,
+/// unless TetGen can't do without more vertices on them. Vertices added
 ///     on a triangle are rounded to doubles next to it.
 /// (2) Vertices: those of the mesh that are in use, in its order and bit by bit, then the eight
 ///     corners of the box, then added ones.

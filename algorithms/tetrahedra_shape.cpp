@@ -25,7 +25,7 @@ double length(const Vector3& v) {
 constexpr std::array<std::array<unsigned, 4>, 6> edges{
     {{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 0, 2}, {2, 3, 0, 1}}};
 
-/// Collects a Spread.
+/// Collects a ShapeSpread.
 class Gather {
 public:
     void add(double value) {
@@ -34,7 +34,7 @@ public:
         sum_ += value;
         ++count_;
     }
-    [[nodiscard]] Spread spread() const {
+    [[nodiscard]] ShapeSpread spread() const {
         if (count_ == 0) return {};
         return {least_, sum_ / static_cast<double>(count_), largest_};
     }

@@ -12,7 +12,7 @@
 namespace terrane {
 
 /// Of a number of values; all 0 where there are none.
-struct Spread {
+struct ShapeSpread {
     double least = 0, mean = 0, largest = 0;
 };
 
@@ -23,9 +23,9 @@ inline constexpr std::array<double, 11> radius_edge_bounds{0.75, 1,  1.25, 1.5, 
 inline constexpr std::size_t dihedral_bins = 18; ///< of 10 degrees each; 180 counts to the last
 
 struct TetrahedraShape {
-    Spread dihedral; ///< degrees, six per tetrahedron
+    ShapeSpread dihedral; ///< degrees, six per tetrahedron
     std::array<std::size_t, dihedral_bins> dihedral_histogram{};
-    Spread radius_edge; ///< circumradius to shortest edge; infinite where a tetrahedron is flat
+    ShapeSpread radius_edge; ///< circumradius to shortest edge; infinite where a tetrahedron is flat
     std::array<std::size_t, radius_edge_bounds.size() + 1> radius_edge_histogram{};
 };
 

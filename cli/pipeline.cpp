@@ -127,18 +127,6 @@ void add_settings(CLI::App& command, ArrangeSettings& settings) {
 
 namespace {
 
-/// The surfaces of the boundary, added to the inputs: their indices.
-Result<std::vector<std::uint32_t>> add_boundary(Inputs& inputs, const VolumeOptions& options,
-                                                Session& session) {
-    auto boundary = boundary_of(options, session);
-    if (!boundary) return boundary.error();
-    const auto first = static_cast<std::uint32_t>(inputs.surfaces.size());
-    append(inputs, std::move(boundary).value(), "volume of interest");
-    std::vector<std::uint32_t> indices(inputs.surfaces.size() - first);
-    std::iota(indices.begin(), indices.end(), first);
-    return indices;
-}
-
 Result<Arrangement> arrange_or_seal(Inputs& inputs, const ArrangeSettings& settings,
                                     Session& session, Json& statistics, Arranged& arranged) {
     const ArrangeOptions options{.search = settings.search};
@@ -165,12 +153,21 @@ Result<Arrangement> arrange_or_seal(Inputs& inputs, const ArrangeSettings& setti
 
 Result<Arranged> arrange_and_round(Inputs& inputs, const ArrangeSettings& settings,
                                    Session& session, Json& statistics) {
-    std::vector<std::uint32_t> boundary;
+    std::vector<Surface> boundary;
     if (settings.volume.wanted()) {
-        auto added = add_boundary(inputs, settings.volume, session);
-        if (!added) return added.error();
-        boundary = std::move(added).value();
+        auto made = boundary_of(settings.volume, session);
+        if (!made) return made.error();
+        boundary = std::move(made).value();
     }
+    return arrange_within(inputs, std::move(boundary), settings, session, statistics);
+}
+
+Result<Arranged> arrange_within(Inputs& inputs, std::vector<Surface> surfaces,
+                                const ArrangeSettings& settings, Session& session,
+                                Json& statistics) {
+    std::vector<std::uint32_t> boundary(surfaces.size()); // their indices
+    std::iota(boundary.begin(), boundary.end(), static_cast<std::uint32_t>(inputs.surfaces.size()));
+    append(inputs, std::move(surfaces), "volume of interest");
     Stopwatch watch;
     Arranged arranged;
     if (settings.volume.extend != 0) {
@@ -188,7 +185,7 @@ Result<Arranged> arrange_and_round(Inputs& inputs, const ArrangeSettings& settin
     if (!exact) return exact.error();
     add_statistics(statistics, exact.value(), settings.search);
     watch.lap();
-    if (settings.volume.wanted()) {
+    if (!boundary.empty()) {
         session.begin("volume of interest", Phase::computing);
         auto cut = cut_to_volume(std::move(exact).value(), boundary, session.run());
         session.end_stage();

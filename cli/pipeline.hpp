@@ -41,6 +41,12 @@ struct Arranged {
 Result<Arranged> arrange_and_round(Inputs& inputs, const ArrangeSettings& settings,
                                    Session& session, Json& statistics);
 
+/// The same with the boundary of a volume of interest that was made already; none: there is no such
+/// volume. Of settings.volume only `extend` counts.
+Result<Arranged> arrange_within(Inputs& inputs, std::vector<Surface> boundary,
+                                const ArrangeSettings& settings, Session& session,
+                                Json& statistics);
+
 /// Surfaces with their triangles, regions and areas; what was set aside; how the rounding went.
 std::string summary(const Inputs& inputs, const Arranged& arranged);
 

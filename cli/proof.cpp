@@ -26,10 +26,11 @@ Status write(const std::string& path, const std::string& text, const FileOptions
 /// The input files, hashed as they are now: if one was changed since it was read, the verifier
 /// finds that the certificate is not about it.
 Result<std::vector<InputRecord>> record_inputs(const std::string& certificate,
-                                               const FileOptions& files, const Inputs& inputs) {
+                                               const std::vector<std::string>& files,
+                                               const Inputs& inputs) {
     std::vector<InputRecord> records;
-    for (std::size_t i = 0; i < files.inputs.size(); ++i) {
-        const std::string& path = files.inputs[i];
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        const std::string& path = files[i];
         auto record =
             record_input(path, certified_name(path, certificate), inputs.surfaces_of_file[i]);
         if (!record) return record.error();
@@ -61,14 +62,23 @@ Status plan_proof(const ProofOptions& options, const FileOptions& files) {
     return Done{};
 }
 
+Result<std::string> certificate_text(const std::string& path, const std::vector<std::string>& files,
+                                     const Inputs& inputs, const Arranged& arranged,
+                                     const Session& session) {
+    const auto records = record_inputs(path, files, inputs);
+    if (!records) return records.error();
+    return to_certificate({records.value(), inputs.surfaces, arranged.exact, &arranged.rounded},
+                          session.run());
+}
+
 Status write_proof(const ProofOptions& options, const FileOptions& files, const Inputs& inputs,
                    const Arranged& arranged, Session& session) {
     if (!options.certificate.empty()) {
-        const auto records = record_inputs(options.certificate, files, inputs);
-        if (!records) return records.error();
-        const auto text = to_certificate(
-            {records.value(), inputs.surfaces, arranged.exact, &arranged.rounded}, session.run());
-        if (auto status = write(options.certificate, text, files, session); !status) return status;
+        const auto text =
+            certificate_text(options.certificate, files.inputs, inputs, arranged, session);
+        if (!text) return text.error();
+        if (auto status = write(options.certificate, text.value(), files, session); !status)
+            return status;
     }
     if (options.exact.empty()) return Done{};
     return write(options.exact, to_text(to_exact(arranged.exact, session.run())), files, session);

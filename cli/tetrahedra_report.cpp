@@ -70,7 +70,7 @@ Json number_or_null(double value) {
     return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
-Json spread_json(const Spread& spread) {
+Json spread_json(const ShapeSpread& spread) {
     return {{"min", number_or_null(spread.least)},
             {"mean", number_or_null(spread.mean)},
             {"max", number_or_null(spread.largest)}};

@@ -13,13 +13,11 @@
 
 #include <fmt/format.h>
 
-#include <terrane/algorithms/check_tetrahedra.hpp>
 #include <terrane/algorithms/stopwatch.hpp>
-#include <terrane/algorithms/structure.hpp>
-#include <terrane/algorithms/tetrahedra.hpp>
-#include <terrane/algorithms/without_outside.hpp>
 #include <terrane/cli/pipeline.hpp>
+#include <terrane/cli/roles.hpp>
 #include <terrane/cli/tetrahedra_report.hpp>
+#include <terrane/cli/tetrahedra_stage.hpp>
 #endif
 
 namespace terrane::cli {
@@ -28,22 +26,25 @@ namespace terrane::cli {
 
 namespace {
 
-constexpr std::size_t most_pairs = 20;   ///< named on the terminal
-constexpr std::size_t most_regions = 50; ///< listed on the terminal
+constexpr std::size_t most_pairs = 20; ///< named on the terminal
 
 struct TetrahedralizeCommand {
     FileOptions files;
     ArrangeSettings settings;
     std::string around; ///< as given
     TetrahedraOptions options;
+    std::vector<std::string> roles;            ///< NAME=ROLE
+    std::vector<std::string> size_of, size_in; ///< NAME=L
+    std::vector<std::string> split;
+    bool blocks_only = false;
 };
 
 constexpr auto footer =
     R"(The surfaces are arranged and rounded first, as `terrane arrange` does; where the doubles are not
-a conforming mesh nothing is written, and the exit status is 1. A box round
-all closes the domain: what touches it is region 0, the outside, each further region is a volume that
-the surfaces enclose. With a volume of interest (--box, --rotated-box, --polygon, --within) all
-surfaces are cut by its boundary, and only what is inside gets tetrahedra: there is no region 0.
+a conforming mesh nothing is written, and the exit status is 1. A box round all closes the domain:
+what touches it is region 0, the outside, each further region is a volume that the surfaces enclose.
+With a volume of interest (--box, --rotated-box, --polygon, --within) all surfaces are cut by its
+boundary, and only what is inside gets tetrahedra: there is no region 0.
 
 The result is checked: tetrahedra have positive volume, each triangle is a union of their faces, each
 region is one block (found in two ways) and has its volume. Where that fails nothing is written, and
@@ -53,8 +54,16 @@ edge.
 VTU has arrays region, surface and parent; MSH physical groups; Abaqus INP element sets, node sets
 and surfaces; MEDIT references: region and surface + 1.
 
+Names of blocks are those of `terrane volume`: "top/base|F1" has top above, base below and F1 beside
+it. With --split two tetrahedra at a surface share a node only where they hang together round it
+without crossing what is split: a surface that ends inside keeps one node at its border, and each
+sector where surfaces cross has its own. VTU then has the arrays twin and cut_side, MSH groups for
+both sides and $Periodic, INP pairs as unsorted node sets, MEDIT references and comments.
+
 Examples:
   terrane tetrahedralize model.ml -o model.vtu
+  terrane tetrahedralize model.ml -o model.vtu --size-of F1=50 --size-in 3=100 --edge-length 400
+  terrane tetrahedralize model.ml -o model.msh --split fault --blocks-only
   terrane tetrahedralize faults.ts topography.ts -o model.msh --edge-length 200
   terrane tetrahedralize model.ml -o model.msh --msh 2.2 -o model.inp -o model.mesh
   terrane tetrahedralize horizons.ts faults.ts -o model.vtu --box 0,0,-3000,10000,10000,500)";
@@ -74,63 +83,43 @@ std::optional<Box3> parse_box(std::string_view text) {
     return Box3{{numbers[0], numbers[1], numbers[2]}, {numbers[3], numbers[4], numbers[5]}};
 }
 
-Result<TetrahedraOptions> options_of(const TetrahedralizeCommand& command) {
-    TetrahedraOptions options = command.options;
-    if (command.around.empty()) return options;
-    options.box = parse_box(command.around);
-    if (!options.box)
-        return Error{ErrorCode::bad_option, "needs six numbers: x0,y0,z0,x1,y1,z1", "--around"};
-    return options;
+Status add_sizes(const std::vector<std::string>& texts, const char* option,
+                 std::vector<NamedSize>& sizes) {
+    for (const std::string& text : texts) {
+        const auto size = parse_named_length(text);
+        if (!size)
+            return Error{ErrorCode::bad_option, "needs NAME=L, with a length: " + text, option};
+        sizes.push_back({{size->name, option}, size->length});
+    }
+    return Done{};
 }
 
-std::string region_text(const TetrahedralMesh& mesh, const TetrahedraReport& report) {
-    std::vector<std::size_t> tetrahedra(mesh.region_count);
-    for (const std::uint32_t region : mesh.region_of) ++tetrahedra[region];
-    const std::size_t first = tetrahedra[0] == 0 ? 1 : 0; // in a volume of interest
-    auto text = fmt::format(
-        "{} tetrahedra, {}, {}{}\n", mesh.tetrahedra.size(), counted(mesh.faces.size(), "face"),
-        counted(tetrahedra.size() - first, "region"), first == 0 ? " with the outside" : "");
-    for (std::size_t r = first; r < std::min(tetrahedra.size(), most_regions); ++r)
-        text += fmt::format("  region {:<3} {:>9} tetrahedra  volume {:.6g}{}\n", r, tetrahedra[r],
-                            report.volumes[r].tetrahedra, r == 0 ? "  (outside)" : "");
-    if (tetrahedra.size() > most_regions)
-        text += fmt::format("  and {} more\n", tetrahedra.size() - most_regions);
-    return text;
+Result<TetrahedraWishes> wishes_of(const TetrahedralizeCommand& command) {
+    TetrahedraWishes wishes;
+    wishes.options = command.options;
+    if (!command.around.empty()) {
+        wishes.options.box = parse_box(command.around);
+        if (!wishes.options.box)
+            return Error{ErrorCode::bad_option, "needs six numbers: x0,y0,z0,x1,y1,z1", "--around"};
+    }
+    if (auto added = add_sizes(command.size_of, "--size-of", wishes.size_of); !added)
+        return added.error();
+    if (auto added = add_sizes(command.size_in, "--size-in", wishes.size_in); !added)
+        return added.error();
+    for (const std::string& name : command.split) wishes.split.push_back({name, "--split"});
+    wishes.outside = !command.blocks_only && !command.settings.volume.wanted();
+    return wishes;
 }
 
-void add_statistics(Json& json, const TetrahedralMesh& mesh, const TetrahedraReport& report) {
-    json["output"]["volumes"] = mesh.region_count - 1;
-    Json volumes = Json::array();
-    for (const RegionVolume& region : report.volumes) volumes.push_back(region.tetrahedra);
-    json["tetrahedra"] = {
-        {"tetrahedra", mesh.tetrahedra.size()}, {"vertices", mesh.vertices.size()},
-        {"faces", mesh.faces.size()},           {"regions", mesh.region_count},
-        {"volume_of_region", volumes},          {"check", report_json(report)}};
-}
-
-struct Filled {
-    TetrahedralMesh tetrahedra;
-    TetrahedraReport report;
-    std::vector<std::string> block_names; ///< per region, of the surfaces around it
-};
-
-Result<Filled> fill_and_check(const Mesh& mesh, const TetrahedraOptions& options, Session& session,
-                              Json& statistics) {
-    Stopwatch watch;
-    session.begin("tetrahedralize", Phase::computing);
-    auto made = tetrahedralize(mesh, options, session.run());
-    if (!made) return made.error();
-    statistics["seconds"]["tetrahedralize"] = watch.lap();
-    session.begin("check tetrahedra", Phase::computing);
+Result<Filled> fill(const Mesh& mesh, const Inputs& inputs, const TetrahedraWishes& wishes,
+                    Session& session, Json& statistics) {
+    session.begin("volumes", Phase::computing);
     const auto volumes = find_volumes(mesh, session.run());
     if (!volumes) return volumes.error();
-    auto report = check_tetrahedra(made.value(), mesh, volumes.value());
+    const auto structure = build_structure(mesh, volumes.value());
     session.end_stage();
-    statistics["seconds"]["check"] = watch.lap();
-    auto structure = build_structure(mesh, volumes.value());
-    std::vector<std::string> names;
-    for (auto& block : structure.blocks) names.push_back(std::move(block.name));
-    return Filled{std::move(made).value(), std::move(report), std::move(names)};
+    return fill_and_check({mesh, inputs.labels, volumes.value(), structure}, wishes, session,
+                          statistics);
 }
 
 Status write_all(const Filled& filled, const std::vector<Output>& outputs, const FileOptions& files,
@@ -148,14 +137,15 @@ Status write_all(const Filled& filled, const std::vector<Output>& outputs, const
 Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Session& session) {
     Stopwatch total;
     const FileOptions& files = command.files;
-    const auto options = options_of(command);
-    if (!options) return options.error();
+    const auto wishes = wishes_of(command);
+    if (!wishes) return wishes.error();
     const auto outputs = plan_outputs(files, OutputKind::tetrahedra);
     if (!outputs) return outputs.error();
     if (const auto sound = check_volume_options(command.settings.volume); !sound)
         return sound.error();
     auto inputs = read_inputs(files, session);
     if (!inputs) return inputs.error();
+    if (const auto set = set_roles(command.roles, inputs.value()); !set) return set.error();
     Json statistics = statistics_of(inputs.value());
 
     const auto arranged = arrange_and_round(inputs.value(), command.settings, session, statistics);
@@ -169,17 +159,12 @@ Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Se
         return ExitStatus::negative;
     }
 
-    auto filled =
-        fill_and_check(arranged.value().rounded.mesh, options.value(), session, statistics);
+    const auto filled =
+        fill(arranged.value().rounded.mesh, inputs.value(), wishes.value(), session, statistics);
     if (!filled) return filled.error();
-    if (command.settings.volume.wanted())
-        filled.value().tetrahedra = without_outside(std::move(filled.value().tetrahedra));
-    const TetrahedralMesh& tetrahedra = filled.value().tetrahedra;
+    print(summary_stream(files), filled_text(filled.value()));
     const TetrahedraReport& report = filled.value().report;
-    add_statistics(statistics, tetrahedra, report);
-    print(summary_stream(files), region_text(tetrahedra, report) + report_text(report));
     const bool good = report.violations.empty();
-    if (session.stopped()) return Error{ErrorCode::interrupted, "", ""};
     Stopwatch writing;
     if (good) {
         const auto written = write_all(filled.value(), outputs.value(), files, session);
@@ -206,6 +191,23 @@ void add_tetrahedra_options(CLI::App& app, TetrahedralizeCommand& command) {
                    "Wanted edge length, in the unit of the input (default: as few tetrahedra as "
                    "possible)")
         ->type_name("L");
+    app.add_option("--size-of", command.size_of,
+                   "Edge length on a surface, and near it; may be repeated")
+        ->allow_extra_args(false)
+        ->type_name("NAME=L");
+    app.add_option(
+           "--size-in", command.size_in,
+           "Edge length in a block, by its number or name, instead of --edge-length; may be "
+           "repeated")
+        ->allow_extra_args(false)
+        ->type_name("BLOCK=L");
+    app.add_option("--split", command.split,
+                   "Nodes of their own on either side of a surface; fault: of all with that role; "
+                   "may be repeated")
+        ->allow_extra_args(false)
+        ->type_name("NAME");
+    app.add_flag("--blocks-only", command.blocks_only,
+                 "No tetrahedra outside of the blocks, in region 0");
     app.add_option("--quality", options.radius_edge_ratio,
                    "Largest ratio of circumradius to shortest edge, at least 1.1 (default: none)")
         ->type_name("RATIO");

@@ -4,12 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/face_sides.hpp>
 #include <terrane/algorithms/sets.hpp>
+#include <terrane/algorithms/split_nodes.hpp>
 #include <terrane/io/groups.hpp>
 #include <terrane/io/names.hpp>
 #include <terrane/io/text.hpp>
@@ -20,13 +21,7 @@ using namespace detail;
 
 namespace {
 
-using Tetrahedron = std::array<std::uint32_t, 4>;
-
 constexpr std::size_t most_per_line = 16; ///< numbers that a data line of a set may have
-
-/// Corners of faces S1 to S4. Each has its element in front, where its orientation is positive.
-constexpr std::array<std::array<unsigned, 3>, 4> corners_of_side{
-    {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}};
 
 std::string node_lines(const std::vector<Point3>& vertices) {
     std::string out = "*HEADING\nTerrane\n*NODE\n";
@@ -58,72 +53,71 @@ void append_set(std::string& out, const std::vector<std::uint32_t>& members) {
     }
 }
 
-struct Side {
-    std::uint32_t tetrahedron = 0;
-    unsigned number = 0; ///< 1 to 4
-};
-
-/// Per face the sides of tetrahedra on it.
-struct SidesOfFace {
-    std::vector<Side> front, back;
-};
-
-Triangle turned(Triangle t) { // the least corner first, the same winding
-    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-    return t;
-}
-
-std::vector<SidesOfFace> sides_of_faces(const TetrahedralMesh& mesh) {
-    std::vector<std::pair<Triangle, std::uint32_t>> faces;
-    for (std::uint32_t f = 0; f < mesh.faces.size(); ++f)
-        faces.emplace_back(turned(mesh.faces[f]), f);
-    std::sort(faces.begin(), faces.end());
-    std::vector<SidesOfFace> found(mesh.faces.size());
-    const auto find = [&](const Triangle& key) {
-        const auto at = std::lower_bound(faces.begin(), faces.end(), std::pair(key, 0U));
-        return at != faces.end() && at->first == key ? at : faces.end();
-    };
-    for (std::uint32_t t = 0; t < mesh.tetrahedra.size(); ++t)
-        for (unsigned side = 0; side < 4; ++side) {
-            const auto& [i, j, k] = corners_of_side[side];
-            const Tetrahedron& v = mesh.tetrahedra[t];
-            if (const auto at = find(turned({v[i], v[j], v[k]})); at != faces.end())
-                found[at->second].front.push_back({t, side + 1});
-            if (const auto at = find(turned({v[k], v[j], v[i]})); at != faces.end())
-                found[at->second].back.push_back({t, side + 1});
-        }
-    return found;
-}
-
-void append_side(std::string& out, const std::string& name, const std::vector<Side>& sides) {
+void append_side(std::string& out, const std::string& name,
+                 const std::vector<TetrahedronSide>& sides) {
     if (sides.empty()) return;
     out += fmt::format("*SURFACE, TYPE=ELEMENT, NAME={}\n", name);
-    for (const Side& s : sides) out += fmt::format("{}, S{}\n", s.tetrahedron + 1, s.number);
+    for (const TetrahedronSide& s : sides)
+        out += fmt::format("{}, S{}\n", s.tetrahedron + 1, s.side + 1);
+}
+
+/// What a surface consists of.
+struct Members {
+    std::vector<std::uint32_t> nodes;
+    std::vector<TetrahedronSide> front, back;
+};
+
+std::vector<Members> members_of_surfaces(const TetrahedralMesh& mesh) {
+    const auto sides = sides_of_faces(mesh);
+    std::vector<Members> members(mesh.surfaces.size());
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+        for (const auto s : mesh.surfaces_of[f]) {
+            auto& [nodes, front, back] = members[s];
+            nodes.insert(nodes.end(), mesh.faces[f].begin(), mesh.faces[f].end());
+            if (sides[f].front.exists()) front.push_back(sides[f].front);
+            if (sides[f].back.exists()) back.push_back(sides[f].back);
+        }
+    for (auto& m : members) sort_unique(m.nodes);
+    return members;
+}
+
+/// In the order of the pairs: Abaqus would sort them otherwise.
+void append_pairs(std::string& out, const std::string& name, const std::vector<NodePair>& pairs) {
+    if (pairs.empty()) return;
+    for (const std::size_t side : {0, 1}) {
+        out +=
+            fmt::format("*NSET, NSET={}_PAIRS_{}, UNSORTED\n", name, side == 0 ? "FRONT" : "BACK");
+        std::vector<std::uint32_t> nodes;
+        for (const NodePair& pair : pairs) nodes.push_back(pair[side]);
+        append_set(out, nodes);
+    }
 }
 
 /// Node set and surfaces of each surface.
 std::string surface_lines(const TetrahedralMesh& mesh) {
     const auto names = label_names(mesh.surfaces);
-    const auto sides = sides_of_faces(mesh);
-    std::vector<std::vector<std::uint32_t>> nodes(names.size());
-    std::vector<SidesOfFace> of_surface(names.size());
-    for (std::size_t f = 0; f < mesh.faces.size(); ++f)
-        for (const auto s : mesh.surfaces_of[f]) {
-            nodes[s].insert(nodes[s].end(), mesh.faces[f].begin(), mesh.faces[f].end());
-            auto& [front, back] = of_surface[s];
-            front.insert(front.end(), sides[f].front.begin(), sides[f].front.end());
-            back.insert(back.end(), sides[f].back.begin(), sides[f].back.end());
-        }
+    const auto members = members_of_surfaces(mesh);
+    const auto pairs = node_pairs(mesh);
     std::string out;
     for (std::size_t s = 0; s < names.size(); ++s) {
-        if (nodes[s].empty()) continue;
-        sort_unique(nodes[s]);
+        if (members[s].nodes.empty()) continue;
         out += fmt::format("*NSET, NSET={}\n", names[s]);
-        append_set(out, nodes[s]);
-        append_side(out, names[s] + "_FRONT", of_surface[s].front);
-        append_side(out, names[s] + "_BACK", of_surface[s].back);
+        append_set(out, members[s].nodes);
+        append_side(out, names[s] + "_FRONT", members[s].front);
+        append_side(out, names[s] + "_BACK", members[s].back);
+        append_pairs(out, names[s], pairs[s]);
     }
     return out;
+}
+
+/// Per region, to `count`.
+std::vector<std::string> set_names(std::size_t count, std::span<const std::string> region_names) {
+    std::vector<SurfaceInfo> infos; // what labels are made of
+    for (std::size_t r = 0; r < count; ++r) {
+        const bool named = r < region_names.size() && !region_names[r].empty();
+        infos.push_back({named ? region_names[r] : region_name(r), Role::unknown});
+    }
+    return label_names(infos);
 }
 
 } // namespace
@@ -145,15 +139,16 @@ std::string to_abaqus(const Mesh& mesh) {
     return out;
 }
 
-std::string to_abaqus(const TetrahedralMesh& mesh) {
+std::string to_abaqus(const TetrahedralMesh& mesh, std::span<const std::string> region_names) {
     std::map<std::uint32_t, std::vector<std::size_t>> of_region;
     for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
         of_region[mesh.region_of[t]].push_back(t);
+    const auto names =
+        set_names(of_region.empty() ? 0 : of_region.rbegin()->first + 1, region_names);
     auto out = node_lines(mesh.vertices);
     for (const auto& [region, tetrahedra] : of_region) {
-        auto name = region_name(region);
-        std::replace(name.begin(), name.end(), ' ', '_');
-        out += fmt::format("*ELEMENT, TYPE=C3D4, ELSET={}\n", name);
+        out += fmt::format("** {}\n*ELEMENT, TYPE=C3D4, ELSET={}\n",
+                           region_name(region, region_names), names[region]);
         for (const std::size_t t : tetrahedra) append_element(out, t, mesh.tetrahedra[t]);
     }
     return out + surface_lines(mesh);

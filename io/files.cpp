@@ -132,7 +132,7 @@ Result<std::string> contents_of(const TetrahedralMesh& mesh, Format format,
     case Format::msh22:
         return to_msh22(mesh, options.region_names);
     case Format::inp:
-        return to_abaqus(mesh);
+        return to_abaqus(mesh, options.region_names);
     case Format::medit:
         return to_medit(mesh);
     default:

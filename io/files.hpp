@@ -65,8 +65,9 @@ struct WriteOptions {
     bool ascii = false;                 ///< STL only: text instead of binary
     bool compress = true;               ///< VTP and VTU only: zlib
     std::span<const CellArray> cells{}; ///< VTP and VTU only: further arrays, one value per cell
-    std::span<const RegionPoint> regions{};      ///< .poly and .smesh only
-    std::span<const std::string> region_names{}; ///< MSH of tetrahedra only: what each region is
+    std::span<const RegionPoint> regions{}; ///< .poly and .smesh only
+    std::span<const std::string>
+        region_names{}; ///< MSH and .inp of tetrahedra: what each region is
 };
 
 /// Writes the whole file or, where that fails, nothing. "-" is standard output.

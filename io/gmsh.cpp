@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <map>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/sets.hpp>
+#include <terrane/algorithms/split_nodes.hpp>
 #include <terrane/io/groups.hpp>
 #include <terrane/io/names.hpp>
 #include <terrane/io/text.hpp>
@@ -25,19 +28,21 @@ constexpr int tetrahedron_type = 4;
 struct Entity {
     int dimension = 2;
     std::size_t tag = 0;
-    std::vector<std::uint32_t> physical; ///< tags, ascending
-    std::vector<std::size_t> cells;      ///< indices, ascending
-    std::size_t first_element = 1;       ///< element of cell 0
+    std::vector<std::size_t> physical; ///< tags, ascending
+    std::vector<std::size_t> cells;    ///< indices, ascending
+    std::size_t first_element = 1;     ///< element of cell 0
 };
 
 /// The groups of triangles, each an entity with the physical tags of its surfaces.
-std::vector<Entity> surface_entities(const Lists<std::uint32_t>& surfaces_of,
-                                     std::size_t surface_count, std::size_t first_element) {
+std::vector<Entity> surface_entities(std::vector<SurfaceGroup> groups, std::size_t surface_count,
+                                     std::size_t first_element) {
     std::vector<Entity> entities;
-    for (auto& group : surface_groups(surfaces_of, surface_count)) {
-        for (auto& surface : group.surfaces) ++surface;
+    for (auto& group : groups) {
+        std::vector<std::size_t> physical;
+        for (const auto surface : group.surfaces)
+            physical.push_back(side_tag(surface, group.side, surface_count));
         entities.push_back(
-            {2, group.tag, std::move(group.surfaces), std::move(group.cells), first_element});
+            {2, group.tag, std::move(physical), std::move(group.cells), first_element});
     }
     return entities;
 }
@@ -55,6 +60,30 @@ std::vector<Entity> volume_entities(const std::vector<std::uint32_t>& region_of)
     return entities;
 }
 
+/// The entities on both sides of a cut.
+struct PeriodicLink {
+    std::size_t front = 0, back = 0; ///< tags
+    std::vector<NodePair> pairs;     ///< {front, back}, where they differ; sorted, unique
+};
+
+std::vector<PeriodicLink> periodic_links(const std::vector<SurfaceGroup>& groups,
+                                         const TetrahedralMesh& mesh) {
+    const auto tags = group_tags(groups, mesh.faces.size());
+    std::map<std::pair<std::size_t, std::size_t>, std::vector<NodePair>> pairs_of;
+    for (const auto& [front, back] : mesh.twins) {
+        auto& pairs = pairs_of[{tags[front], tags[back]}];
+        for (std::size_t k = 0; k < 3; ++k)
+            if (mesh.faces[front][k] != mesh.faces[back][k])
+                pairs.push_back({mesh.faces[front][k], mesh.faces[back][k]});
+    }
+    std::vector<PeriodicLink> links;
+    for (auto& [entities, pairs] : pairs_of) {
+        sort_unique(pairs);
+        links.push_back({entities.first, entities.second, std::move(pairs)});
+    }
+    return links;
+}
+
 class MshWriter {
 public:
     explicit MshWriter(const std::vector<Point3>& vertices) : vertices_(vertices) {
@@ -62,12 +91,14 @@ public:
         out_.reserve(vertices.size() * 96);
     }
 
-    void names(const std::vector<SurfaceInfo>& surfaces, std::span<const Entity> volumes,
-               std::span<const std::string> region_names) {
-        out_ += fmt::format("$PhysicalNames\n{}\n", surfaces.size() + volumes.size());
+    void names(const std::vector<SurfaceInfo>& surfaces, std::span<const SideName> sides,
+               std::span<const Entity> volumes, std::span<const std::string> region_names) {
+        out_ +=
+            fmt::format("$PhysicalNames\n{}\n", surfaces.size() + sides.size() + volumes.size());
         const auto names = quotable_names(surfaces);
         for (std::size_t s = 0; s < names.size(); ++s)
             out_ += fmt::format("2 {} \"{}\"\n", s + 1, names[s]);
+        for (const auto& side : sides) out_ += fmt::format("2 {} \"{}\"\n", side.tag, side.name);
         for (const auto& volume : volumes)
             out_ +=
                 fmt::format("3 {} \"{}\"\n", volume.tag, region_name(volume.tag - 1, region_names));
@@ -117,6 +148,18 @@ public:
         }
     }
 
+    /// Nodes of one entity and those of another one at the same places.
+    void periodic(std::span<const PeriodicLink> links) {
+        if (links.empty()) return;
+        text(fmt::format("$Periodic\n{}", links.size()));
+        for (const auto& link : links) {
+            text(fmt::format("2 {} {}\n0\n{}", link.back, link.front, link.pairs.size()));
+            for (const auto& [front, back] : link.pairs)
+                text(fmt::format("{} {}", back + 1, front + 1));
+        }
+        text("$EndPeriodic");
+    }
+
     void text(std::string_view line) { out_.append(line).append("\n"); }
     std::string take() { return std::move(out_); }
 
@@ -144,9 +187,10 @@ private:
 } // namespace
 
 std::string to_msh(const Mesh& mesh) {
-    const auto surfaces = surface_entities(mesh.surfaces_of, mesh.surfaces.size(), 1);
+    const auto surfaces = surface_entities(surface_groups(mesh.surfaces_of, mesh.surfaces.size()),
+                                           mesh.surfaces.size(), 1);
     MshWriter out(mesh.vertices);
-    out.names(mesh.surfaces, {}, {});
+    out.names(mesh.surfaces, {}, {}, {});
     out.text(fmt::format("$Entities\n0 0 {} 0", surfaces.size()));
     out.entities<Triangle>(surfaces, mesh.triangles);
     out.text("$EndEntities");
@@ -160,10 +204,11 @@ std::string to_msh(const Mesh& mesh) {
 
 std::string to_msh(const TetrahedralMesh& mesh, std::span<const std::string> region_names) {
     const auto volumes = volume_entities(mesh.region_of);
+    const auto groups = surface_groups(mesh.surfaces_of, mesh.surfaces.size(), cut_sides(mesh));
     const auto surfaces =
-        surface_entities(mesh.surfaces_of, mesh.surfaces.size(), mesh.tetrahedra.size() + 1);
+        surface_entities(groups, mesh.surfaces.size(), mesh.tetrahedra.size() + 1);
     MshWriter out(mesh.vertices);
-    out.names(mesh.surfaces, volumes, region_names);
+    out.names(mesh.surfaces, side_names(groups, mesh.surfaces), volumes, region_names);
     out.text(fmt::format("$Entities\n0 0 {} {}", surfaces.size(), volumes.size()));
     out.entities<Triangle>(surfaces, mesh.faces);
     out.entities(std::span<const Entity>(volumes), mesh.tetrahedra);
@@ -174,6 +219,7 @@ std::string to_msh(const TetrahedralMesh& mesh, std::span<const std::string> reg
     out.elements(std::span<const Entity>(volumes), mesh.tetrahedra, tetrahedron_type);
     out.elements<Triangle>(surfaces, mesh.faces, triangle_type);
     out.text("$EndElements");
+    out.periodic(periodic_links(groups, mesh));
     return out.take();
 }
 

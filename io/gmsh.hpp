@@ -17,7 +17,9 @@ std::string to_msh(const Mesh& mesh);
 
 /// The same for faces; region r is volume entity r + 1 and physical volume r + 1, called "outside"
 /// and "region 1", ..., or "region 1: NAME" by region_names[1]. Elements: tetrahedra first, then
-/// faces.
+/// faces. Where nodes are split, the faces of surface s in front of the cut are not in s + 1 but in
+/// a physical surface of their own, "NAME front", those behind it in "NAME back", and $Periodic
+/// lists the nodes at one place.
 std::string to_msh(const TetrahedralMesh& mesh, std::span<const std::string> region_names = {});
 
 } // namespace terrane

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/split_nodes.hpp>
 #include <terrane/io/groups.hpp>
 #include <terrane/io/names.hpp>
 #include <terrane/io/text.hpp>
@@ -18,12 +19,14 @@ using namespace detail;
 namespace {
 
 std::string physical_names(const std::vector<SurfaceInfo>& surfaces,
-                           const std::set<std::uint32_t>& regions,
+                           std::span<const SideName> sides, const std::set<std::uint32_t>& regions,
                            std::span<const std::string> region_names) {
-    auto text = fmt::format("$PhysicalNames\n{}\n", surfaces.size() + regions.size());
+    auto text =
+        fmt::format("$PhysicalNames\n{}\n", surfaces.size() + sides.size() + regions.size());
     const auto names = quotable_names(surfaces);
     for (std::size_t s = 0; s < names.size(); ++s)
         text += fmt::format("2 {} \"{}\"\n", s + 1, names[s]);
+    for (const auto& side : sides) text += fmt::format("2 {} \"{}\"\n", side.tag, side.name);
     for (const auto region : regions)
         text += fmt::format("3 {} \"{}\"\n", region + 1, region_name(region, region_names));
     return text + "$EndPhysicalNames\n";
@@ -59,10 +62,13 @@ public:
     }
 
     void add_triangles(const std::vector<Triangle>& triangles,
-                       const Lists<std::uint32_t>& surfaces_of) {
+                       const Lists<std::uint32_t>& surfaces_of, std::size_t surface_count,
+                       std::span<const CutSide> sides = {}) {
         for (std::size_t t = 0; t < triangles.size(); ++t)
-            for (const auto s : surfaces_of[t])
-                add(" 2 2", std::uint64_t(s) + 1, triangles[t]); // type, how many tags
+            for (const auto s : surfaces_of[t]) {
+                const CutSide side = sides.empty() ? CutSide::none : sides[t];
+                add(" 2 2", side_tag(s, side, surface_count), triangles[t]); // type, how many tags
+            }
     }
 
     [[nodiscard]] std::string section() const {
@@ -76,12 +82,28 @@ private:
 
 constexpr std::string_view format_section = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
 
+/// Per surface that is cut: the nodes behind it and those at the same places in front.
+std::string periodic(const TetrahedralMesh& mesh) {
+    const auto pairs = node_pairs(mesh);
+    std::size_t links = 0;
+    std::string text;
+    for (std::size_t s = 0; s < pairs.size(); ++s) {
+        if (pairs[s].empty()) continue;
+        ++links;
+        text += fmt::format("2 {} {}\n{}\n", side_tag(s, CutSide::back, pairs.size()),
+                            side_tag(s, CutSide::front, pairs.size()), pairs[s].size());
+        for (const auto& [front, back] : pairs[s])
+            text += fmt::format("{} {}\n", back + 1, front + 1);
+    }
+    return links == 0 ? "" : fmt::format("$Periodic\n{}\n{}$EndPeriodic\n", links, text);
+}
+
 } // namespace
 
 std::string to_msh22(const Mesh& mesh) {
     Elements elements;
-    elements.add_triangles(mesh.triangles, mesh.surfaces_of);
-    return std::string(format_section) + physical_names(mesh.surfaces, {}, {}) +
+    elements.add_triangles(mesh.triangles, mesh.surfaces_of, mesh.surfaces.size());
+    return std::string(format_section) + physical_names(mesh.surfaces, {}, {}, {}) +
            nodes(mesh.vertices) + elements.section();
 }
 
@@ -89,10 +111,13 @@ std::string to_msh22(const TetrahedralMesh& mesh, std::span<const std::string> r
     Elements elements;
     for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
         elements.add(" 4 2", std::uint64_t(mesh.region_of[t]) + 1, mesh.tetrahedra[t]);
-    elements.add_triangles(mesh.faces, mesh.surfaces_of);
+    const auto sides = cut_sides(mesh);
+    elements.add_triangles(mesh.faces, mesh.surfaces_of, mesh.surfaces.size(), sides);
     const std::set<std::uint32_t> regions(mesh.region_of.begin(), mesh.region_of.end());
-    return std::string(format_section) + physical_names(mesh.surfaces, regions, region_names) +
-           nodes(mesh.vertices) + elements.section();
+    const auto groups = surface_groups(mesh.surfaces_of, mesh.surfaces.size(), sides);
+    return std::string(format_section) +
+           physical_names(mesh.surfaces, side_names(groups, mesh.surfaces), regions, region_names) +
+           nodes(mesh.vertices) + elements.section() + periodic(mesh);
 }
 
 } // namespace terrane

@@ -16,7 +16,8 @@ namespace terrane {
 std::string to_msh22(const Mesh& mesh);
 
 /// The same for faces; region r is physical volume and entity r + 1, called "outside" and
-/// "region 1", ..., or "region 1: NAME" by region_names[1]. Elements: tetrahedra first, then faces.
+/// "region 1", ..., or "region 1: NAME" by region_names[1]. Elements: tetrahedra first, then
+/// faces. Split nodes: as in MSH 4.1 (gmsh.hpp).
 std::string to_msh22(const TetrahedralMesh& mesh, std::span<const std::string> region_names = {});
 
 } // namespace terrane

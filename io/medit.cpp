@@ -6,7 +6,9 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/split_nodes.hpp>
 #include <terrane/io/groups.hpp>
+#include <terrane/io/names.hpp>
 #include <terrane/io/text.hpp>
 
 namespace terrane {
@@ -43,6 +45,20 @@ std::string start(const std::vector<SurfaceInfo>& surfaces, const std::vector<Su
     return out;
 }
 
+/// Vertices in front of and behind each cut, for which MEDIT has no keyword.
+std::string pair_comments(const TetrahedralMesh& mesh) {
+    std::string out;
+    const auto pairs = node_pairs(mesh);
+    const auto names = quotable_names(mesh.surfaces);
+    for (std::size_t s = 0; s < pairs.size(); ++s) {
+        if (pairs[s].empty()) continue;
+        out += fmt::format("\n# vertices in front and back of {}\n", names[s]);
+        for (const auto& [front, back] : pairs[s])
+            out += fmt::format("# {} {}\n", front + 1, back + 1);
+    }
+    return out;
+}
+
 } // namespace
 
 std::string to_medit(const Mesh& mesh) {
@@ -53,11 +69,11 @@ std::string to_medit(const Mesh& mesh) {
 }
 
 std::string to_medit(const TetrahedralMesh& mesh) {
-    const auto groups = surface_groups(mesh.surfaces_of, mesh.surfaces.size());
+    const auto groups = surface_groups(mesh.surfaces_of, mesh.surfaces.size(), cut_sides(mesh));
     auto out = start(mesh.surfaces, groups, mesh.vertices);
     append_cells(out, "Triangles", mesh.faces, group_tags(groups, mesh.faces.size()));
     append_cells(out, "Tetrahedra", mesh.tetrahedra, mesh.region_of);
-    return out + "\nEnd\n";
+    return out + pair_comments(mesh) + "\nEnd\n";
 }
 
 } // namespace terrane

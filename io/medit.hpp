@@ -15,6 +15,8 @@ namespace terrane {
 std::string to_medit(const Mesh& mesh);
 
 /// The same for faces, then the tetrahedra: their reference is their region, 0 for the outside.
+/// Where nodes are split each side of a surface has a reference of its own, and comments at the end
+/// say which vertices are at one place: `# 12 345`, front and back.
 std::string to_medit(const TetrahedralMesh& mesh);
 
 } // namespace terrane

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <zlib.h>
 
+#include <terrane/io/groups.hpp>
 #include <terrane/io/names.hpp>
 
 namespace terrane {
@@ -248,6 +249,18 @@ void write_tetrahedron_data(VtkWriter& out, const TetrahedralMesh& mesh) {
     out.array("surface", surface);
     out.array("surface_count", surface_count);
     out.array("parent", parent);
+    if (mesh.twins.empty()) return;
+    std::vector<std::int32_t> twin(count + faces, -1);
+    for (const auto& [front, back] : mesh.twins) {
+        twin[count + front] = static_cast<std::int32_t>(count + back);
+        twin[count + back] = static_cast<std::int32_t>(count + front);
+    }
+    out.array("twin", twin);
+    out.array("cut_side", filled([&](auto& v) {
+                  v.resize(count);
+                  for (const auto side : detail::cut_sides(mesh))
+                      v.push_back(static_cast<std::int32_t>(side));
+              }));
 }
 
 } // namespace

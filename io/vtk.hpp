@@ -30,6 +30,9 @@ Result<std::string> to_vtp(const Mesh& mesh, bool compress = true,
 ///   surface  index of the first surface of the face; -1 for a tetrahedron
 ///   surface_count  number of its surfaces; 0 for a tetrahedron
 ///   parent   triangle of the mesh that the face is part of; -1 for none and for a tetrahedron
+///   twin     where nodes are split: the cell on the other side of the cut, its corners in the same
+///            order; -1 for any other cell
+///   cut_side 1 in front of the cut, 2 behind it, 0 for any other cell
 /// and `cells`. Field arrays as above; the lists count faces only.
 /// Errors: bad_option where an array of `cells` has not one value per tetrahedron and face.
 Result<std::string> to_vtu(const TetrahedralMesh& mesh, bool compress = true,

@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Opens what Terrane writes with VTK and gmsh and compares it with what was meant.
+"""Opens what Terrane writes with VTK, gmsh and meshio and compares it with what was meant.
 
-VTK reads VTP and VTU, gmsh MSH 4.1, MSH 2.2 and MEDIT; Abaqus files, which gmsh does not read, are
-read by the few lines below, from Abaqus' description of the keywords. (TetGen's formats are tested
-in test_poly.cpp.)
+VTK reads VTP and VTU, gmsh MSH 4.1, MSH 2.2 and MEDIT, meshio Abaqus files; *SURFACE, which meshio
+leaves out, is read by the few lines below, from Abaqus' description of the keywords. (TetGen's
+formats are tested in test_poly.cpp.)
 
 usage: read_back.py TERRANE_TESTS
 
-Needs VTK's Python modules and the program gmsh; without either it fails.
+Needs VTK's Python modules, meshio and the program gmsh; without one of them it fails.
 """
 import json
 import math
@@ -19,6 +19,7 @@ import sys
 import tempfile
 from collections import Counter
 
+import meshio
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLUnstructuredGridReader
 
 
@@ -89,11 +90,33 @@ def check_cell_data(path, data, meant):
     }
     if tetrahedra:
         wanted["region"] = meant["region_of"] + [-1] * len(meant["faces"])
+    if meant.get("twins"):
+        twin, sides = [-1] * (tetrahedra + len(meant["faces"])), sides_of(meant)
+        for front, back in meant["twins"]:
+            twin[tetrahedra + front], twin[tetrahedra + back] = tetrahedra + back, tetrahedra + front
+        wanted["twin"] = twin
+        wanted["cut_side"] = [0] * tetrahedra + sides
     for array, lists in (("region", "regions_of"), ("parent", "parents_of")):
         if meant.get(lists):
             wanted[array] = [entry[0] for entry in meant[lists]]
     for name, values in wanted.items():
         check(scalars(data, name) == values, f"{path}: array {name}")
+
+
+def sides_of(meant):
+    """Per face: 1 in front of a cut, 2 behind it, 0 elsewhere."""
+    sides = [0] * len(meant.get("faces", meant["cells"]))
+    for front, back in meant.get("twins", []):
+        sides[front], sides[back] = 1, 2
+    return sides
+
+
+def group(surface, side, count):
+    """The physical group of a surface, or of a side of it."""
+    return count + 2 * surface + side if side else surface + 1
+
+
+ENDINGS = ("", " front", " back")
 
 
 def through_gmsh(path):
@@ -109,7 +132,7 @@ def through_gmsh(path):
           f"gmsh on {path}: {said}")
     with open(out, encoding="utf-8") as file:
         lines = iter(file.read().split("\n"))
-    nodes, elements, names = {}, Counter(), {}
+    nodes, elements, names, pairs = {}, Counter(), {}, set()
     for line in lines:
         if line == "$PhysicalNames":
             for _ in range(int(next(lines))):
@@ -118,33 +141,68 @@ def through_gmsh(path):
         if line == "$Nodes":
             for _ in range(int(next(lines))):
                 node, *xyz = next(lines).split()
-                nodes[int(node)] = xyz
+                nodes[int(node)] = tuple(xyz)
         if line == "$Elements":
             for _ in range(int(next(lines))):
                 words = [int(word) for word in next(lines).split()]
                 corners = tuple(words[3 + words[2]:])
                 elements[words[1], words[tag], corners] += 1
-    return nodes, elements, names
+        if line == "$Periodic":
+            for _ in range(int(next(lines))):
+                next(lines)  # the entities
+                count = next(lines)
+                if count.startswith("Affine"):
+                    count = next(lines)
+                pairs |= {tuple(map(int, next(lines).split())) for _ in range(int(count))}
+    return nodes, elements, names, pairs
+
+
+def labelled(nodes, elements, pairs):
+    """Nodes by place and by the groups of what is at them, since gmsh counts them anew: elements
+    {(type, tag, labels): count} and pairs of labels."""
+    groups = {v: set() for v in nodes}
+    for kind, tag, corners in elements:
+        for v in corners:
+            groups[v].add((kind, tag))
+    label = {v: (nodes[v], tuple(sorted(groups[v]))) for v in nodes}
+    found = Counter()
+    for (kind, tag, corners), count in elements.items():
+        found[kind, tag, tuple(label[v] for v in corners)] += count
+    return found, {(label[a], label[b]) for a, b in pairs}
+
+
+def meshio_pairs(path):
+    periodic = meshio.read(path).gmsh_periodic or []
+    return {(int(a), int(b)) for _, _, _, pairs in periodic for a, b in pairs}
 
 
 def check_gmsh(path, meant):
-    nodes, elements, names = through_gmsh(path)
+    nodes, elements, names, pairs = through_gmsh(path)
     triangles = meant.get("faces", meant["cells"])
-    used = sorted({v for cell in meant["cells"] + triangles for v in cell})
+    used = {v for cell in meant["cells"] + triangles for v in cell}  # gmsh saves no others
     check(len(nodes) == len(used), f"{path}: {len(nodes)} nodes")
-    number = {v: i + 1 for i, v in enumerate(used)}  # gmsh saves no others, and counts anew
-    for v in used:
-        wanted = [f"{x:.16g}" for x in meant["points"][v]]  # the digits that gmsh prints
-        check(nodes[number[v]] == wanted, f"{path}: node {nodes[number[v]]}, not {wanted}")
-    wanted = Counter()
-    for corners, surfaces in zip(triangles, meant["surfaces_of"]):
+    points = {v: tuple(f"{x:.16g}" for x in meant["points"][v]) for v in used}  # as gmsh prints
+    wanted, wanted_pairs = Counter(), set()
+    count, sides = len(meant["names"]), sides_of(meant)
+    wanted_names = {s + 1: name for s, name in enumerate(in_quotes(meant["names"]))}
+    for corners, surfaces, side in zip(triangles, meant["surfaces_of"], sides):
         for surface in surfaces:
-            wanted[2, surface + 1, tuple(number[v] for v in corners)] += 1
+            tag = group(surface, side, count)
+            wanted[2, tag, tuple(corners)] += 1
+            wanted_names[tag] = in_quotes(meant["names"])[surface] + ENDINGS[side]
     for corners, region in zip(meant["cells"], meant.get("region_of", [])):
-        wanted[4, region + 1, tuple(number[v] for v in corners)] += 1
+        wanted[4, region + 1, tuple(corners)] += 1
+    for front, back in meant.get("twins", []):
+        wanted_pairs |= {(b, a) for a, b in zip(triangles[front], triangles[back]) if a != b}
+    elements, pairs = labelled(nodes, elements, pairs)
+    if path.endswith("_22.msh"):  # gmsh 4.8 skips $Periodic there, meshio does not
+        check(meshio_pairs(path) == wanted_pairs, f"{path}: meshio's pairs")
+        wanted_pairs = set()
+    wanted, wanted_pairs = labelled(points, wanted, wanted_pairs)
     check(elements == wanted, f"{path}: elements {elements - wanted}, not {wanted - elements}")
-    check([names[2, s + 1] for s in range(len(meant["names"]))] == in_quotes(meant["names"]),
-          f"{path}: names {names}")
+    check(pairs == wanted_pairs, f"{path}: pairs {pairs}, not {wanted_pairs}")
+    found = {tag: name for (dimension, tag), name in names.items() if dimension == 2}
+    check(found == wanted_names, f"{path}: names {names}")
     regions = {r: "outside" if r == 0 else f"region {r}" for r in meant.get("region_of", [])}
     check({tag - 1: name for (dimension, tag), name in names.items() if dimension == 3} == regions,
           f"{path}: names {names}")
@@ -160,26 +218,28 @@ def in_quotes(names):
     return different([name.replace('"', "'") for name in names], "_")
 
 
-def references(lists, count):
-    """Per triangle: of its surface from 1, and after those one for each set of several."""
-    several = sorted({tuple(entry) for entry in lists if len(entry) > 1})
-    return [entry[0] + 1 if len(entry) == 1 else count + 1 + several.index(tuple(entry))
-            for entry in lists]
+def references(lists, sides, count):
+    """Per triangle: of its surface from 1, and after those one for each set of several, and for
+    each side of a cut."""
+    keys = [(tuple(entry), side) for entry, side in zip(lists, sides)]
+    others = sorted({key for key in keys if len(key[0]) > 1 or key[1]})
+    return [count + 1 + others.index(key) if key in others else key[0][0] + 1 for key in keys]
 
 
 def check_medit(path, meant):
     """By coordinates: gmsh counts the nodes anew."""
-    nodes, elements, _ = through_gmsh(path)
+    nodes, elements, _, _ = through_gmsh(path)
     triangles = meant.get("faces", meant["cells"])
     point = [tuple(f"{x:.16g}" for x in p) for p in meant["points"]]
     wanted = Counter()
-    for corners, reference in zip(triangles, references(meant["surfaces_of"], len(meant["names"]))):
+    wanted_references = references(meant["surfaces_of"], sides_of(meant), len(meant["names"]))
+    for corners, reference in zip(triangles, wanted_references):
         wanted[2, reference, tuple(point[v] for v in corners)] += 1
     for corners, region in zip(meant["cells"], meant.get("region_of", [])):
         wanted[4, region, tuple(point[v] for v in corners)] += 1
     found = Counter()
     for (kind, tag, corners), count in elements.items():
-        found[kind, tag, tuple(tuple(nodes[v]) for v in corners)] += count
+        found[kind, tag, tuple(nodes[v] for v in corners)] += count
     check(found == wanted, f"{path}: elements {found - wanted}, not {wanted - found}")
 
 
@@ -188,9 +248,11 @@ def read_abaqus(path):
     blocks = []
     with open(path, encoding="utf-8") as file:
         for line in file.read().splitlines():
+            if line.startswith("**"):
+                continue  # a comment
             words = [word.strip() for word in line.split(",")]
             if line.startswith("*"):
-                parameters = dict(word.split("=") for word in words[1:])
+                parameters = dict(word.partition("=")[::2] for word in words[1:])
                 blocks.append((words[0], parameters, []))
             else:
                 blocks[-1][2].append([word for word in words if word])
@@ -224,7 +286,7 @@ def check_abaqus(path, meant):
     labels = different([label(name) for name in meant["names"]], "_")
     if "faces" in meant:
         check_sides(path, meant, blocks, elements, labels)
-        owners = [{f"region_{r}" if r else "outside"} for r in meant["region_of"]]
+        owners = [{f"REGION_{r}" if r else "OUTSIDE"} for r in meant["region_of"]]
     else:
         owners = [{labels[s] for s in entry} for entry in meant["surfaces_of"]]
     found = [set() for _ in owners]
@@ -233,6 +295,30 @@ def check_abaqus(path, meant):
             found[i].add(name)
     check(found == owners, f"{path}: element sets {element_sets}")
     check(sum(map(len, element_sets.values())) == sum(map(len, owners)), f"{path}: set sizes")
+    check_with_meshio(path, meant, element_sets)
+
+
+def check_with_meshio(path, meant, element_sets):
+    """Another program's view of nodes, elements and their sets."""
+    mesh = meshio.read(path)
+    check([same_numbers(list(p), wanted) for p, wanted in zip(mesh.points, meant["points"])]
+          == [True] * len(meant["points"]), f"{path}: meshio's points")
+    cells = [list(map(int, corners)) for block in mesh.cells for corners in block.data]
+    starts = [sum(len(block.data) for block in mesh.cells[:i]) for i in range(len(mesh.cells))]
+    order = [i for data in element_numbers(path) for i in data]
+    check([corners for _, corners in sorted(zip(order, cells))] == meant["cells"],
+          f"{path}: meshio's elements")
+    for name, members in element_sets.items():
+        blocks = mesh.cell_sets[name]
+        found = sorted(order[starts[i] + int(k)] for i, block in enumerate(blocks)
+                       if block is not None for k in block)
+        check(found == sorted(members), f"{path}: meshio's set {name}: {found}, not {members}")
+
+
+def element_numbers(path):
+    """Per *ELEMENT, the numbers in the file, from 0."""
+    return [[int(row[0]) - 1 for row in data]
+            for keyword, _, data in read_abaqus(path) if keyword == "*ELEMENT"]
 
 
 def turned(corners):
@@ -260,6 +346,12 @@ def check_sides(path, meant, blocks, elements, labels):
             these = sorted(turned(f[::order]) for f in faces if turned(f[::order]) in sides)
             if these:
                 wanted[name + ending] = these
+        pairs = sorted({pair for front, back in meant.get("twins", [])
+                        if s in meant["surfaces_of"][front]
+                        for pair in zip(meant["faces"][front], meant["faces"][back])
+                        if pair[0] != pair[1]})
+        if pairs:
+            wanted[name + "_PAIRS_FRONT"], wanted[name + "_PAIRS_BACK"] = map(list, zip(*pairs))
     check(found == wanted, f"{path}: sets and surfaces {found}, not {wanted}")
 
 
@@ -269,7 +361,8 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run([sys.argv[1], "[.samples]"], check=True, stdout=subprocess.DEVNULL,
                        env={**os.environ, "TERRANE_SAMPLES": folder})
-        for name, extension in (("awkward", ".vtp"), ("grid", ".vtp"), ("tetrahedra", ".vtu")):
+        for name, extension in (("awkward", ".vtp"), ("grid", ".vtp"), ("tetrahedra", ".vtu"),
+                                ("cut", ".vtu")):
             base = os.path.join(folder, name)
             with open(base + ".json", encoding="utf-8") as file:
                 meant = json.load(file)
@@ -279,7 +372,7 @@ def main():
             check_gmsh(base + "_22.msh", meant)
             check_medit(base + ".mesh", meant)
             check_abaqus(base + ".inp", meant)
-            print(f"{name}: VTK and gmsh read what was meant")
+            print(f"{name}: VTK, gmsh and meshio read what was meant")
 
 
 main()

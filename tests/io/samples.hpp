@@ -88,6 +88,19 @@ inline TetrahedralMesh two_tetrahedra() {
     return mesh;
 }
 
+/// The same cut between the tetrahedra, but for vertex 0: nodes 5 and 6 are behind, with face 2.
+inline TetrahedralMesh cut_tetrahedra() {
+    auto mesh = two_tetrahedra();
+    mesh.vertices.push_back(mesh.vertices[1]);
+    mesh.vertices.push_back(mesh.vertices[2]);
+    mesh.tetrahedra = {{0, 1, 2, 3}, {0, 6, 5, 4}};
+    mesh.faces.push_back({0, 5, 6});
+    mesh.face_triangle.push_back(5);
+    mesh.surfaces_of.push_back(std::vector<std::uint32_t>{0, 1});
+    mesh.twins = {{0, 2}};
+    return mesh;
+}
+
 /// What a mesh is when each surface is taken for itself, with the vertices that it uses.
 inline std::vector<Surface> split(const Mesh& mesh) {
     std::vector<Surface> result;

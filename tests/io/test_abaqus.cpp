@@ -32,8 +32,8 @@ TEST_CASE("Abaqus: surfaces are element sets", "[io][abaqus]") {
 
 TEST_CASE("Abaqus: regions are element sets, surfaces node sets and sides", "[io][abaqus]") {
     const auto text = to_abaqus(two_tetrahedra());
-    CHECK(text.ends_with("*ELEMENT, TYPE=C3D4, ELSET=outside\n1, 1, 2, 3, 4\n"
-                         "*ELEMENT, TYPE=C3D4, ELSET=region_2\n2, 1, 3, 2, 5\n"
+    CHECK(text.ends_with("** outside\n*ELEMENT, TYPE=C3D4, ELSET=OUTSIDE\n1, 1, 2, 3, 4\n"
+                         "** region 2\n*ELEMENT, TYPE=C3D4, ELSET=REGION_2\n2, 1, 3, 2, 5\n"
                          "*NSET, NSET=FAULT____CO_\n1, 2, 3\n"
                          "*SURFACE, TYPE=ELEMENT, NAME=FAULT____CO__FRONT\n1, S1\n"
                          "*SURFACE, TYPE=ELEMENT, NAME=FAULT____CO__BACK\n2, S1\n"
@@ -42,6 +42,30 @@ TEST_CASE("Abaqus: regions are element sets, surfaces node sets and sides", "[io
                          "*SURFACE, TYPE=ELEMENT, NAME=BASE_BACK\n2, S1\n"
                          "*NSET, NSET=BOX\n1, 2, 4\n"
                          "*SURFACE, TYPE=ELEMENT, NAME=BOX_BACK\n1, S2\n"));
+}
+
+TEST_CASE("Abaqus: element sets are called after blocks, where those have names", "[io][abaqus]") {
+    auto mesh = two_tetrahedra();
+    const std::vector<std::string> names{"outside", "", "Outside"};
+    const auto text = to_abaqus(mesh, names);
+    CHECK(text.find("** outside\n*ELEMENT, TYPE=C3D4, ELSET=OUTSIDE\n1, ") != text.npos);
+    CHECK(text.find("** region 2: Outside\n*ELEMENT, TYPE=C3D4, ELSET=OUTSIDE_2\n2, ") !=
+          text.npos);
+    mesh.region_of = {1, 2};
+    const std::vector<std::string> blocks{"outside", "top/base|box", "top/base|box 2\nx"};
+    const auto of_blocks = to_abaqus(mesh, blocks);
+    CHECK(of_blocks.find("** region 1: top/base|box\n*ELEMENT, TYPE=C3D4, ELSET=TOP_BASE_BOX\n") !=
+          text.npos);
+    CHECK(of_blocks.find("** region 2: top/base|box 2 x\n"
+                         "*ELEMENT, TYPE=C3D4, ELSET=TOP_BASE_BOX_2_X\n") != text.npos);
+}
+
+TEST_CASE("Abaqus: nodes on both sides of a cut are listed pair by pair", "[io][abaqus]") {
+    const auto text = to_abaqus(cut_tetrahedra());
+    CHECK(text.find("*SURFACE, TYPE=ELEMENT, NAME=BASE_FRONT\n1, S1\n"
+                    "*SURFACE, TYPE=ELEMENT, NAME=BASE_BACK\n2, S1\n"
+                    "*NSET, NSET=BASE_PAIRS_FRONT, UNSORTED\n2, 3\n"
+                    "*NSET, NSET=BASE_PAIRS_BACK, UNSORTED\n6, 7\n") != text.npos);
 }
 
 TEST_CASE("Abaqus: sets have at most 16 numbers in a line", "[io][abaqus]") {

@@ -57,3 +57,16 @@ TEST_CASE("MSH: regions are called after the blocks, where those have names", "[
     const std::vector<std::string> too_few{"ignored"};
     CHECK(to_msh(two_tetrahedra(), too_few) == to_msh(two_tetrahedra()));
 }
+
+TEST_CASE("MSH: sides of a cut are groups, nodes at one place are periodic", "[io][gmsh]") {
+    const auto text = to_msh(cut_tetrahedra());
+    CHECK(text.find("$PhysicalNames\n9\n2 1 \"fault & <co>\"\n2 2 \"base\"\n2 3 \"box\"\n"
+                    "2 4 \"fault & <co> front\"\n2 5 \"fault & <co> back\"\n"
+                    "2 6 \"base front\"\n2 7 \"base back\"\n") != text.npos);
+    CHECK(text.find("4 0 0 0 1 1 0 2 4 6 0\n5 0 0 0 1 1 0 2 5 7 0\n") != text.npos);
+    CHECK(text.ends_with("$Periodic\n1\n2 5 4\n0\n2\n6 2\n7 3\n$EndPeriodic\n"));
+    const auto old = to_msh22(cut_tetrahedra());
+    CHECK(old.find("3 2 2 4 4 1 2 3\n4 2 2 6 6 1 2 3\n5 2 2 3 3 1 2 4\n"
+                   "6 2 2 5 5 1 6 7\n7 2 2 7 7 1 6 7\n") != old.npos);
+    CHECK(old.ends_with("$Periodic\n2\n2 5 4\n2\n6 2\n7 3\n2 7 6\n2\n6 2\n7 3\n$EndPeriodic\n"));
+}

@@ -22,3 +22,13 @@ TEST_CASE("MEDIT: the reference of a tetrahedron is its region", "[io][medit]") 
               .ends_with("\nTriangles\n2\n1 2 3 4\n1 2 4 3\n\n"
                          "Tetrahedra\n2\n1 2 3 4 0\n1 3 2 5 2\n\nEnd\n"));
 }
+
+TEST_CASE("MEDIT: sides of a cut have references, pairs of nodes are comments", "[io][medit]") {
+    const auto text = to_medit(cut_tetrahedra());
+    CHECK(text.find("# 4: fault & <co> front, base front\n# 5: fault & <co> back, base back\n") !=
+          text.npos);
+    CHECK(text.ends_with("\nTriangles\n3\n1 2 3 4\n1 2 4 3\n1 6 7 5\n\n"
+                         "Tetrahedra\n2\n1 2 3 4 0\n1 7 6 5 2\n\n"
+                         "# vertices in front and back of fault & <co>\n# 2 6\n# 3 7\n\n"
+                         "# vertices in front and back of base\n# 2 6\n# 3 7\n\nEnd\n"));
+}

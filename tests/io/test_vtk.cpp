@@ -139,3 +139,18 @@ TEST_CASE("VTK: a cell array has one value per cell", "[io][vtk]") {
         CHECK(result.error().code == ErrorCode::bad_option);
     }
 }
+
+TEST_CASE("VTU: a face of a cut names the one on the other side", "[io][vtk]") {
+    const auto cells_of = [](const TetrahedralMesh& mesh) {
+        pugi::xml_document xml;
+        REQUIRE(xml.load_string(to_vtu(mesh, false).value().c_str()));
+        pugi::xml_document cells;
+        cells.append_copy(
+            xml.child("VTKFile").child("UnstructuredGrid").child("Piece").child("CellData"));
+        return cells;
+    };
+    const auto cut = cells_of(cut_tetrahedra());
+    CHECK(values<std::int32_t>(cut.child("CellData"), "twin") == Ints{-1, -1, 4, -1, 2});
+    CHECK(values<std::int32_t>(cut.child("CellData"), "cut_side") == Ints{0, 0, 1, 0, 2});
+    CHECK(to_vtu(two_tetrahedra(), false).value().find("twin") == std::string::npos);
+}

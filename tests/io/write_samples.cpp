@@ -68,6 +68,7 @@ json to_json(const TetrahedralMesh& mesh) {
     result["cells"] = mesh.tetrahedra;
     result["faces"] = mesh.faces;
     result["region_of"] = mesh.region_of;
+    result["twins"] = mesh.twins;
     return result;
 }
 
@@ -95,6 +96,7 @@ TEST_CASE("samples for other programs", "[.samples]") {
     const char* folder = std::getenv("TERRANE_SAMPLES");
     REQUIRE(folder != nullptr);
     save(folder, "awkward", awkward_mesh(), ".vtp");
-    save(folder, "grid", grid(300), ".vtp");
+    save(folder, "grid", grid(220), ".vtp");
     save(folder, "tetrahedra", two_tetrahedra(), ".vtu");
+    save(folder, "cut", cut_tetrahedra(), ".vtu");
 }

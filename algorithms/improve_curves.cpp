@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Operations on curves: each vertex stays on its curve as it was.
+#include <terrane/algorithms/improve_operations.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace terrane::improving {
+namespace {
+
+/// An edge of a curve, in its direction.
+struct CurveEdge {
+    std::uint32_t curve = 0, from = 0, to = 0;
+};
+
+std::vector<CurveEdge> curve_edges(const WorkMesh& mesh, const std::vector<Curve>& curves) {
+    std::vector<CurveEdge> edges;
+    for (std::uint32_t v = 0; v < mesh.kinds.size(); ++v) {
+        if (mesh.kinds[v] != VertexKind::curve) continue;
+        edges.push_back({mesh.curve_of[v], mesh.along[v][0], v});
+        if (mesh.kinds[mesh.along[v][1]] == VertexKind::corner)
+            edges.push_back({mesh.curve_of[v], v, mesh.along[v][1]});
+    }
+    const std::size_t inner = edges.size();
+    for (const auto& [ends, c] : mesh.direct())
+        edges.push_back({c, curves[c].vertices.front(), curves[c].vertices.back()});
+    // A hash map has no order of its own.
+    std::sort(edges.begin() + static_cast<std::ptrdiff_t>(inner), edges.end(),
+              [](const auto& a, const auto& b) { return a.curve < b.curve; });
+    return edges;
+}
+
+/// Where an end of an edge is on the curve.
+std::array<double, 2> places_of(const Workshop& shop, const CurveEdge& e) {
+    return {shop.mesh.place_at(shop.curves, e.curve, e.from, e.to),
+            shop.mesh.kinds[e.from] == VertexKind::corner &&
+                    shop.mesh.kinds[e.to] == VertexKind::corner
+                ? shop.curves[e.curve].at.back()
+                : shop.mesh.place_at(shop.curves, e.curve, e.to, e.from)};
+}
+
+bool split(Workshop& shop, const CurveEdge& e) {
+    WorkMesh& mesh = shop.mesh;
+    const auto [from, to] = places_of(shop, e);
+    const double at = from + (to - from) / 2;
+    if (!chord_follows(shop, e.curve, from, at) || !chord_follows(shop, e.curve, at, to))
+        return false;
+    Change change;
+    change.on_border = true;
+    mesh.triangles_at(e.from, e.to, change.removed);
+    set_facing(mesh, change);
+    const std::uint32_t m = mesh.add_vertex(point_on(shop, e.curve, at), VertexKind::curve,
+                                            mesh.wanted_length(e.from, e.to));
+    for (const std::uint32_t t : change.removed) {
+        change.add(with(mesh.triangles[t], e.to, m), t);
+        change.add(with(mesh.triangles[t], e.from, m), t);
+    }
+    if (shop.guard.apply(change) != Verdict::allowed) {
+        mesh.drop_last_vertex();
+        return false;
+    }
+    mesh.curve_of[m] = e.curve;
+    mesh.place_on[m] = at;
+    mesh.along[m] = {e.from, e.to};
+    const bool from_inner = mesh.kinds[e.from] == VertexKind::curve;
+    const bool to_inner = mesh.kinds[e.to] == VertexKind::curve;
+    if (from_inner) mesh.along[e.from][1] = m;
+    if (to_inner) mesh.along[e.to][0] = m;
+    if (!from_inner && !to_inner) mesh.drop_direct(e.from, e.to);
+    return true;
+}
+
+double sum_of_shapes(const WorkMesh& mesh, std::span<const std::uint32_t> triangles) {
+    double sum = 0;
+    for (const std::uint32_t t : triangles) sum += 1 / shape_of(mesh, mesh.triangles[t]);
+    return sum;
+}
+
+bool slide(Workshop& shop, std::uint32_t v, double at) {
+    WorkMesh& mesh = shop.mesh;
+    const std::uint32_t curve = mesh.curve_of[v];
+    const auto [before, after] = mesh.along[v];
+    if (!chord_follows(shop, curve, mesh.place_at(shop.curves, curve, before, v), at) ||
+        !chord_follows(shop, curve, at, mesh.place_at(shop.curves, curve, after, v)))
+        return false;
+    Change change;
+    change.in_place = change.on_border = true;
+    change.removed = mesh.star[v];
+    for (const std::uint32_t t : change.removed) change.add(mesh.triangles[t], t);
+    set_facing(mesh, change);
+    const double sum = sum_of_shapes(mesh, change.removed);
+    const Point3 old = mesh.points[v];
+    mesh.points[v] = point_on(shop, curve, at);
+    if (!(sum_of_shapes(mesh, change.removed) < sum * (1 - 1e-3)) ||
+        shop.guard.apply(change) != Verdict::allowed) {
+        mesh.points[v] = old;
+        return false;
+    }
+    mesh.place_on[v] = at;
+    return true;
+}
+
+} // namespace
+
+Point3 point_on(const Workshop& shop, std::uint32_t curve, double at) {
+    const Curve& c = shop.curves[curve];
+    const auto after = std::upper_bound(c.at.begin() + 1, c.at.end() - 1, at);
+    const auto i = static_cast<std::size_t>(after - c.at.begin());
+    const Point3 &a = shop.points[c.vertices[i - 1]], &b = shop.points[c.vertices[i]];
+    const double piece = c.at[i] - c.at[i - 1];
+    const double share = piece > 0 ? std::clamp((at - c.at[i - 1]) / piece, 0.0, 1.0) : 0;
+    return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y), a.z + share * (b.z - a.z)};
+}
+
+bool chord_follows(const Workshop& shop, std::uint32_t curve, double from, double to) {
+    const Curve& c = shop.curves[curve];
+    const Point3 a = point_on(shop, curve, from), b = point_on(shop, curve, to);
+    const Point3 d = minus(b, a);
+    const double square = dot(d, d);
+    auto i =
+        static_cast<std::size_t>(std::upper_bound(c.at.begin(), c.at.end(), from) - c.at.begin());
+    for (; i < c.at.size() && c.at[i] < to; ++i) {
+        const Point3 w = minus(shop.points[c.vertices[i]], a);
+        const double share = square > 0 ? std::clamp(dot(w, d) / square, 0.0, 1.0) : 0;
+        const Point3 off{w.x - share * d.x, w.y - share * d.y, w.z - share * d.z};
+        if (!(std::sqrt(dot(off, off)) + shop.reference.rounding() <= shop.curve_bound[curve]))
+            return false;
+    }
+    return true;
+}
+
+std::size_t split_curves(Workshop& shop) {
+    std::size_t count = 0;
+    for (unsigned round = 0; round < 32; ++round) {
+        std::size_t more = 0;
+        for (const CurveEdge& e : curve_edges(shop.mesh, shop.curves)) {
+            if (shop.run.stop.stop_requested()) return count;
+            const auto [from, to] = places_of(shop, e);
+            if (to - from > long_share * shop.mesh.wanted_length(e.from, e.to))
+                more += split(shop, e);
+        }
+        if (more == 0) break;
+        count += more;
+    }
+    return count;
+}
+
+std::size_t collapse_curves(Workshop& shop) {
+    WorkMesh& mesh = shop.mesh;
+    std::size_t count = 0;
+    const auto vertices = static_cast<std::uint32_t>(mesh.kinds.size());
+    for (std::uint32_t v = 0; v < vertices; ++v) {
+        if (shop.run.stop.stop_requested()) return count;
+        if (mesh.kinds[v] != VertexKind::curve) continue;
+        const auto [before, after] = mesh.along[v];
+        const double back = mesh.edge_length(v, before), on = mesh.edge_length(v, after);
+        const std::uint32_t kept = back < on ? before : after;
+        const double wanted = mesh.wanted_length(v, kept);
+        if (std::min(back, on) < short_share * wanted && back + on < long_share * wanted)
+            count += collapse(shop, v, kept, 2 * wanted, 0.3);
+    }
+    return count;
+}
+
+std::size_t slide_curves(Workshop& shop) {
+    WorkMesh& mesh = shop.mesh;
+    std::size_t count = 0;
+    for (std::uint32_t v = 0; v < mesh.kinds.size(); ++v) {
+        if (shop.run.stop.stop_requested()) return count;
+        if (mesh.kinds[v] != VertexKind::curve) continue;
+        const std::uint32_t curve = mesh.curve_of[v];
+        const double from = mesh.place_at(shop.curves, curve, mesh.along[v][0], v);
+        const double to = mesh.place_at(shop.curves, curve, mesh.along[v][1], v);
+        const double middle = from + (to - from) / 2, here = mesh.place_on[v];
+        if (std::fabs(middle - here) < 0.02 * (to - from)) continue;
+        count += slide(shop, v, middle) || slide(shop, v, here + (middle - here) / 2);
+    }
+    return count;
+}
+
+} // namespace terrane::improving

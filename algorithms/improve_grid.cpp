@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/improve_grid.hpp>
+
+#include <algorithm>
+
+namespace terrane::improving {
+namespace {
+
+constexpr std::size_t most_levels = 48;
+
+} // namespace
+
+std::size_t Grid::Level::slot_of(const Place& at) const {
+    std::uint64_t h = 0;
+    for (const std::int64_t k : at) {
+        h = (h ^ static_cast<std::uint64_t>(k)) * 0x9E3779B97F4A7C15ULL;
+        h ^= h >> 29U;
+    }
+    return static_cast<std::size_t>(h) & (slots.size() - 1);
+}
+
+const Grid::Cell* Grid::Level::find(const Place& at) const {
+    for (std::size_t s = slot_of(at);; s = (s + 1) & (slots.size() - 1)) {
+        if (slots[s] == 0) return nullptr;
+        const Cell& cell = cells[slots[s] - 1];
+        if (cell.at == at) return &cell;
+    }
+}
+
+void Grid::Level::grow() {
+    std::size_t wanted = 64;
+    while (wanted < 4 * cells.size()) wanted *= 2;
+    slots.assign(wanted, 0);
+    for (std::uint32_t c = 0; c < cells.size(); ++c) {
+        std::size_t s = slot_of(cells[c].at);
+        while (slots[s] != 0) s = (s + 1) & (slots.size() - 1);
+        slots[s] = c + 1;
+    }
+}
+
+Grid::Cell& Grid::Level::find_or_make(const Place& at, std::uint32_t patch) {
+    if (2 * (cells.size() + 1) > slots.size()) grow();
+    std::size_t s = slot_of(at);
+    for (; slots[s] != 0; s = (s + 1) & (slots.size() - 1))
+        if (cells[slots[s] - 1].at == at) return cells[slots[s] - 1];
+    cells.push_back({at, patch, {}});
+    slots[s] = static_cast<std::uint32_t>(cells.size());
+    return cells.back();
+}
+
+void Grid::reset(double size) {
+    entries_ = 0;
+    levels_.assign(most_levels, {});
+    for (Level& level : levels_) {
+        level.size = size;
+        size *= 2;
+    }
+}
+
+std::size_t Grid::level_of(const Box& box) const {
+    double size = 0;
+    for (std::size_t k = 0; k < 3; ++k) size = std::max(size, box.high[k] - box.low[k]);
+    std::size_t level = 0;
+    while (level + 1 < levels_.size() && levels_[level].size < size) ++level;
+    return level;
+}
+
+void Grid::enter(std::uint32_t t, const Box& box, std::uint32_t patch) {
+    Level& level = levels_[level_of(box)];
+    const Range range = range_of(level, box);
+    for (std::int64_t x = range.low[0]; x <= range.high[0]; ++x)
+        for (std::int64_t y = range.low[1]; y <= range.high[1]; ++y)
+            for (std::int64_t z = range.low[2]; z <= range.high[2]; ++z) {
+                Cell& cell = level.find_or_make({x, y, z}, patch);
+                if (cell.patch != patch) cell.patch = no_group;
+                cell.entries.push_back(t);
+                ++entries_;
+            }
+}
+
+void Grid::move(std::uint32_t t, const Box& before, const Box& box, std::uint32_t patch) {
+    const std::size_t here = level_of(box);
+    Level& level = levels_[here];
+    const Range range = range_of(level, box);
+    const bool same_level = level_of(before) == here;
+    const Range old = range_of(level, before);
+    if (same_level && old == range && patch != no_group) return;
+    for (std::int64_t x = range.low[0]; x <= range.high[0]; ++x)
+        for (std::int64_t y = range.low[1]; y <= range.high[1]; ++y)
+            for (std::int64_t z = range.low[2]; z <= range.high[2]; ++z) {
+                const bool is_there = same_level && old.contains({x, y, z});
+                if (is_there && patch != no_group) continue;
+                Cell& cell = level.find_or_make({x, y, z}, patch);
+                if (cell.patch != patch) cell.patch = no_group;
+                if (is_there) continue;
+                cell.entries.push_back(t);
+                ++entries_;
+            }
+}
+
+} // namespace terrane::improving

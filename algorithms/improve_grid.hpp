@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Which triangles are near a box, while they change. Private to improve.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include <terrane/algorithms/search/search.hpp>
+
+namespace terrane::improving {
+
+/// Cells of several sizes; a box is entered in cells as large as it is, eight of them at most.
+/// Entries are never taken out: what has moved away or is gone is for the visitor to tell.
+class Grid {
+public:
+    /// Empties it. `size`: of the smallest cells.
+    void reset(double size);
+
+    [[nodiscard]] std::size_t entries() const { return entries_; }
+
+    /// Enters triangle t of this patch. A triangle may be entered again.
+    void enter(std::uint32_t t, const Box& box, std::uint32_t patch);
+    /// The same for one that was entered with the box `before`.
+    void move(std::uint32_t t, const Box& before, const Box& box, std::uint32_t patch);
+
+    /// Calls visit(t) for at least all triangles entered whose boxes overlap, but for cells that
+    /// know the patch `but` only; maybe several times. Ends when visit gives false, and gives that.
+    template <class Visit>
+    bool visit(const Box& box, std::uint32_t but, const Visit& visit) const {
+        for (const Level& level : levels_) {
+            if (level.cells.empty()) continue;
+            const Range range = range_of(level, box);
+            if (range.count() > 2 * static_cast<double>(level.cells.size()) + 64) {
+                for (const Cell& cell : level.cells) // the box is large against these cells
+                    if (range.contains(cell.at) && !visit_cell(cell, but, visit)) return false;
+                continue;
+            }
+            for (std::int64_t x = range.low[0]; x <= range.high[0]; ++x)
+                for (std::int64_t y = range.low[1]; y <= range.high[1]; ++y)
+                    for (std::int64_t z = range.low[2]; z <= range.high[2]; ++z) {
+                        const Cell* const cell = level.find({x, y, z});
+                        if (cell != nullptr && !visit_cell(*cell, but, visit)) return false;
+                    }
+        }
+        return true;
+    }
+
+private:
+    using Place = std::array<std::int64_t, 3>;
+    struct Cell {
+        Place at{};
+        std::uint32_t patch = 0; ///< of all entries, or no_group
+        std::vector<std::uint32_t> entries;
+    };
+    struct Range {
+        Place low, high;
+        [[nodiscard]] double count() const {
+            double n = 1;
+            for (std::size_t k = 0; k < 3; ++k) n *= static_cast<double>(high[k] - low[k] + 1);
+            return n;
+        }
+        [[nodiscard]] bool contains(const Place& p) const {
+            for (std::size_t k = 0; k < 3; ++k)
+                if (p[k] < low[k] || p[k] > high[k]) return false;
+            return true;
+        }
+        friend bool operator==(const Range&, const Range&) = default;
+    };
+    struct Level {
+        double size = 0;
+        std::vector<Cell> cells;
+        std::vector<std::uint32_t> slots; ///< open addressing: 1 + index into cells, 0 is free
+
+        [[nodiscard]] const Cell* find(const Place& at) const;
+        Cell& find_or_make(const Place& at, std::uint32_t patch);
+        void grow();
+        [[nodiscard]] std::size_t slot_of(const Place& at) const;
+    };
+
+    template <class Visit>
+    static bool visit_cell(const Cell& cell, std::uint32_t but, const Visit& visit) {
+        if (but != no_group && cell.patch == but) return true;
+        for (const std::uint32_t t : cell.entries)
+            if (!visit(t)) return false;
+        return true;
+    }
+    static Range range_of(const Level& level, const Box& box) {
+        Range range{};
+        for (std::size_t k = 0; k < 3; ++k) {
+            range.low[k] = cell_of(box.low[k], level.size);
+            range.high[k] = cell_of(box.high[k], level.size);
+        }
+        return range;
+    }
+    static std::int64_t cell_of(double x, double size) {
+        constexpr double most = 0x1p40; // beyond, all share the last cell: monotone, so still right
+        return static_cast<std::int64_t>(std::floor(std::fmin(std::fmax(x / size, -most), most)));
+    }
+    [[nodiscard]] std::size_t level_of(const Box& box) const;
+
+    std::size_t entries_ = 0;
+    std::vector<Level> levels_; ///< each with cells twice as large as those of the one before
+};
+
+} // namespace terrane::improving

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/improve_guard.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include <terrane/algorithms/edges.hpp>
+#include <terrane/algorithms/intersection.hpp>
+#include <terrane/algorithms/patches.hpp>
+#include <terrane/kernel/predicates.hpp>
+
+namespace terrane::improving {
+namespace {
+
+constexpr double least_cosine = 0.2; ///< of the angle by which an added triangle may turn away
+
+Sign turn_in(Axis axis, std::span<const Point3> points, const Triangle& t) {
+    return orient2d(axis, points[t[0]], points[t[1]], points[t[2]]);
+}
+
+} // namespace
+
+void Guard::group_again(const Run& run) {
+    mesh_.compact();
+    const EdgeSides edges = group_edges(mesh_.triangles, mesh_.points.size(), run);
+    Patches patches = prove_patches(mesh_.points, mesh_.triangles, mesh_.sheet_of, edges, run);
+    patch_of_ = std::move(patches.of);
+    axis_ = std::move(patches.axis);
+    turn_.assign(axis_.size(), Sign::Zero);
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+        const std::uint32_t p = patch_of_[t];
+        if (p != no_group && turn_[p] == Sign::Zero)
+            turn_[p] = turn_in(axis_[p], mesh_.points, mesh_.triangles[t]);
+    }
+    fill_grid();
+    seen_.assign(mesh_.triangles.size(), 0);
+    change_ = 0;
+    ungrouped_ = 0;
+}
+
+void Guard::fill_grid() {
+    double sum = 0;
+    std::size_t count = 0;
+    box_of_.resize(mesh_.triangles.size());
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+        if (!mesh_.in_use(t)) continue;
+        sum += mesh_.edge_length(mesh_.triangles[t][0], mesh_.triangles[t][1]);
+        ++count;
+    }
+    grid_.reset(count > 0 ? 3 * sum / static_cast<double>(count) : 1);
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+        if (!mesh_.in_use(t)) continue;
+        box_of_[t] = box_of(mesh_.points, mesh_.triangles[t]);
+        grid_.enter(t, box_of_[t], patch_of_[t]);
+    }
+    first_entries_ = grid_.entries();
+}
+
+bool Guard::in_one_patch(std::span<const std::uint32_t> triangles) const {
+    const std::uint32_t p = patch_of_[triangles[0]];
+    return p != no_group && std::all_of(triangles.begin(), triangles.end(),
+                                        [&](std::uint32_t t) { return patch_of_[t] == p; });
+}
+
+/// With area, facing as before; in a proven patch, wound as all of it.
+bool Guard::shapes_hold(const Change& change, std::uint32_t patch) const {
+    for (std::size_t i = 0; i < change.added.size(); ++i) {
+        const Triangle& t = change.added[i];
+        const Point3 n = mesh_.normal(t);
+        const std::uint32_t sheet = mesh_.sheet_of[change.from[i]];
+        const auto facing =
+            std::find_if(change.facing.begin(), change.facing.end(),
+                         [&](const auto& of_sheet) { return of_sheet.first == sheet; });
+        const Point3& f = facing->second;
+        if (!(dot(n, f) > least_cosine * std::sqrt(dot(n, n) * dot(f, f)))) return false;
+        if (patch != no_group) {
+            if (turn_in(axis_[patch], mesh_.points, t) != turn_[patch]) return false;
+        } else if (collinear(mesh_.points[t[0]], mesh_.points[t[1]], mesh_.points[t[2]])) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool Guard::bounds_hold(const Change& change) {
+    hints_.clear();
+    for (std::size_t i = 0; i < change.added.size(); ++i) {
+        const Triangle& t = change.added[i];
+        const std::uint32_t source = change.from[i];
+        const auto hint =
+            reference_.follows({mesh_.points[t[0]], mesh_.points[t[1]], mesh_.points[t[2]]},
+                               mesh_.hint_of[source], bound_of_[mesh_.sheet_of[source]]);
+        if (!hint) return false;
+        hints_.push_back(*hint);
+    }
+    return true;
+}
+
+bool Guard::meets_properly(const Change& change, std::uint32_t patch) {
+    ++change_;
+    for (const std::uint32_t t : change.removed) seen_[t] = change_;
+    boxes_.clear();
+    for (const Triangle& t : change.added) boxes_.push_back(box_of(mesh_.points, t));
+    Box all = boxes_.front();
+    for (const Box& b : boxes_)
+        for (std::size_t k = 0; k < 3; ++k) {
+            all.low[k] = std::min(all.low[k], b.low[k]);
+            all.high[k] = std::max(all.high[k], b.high[k]);
+        }
+    const auto proper = [&](std::uint32_t t) {
+        if (seen_[t] == change_ || !mesh_.in_use(t)) return true;
+        seen_[t] = change_;
+        if (patch != no_group && patch_of_[t] == patch) return true;
+        const Box& box = box_of_[t];
+        if (!box.overlaps(all)) return true;
+        const Triangle& other = mesh_.triangles[t];
+        for (std::size_t i = 0; i < change.added.size(); ++i)
+            if (boxes_[i].overlaps(box) && improper_contact(mesh_.points, change.added[i], other))
+                return false;
+        return true;
+    };
+    if (!grid_.visit(all, patch, proper)) return false;
+    if (patch != no_group) return true;
+    for (std::size_t i = 0; i < change.added.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            if (boxes_[i].overlaps(boxes_[j]) &&
+                improper_contact(mesh_.points, change.added[i], change.added[j]))
+                return false;
+    return true;
+}
+
+Verdict Guard::judge(const Change& change) {
+    const std::uint32_t patch =
+        !change.on_border && in_one_patch(change.removed) ? patch_of_[change.removed[0]] : no_group;
+    if (!shapes_hold(change, patch)) return Verdict::shape;
+    // Cheap where it is proven by the patch, dear where not.
+    if (patch != no_group && !meets_properly(change, patch)) return Verdict::contact;
+    if (!bounds_hold(change)) return Verdict::deviation;
+    if (patch == no_group && !meets_properly(change, patch)) return Verdict::contact;
+    return Verdict::allowed;
+}
+
+Verdict Guard::apply(const Change& change) {
+    const Verdict verdict = judge(change);
+    refusals_.shape += verdict == Verdict::shape;
+    refusals_.deviation += verdict == Verdict::deviation;
+    refusals_.contact += verdict == Verdict::contact;
+    if (verdict != Verdict::allowed) return verdict;
+    const std::uint32_t patch =
+        !change.on_border && in_one_patch(change.removed) ? patch_of_[change.removed[0]] : no_group;
+    mesh_.apply(change, hints_, numbers_);
+    if (mesh_.triangles.size() > patch_of_.size()) {
+        patch_of_.resize(mesh_.triangles.size(), no_group);
+        seen_.resize(mesh_.triangles.size(), 0);
+        box_of_.resize(mesh_.triangles.size());
+    }
+    for (std::size_t i = 0; i < numbers_.size(); ++i) {
+        const std::uint32_t t = numbers_[i];
+        if (patch == no_group && patch_of_[t] != no_group) ++ungrouped_;
+        patch_of_[t] = patch;
+        if (change.in_place)
+            grid_.move(t, box_of_[t], boxes_[i], patch);
+        else
+            grid_.enter(t, boxes_[i], patch);
+        box_of_[t] = boxes_[i];
+    }
+    if (grid_.entries() > 2 * first_entries_ + 1000) fill_grid(); // most are of what has gone
+    return verdict;
+}
+
+} // namespace terrane::improving

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// What may be done to the mesh. Private to improve.
+//
+// Guarantee: where the mesh was conforming, it is so after a change that was allowed, and the added
+// triangles are within the bound of their sheet as it was. Improper contacts are excluded
+// (1) among triangles of one proven patch (patches.hpp), by its reason: a change inside of it keeps
+//     the sum of borders, so it stays one-to-one in its projection if all added triangles are wound
+//     as it is there, by exact predicates;
+// (2) else by exact tests against all triangles whose boxes overlap.
+// Triangles that are added under (2) belong to no patch until they are grouped again: what is left
+// of a patch that was one-to-one is so.
+// Cost: (1) a look at the cells of a grid that the change meets; (2) a pair test per pair of boxes.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <terrane/algorithms/improve_grid.hpp>
+#include <terrane/algorithms/improve_mesh.hpp>
+#include <terrane/algorithms/improve_reference.hpp>
+#include <terrane/algorithms/run.hpp>
+#include <terrane/kernel/sign.hpp>
+
+namespace terrane::improving {
+
+/// Why changes were not made.
+struct Refusals {
+    std::size_t contact = 0;   ///< triangles would have met improperly
+    std::size_t deviation = 0; ///< not shown to be within the bound
+    std::size_t shape = 0;     ///< turned over, or without area
+};
+
+enum class Verdict : std::uint8_t { allowed, contact, deviation, shape };
+
+class Guard {
+public:
+    /// bound_of: per sheet. What is named must outlive it.
+    Guard(WorkMesh& mesh, Reference& reference, std::vector<double> bound_of) :
+        mesh_(mesh), reference_(reference), bound_of_(std::move(bound_of)) {}
+
+    /// Proves patches anew. To be called first, and when many triangles have left theirs.
+    /// Renumbers triangles.
+    void group_again(const Run& run);
+
+    /// Whether all triangles are in one proven patch: a change to them costs little.
+    [[nodiscard]] bool in_one_patch(std::span<const std::uint32_t> triangles) const;
+
+    /// Carries the change out, where that is allowed.
+    Verdict apply(const Change& change);
+
+    [[nodiscard]] double bound_of(std::uint32_t sheet) const { return bound_of_[sheet]; }
+    [[nodiscard]] const Refusals& refusals() const { return refusals_; }
+    /// How many triangles have left their patch since they were grouped.
+    [[nodiscard]] std::size_t ungrouped() const { return ungrouped_; }
+
+private:
+    void fill_grid();
+    Verdict judge(const Change& change);
+    [[nodiscard]] bool shapes_hold(const Change& change, std::uint32_t patch) const;
+    bool bounds_hold(const Change& change);
+    bool meets_properly(const Change& change, std::uint32_t patch);
+
+    WorkMesh& mesh_;
+    Reference& reference_;
+    std::vector<double> bound_of_;
+
+    std::vector<std::uint32_t> patch_of_; ///< per triangle, or no_group
+    std::vector<Axis> axis_;              ///< per patch
+    std::vector<Sign> turn_;              ///< per patch: of all its triangles there
+    std::vector<Box> box_of_;             ///< per triangle
+    Grid grid_;
+    std::size_t first_entries_ = 0; ///< of the grid when it was filled
+    std::size_t ungrouped_ = 0;
+
+    std::vector<std::uint32_t> hints_, numbers_; ///< of the change at hand
+    std::vector<Box> boxes_;                     ///< of its added triangles
+    std::vector<std::uint32_t> seen_;            ///< per triangle: the last change that saw it
+    std::uint32_t change_ = 0;
+    Refusals refusals_;
+};
+
+} // namespace terrane::improving

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// The four operations, each in a pass over the whole mesh. Private to improve.
+//
+// - Splitting: edges longer than 4/3 of what is wanted, the longest first, in the middle.
+// - Collapsing: edges shorter than 4/5 of it; an inner vertex into any neighbour, one of a curve
+//   into a neighbour on it. The two ends may have no common neighbours but those in the triangles
+//   at the edge (the link condition: Dey et al. 1999), so that nothing changes but the division.
+// - Swapping: of inner edges, where that lessens the largest angle of the two triangles.
+// - Smoothing by trapezium drawing: on each triangle at a vertex, the vertex slides parallel to the
+//   opposite edge until it is above its middle: the trapezium of the old and the new place on that
+//   edge lies in the triangle's plane, so the surface keeps its shape. The vertex goes to the mean
+//   of these places, and straight up or down to the surface as it was. Vertices of curves go along
+//   them, halfway between their neighbours. A vertex moves only where that lowers the sum of 1 / q.
+// Every pass visits first what is in one proven patch, then the rest, see improve_guard.hpp.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <terrane/algorithms/improve_guard.hpp>
+
+namespace terrane::improving {
+
+constexpr double long_share = 4.0 / 3;  ///< of the wanted length: longer edges are split
+constexpr double short_share = 4.0 / 5; ///< of the wanted length: shorter ones are collapsed
+
+/// What all operations work on; what is named must outlive them.
+struct Workshop {
+    WorkMesh& mesh;
+    Guard& guard;
+    Reference& reference;
+    std::span<const Point3> points;   ///< of the input
+    const std::vector<Curve>& curves; ///< of the input
+    std::vector<double> curve_bound;  ///< per curve: how far an edge may be from it
+    const Run& run;
+    // When sweeps were made last: what has not changed since need not be looked at.
+    std::uint32_t evened_at = 0, swapped_at = 0;
+    std::vector<std::uint32_t> smoothed_at{}; ///< per vertex: when it was tried in vain
+};
+
+/// Whether the straight edge between two places of a curve is within its bound of all between them,
+/// and the reverse: nearest points run through the whole edge, as they change continuously.
+bool chord_follows(const Workshop& shop, std::uint32_t curve, double from, double to);
+/// The point at this length along a curve.
+Point3 point_on(const Workshop& shop, std::uint32_t curve, double at);
+
+/// Sums of normals of the triangles that are removed.
+void set_facing(const WorkMesh& mesh, Change& change);
+
+double shape_of(const WorkMesh& mesh, const Triangle& t); ///< q, see quality.hpp
+
+// Each returns how many changes were made.
+std::size_t split_curves(Workshop& shop);
+std::size_t collapse_curves(Workshop& shop);
+std::size_t slide_curves(Workshop& shop);
+std::size_t split_edges(Workshop& shop);
+std::size_t collapse_edges(Workshop& shop);
+/// Collapses at triangles worse than `below`, where the worst gets better.
+std::size_t collapse_bad(Workshop& shop, double below);
+std::size_t swap_edges(Workshop& shop);
+/// Swaps that bring numbers of edges at vertices nearer to six, unless an angle becomes large: what
+/// smoothing then makes better than what was.
+std::size_t even_out(Workshop& shop);
+std::size_t smooth(Workshop& shop);
+/// Moves inner vertices at triangles like halves of squares a little, by their number: a regular
+/// grid of those is a balance that smoothing alone does not leave, though not the best one.
+std::size_t shake(Workshop& shop);
+/// Moves inner vertices of triangles worse than `below` so that the worst of them gets better.
+std::size_t lift_worst(Workshop& shop, double below);
+
+// Shared by the passes.
+bool collapse(Workshop& shop, std::uint32_t gone, std::uint32_t kept, double longest,
+              double least_shape);
+
+} // namespace terrane::improving

@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/improve_reference.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <terrane/algorithms/vectors.hpp>
+#include <terrane/kernel/predicates.hpp>
+
+namespace terrane::improving {
+namespace {
+
+constexpr unsigned most_steps = 256;    ///< of a walk
+constexpr unsigned most_covered = 2048; ///< triangles under one
+constexpr unsigned most_parts = 48;     ///< of one triangle
+constexpr double unit = std::numeric_limits<double>::epsilon();
+
+double length(const Point3& a) {
+    return std::sqrt(dot(a, a));
+}
+
+Point3 towards(const Point3& a, const Point3& b, double share) {
+    return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y), a.z + share * (b.z - a.z)};
+}
+
+/// At most the distance of p to the segment, but for rounding: to a point that is on it.
+double to_segment(const Point3& p, const Point3& a, const Point3& b) {
+    const Point3 d = minus(b, a);
+    const double square = dot(d, d);
+    const double share = square > 0 ? std::clamp(dot(minus(p, a), d) / square, 0.0, 1.0) : 0;
+    return length(minus(p, towards(a, b, share)));
+}
+
+/// No less than the distance of p to the triangle: to a point that is on it, however ill-shaped.
+double to_triangle(const Point3& p, const Point3& a, const Point3& b, const Point3& c) {
+    double least = std::min({to_segment(p, a, b), to_segment(p, b, c), to_segment(p, c, a)});
+    const Point3 n = cross(minus(b, a), minus(c, a));
+    const double square = dot(n, n);
+    if (!(square > 0)) return least;
+    const double share_b = dot(cross(minus(p, a), minus(c, a)), n) / square;
+    const double share_c = dot(cross(minus(b, a), minus(p, a)), n) / square;
+    if (!(share_b >= 0) || !(share_c >= 0) || !(share_b + share_c <= 1)) return least;
+    const Point3 foot{a.x + share_b * (b.x - a.x) + share_c * (c.x - a.x),
+                      a.y + share_b * (b.y - a.y) + share_c * (c.y - a.y),
+                      a.z + share_b * (b.z - a.z) + share_c * (c.z - a.z)};
+    return std::min(least, length(minus(p, foot)));
+}
+
+} // namespace
+
+Reference::Reference(std::span<const Point3> points, const Features& features) :
+    points_(points), features_(features), turns_(features.triangles.size()),
+    normals_(features.triangles.size()), seen_(features.triangles.size(), 0) {
+    double largest = 0;
+    for (std::size_t t = 0; t < features.triangles.size(); ++t) {
+        const auto& [a, b, c] = features.triangles[t];
+        const Point3 ab = minus(points[b], points[a]), ac = minus(points[c], points[a]);
+        normals_[t] = {cross(ab, ac), 8 * unit * length(ab) * length(ac)};
+        for (const Axis axis : {Axis::x, Axis::y, Axis::z})
+            turns_[t][static_cast<std::size_t>(axis)] =
+                static_cast<std::int8_t>(orient2d(axis, points[a], points[b], points[c]));
+        for (const std::uint32_t v : features.triangles[t])
+            largest = std::max(
+                {largest, std::fabs(points[v].x), std::fabs(points[v].y), std::fabs(points[v].z)});
+    }
+    slack_ = 256 * unit * largest;
+}
+
+Reference::Frame Reference::frame_of(Axis axis) {
+    const Point3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+    if (axis == Axis::x) return {y, z, x, axis};
+    if (axis == Axis::y) return {z, x, y, axis};
+    return {x, y, z, axis};
+}
+
+int Reference::turn_of(std::uint32_t t, const Frame& frame) const {
+    if (frame.axis) return turns_[t][static_cast<std::size_t>(*frame.axis)];
+    const Normal& n = normals_[t];
+    const double along = dot(n.n, frame.w);
+    // The sides of the frame are a few units off from being upright.
+    const double error = 4 * n.error + 64 * unit * length(n.n);
+    return along > error ? 1 : along < -error ? -1 : 0;
+}
+
+Reference::Frame Reference::frame_along(const Point3& normal, const Point3& side) {
+    const double size = length(normal), base = length(side);
+    Frame frame;
+    frame.w = {normal.x / size, normal.y / size, normal.z / size};
+    frame.u = {side.x / base, side.y / base, side.z / base};
+    frame.v = cross(frame.w, frame.u);
+    return frame;
+}
+
+std::optional<Reference::Target> Reference::target_of(const Corners& triangle, double bound,
+                                                      bool along_axis) {
+    const Point3& a = triangle[0];
+    const Point3 ab = minus(triangle[1], a), ac = minus(triangle[2], a), n = cross(ab, ac);
+    const double x = std::fabs(n.x), y = std::fabs(n.y), z = std::fabs(n.z);
+    const double longest =
+        std::sqrt(std::max({dot(ab, ab), dot(ac, ac), dot(minus(ac, ab), minus(ac, ab))}));
+    const double along = std::max({x, y, z});
+    if (!(along > 1e-6 * longest * longest)) return std::nullopt;
+    const Axis axis = z >= x && z >= y ? Axis::z : x >= y ? Axis::x : Axis::y;
+    Target target;
+    target.frame = along_axis ? frame_of(axis) : frame_along(n, ab);
+    target.origin = a;
+    const Flat normal = target.frame.flat(n);
+    target.turn = normal.w > 0 ? 1 : -1;
+    target.slope_u = along_axis ? -normal.u / normal.w : 0;
+    target.slope_v = along_axis ? -normal.v / normal.w : 0;
+    const std::array<Flat, 3> whole{Flat{}, target.frame.flat(ab), target.frame.flat(ac)};
+    target.middle = {(whole[1].u + whole[2].u) / 3, (whole[1].v + whole[2].v) / 3,
+                     (whole[1].w + whole[2].w) / 3};
+    const double reach = 2 * longest / 3; // no corner is farther from the middle
+    const double share = std::min(0.25, bound / 4 / reach);
+    for (std::size_t i = 0; i < 3; ++i)
+        target.corners[i] = {whole[i].u + share * (target.middle.u - whole[i].u),
+                             whole[i].v + share * (target.middle.v - whole[i].v),
+                             whole[i].w + share * (target.middle.w - whole[i].w)};
+    target.error = 64 * unit * longest * longest / along;
+    target.bound = bound - share * reach;
+    return target;
+}
+
+/// From triangle to triangle, always over an edge that has the goal beyond it.
+Reference::Walk Reference::walk(const Frame& frame, const Point3& origin, const Flat& to, int turn,
+                                std::uint32_t from) const {
+    std::uint32_t t = from, before = none;
+    for (unsigned step = 0; step < most_steps; ++step) {
+        if (turn_of(t, frame) != turn) return {t, false};
+        const Triangle& c = features_.triangles[t];
+        std::array<Flat, 3> p;
+        for (std::size_t i = 0; i < 3; ++i) p[i] = frame.flat(minus(points_[c[i]], origin));
+        std::uint32_t next = t;
+        bool blocked = false;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Flat &a = p[i], &b = p[(i + 1) % 3];
+            const double side = (b.u - a.u) * (to.v - a.v) - (b.v - a.v) * (to.u - a.u);
+            if (!(side * turn < 0)) continue;
+            const std::uint32_t beyond = features_.across[t][i];
+            if (beyond == none || beyond == before)
+                blocked = true;
+            else
+                next = beyond;
+        }
+        if (next == t) return {t, !blocked};
+        before = t;
+        t = next;
+    }
+    return {t, false};
+}
+
+/// Of the heights of a triangle over the target's plane, given at its corners: whether all over the
+/// target are within its bound.
+bool Reference::is_near(const Target& target, const std::array<Flat, 3>& corners,
+                        const std::array<double, 3>& heights) {
+    const Flat &a = corners[0], &b = corners[1], &c = corners[2];
+    const double area = (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);
+    const double size =
+        std::max({std::fabs(b.u - a.u), std::fabs(b.v - a.v), std::fabs(c.u - a.u),
+                  std::fabs(c.v - a.v), std::fabs(c.u - b.u), std::fabs(c.v - b.v)});
+    for (const Flat& p : target.corners) {
+        std::array<double, 3> shares{};
+        double least = 1;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Flat &from = corners[(i + 1) % 3], &to = corners[(i + 2) % 3];
+            shares[i] =
+                ((to.u - from.u) * (p.v - from.v) - (to.v - from.v) * (p.u - from.u)) / area;
+            least = std::min(least, shares[i]);
+        }
+        const double far = std::max({size, std::fabs(p.u - a.u), std::fabs(p.v - a.v)});
+        const double error = 32 * unit * far * far / std::fabs(area);
+        if (!(least >= -error)) {
+            if (std::isnan(least) || std::isnan(error)) return false;
+            continue; // outside
+        }
+        const double spread = std::max({heights[0], heights[1], heights[2]}) -
+                              std::min({heights[0], heights[1], heights[2]});
+        const double height =
+            shares[0] * heights[0] + shares[1] * heights[1] + shares[2] * heights[2];
+        if (!(std::fabs(height) + 3 * error * spread <= target.bound)) return false;
+    }
+    return true;
+}
+
+/// Looks at one triangle under the target.
+Reference::Cover Reference::visit(const Target& target, std::uint32_t t) {
+    if (turn_of(t, target.frame) != target.turn) return Cover::open;
+    const Triangle& c = features_.triangles[t];
+    std::array<Flat, 3> p;
+    std::array<double, 3> heights{};
+    bool all_near = true;
+    for (std::size_t i = 0; i < 3; ++i) {
+        p[i] = target.frame.flat(minus(points_[c[i]], target.origin));
+        heights[i] = p[i].w - (target.slope_u * p[i].u + target.slope_v * p[i].v);
+        heights[i] += std::copysign(
+            target.error * (std::fabs(p[i].u) + std::fabs(p[i].v) + std::fabs(p[i].w)), heights[i]);
+        all_near = all_near && std::fabs(heights[i]) <= target.bound;
+    }
+    // inside[j][i]: how far corner i lies inside of edge j of the target, at least
+    std::array<std::array<double, 3>, 3> inside{};
+    for (std::size_t j = 0; j < 3; ++j) {
+        const Flat &a = target.corners[j], &b = target.corners[(j + 1) % 3];
+        const double eu = (b.u - a.u) * target.turn, ev = (b.v - a.v) * target.turn;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const double du = p[i].u - a.u, dv = p[i].v - a.v;
+            inside[j][i] = eu * dv - ev * du +
+                           64 * unit * (std::fabs(eu) + std::fabs(ev)) *
+                               (std::fabs(du) + std::fabs(dv) + std::fabs(p[i].w));
+        }
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t k = (i + 1) % 3;
+        double low = 0, high = 1;
+        bool misses = false;
+        for (std::size_t j = 0; j < 3; ++j) {
+            const double from = inside[j][i], to = inside[j][k];
+            if (from < 0 && to < 0) misses = true;
+            if (from < 0 && to >= 0) low = std::max(low, from / (from - to));
+            if (to < 0 && from >= 0) high = std::min(high, from / (from - to));
+        }
+        if (misses || low > high + 1e-9) continue;
+        const std::uint32_t beyond = features_.across[t][i];
+        if (beyond == none) return Cover::open;
+        if (seen_[beyond] != search_) {
+            seen_[beyond] = search_;
+            front_.push_back(beyond);
+        }
+        if (all_near) continue;
+        const double rise = heights[k] - heights[i];
+        const double most = target.bound - 1e-8 * std::fabs(rise);
+        if (!(std::fabs(heights[i] + low * rise) <= most) ||
+            !(std::fabs(heights[i] + high * rise) <= most))
+            return Cover::far;
+    }
+    return all_near || is_near(target, p, heights) ? Cover::near : Cover::far;
+}
+
+Reference::Cover Reference::covered(const Target& target, std::uint32_t start) {
+    ++search_;
+    if (search_ == 0) { // counted round
+        std::fill(seen_.begin(), seen_.end(), 0U);
+        ++search_;
+    }
+    front_.assign(1, start);
+    seen_[start] = search_;
+    for (unsigned count = 0; !front_.empty(); ++count) {
+        if (count == most_covered) return Cover::open;
+        const std::uint32_t t = front_.back();
+        front_.pop_back();
+        const Cover cover = visit(target, t);
+        if (cover != Cover::near) return cover;
+    }
+    return Cover::near;
+}
+
+bool Reference::near_one(const Corners& triangle, std::uint32_t t, double bound) const {
+    const auto& [a, b, c] = features_.triangles[t];
+    return std::all_of(triangle.begin(), triangle.end(), [&](const Point3& p) {
+        return to_triangle(p, points_[a], points_[b], points_[c]) <= bound;
+    });
+}
+
+bool Reference::part_follows(const Corners& triangle, std::uint32_t& hint, double bound,
+                             unsigned& budget) {
+    if (budget == 0) return false;
+    --budget;
+    for (const bool along_axis : {false, true}) {
+        const auto target = target_of(triangle, bound, along_axis);
+        if (!target) break;
+        const Walk way = walk(target->frame, target->origin, target->middle, target->turn, hint);
+        hint = way.end;
+        if (!way.arrived) continue;
+        const Cover cover = covered(*target, way.end);
+        if (cover == Cover::near) return true;
+        if (cover == Cover::far) return false;
+    }
+    if (near_one(triangle, hint, bound)) return true;
+    const std::array<double, 3> lengths{length(minus(triangle[1], triangle[0])),
+                                        length(minus(triangle[2], triangle[1])),
+                                        length(minus(triangle[0], triangle[2]))};
+    const auto i = static_cast<std::size_t>(std::max_element(lengths.begin(), lengths.end()) -
+                                            lengths.begin());
+    if (lengths[i] < bound / 4) return false;
+    const Point3 &a = triangle[i], &b = triangle[(i + 1) % 3], &c = triangle[(i + 2) % 3];
+    const Point3 middle = towards(a, b, 0.5);
+    std::uint32_t other = hint;
+    return part_follows({a, middle, c}, hint, bound, budget) &&
+           part_follows({middle, b, c}, other, bound, budget);
+}
+
+std::optional<std::uint32_t> Reference::follows(const Corners& triangle, std::uint32_t hint,
+                                                double bound) {
+    unsigned budget = most_parts;
+    if (!part_follows(triangle, hint, bound - slack_, budget)) return std::nullopt;
+    return hint;
+}
+
+std::optional<Reference::Place> Reference::above(const Point3& p, const Point3& normal,
+                                                 std::uint32_t hint) const {
+    const double x = std::fabs(normal.x), y = std::fabs(normal.y), z = std::fabs(normal.z);
+    const Axis axis = z >= x && z >= y ? Axis::z : x >= y ? Axis::x : Axis::y;
+    const Frame frame = frame_of(axis);
+    const int turn = turn_of(hint, frame);
+    if (turn == 0) return std::nullopt;
+    const Walk way = walk(frame, p, {}, turn, hint);
+    if (!way.arrived) return std::nullopt;
+    const auto& [i, j, k] = features_.triangles[way.end];
+    const std::array<Flat, 3> c{frame.flat(minus(points_[i], p)), frame.flat(minus(points_[j], p)),
+                                frame.flat(minus(points_[k], p))};
+    std::array<double, 3> shares{};
+    double sum = 0;
+    for (std::size_t e = 0; e < 3; ++e) {
+        const Flat &a = c[(e + 1) % 3], &b = c[(e + 2) % 3];
+        shares[e] = std::max(0.0, (a.u * b.v - a.v * b.u) * turn);
+        sum += shares[e];
+    }
+    if (!(sum > 0)) return std::nullopt;
+    const double height = (shares[0] * c[0].w + shares[1] * c[1].w + shares[2] * c[2].w) / sum;
+    Point3 place = p;
+    (axis == Axis::x ? place.x : axis == Axis::y ? place.y : place.z) += height;
+    return Place{place, way.end};
+}
+
+} // namespace terrane::improving

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// The surface as it was: what an improved mesh is held to. Private to improve.
+//
+// Guarantee of follows(): every point of the triangle is within the bound of its sheet as it was.
+// Two reasons are tried, on the triangle and, where both fail, on parts of it:
+// (1) Along its normal, or along an axis, the triangle, drawn in a little, is covered. A set of
+//     triangles of the sheet, all wound alike in this projection, is spread from one that meets it
+//     over every edge that meets it, and meets no curve edge. Over the triangle, which is connected
+//     and simply connected, that set is a covering, so one part of it is the graph of a function
+//     over it. The difference in height is linear on each common part: bounded at its corners.
+// (2) All its corners are within the bound of one triangle of the sheet: the distance to a convex
+//     set is a convex function.
+// Rounding errors are counted in. Cost: about the number of triangles that it covers.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <terrane/algorithms/improve_features.hpp>
+#include <terrane/kernel/construction.hpp>
+
+namespace terrane::improving {
+
+using Corners = std::array<Point3, 3>;
+
+class Reference {
+public:
+    /// What is named must outlive it.
+    Reference(std::span<const Point3> points, const Features& features);
+
+    /// The least bound that is told apart from rounding errors.
+    [[nodiscard]] double least_bound() const { return 1e3 * slack_; }
+    /// More than rounding puts into a distance.
+    [[nodiscard]] double rounding() const { return slack_; }
+
+    /// Whether the triangle is shown to be within `bound` of the sheet of the triangle `hint`; then
+    /// a triangle of this sheet near its middle.
+    [[nodiscard]] std::optional<std::uint32_t> follows(const Corners& triangle, std::uint32_t hint,
+                                                       double bound);
+
+    struct Place {
+        Point3 point;           ///< on the surface, but for rounding
+        std::uint32_t triangle; ///< on which it lies
+    };
+    /// The point of the sheet of `hint` straight above or below p along the axis in which the
+    /// normal is longest; none where the way there meets a curve or a fold.
+    [[nodiscard]] std::optional<Place> above(const Point3& p, const Point3& normal,
+                                             std::uint32_t hint) const;
+
+private:
+    struct Flat {
+        double u = 0, v = 0, w = 0; ///< in a projection, relative to an origin; w is along it
+    };
+    /// Directions in which flat coordinates are measured, and whether they are axes.
+    struct Frame {
+        Point3 u, v, w;
+        std::optional<Axis> axis;
+
+        [[nodiscard]] Flat flat(const Point3& d) const {
+            if (!axis)
+                return {u.x * d.x + u.y * d.y + u.z * d.z, v.x * d.x + v.y * d.y + v.z * d.z,
+                        w.x * d.x + w.y * d.y + w.z * d.z};
+            if (*axis == Axis::x) return {d.y, d.z, d.x};
+            if (*axis == Axis::y) return {d.z, d.x, d.y};
+            return {d.x, d.y, d.z};
+        }
+    };
+    /// A triangle drawn in, in one projection.
+    struct Target {
+        Frame frame;
+        int turn = 1;                ///< +1: counterclockwise in the projection
+        Point3 origin;               ///< of the flat coordinates
+        std::array<Flat, 3> corners; ///< drawn in
+        Flat middle;
+        double slope_u = 0, slope_v = 0; ///< height of its plane: slope_u u + slope_v v
+        double error = 0;                ///< of a height, per unit of distance
+        double bound = 0;                ///< of heights
+    };
+    struct Walk {
+        std::uint32_t end = 0;
+        bool arrived = false;
+    };
+    enum class Cover : std::uint8_t { near, far, open }; ///< open: not covered, or not for sure
+
+    static Frame frame_of(Axis axis);
+    static Frame frame_along(const Point3& normal, const Point3& side);
+    /// None for a triangle so thin that the heights of its plane mean nothing.
+    [[nodiscard]] static std::optional<Target> target_of(const Corners& triangle, double bound,
+                                                         bool along_axis);
+    /// How the triangle is wound in the projection; 0 where that is not sure.
+    [[nodiscard]] int turn_of(std::uint32_t t, const Frame& frame) const;
+    [[nodiscard]] Walk walk(const Frame& frame, const Point3& origin, const Flat& to, int turn,
+                            std::uint32_t from) const;
+    Cover covered(const Target& target, std::uint32_t start);
+    Cover visit(const Target& target, std::uint32_t t);
+    [[nodiscard]] static bool is_near(const Target& target, const std::array<Flat, 3>& corners,
+                                      const std::array<double, 3>& heights);
+    [[nodiscard]] bool near_one(const Corners& triangle, std::uint32_t t, double bound) const;
+    bool part_follows(const Corners& triangle, std::uint32_t& hint, double bound, unsigned& budget);
+
+    std::span<const Point3> points_;
+    const Features& features_;
+    std::vector<std::array<std::int8_t, 3>> turns_; ///< per triangle and axis, exactly
+    struct Normal {
+        Point3 n;
+        double error; ///< of each coordinate, at most
+    };
+    std::vector<Normal> normals_; ///< per triangle
+    double slack_ = 0;            ///< more than the errors of distances from rounded coordinates
+    std::vector<std::uint32_t> seen_; ///< per triangle: the last search that saw it
+    std::uint32_t search_ = 0;
+    std::vector<std::uint32_t> front_;
+};
+
+} // namespace terrane::improving

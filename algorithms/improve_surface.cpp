@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Splitting, collapsing and swapping of edges within sheets.
+#include <terrane/algorithms/improve_operations.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include <terrane/algorithms/sets.hpp>
+
+namespace terrane::improving {
+namespace {
+
+constexpr double least_even_cosine = -0.35; ///< of angles that evening out may make
+constexpr double least_shape = 0.3;         ///< that collapses may leave where there was better
+
+/// Inner edges with the lower vertex first, each once, from the triangles in their order.
+template <class Wanted>
+std::vector<std::pair<double, Edge>> inner_edges(const WorkMesh& mesh, const Wanted& wanted) {
+    std::vector<std::pair<double, Edge>> edges;
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+        if (!mesh.in_use(t)) continue;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::uint32_t a = mesh.triangles[t][i], b = mesh.triangles[t][(i + 1) % 3];
+            if (a > b) continue; // the neighbour has it the other way round
+            const double measure = wanted(a, b);
+            if (measure > 0 && mesh.curve_at(a, b) == none) edges.push_back({measure, {a, b}});
+        }
+    }
+    return edges;
+}
+
+/// Inner edges of triangles that have changed at this time or later, each once.
+std::vector<Edge> edges_changed_since(const WorkMesh& mesh, std::uint32_t time) {
+    std::vector<Edge> edges;
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+        if (!mesh.in_use(t) || mesh.changed_at[t] < time) continue;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::uint32_t a = mesh.triangles[t][i], b = mesh.triangles[t][(i + 1) % 3];
+            if (mesh.curve_at(a, b) == none) edges.push_back({std::min(a, b), std::max(a, b)});
+        }
+    }
+    sort_unique(edges);
+    return edges;
+}
+
+bool split(Workshop& shop, const Edge& e) {
+    WorkMesh& mesh = shop.mesh;
+    const auto [a, b] = e;
+    Change change;
+    mesh.triangles_at(a, b, change.removed);
+    if (change.removed.size() != 2) return false;
+    set_facing(mesh, change);
+    const Point3 &p = mesh.points[a], &q = mesh.points[b];
+    const Point3 middle{p.x + (q.x - p.x) / 2, p.y + (q.y - p.y) / 2, p.z + (q.z - p.z) / 2};
+    const std::uint32_t m = mesh.add_vertex(middle, VertexKind::inner, mesh.wanted_length(a, b));
+    for (const std::uint32_t t : change.removed) {
+        change.add(with(mesh.triangles[t], b, m), t);
+        change.add(with(mesh.triangles[t], a, m), t);
+    }
+    const auto place =
+        shop.reference.above(middle, change.facing[0].second, mesh.hint_of[change.removed[0]]);
+    if (place) {
+        mesh.points[m] = place->point;
+        if (shop.guard.apply(change) == Verdict::allowed) return true;
+        mesh.points[m] = middle;
+    }
+    if (shop.guard.apply(change) == Verdict::allowed) return true;
+    mesh.drop_last_vertex();
+    return false;
+}
+
+/// The largest angle of a triangle, as the least cosine.
+double least_cosine(const WorkMesh& mesh, const Triangle& t) {
+    double least = 1;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Point3 u = minus(mesh.points[t[(i + 1) % 3]], mesh.points[t[i]]);
+        const Point3 w = minus(mesh.points[t[(i + 2) % 3]], mesh.points[t[i]]);
+        const double size = std::sqrt(dot(u, u) * dot(w, w));
+        least = std::min(least, size > 0 ? dot(u, w) / size : -1);
+    }
+    return least;
+}
+
+/// How far the numbers of edges at four vertices are from six, squared, when those of a and b have
+/// one more than now, or less.
+int unevenness(const WorkMesh& mesh, std::array<std::uint32_t, 4> v, int change) {
+    int sum = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+        if (mesh.kinds[v[i]] != VertexKind::inner) continue;
+        const int off = static_cast<int>(mesh.star[v[i]].size()) + (i < 2 ? -change : change) - 6;
+        sum += off * off;
+    }
+    return sum;
+}
+
+bool swap(Workshop& shop, const Edge& e, bool even) {
+    WorkMesh& mesh = shop.mesh;
+    const auto [a, b] = e;
+    Change change;
+    mesh.triangles_at(a, b, change.removed);
+    if (change.removed.size() != 2) return false;
+    std::uint32_t t = change.removed[0], u = change.removed[1];
+    const Triangle &first = mesh.triangles[t], &second = mesh.triangles[u];
+    const bool forward = (first[0] == a && first[1] == b) || (first[1] == a && first[2] == b) ||
+                         (first[2] == a && first[0] == b);
+    std::uint32_t c = opposite(first, a, b), d = opposite(second, a, b);
+    if (!forward) std::swap(c, d); // now a, b, c and b, a, d run round alike
+    const Triangle left{c, a, d}, right{d, b, c};
+    const double before = std::min(least_cosine(mesh, first), least_cosine(mesh, second));
+    const double after = std::min(least_cosine(mesh, left), least_cosine(mesh, right));
+    if (even) {
+        if (!(after > least_even_cosine) ||
+            unevenness(mesh, {a, b, c, d}, 1) >= unevenness(mesh, {a, b, c, d}, 0))
+            return false;
+    } else if (!(after > before + 1e-6)) {
+        return false;
+    }
+    if (mesh.are_neighbours(c, d)) return false;
+    set_facing(mesh, change);
+    change.add(left, t);
+    change.add(right, u);
+    return shop.guard.apply(change) == Verdict::allowed;
+}
+
+/// Whether the collapse keeps the mesh what it is but for its division.
+bool keeps_topology(const WorkMesh& mesh, std::uint32_t gone, std::uint32_t kept,
+                    const Change& change, std::span<const std::uint32_t> at_edge) {
+    std::vector<std::uint32_t> of_gone, of_kept, common, across;
+    mesh.neighbours(gone, of_gone);
+    mesh.neighbours(kept, of_kept);
+    std::set_intersection(of_gone.begin(), of_gone.end(), of_kept.begin(), of_kept.end(),
+                          std::back_inserter(common));
+    for (const std::uint32_t t : at_edge) across.push_back(opposite(mesh.triangles[t], gone, kept));
+    std::sort(across.begin(), across.end());
+    if (common != across) return false;
+    const auto is_across = [&](std::uint32_t v) {
+        return std::binary_search(across.begin(), across.end(), v);
+    };
+    for (const Triangle& t : change.added) {
+        unsigned count = 0;
+        for (const std::uint32_t v : t) count += is_across(v);
+        if (count == 2) return false; // it might be there already
+    }
+    return true;
+}
+
+/// On a curve: the neighbour on the other side, and whether the new edge follows the curve.
+bool curve_allows(const Workshop& shop, std::uint32_t gone, std::uint32_t kept,
+                  std::uint32_t& other) {
+    const WorkMesh& mesh = shop.mesh;
+    const std::uint32_t curve = mesh.curve_of[gone];
+    const auto [before, after] = mesh.along[gone];
+    if (before == after || (kept != before && kept != after)) return false;
+    other = kept == before ? after : before;
+    return chord_follows(shop, curve, mesh.place_at(shop.curves, curve, before, gone),
+                         mesh.place_at(shop.curves, curve, after, gone));
+}
+
+void join_on_curve(WorkMesh& mesh, std::uint32_t gone, std::uint32_t kept, std::uint32_t other) {
+    const std::uint32_t curve = mesh.curve_of[gone];
+    const auto [before, after] = mesh.along[gone];
+    const bool inner_before = mesh.kinds[before] == VertexKind::curve;
+    const bool inner_after = mesh.kinds[after] == VertexKind::curve;
+    if (inner_before) mesh.along[before][1] = after;
+    if (inner_after) mesh.along[after][0] = before;
+    if (!inner_before && !inner_after) mesh.set_direct(kept, other, curve);
+}
+
+} // namespace
+
+bool collapse(Workshop& shop, std::uint32_t gone, std::uint32_t kept, double longest,
+              double least) {
+    WorkMesh& mesh = shop.mesh;
+    if (mesh.kinds[gone] == VertexKind::corner) return false;
+    const bool on_curve = mesh.kinds[gone] == VertexKind::curve;
+    std::uint32_t other = none;
+    if (on_curve && !curve_allows(shop, gone, kept, other)) return false;
+    Change change;
+    change.on_border = on_curve;
+    change.removed = mesh.star[gone];
+    std::vector<std::uint32_t> at_edge;
+    double worst = 1, worst_before = 1;
+    for (const std::uint32_t t : change.removed) {
+        const Triangle& corners = mesh.triangles[t];
+        worst_before = std::min(worst_before, shape_of(mesh, corners));
+        if (has(corners, kept)) {
+            // All that a sheet has between the two edges of the curve must not vanish.
+            if (on_curve && opposite(corners, gone, kept) == other) return false;
+            at_edge.push_back(t);
+            continue;
+        }
+        change.add(with(corners, gone, kept), t);
+        worst = std::min(worst, shape_of(mesh, change.added.back()));
+        for (const std::uint32_t v : corners)
+            if (v != gone && mesh.edge_length(v, kept) > longest) return false;
+    }
+    if (change.added.empty() || !(worst > std::min(least, worst_before))) return false;
+    if (!keeps_topology(mesh, gone, kept, change, at_edge)) return false;
+    set_facing(mesh, change);
+    if (shop.guard.apply(change) != Verdict::allowed) return false;
+    if (on_curve) join_on_curve(mesh, gone, kept, other);
+    mesh.kinds[gone] = VertexKind::unused;
+    return true;
+}
+
+double shape_of(const WorkMesh& mesh, const Triangle& t) {
+    const Point3 &a = mesh.points[t[0]], &b = mesh.points[t[1]], &c = mesh.points[t[2]];
+    const Point3 u = minus(b, a), v = minus(c, b), w = minus(a, c);
+    const Point3 n = cross(u, v);
+    const double lu = std::sqrt(dot(u, u)), lv = std::sqrt(dot(v, v)), lw = std::sqrt(dot(w, w));
+    const double size = lu * lv * lw * (lu + lv + lw);
+    return size > 0 ? 4 * dot(n, n) / size : 0;
+}
+
+void set_facing(const WorkMesh& mesh, Change& change) {
+    for (const std::uint32_t t : change.removed) {
+        const std::uint32_t sheet = mesh.sheet_of[t];
+        auto at = std::find_if(change.facing.begin(), change.facing.end(),
+                               [&](const auto& f) { return f.first == sheet; });
+        if (at == change.facing.end())
+            at = change.facing.insert(change.facing.end(), {sheet, Point3{}});
+        const Point3 n = mesh.normal(mesh.triangles[t]);
+        at->second = {at->second.x + n.x, at->second.y + n.y, at->second.z + n.z};
+    }
+}
+
+std::size_t split_edges(Workshop& shop) {
+    const WorkMesh& mesh = shop.mesh;
+    std::size_t count = 0;
+    for (unsigned round = 0; round < 32; ++round) {
+        auto edges = inner_edges(mesh, [&](std::uint32_t a, std::uint32_t b) {
+            const double ratio = mesh.edge_length(a, b) / mesh.wanted_length(a, b);
+            return ratio > long_share ? ratio : 0;
+        });
+        std::sort(edges.begin(), edges.end(), [](const auto& e, const auto& f) {
+            return std::tuple(-e.first, e.second) < std::tuple(-f.first, f.second);
+        });
+        std::size_t more = 0;
+        for (const auto& [ratio, e] : edges) {
+            if (shop.run.stop.stop_requested()) return count;
+            more += split(shop, e);
+        }
+        if (more == 0) break;
+        count += more;
+    }
+    return count;
+}
+
+std::size_t collapse_edges(Workshop& shop) {
+    const WorkMesh& mesh = shop.mesh;
+    std::size_t count = 0;
+    auto edges = inner_edges(mesh, [&](std::uint32_t a, std::uint32_t b) {
+        const double ratio = mesh.edge_length(a, b) / mesh.wanted_length(a, b);
+        return ratio < short_share ? 1 / std::max(ratio, 1e-300) : 0;
+    });
+    std::sort(edges.begin(), edges.end(), [](const auto& e, const auto& f) {
+        return std::tuple(-e.first, e.second) < std::tuple(-f.first, f.second);
+    });
+    for (const auto& [inverse, e] : edges) {
+        if (shop.run.stop.stop_requested()) return count;
+        const auto [a, b] = e;
+        if (mesh.kinds[a] == VertexKind::unused || mesh.kinds[b] == VertexKind::unused) continue;
+        const double wanted = mesh.wanted_length(a, b);
+        if (!(mesh.edge_length(a, b) < short_share * wanted) || !mesh.are_neighbours(a, b) ||
+            mesh.curve_at(a, b) != none)
+            continue;
+        const bool gone_a = mesh.kinds[a] == VertexKind::inner;
+        const bool gone_b = mesh.kinds[b] == VertexKind::inner;
+        count += (gone_a && collapse(shop, a, b, long_share * wanted, least_shape)) ||
+                 (gone_b && collapse(shop, b, a, long_share * wanted, least_shape));
+    }
+    return count;
+}
+
+std::size_t collapse_bad(Workshop& shop, double below) {
+    const WorkMesh& mesh = shop.mesh;
+    std::size_t count = 0;
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+        if (shop.run.stop.stop_requested()) return count;
+        if (!mesh.in_use(t) || !(shape_of(mesh, mesh.triangles[t]) < below)) continue;
+        const Triangle c = mesh.triangles[t];
+        std::array<std::pair<double, std::size_t>, 3> by_length;
+        for (std::size_t i = 0; i < 3; ++i)
+            by_length[i] = {mesh.edge_length(c[i], c[(i + 1) % 3]), i};
+        std::sort(by_length.begin(), by_length.end());
+        bool done = false;
+        for (std::size_t k = 0; k < 2 && !done; ++k) { // the longest would make a long one
+            const std::uint32_t a = c[by_length[k].second], b = c[(by_length[k].second + 1) % 3];
+            const double longest = 2 * mesh.wanted_length(a, b);
+            const bool on_curve = mesh.curve_at(a, b) != none;
+            for (const auto& [gone, kept] : {std::pair(a, b), std::pair(b, a)}) {
+                const bool fits = mesh.kinds[gone] == VertexKind::inner ||
+                                  (on_curve && mesh.kinds[gone] == VertexKind::curve);
+                done = done || (fits && collapse(shop, gone, kept, longest, 1.0));
+            }
+        }
+        count += done;
+    }
+    return count;
+}
+
+std::size_t even_out(Workshop& shop) {
+    std::size_t count = 0;
+    for (const Edge& e : edges_changed_since(shop.mesh, shop.evened_at)) {
+        if (shop.run.stop.stop_requested()) return count;
+        count += swap(shop, e, true);
+    }
+    shop.evened_at = ++shop.mesh.now;
+    return count;
+}
+
+std::size_t swap_edges(Workshop& shop) {
+    std::size_t count = 0;
+    for (unsigned round = 0; round < 6; ++round) {
+        std::size_t more = 0;
+        const auto edges = edges_changed_since(shop.mesh, shop.swapped_at);
+        shop.swapped_at = ++shop.mesh.now;
+        for (const Edge& e : edges) {
+            if (shop.run.stop.stop_requested()) return count;
+            more += swap(shop, e, false);
+        }
+        count += more;
+        if (100 * more < shop.mesh.triangles.size()) break;
+    }
+    return count;
+}
+
+} // namespace terrane::improving

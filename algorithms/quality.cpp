@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/quality.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include <terrane/algorithms/edges.hpp>
+#include <terrane/algorithms/vectors.hpp>
+
+namespace terrane {
+namespace {
+
+double distance(const Point3& a, const Point3& b) {
+    return std::hypot(b.x - a.x, b.y - a.y, b.z - a.z);
+}
+
+/// The angle opposite to the first of three sides.
+double angle_opposite(double a, double b, double c) {
+    if (!(b > 0) || !(c > 0)) return 0;
+    // By half angles (Kahan): the law of cosines cancels where the angle is small.
+    const double s = (a + b + c) / 2;
+    const double sine = std::max(0.0, ((s - b) / b) * ((s - c) / c));
+    const double cosine = std::max(0.0, (s / b) * ((s - a) / c));
+    return 2 * std::atan2(std::sqrt(sine), std::sqrt(cosine)) * 180 / std::acos(-1.0);
+}
+
+std::vector<double> edge_lengths(std::span<const Point3> vertices,
+                                 std::span<const Triangle> triangles) {
+    std::vector<double> lengths;
+    group_edges(triangles, vertices.size())
+        .for_each([&](std::uint32_t low, std::uint32_t high, auto) {
+            lengths.push_back(distance(vertices[low], vertices[high]));
+        });
+    return lengths;
+}
+
+} // namespace
+
+double quality_of(const Point3& a, const Point3& b, const Point3& c) {
+    const Point3 n = cross(minus(b, a), minus(c, a));
+    const double la = distance(b, c), lb = distance(c, a), lc = distance(a, b);
+    const double twice_area = std::hypot(n.x, n.y, n.z);
+    if (!(twice_area > 0)) return 0;
+    // r = area / s and R = a b c / (4 area), s half the circumference.
+    const double q = 4 * (twice_area / la) * (twice_area / lb) / (lc * (la + lb + lc));
+    return std::clamp(q, 0.0, 1.0);
+}
+
+std::array<double, 3> angles_of(const Point3& a, const Point3& b, const Point3& c) {
+    const double la = distance(b, c), lb = distance(c, a), lc = distance(a, b);
+    return {angle_opposite(la, lb, lc), angle_opposite(lb, lc, la), angle_opposite(lc, la, lb)};
+}
+
+Spread spread_of(std::vector<double> values) {
+    Spread spread;
+    if (values.empty()) return spread;
+    std::sort(values.begin(), values.end());
+    double sum = 0;
+    for (const double v : values) sum += v;
+    spread.min = values.front();
+    spread.max = values.back();
+    spread.mean = sum / static_cast<double>(values.size());
+    constexpr std::array<std::size_t, 5> hundredths{1, 5, 50, 95, 99};
+    for (std::size_t i = 0; i < hundredths.size(); ++i)
+        spread.percentiles[i] =
+            values[std::min(values.size() - 1, values.size() * hundredths[i] / 100)];
+    return spread;
+}
+
+QualityReport measure_quality(std::span<const Point3> vertices,
+                              std::span<const Triangle> triangles) {
+    QualityReport report;
+    report.triangles = triangles.size();
+    if (triangles.empty()) return report;
+    std::vector<double> q, smallest, largest;
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+        const auto& [i, j, k] = triangles[t];
+        q.push_back(quality_of(vertices[i], vertices[j], vertices[k]));
+        const auto angles = angles_of(vertices[i], vertices[j], vertices[k]);
+        smallest.push_back(*std::min_element(angles.begin(), angles.end()));
+        largest.push_back(*std::max_element(angles.begin(), angles.end()));
+        const auto place = static_cast<std::size_t>(q.back() * QualityReport::classes);
+        ++report.histogram[std::min(place, QualityReport::classes - 1)];
+    }
+    const auto good = std::count_if(q.begin(), q.end(), [](double x) { return x > 0.8; });
+    report.share_above_08 = static_cast<double>(good) / static_cast<double>(q.size());
+    report.worst = static_cast<std::uint32_t>(std::min_element(q.begin(), q.end()) - q.begin());
+    report.q = spread_of(std::move(q));
+    report.smallest_angle = spread_of(std::move(smallest));
+    report.largest_angle = spread_of(std::move(largest));
+    report.edge_length = spread_of(edge_lengths(vertices, triangles));
+    return report;
+}
+
+} // namespace terrane

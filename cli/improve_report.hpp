@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// What is said about an improved mesh.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include <terrane/algorithms/deviation.hpp>
+#include <terrane/algorithms/improve.hpp>
+#include <terrane/cli/session.hpp>
+#include <terrane/cli/statistics.hpp>
+
+namespace terrane::cli {
+
+/// Quality before and after, the worst triangle, the deviation as shown and as measured.
+std::string improve_text(const Improved& improved, std::span<const Deviation> deviations,
+                         const Inputs& inputs);
+
+/// Key "improve": options' effect, counts of operations; "quality": before, after; "deviation".
+void add_statistics(Json& json, const Improved& improved, std::span<const Deviation> deviations);
+
+/// SVG, as in the paper's Figure 19.
+std::string histogram_of(const ImproveReport& report);
+
+/// A better mesh, and how far it is from the one before.
+struct Measured {
+    Improved improved;
+    std::vector<Deviation> deviations; ///< per surface
+};
+
+/// Improves, and measures what was promised with other code. Adds the times to `statistics`.
+/// Errors: those of improve; interrupted; internal where the promise is broken.
+Result<Measured> improve_and_measure(const Mesh& mesh, const ImproveOptions& options,
+                                     Session& session, Json& statistics);
+
+} // namespace terrane::cli

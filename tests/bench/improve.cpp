@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Improving a mesh of several surfaces, beside CGAL's isotropic remeshing of each of them alone
+// with the curves protected: quality, contacts, deviation, processor time.
+//   terrane_bench_improve [--edge-length L] [--iterations N] NAME|FILE...
+// A NAME is a model of models.hpp. Several FILEs are one model.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
+#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
+#include <CGAL/Polygon_mesh_processing/remesh.h>
+#include <CGAL/Surface_mesh.h>
+
+#include <terrane/algorithms/arrangement.hpp>
+#include <terrane/algorithms/check.hpp>
+#include <terrane/algorithms/deviation.hpp>
+#include <terrane/algorithms/improve.hpp>
+#include <terrane/algorithms/improve_features.hpp>
+#include <terrane/algorithms/rounding.hpp>
+#include <terrane/algorithms/vectors.hpp>
+#include <terrane/io/files.hpp>
+
+#include "models.hpp"
+
+namespace {
+
+using namespace terrane;
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using CgalMesh = CGAL::Surface_mesh<Kernel::Point_3>;
+namespace pmp = CGAL::Polygon_mesh_processing;
+
+struct Settings {
+    double edge_length = 0;
+    unsigned iterations = 5;
+    std::vector<std::string> names;
+};
+
+double processor_seconds() {
+    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
+/// The triangles of each surface, with vertices of their own.
+std::vector<Surface> split_by_surface(const Mesh& mesh) {
+    std::vector<Surface> all(mesh.surfaces.size());
+    std::vector<std::map<std::uint32_t, std::uint32_t>> names(mesh.surfaces.size());
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+        for (const std::uint32_t s : mesh.surfaces_of[t]) {
+            Triangle corners{};
+            for (std::size_t i = 0; i < 3; ++i) {
+                const std::uint32_t v = mesh.triangles[t][i];
+                const auto [at, is_new] =
+                    names[s].try_emplace(v, static_cast<std::uint32_t>(all[s].vertices.size()));
+                if (is_new) all[s].vertices.push_back(mesh.vertices[v]);
+                corners[i] = at->second;
+            }
+            all[s].triangles.push_back(corners);
+        }
+    return all;
+}
+
+double automatic_length(const Surface& s) {
+    double area = 0;
+    for (const Triangle& t : s.triangles) {
+        const Point3 n = cross(minus(s.vertices[t[1]], s.vertices[t[0]]),
+                               minus(s.vertices[t[2]], s.vertices[t[0]]));
+        area += std::hypot(n.x, n.y, n.z) / 2;
+    }
+    return std::sqrt(area / static_cast<double>(s.triangles.size()) * 4 / std::sqrt(3.0));
+}
+
+/// What the curve edges are by their ends' places, as CGAL numbers vertices anew.
+using PlacedEdge = std::array<Point3, 2>;
+
+PlacedEdge placed(const Point3& a, const Point3& b) {
+    return a < b ? PlacedEdge{a, b} : PlacedEdge{b, a};
+}
+
+struct Remeshed {
+    std::vector<Surface> surfaces;
+    double seconds = 0;
+    std::size_t failed = 0;
+};
+
+/// One surface by CGAL; its constrained edges are those in `curves` and its borders.
+Surface remesh(const Surface& in, const std::vector<PlacedEdge>& curves, double length,
+               unsigned iterations, double& seconds) {
+    std::vector<Kernel::Point_3> points;
+    std::vector<std::array<std::size_t, 3>> polygons;
+    for (const Point3& p : in.vertices) points.emplace_back(p.x, p.y, p.z);
+    for (const Triangle& t : in.triangles) polygons.push_back({t[0], t[1], t[2]});
+    pmp::orient_polygon_soup(points, polygons);
+    CgalMesh mesh;
+    pmp::polygon_soup_to_polygon_mesh(points, polygons, mesh);
+    auto fixed = mesh.add_property_map<CgalMesh::Edge_index, bool>("e:fixed", false).first;
+    const auto place = [&](CgalMesh::Vertex_index v) {
+        const auto& p = mesh.point(v);
+        return Point3{p.x(), p.y(), p.z()};
+    };
+    for (const auto e : mesh.edges())
+        fixed[e] = mesh.is_border(e) ||
+                   std::binary_search(curves.begin(), curves.end(),
+                                      placed(place(mesh.vertex(e, 0)), place(mesh.vertex(e, 1))));
+    const double start = processor_seconds();
+    std::vector<CgalMesh::Edge_index> long_ones;
+    for (const auto e : mesh.edges())
+        if (fixed[e]) long_ones.push_back(e);
+    pmp::split_long_edges(long_ones, length, mesh,
+                          CGAL::parameters::edge_is_constrained_map(fixed));
+    pmp::isotropic_remeshing(faces(mesh), length, mesh,
+                             CGAL::parameters::number_of_iterations(iterations)
+                                 .protect_constraints(true)
+                                 .edge_is_constrained_map(fixed));
+    seconds += processor_seconds() - start;
+    mesh.collect_garbage();
+    Surface out;
+    out.name = in.name;
+    for (const auto v : mesh.vertices()) out.vertices.push_back(place(v));
+    for (const auto f : mesh.faces()) {
+        Triangle t{};
+        std::size_t i = 0;
+        for (const auto v : CGAL::vertices_around_face(mesh.halfedge(f), mesh))
+            t[i++] = static_cast<std::uint32_t>(v.idx());
+        out.triangles.push_back(t);
+    }
+    return out;
+}
+
+Remeshed by_cgal(const Mesh& mesh, const Settings& settings) {
+    const auto features =
+        improving::find_features(mesh, {ImproveOptions{}.crease_angle * std::acos(-1.0) / 180,
+                                        ImproveOptions{}.curve_angle * std::acos(-1.0) / 180});
+    std::vector<PlacedEdge> curves;
+    for (const Edge& e : features.edges)
+        curves.push_back(placed(mesh.vertices[e[0]], mesh.vertices[e[1]]));
+    std::sort(curves.begin(), curves.end());
+    Remeshed out;
+    for (const Surface& s : split_by_surface(mesh)) {
+        if (s.triangles.empty()) continue;
+        const double length = settings.edge_length > 0 ? settings.edge_length : automatic_length(s);
+        try {
+            out.surfaces.push_back(remesh(s, curves, length, settings.iterations, out.seconds));
+        } catch (const std::exception&) {
+            ++out.failed;
+        }
+    }
+    return out;
+}
+
+Surface joined(const std::vector<Surface>& surfaces) {
+    Surface all;
+    for (const Surface& s : surfaces) {
+        const auto first = static_cast<std::uint32_t>(all.vertices.size());
+        all.vertices.insert(all.vertices.end(), s.vertices.begin(), s.vertices.end());
+        for (const Triangle& t : s.triangles)
+            all.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    }
+    return all;
+}
+
+void print_row(const char* name, const QualityReport& q, double seconds, std::size_t contacts,
+               double out, double back) {
+    std::printf("  %-8s %8zu  q %.4f mean %.5f min  %5.1f %% > 0.8  angles %.4f .. %.2f  ", name,
+                q.triangles, q.q.mean, q.q.min, 100 * q.share_above_08, q.smallest_angle.min,
+                q.largest_angle.max);
+    std::printf("%.2f s  %zu contacts  deviation %.3g, %.3g\n", seconds, contacts, out, back);
+}
+
+std::size_t flaws_of(const std::vector<Surface>& surfaces) {
+    const auto report = check(surfaces);
+    if (!report) return SIZE_MAX;
+    return report.value().contacts.size() + report.value().degenerate.size();
+}
+
+int run_one(const std::string& name, const std::vector<Surface>& surfaces,
+            const Settings& settings) {
+    const auto exact = arrange(surfaces);
+    if (!exact) return 2;
+    const auto rounded = round_to_doubles(exact.value());
+    if (!rounded || !rounded.value().report.clean) {
+        std::printf("%s: no conforming mesh of doubles\n", name.c_str());
+        return 1;
+    }
+    const Mesh& mesh = rounded.value().mesh;
+    const Surface before{"", Role::unknown, mesh.vertices, mesh.triangles};
+    ImproveOptions options;
+    options.edge_length = settings.edge_length;
+    const double start = processor_seconds();
+    const auto improved = improve(mesh, options);
+    const double seconds = processor_seconds() - start;
+    if (!improved) {
+        std::printf("%s: %s\n", name.c_str(), improved.error().message().c_str());
+        return 1;
+    }
+    const auto& report = improved.value().report;
+    std::printf("%s: %zu surfaces, bound %.3g to %.3g, worst: %s\n", name.c_str(),
+                mesh.surfaces.size(),
+                *std::min_element(report.bound_of.begin(), report.bound_of.end()),
+                *std::max_element(report.bound_of.begin(), report.bound_of.end()),
+                std::string(name_of(report.worst_cause)).c_str());
+    print_row("before", report.before, 0, 0, 0, 0);
+    const auto ours = split_by_surface(improved.value().mesh);
+    const Surface all_ours{"", Role::unknown, improved.value().mesh.vertices,
+                           improved.value().mesh.triangles};
+    print_row("terrane", report.after, seconds, flaws_of(ours), sampled_distance(all_ours, before),
+              sampled_distance(before, all_ours));
+    const Remeshed theirs = by_cgal(mesh, settings);
+    const Surface all_theirs = joined(theirs.surfaces);
+    print_row("CGAL", measure_quality(all_theirs.vertices, all_theirs.triangles), theirs.seconds,
+              flaws_of(theirs.surfaces), sampled_distance(all_theirs, before),
+              sampled_distance(before, all_theirs));
+    if (theirs.failed > 0) std::printf("  CGAL failed on %zu surfaces\n", theirs.failed);
+    std::printf("  time of CGAL's: %.2f\n", seconds / theirs.seconds);
+    return 0;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    Settings settings;
+    for (int i = 1; i < argc; ++i) {
+        const std::string word = argv[i];
+        if (word == "--edge-length" && i + 1 < argc)
+            settings.edge_length = std::atof(argv[++i]);
+        else if (word == "--iterations" && i + 1 < argc)
+            settings.iterations = static_cast<unsigned>(std::atoi(argv[++i]));
+        else
+            settings.names.push_back(word);
+    }
+    std::vector<Surface> files;
+    int status = 0;
+    for (const std::string& name : settings.names) {
+        if (!std::filesystem::exists(name)) {
+            status = std::max(status, run_one(name, bench::model(name).surfaces, settings));
+            continue;
+        }
+        auto read = read_surfaces(name);
+        if (!read) {
+            std::printf("%s\n", read.error().message().c_str());
+            return 2;
+        }
+        for (Surface& s : read.value()) files.push_back(std::move(s));
+    }
+    if (!files.empty()) status = std::max(status, run_one(settings.names.back(), files, settings));
+    return status;
+}

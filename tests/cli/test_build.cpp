@@ -1,0 +1,345 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// `terrane build`, seen from outside.
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "program.hpp"
+
+using namespace program_test;
+using Json = nlohmann::json;
+
+namespace {
+
+/// Three horizons over more than the box, and a fault that ends inside it.
+constexpr auto layers = R"(o base
+v -1 -1 3
+v 9 -1 3
+v 9 9 3
+v -1 9 3
+f 1 2 3 4
+o top
+v -1 -1 5
+v 9 -1 5
+v 9 9 5
+v -1 9 5
+f 5 6 7 8
+o spare
+v -1 -1 6
+v 9 -1 6
+v 9 9 6
+f 9 10 11
+)";
+constexpr auto fault = R"(v 4 -1 -1
+v 4 4 -1
+v 4 4 9
+v 4 -1 9
+f 1 2 3 4
+)";
+
+/// A project of these in in/, with a box as volume of interest.
+Json project() {
+    return Json::parse(R"({
+        "format": "terrane-project 1",
+        "surfaces": [{"file": "layers.obj", "objects": ["base", "top"], "role": "horizon"},
+                     {"file": "fault.obj", "name": "F1", "role": "fault"}],
+        "volume_of_interest": {"box": {"low": [0, 0, 0], "high": [8, 8, 8]}},
+        "outputs": {"surfaces": ["vtp", "msh22"], "blocks": "obj"}})");
+}
+
+struct Case {
+    Folder folder;
+
+    Case() {
+        folder.input("layers.obj", layers);
+        folder.input("fault.obj", fault);
+    }
+    [[nodiscard]] Outcome build(const Json& json, const std::string& arguments = "-o out") const {
+        return folder.run("build " + folder.input("p.json", json.dump(2)) + " " + arguments);
+    }
+    /// What is in a folder, one name a line.
+    [[nodiscard]] std::string files(const std::string& in) const {
+        const auto listed = folder.shell("LC_ALL=C ls " + in);
+        REQUIRE(listed.status == 0);
+        return listed.out;
+    }
+};
+
+} // namespace
+
+TEST_CASE("cli: build makes blocks in a box, in one folder", "[cli]") {
+    const Case c;
+    const auto r = c.build(project());
+    INFO(r.err);
+    REQUIRE(r.status == 0);
+    CHECK(r.err.empty());
+    CHECK(contains(r.out, "3 closed blocks, volume 512 in all"));
+    CHECK(contains(r.out, "wrote out:\n  surfaces.vtp\n  surfaces_22.msh\n  model/\n"));
+    CHECK(c.files("out") == "log.txt\nmodel\nstatistics.json\nsurfaces.vtp\nsurfaces_22.msh\n");
+    const auto model = Json::parse(c.folder.read("out/model/model.json"));
+    REQUIRE(model["blocks"].size() == 4);
+    CHECK(model["blocks"][2]["volume"] == 128);
+    CHECK(model["surfaces"][0]["name"] == "base");
+    CHECK(model["surfaces"][0]["role"] == "horizon");
+    CHECK(model["surfaces"][2]["name"] == "F1");
+    CHECK(model["surfaces"][2]["role"] == "fault");
+    CHECK(model["surfaces"][3]["role"] == "boundary");
+    const auto statistics = Json::parse(c.folder.read("out/statistics.json"));
+    CHECK(statistics["input"]["surfaces"] == 3);
+    CHECK(statistics["volumes"]["blocks"] == Json({192, 128, 192}));
+    CHECK(statistics["seconds"].contains("total"));
+    // The log has what was said, in order.
+    const auto log = c.folder.read("out/log.txt");
+    std::size_t at = 0;
+    for (std::size_t line = 0, end = 0; line < r.out.size(); line = end + 1) {
+        end = r.out.find('\n', line);
+        at = log.find(r.out.substr(line, end - line), at);
+        CHECK(at != std::string::npos);
+    }
+    CHECK(contains(log, "s] arrange\n"));
+}
+
+TEST_CASE("cli: build takes paths from the folder of the project", "[cli]") {
+    const Case c;
+    auto json = project();
+    json["folder"] = "run";
+    REQUIRE(c.build(json, "").status == 0);
+    CHECK(c.files("in/run").starts_with("log.txt\nmodel\n"));
+    REQUIRE(c.folder.shell("cd / && $T build $OLDPWD/in/p.json -o $OLDPWD/out").status == 0);
+    CHECK(c.folder.shell("diff -r -x log.txt -x statistics.json in/run out").status == 0);
+}
+
+TEST_CASE("cli: build: each kind of volume of interest", "[cli]") {
+    const Case c;
+    const auto volume_of = [&](const std::string& volume, const std::string& to) {
+        auto json = project();
+        json["volume_of_interest"] = Json::parse(volume);
+        const auto r = c.build(json, "-o " + to);
+        INFO(r.err);
+        REQUIRE(r.status == 0);
+        return double(Json::parse(c.folder.read(to + "/statistics.json"))["volumes"]["all"]);
+    };
+    CHECK(volume_of(R"({"polygon": {"corners": [[0, 0], [8, 0], [0, 8]], "between": [4, 0]}})",
+                    "polygon") == 128);
+    CHECK(std::fabs(volume_of(R"({"rotated_box": {"centre": [4, 4, 4], "lengths": [2, 3, 4],
+                                                  "azimuth": 30}})",
+                              "turned") -
+                    24) < 1e-9);
+    CHECK(volume_of(R"({"rotated_box": {"corner": [1, 1, 1], "lengths": [2, 3, 4]}})", "corner") ==
+          Approx(24));
+    c.folder.input("tetrahedron.obj", "v 0 0 0\nv 6 0 0\nv 0 6 0\nv 0 0 6\nf 1 3 2\nf 1 2 4\n"
+                                      "f 2 3 4\nf 1 4 3\n");
+    CHECK(volume_of(R"({"within": ["tetrahedron.obj"]})", "within") == 36);
+    auto json = project();
+    json["volume_of_interest"] = Json::parse(R"({"within": ["fault.obj"]})");
+    const auto open = c.build(json, "-o open");
+    CHECK(open.status == 1);
+    CHECK(contains(open.err, "terrane: "));
+    json["volume_of_interest"] = Json::parse(R"({"box": {"low": [0, 0, 0], "high": [8, 0, 8]}})");
+    const auto flat = c.build(json, "-o flat");
+    CHECK(flat.status == 2);
+    CHECK(contains(flat.err, "p.json: volume_of_interest: "));
+}
+
+TEST_CASE("cli: build: gaps are closed, horizons extended, triangles made better", "[cli]") {
+    const Case c;
+    // The fault ends 0.25 below the top and above the base; the horizons end inside the box.
+    c.folder.input("fault.obj", "v 4 -1 3.25\nv 4 9 3.25\nv 4 9 4.75\nv 4 -1 4.75\nf 1 2 3 4\n");
+    c.folder.input("layers.obj", "o base\nv 1 1 3\nv 7 1 3\nv 7 7 3\nv 1 7 3\nf 1 2 3 4\n"
+                                 "o top\nv 1 1 5\nv 7 1 5\nv 7 7 5\nv 1 7 5\nf 5 6 7 8\n");
+    auto json = project();
+    const auto blocks = [&](const std::string& to) {
+        const auto r = c.build(json, "-o " + to);
+        INFO(r.err);
+        REQUIRE(r.status == 0);
+        const auto statistics = Json::parse(c.folder.read(to + "/statistics.json"));
+        CHECK(double(statistics["volumes"]["all"]) == Approx(512));
+        return int(statistics["volumes"]["blocks"].size());
+    };
+    CHECK(blocks("open") == 1);
+    json["extend"] = 1.5;
+    CHECK(blocks("extended") == 3);
+    json["seal"] = 0.5;
+    CHECK(blocks("sealed") == 4);
+    const auto model = Json::parse(c.folder.read("sealed/model/model.json"));
+    CHECK_FALSE(model["seal"].empty());
+    json["improve"] = {{"edge_length", 1}, {"edge_length_of", {{"F1", 0.5}}}};
+    CHECK(blocks("better") == 4);
+    CHECK(contains(c.folder.read("better/log.txt"), "s] improve\n"));
+    const auto before = Json::parse(c.folder.read("sealed/statistics.json"));
+    const auto after = Json::parse(c.folder.read("better/statistics.json"));
+    CHECK(int(after["output"]["triangles"]) > int(before["output"]["triangles"]));
+    CHECK(double(after["quality"]["after"]["q"]["mean"]) >
+          double(after["quality"]["before"]["q"]["mean"]));
+    json["improve"] = {{"edge_length_of", {{"F2", 0.5}}}};
+    const auto r = c.build(json, "-o refused");
+    CHECK(r.status == 2);
+    CHECK(contains(r.err, "in/p.json: improve.edge_length_of.F2: no surface is called F2"));
+}
+
+TEST_CASE("cli: build: a certificate that verify takes", "[cli]") {
+    const Case c;
+    auto json = project();
+    json.erase("volume_of_interest");
+    json["surfaces"][0].erase("objects");
+    json["outputs"]["certificate"] = true;
+    const auto r = c.build(json);
+    INFO(r.err);
+    REQUIRE(r.status == 0);
+    CHECK(c.folder.run("verify out/certificate.json").status == 0);
+    c.folder.input("fault.obj", std::string(fault) + "v 0 0 0\n"); // no longer what was read
+    CHECK(c.folder.run("verify out/certificate.json").status == 1);
+}
+
+TEST_CASE("cli: build: what is wrong is named by its key, and nothing is written", "[cli]") {
+    const Case c;
+    const auto refused = [&](const Json& json, const std::string& reason, int status = 2,
+                             const std::string& arguments = "-o out") {
+        const auto r = c.build(json, arguments);
+        INFO(r.err);
+        CHECK(r.status == status);
+        CHECK(contains(r.err, reason));
+        CHECK(c.folder.left().empty());
+    };
+    auto json = project();
+    refused(json, "in/p.json: the key folder is missing, and there is no -o", 2, "");
+    json["surfaces"][1]["rolle"] = "fault";
+    refused(json, "in/p.json: surfaces[1].rolle: unknown key; did you mean role?");
+    json = project();
+    json["surfaces"][0]["objects"][1] = "tpo";
+    refused(json, "in/p.json: surfaces[0].objects[1]: in/layers.obj has no surface tpo; it has "
+                  "base, top, spare");
+    json = project();
+    json["surfaces"][0]["name"] = "both";
+    refused(json, "in/p.json: surfaces[0].name: is for one surface, but 2 are taken from");
+    json = project();
+    json["surfaces"][1]["file"] = "missing.obj";
+    refused(json, "missing.obj");
+    json = project();
+    json["outputs"]["certificate"] = true;
+    refused(json, "outputs.certificate: must be false with volume_of_interest, seal");
+    json.erase("volume_of_interest");
+    refused(json, "in/p.json: surfaces[0].objects: a certificate is about whole files");
+    refused(project(), "not empty", 2, "-o in");
+    CHECK(c.folder.run("build in/nothing.json -o out").status == 2);
+}
+
+TEST_CASE("cli: build without a conforming mesh writes nothing", "[cli]") {
+    const Case c;
+    c.folder.input("one.ts", "GOCAD TSurf 1\nTFACE\nVRTX 1 0 0 0\nVRTX 2 1 0 0\nEND\n");
+    auto json = project();
+    json["surfaces"] = Json::array({{{"file", "one.ts"}}});
+    const auto r = c.build(json);
+    CHECK(r.status != 0);
+    CHECK(c.folder.left().empty());
+}
+
+#ifdef TERRANE_HAS_TETGEN
+
+TEST_CASE("cli: build: tetrahedra with sizes and cuts, by name", "[cli]") {
+    const Case c;
+    auto json = project();
+    json["outputs"] = Json::parse(R"({"tetrahedra": ["vtu", "msh", "inp"]})");
+    const auto counts = [&](const std::string& to) {
+        const auto r = c.build(json, "-o " + to);
+        INFO(r.err);
+        REQUIRE(r.status == 0);
+        return Json::parse(c.folder.read(to + "/statistics.json"))["tetrahedra"];
+    };
+    const auto plain = counts("plain");
+    CHECK(plain["tetrahedra_of_region"][0] == 0); // a volume of interest: only what is inside
+    CHECK(plain["check"]["violations"].empty());
+    CHECK(plain["twin_faces"] == 0);
+    json["tetrahedra"] = Json::parse(R"({"size_in": {"2": 0.7}, "split": ["fault"]})");
+    const auto fine = counts("fine");
+    CHECK(double(fine["tetrahedra_of_region"][2]) > 4 * double(plain["tetrahedra_of_region"][2]));
+    CHECK(fine["twin_faces"] > 0);
+    CHECK(fine["added_nodes"] > 0);
+    const auto msh = c.folder.read("fine/tetrahedra.msh");
+    CHECK(contains(msh, "\"F1 front\""));
+    CHECK(contains(msh, "$Periodic"));
+    CHECK(contains(msh, "\"region 2: top/base|"));
+    CHECK(contains(c.folder.read("fine/tetrahedra.inp"), "NSET=F1_PAIRS_BACK, UNSORTED"));
+    // By name instead of number, and with the outside.
+    const auto name_at = msh.find("\"region 2: ") + 11;
+    const auto name = msh.substr(name_at, msh.find('"', name_at) - name_at);
+    json["tetrahedra"] = Json{{"size_in", Json{{name, 0.7}}}, {"split", Json::array({"F1"})}};
+    CHECK(counts("named")["tetrahedra_of_region"] == fine["tetrahedra_of_region"]);
+    json["tetrahedra"] = Json::parse(R"({"outside": true, "size_of": {"F1": 1}})");
+    CHECK(counts("outside")["tetrahedra_of_region"][0] > 0);
+
+    const auto refused = [&](const std::string& tetrahedra, const std::string& reason) {
+        json["tetrahedra"] = Json::parse(tetrahedra);
+        const auto r = c.build(json, "-o refused");
+        CHECK(r.status == 2);
+        CHECK(contains(r.err, reason));
+    };
+    refused(R"({"size_of": {"F2": 1}})", "p.json: tetrahedra.size_of.F2: no surface is called F2");
+    refused(R"({"size_in": {"9": 1}})", "p.json: tetrahedra.size_in.9: no block is called 9");
+    refused(R"({"split": ["F1", "x"]})", "p.json: tetrahedra.split[1]: no surface is called x");
+    CHECK_FALSE(c.folder.left().contains("refused"));
+}
+
+TEST_CASE("cli: the example project, the same bytes for any number of threads", "[cli]") {
+    const Folder folder;
+    const std::string project = "build $D/projects/modelA2.json ";
+    const auto r = folder.run(project + "-o one --threads 1");
+    INFO(r.err);
+    REQUIRE(r.status == 0);
+    REQUIRE(folder.run(project + "-o two --threads 2").status == 0);
+    CHECK(folder.shell("diff -r -x log.txt -x statistics.json one two").status == 0);
+    const auto statistics = Json::parse(folder.read("one/statistics.json"));
+    const double volume = 12000.0 * 7000 * 3700;
+    CHECK(double(statistics["volumes"]["all"]) == volume);
+    CHECK(statistics["tetrahedra"]["check"]["violations"].empty());
+    double sum = 0;
+    const auto& parts = statistics["tetrahedra"]["volume_of_region"];
+    for (std::size_t i = 1; i < parts.size(); ++i) sum += double(parts[i]);
+    CHECK(sum == Approx(volume));
+    CHECK(statistics["tetrahedra"]["tetrahedra_of_region"][0] == 0);
+    CHECK(statistics["tetrahedra"]["twin_faces"] > 0);
+}
+
+TEST_CASE("cli: tetrahedralize with sizes and cuts by name", "[cli]") {
+    const Case c;
+    const std::string in = "tetrahedralize in/layers.obj in/fault.obj --box 0,0,0,8,8,8 ";
+    const auto r = c.folder.run(in + "-o a.msh --role fault=fault --split fault --size-of top=1 "
+                                     "--size-in 2=0.8 --stats s.json");
+    INFO(r.err);
+    REQUIRE(r.status == 0);
+    CHECK(contains(r.out, "cut: "));
+    CHECK(contains(c.folder.read("a.msh"), "\"fault front\""));
+    const auto refused = [&](const std::string& arguments, const std::string& reason) {
+        const auto bad = c.folder.run(in + "-o b.vtu " + arguments);
+        INFO(bad.err);
+        CHECK(bad.status == 2);
+        CHECK(contains(bad.err, reason));
+    };
+    refused("--size-of top", "--size-of: needs NAME=L");
+    refused("--size-of top=1m", "--size-of: needs NAME=L");
+    refused("--size-of tpo=1", "--size-of: no surface is called tpo");
+    refused("--size-in 77=1", "--size-in: no block is called 77");
+    refused("--size-in 2=0", "the edge length of block 2 must be a positive number");
+    refused("--split tpo", "--split: no surface is called tpo");
+    refused("--role fault=salt", "needs NAME=ROLE");
+    CHECK_FALSE(c.folder.left().contains("b.vtu"));
+}
+
+#else
+
+TEST_CASE("cli: build says where it needs TetGen", "[cli]") {
+    const Case c;
+    auto json = project();
+    json["outputs"]["tetrahedra"] = Json::array({"vtu"});
+    const auto r = c.build(json);
+    CHECK(r.status == 2);
+    CHECK(contains(r.err, "p.json: outputs.tetrahedra: this program was built without TetGen"));
+}
+
+#endif

@@ -1,0 +1,364 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Project files: the parser, and the schema that states the same.
+#include <terrane/io/project.hpp>
+
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "samples.hpp"
+
+using namespace terrane;
+using namespace terrane::test;
+using nlohmann::json;
+
+namespace {
+
+json schema() {
+    std::ifstream file(TERRANE_SOURCE_DIR "/io/project.schema.json");
+    return json::parse(file);
+}
+
+/// Every key there is, but for the other kinds of volumes.
+json full() {
+    return json::parse(R"({
+        "format": "terrane-project 1", "folder": "run", "threads": 2,
+        "surfaces": [{"file": "a.ts", "objects": ["top", "base"], "role": "horizon"},
+                     {"file": "/b.ts", "objects": ["x"], "name": "F1", "role": "fault"}],
+        "volume_of_interest": {"box": {"low": [0, 0, -1.5], "high": [1, 2, 3]}},
+        "extend": 100, "seal": 0.25,
+        "improve": {"edge_length": 4, "max_deviation": 0.125, "edge_length_of": {"top": 3}},
+        "tetrahedra": {"edge_length": 2, "max_volume": 3.5, "quality": 1.4,
+                       "size_of": {"F1": 0.5, "top": 1}, "size_in": {"2": 0.25, "top/base": 1},
+                       "split": ["fault", "top"], "outside": true, "time_limit": 60},
+        "outputs": {"surfaces": ["vtp", "obj"], "tetrahedra": ["vtu", "msh", "msh22"],
+                    "blocks": "vtp", "certificate": false}})");
+}
+
+/// Full ones, together with every key of the schema.
+std::vector<json> samples() {
+    const std::vector<std::string> volumes{
+        R"({"rotated_box": {"centre": [1, 2, 3], "lengths": [4, 5, 6], "azimuth": 30,
+                            "plunge": 5, "roll": -7}})",
+        R"({"rotated_box": {"corner": [1, 2, 3], "lengths": [4, 5, 6]}})",
+        R"({"polygon": {"corners": [[0, 0], [1, 0], [0, 1]], "between": [-5, 0]}})",
+        R"({"within": ["salt.ts", "lid.ts"]})"};
+    std::vector<json> all{full()};
+    for (const auto& volume : volumes) {
+        all.push_back(full());
+        all.back()["volume_of_interest"] = json::parse(volume);
+    }
+    all.push_back(full());
+    all.back().erase("volume_of_interest");
+    for (const char* key : {"extend", "seal", "improve"}) all.back().erase(key);
+    all.back()["outputs"]["certificate"] = true;
+    all.push_back(json::parse(R"({"format": "terrane-project 1", "surfaces": [{"file": "a"}],
+                                  "outputs": {"blocks": "obj"}})"));
+    return all;
+}
+
+Result<Project> parse(const json& document) {
+    return parse_project(document.dump(), "/data", "p.json");
+}
+
+std::string message(const json& document) {
+    return message_of(parse(document));
+}
+
+/// What of JSON Schema the schema uses; anything else fails the test.
+bool holds(const json& schema, const json& value) {
+    for (const auto& [word, rule] : schema.items()) {
+        if (word == "type") {
+            const bool good = (rule == "object" && value.is_object()) ||
+                              (rule == "array" && value.is_array()) ||
+                              (rule == "string" && value.is_string()) ||
+                              (rule == "boolean" && value.is_boolean()) ||
+                              (rule == "number" && value.is_number()) ||
+                              (rule == "integer" && value.is_number_integer());
+            if (!good) return false;
+        } else if (word == "enum") {
+            if (std::find(rule.begin(), rule.end(), value) == rule.end()) return false;
+        } else if (word == "minLength") {
+            if (value.is_string() && value.get<std::string>().size() < rule) return false;
+        } else if (word == "minimum") {
+            if (value.is_number() && value < rule) return false;
+        } else if (word == "maximum") {
+            if (value.is_number() && value > rule) return false;
+        } else if (word == "exclusiveMinimum") {
+            if (value.is_number() && value <= rule) return false;
+        } else if (word == "minItems") {
+            if (value.is_array() && value.size() < rule) return false;
+        } else if (word == "maxItems") {
+            if (value.is_array() && value.size() > rule) return false;
+        } else if (word == "minProperties") {
+            if (value.is_object() && value.size() < rule) return false;
+        } else if (word == "maxProperties") {
+            if (value.is_object() && value.size() > rule) return false;
+        } else if (word == "required") {
+            if (value.is_object())
+                for (const auto& key : rule)
+                    if (!value.contains(key.get<std::string>())) return false;
+        } else if (word == "dependentRequired") {
+            for (const auto& [key, needed] : rule.items())
+                if (value.is_object() && value.contains(key))
+                    for (const auto& other : needed)
+                        if (!value.contains(other.get<std::string>())) return false;
+        } else if (word == "items") {
+            if (value.is_array())
+                for (const auto& entry : value)
+                    if (!holds(rule, entry)) return false;
+        } else if (word == "properties") {
+            if (value.is_object())
+                for (const auto& [key, inner] : rule.items())
+                    if (value.contains(key) && !holds(inner, value[key])) return false;
+        } else if (word == "additionalProperties") {
+            if (value.is_object())
+                for (const auto& [key, inner] : value.items()) {
+                    if (schema.contains("properties") && schema["properties"].contains(key))
+                        continue;
+                    if (rule == false || !holds(rule, inner)) return false;
+                }
+        } else if (word == "oneOf") {
+            if (std::count_if(rule.begin(), rule.end(),
+                              [&](const json& one) { return holds(one, value); }) != 1)
+                return false;
+        } else if (word != "description" && word != "title" && word != "$schema" &&
+                   word != "default") {
+            FAIL("the schema uses " << word << ", which this test does not know");
+        }
+    }
+    return true;
+}
+
+/// All keys, as project_keys() has them.
+void collect_keys(const json& schema, const std::string& path, std::set<std::string>& keys) {
+    if (schema.contains("properties"))
+        for (const auto& [key, inner] : schema["properties"].items()) {
+            const auto here = path.empty() ? key : path + "." + key;
+            keys.insert(here);
+            collect_keys(inner, here, keys);
+        }
+    if (schema.contains("items")) collect_keys(schema["items"], path + "[]", keys);
+}
+
+/// Calls f(document) for `document` with each single value replaced, each key removed, and a key
+/// added to each object; `at` says where.
+void mutate(const json& document, const std::function<void(const json&, const std::string&)>& f) {
+    const std::vector<json> values{nullptr,
+                                   true,
+                                   false,
+                                   -1,
+                                   0,
+                                   1,
+                                   1.05,
+                                   2.5,
+                                   1025,
+                                   "",
+                                   "fault",
+                                   "vtp",
+                                   "stl",
+                                   "vtu",
+                                   json::array(),
+                                   json::object(),
+                                   json::array({1, 2, 3}),
+                                   json::array({"vtp"}),
+                                   json::array({"msh"}),
+                                   json::array({1, 2, 3, 4}),
+                                   json{{"a", 1}},
+                                   json{{"a", -1}},
+                                   json{{"low", json::array({1, 2, 3})}}};
+    std::function<void(const json::json_pointer&)> walk = [&](const json::json_pointer& at) {
+        const json& here = document.at(at);
+        for (const json& value : values) {
+            json changed = document;
+            changed[at] = value;
+            f(changed, at.to_string() + " = " + value.dump());
+        }
+        if (here.is_object()) {
+            json added = document;
+            added[at]["surplus"] = 1;
+            f(added, at.to_string() + " with surplus");
+            for (const auto& [key, unused] : here.items()) {
+                json removed = document;
+                removed[at].erase(key);
+                f(removed, at.to_string() + " without " + key);
+                walk(at / key);
+            }
+        }
+        if (here.is_array())
+            for (std::size_t i = 0; i < here.size(); ++i) walk(at / i);
+    };
+    walk(json::json_pointer());
+}
+
+} // namespace
+
+TEST_CASE("project: all keys are read", "[io][project]") {
+    const auto parsed = parse(full());
+    REQUIRE(message_of(parsed) == "no error");
+    const Project& p = parsed.value();
+    CHECK(p.folder == "/data/run");
+    CHECK(p.threads == 2);
+    REQUIRE(p.surfaces.size() == 2);
+    CHECK(p.surfaces[0].file == "/data/a.ts"); // relative to the project
+    CHECK(p.surfaces[0].objects == std::vector<std::string>{"top", "base"});
+    CHECK(p.surfaces[0].name.empty());
+    CHECK(p.surfaces[0].role == Role::horizon);
+    CHECK(p.surfaces[1].file == "/b.ts");
+    CHECK(p.surfaces[1].name == "F1");
+    CHECK(p.surfaces[1].role == Role::fault);
+    const auto* box = std::get_if<ProjectBox>(&p.volume);
+    REQUIRE(box != nullptr);
+    CHECK(box->low == Point3{0, 0, -1.5});
+    CHECK(box->high == Point3{1, 2, 3});
+    REQUIRE(p.improve.has_value());
+    CHECK(p.improve->edge_length == 4.0);
+    CHECK(p.improve->max_deviation == 0.125);
+    CHECK(p.improve->edge_length_of == std::vector<ProjectSize>{{"top", 3}});
+    CHECK(p.extend == 100.0);
+    CHECK(p.seal == 0.25);
+    CHECK(p.tetrahedra.edge_length == 2.0);
+    CHECK(p.tetrahedra.max_volume == 3.5);
+    CHECK(p.tetrahedra.quality == 1.4);
+    CHECK(p.tetrahedra.size_of == std::vector<ProjectSize>{{"F1", 0.5}, {"top", 1}});
+    CHECK(p.tetrahedra.size_in == std::vector<ProjectSize>{{"2", 0.25}, {"top/base", 1}});
+    CHECK(p.tetrahedra.split == std::vector<std::string>{"fault", "top"});
+    CHECK(p.tetrahedra.outside == true);
+    CHECK(p.tetrahedra.time_limit == 60);
+    CHECK(p.outputs.surfaces == std::vector<std::string>{"vtp", "obj"});
+    CHECK(p.outputs.tetrahedra == std::vector<std::string>{"vtu", "msh", "msh22"});
+    CHECK(p.outputs.blocks == "vtp");
+    CHECK_FALSE(p.outputs.certificate);
+}
+
+TEST_CASE("project: all kinds of volumes are read", "[io][project]") {
+    const auto all = samples();
+    const auto rotated = std::get<RotatedBox>(parse(all[1]).value().volume);
+    CHECK(rotated.place == Point3{1, 2, 3});
+    CHECK_FALSE(rotated.is_corner);
+    CHECK(rotated.lengths == std::array<double, 3>{4, 5, 6});
+    CHECK(rotated.azimuth == 30);
+    CHECK(rotated.plunge == 5);
+    CHECK(rotated.roll == -7);
+    const auto corner = std::get<RotatedBox>(parse(all[2]).value().volume);
+    CHECK(corner.is_corner);
+    CHECK(corner.azimuth == 0);
+    const auto polygon = std::get<ProjectPolygon>(parse(all[3]).value().volume);
+    CHECK(polygon.corners == std::vector<Point2>{{0, 0}, {1, 0}, {0, 1}});
+    CHECK(polygon.between == std::array<double, 2>{-5, 0});
+    CHECK(std::get<ProjectWithin>(parse(all[4]).value().volume).files ==
+          std::vector<std::filesystem::path>{"/data/salt.ts", "/data/lid.ts"});
+    const auto least = parse(all[6]).value();
+    CHECK(least.volume.index() == 0);
+    CHECK_FALSE(least.improve.has_value());
+    CHECK(least.folder.empty());
+    CHECK(least.tetrahedra.time_limit == 600);
+    CHECK_FALSE(least.tetrahedra.outside.has_value());
+    CHECK_FALSE(least.surfaces[0].role.has_value());
+}
+
+TEST_CASE("project: schema and parser know the same keys", "[io][project]") {
+    std::set<std::string> stated;
+    collect_keys(schema(), "", stated);
+    const auto known = project_keys();
+    CHECK(std::vector<std::string>(stated.begin(), stated.end()) == known);
+    // Each of them is in a sample, so that the mutations below reach it.
+    std::set<std::string> used;
+    const std::function<void(const json&, const std::string&)> walk = [&](const json& value,
+                                                                          const std::string& path) {
+        if (value.is_array())
+            for (const auto& entry : value) walk(entry, path + "[]");
+        if (value.is_object())
+            for (const auto& [key, inner] : value.items()) {
+                used.insert(path.empty() ? key : path + "." + key);
+                walk(inner, path.empty() ? key : path + "." + key);
+            }
+    };
+    for (const auto& sample : samples()) walk(sample, "");
+    for (const auto& key : known) CHECK(used.contains(key));
+}
+
+TEST_CASE("project: schema and parser give the same verdict on every change", "[io][project]") {
+    const json stated = schema();
+    std::size_t good = 0, bad = 0;
+    for (const auto& sample : samples()) {
+        REQUIRE(message(sample) == "no error");
+        REQUIRE(holds(stated, sample));
+        mutate(sample, [&](const json& changed, const std::string& where) {
+            const auto said = message(changed);
+            const bool accepted = said == "no error";
+            (accepted ? good : bad)++;
+            // Beyond the schema: a certificate is about whole surfaces as they are.
+            if (said.starts_with("p.json: outputs.certificate: must be false with volume")) return;
+            INFO(where << ": " << said);
+            if (accepted != holds(stated, changed)) CHECK(accepted == holds(stated, changed));
+        });
+    }
+    CHECK(good > 100);
+    CHECK(bad > 1000);
+}
+
+TEST_CASE("project: what is wrong is named by its key", "[io][project]") {
+    const auto with = [](const char* pointer, const json& value) {
+        json document = full();
+        document[json::json_pointer(pointer)] = value;
+        return message(document);
+    };
+    CHECK(with("/surfaces/1/role", "salt") ==
+          "p.json: surfaces[1].role: must be horizon, fault or boundary");
+    CHECK(with("/surfaces/1/rolle", "fault") ==
+          "p.json: surfaces[1].rolle: unknown key; did you mean role?");
+    CHECK(with("/surfaces/0/colour", 1) ==
+          "p.json: surfaces[0].colour: unknown key; there are file, objects, name or role");
+    CHECK(with("/tetrahedra/edge-length", 1) ==
+          "p.json: tetrahedra.edge-length: unknown key; did you mean edge_length?");
+    CHECK(with("/tetrahedra/edge_length", "2") ==
+          "p.json: tetrahedra.edge_length: must be a number larger than 0");
+    CHECK(with("/tetrahedra/size_of/F1", 0) ==
+          "p.json: tetrahedra.size_of.F1: must be a number larger than 0");
+    CHECK(with("/tetrahedra/quality", 1) ==
+          "p.json: tetrahedra.quality: must be a number, at least 1.1");
+    CHECK(with("/volume_of_interest/box/low", json::array({1, 2})) ==
+          "p.json: volume_of_interest.box.low: must be a list of 3");
+    CHECK(with("/volume_of_interest/box/low/1", "0") ==
+          "p.json: volume_of_interest.box.low[1]: must be a number");
+    CHECK(with("/volume_of_interest/within", json::array({"a"})) ==
+          "p.json: volume_of_interest: must have one key: box, rotated_box, polygon or within");
+    CHECK(with("/outputs/surfaces/0", "dxf")
+              .starts_with("p.json: outputs.surfaces[0]: must be vtp, obj, "));
+    CHECK(with("/threads", 1.5) == "p.json: threads: must be a whole number, 0 to 1024");
+    CHECK(with("/outputs/certificate", true)
+              .starts_with("p.json: outputs.certificate: must be false "));
+    json document = full();
+    document["surfaces"][0].erase("file");
+    CHECK(message(document) == "p.json: surfaces[0]: the key file is missing");
+    document = full();
+    document.erase("surfaces");
+    CHECK(message(document) == "p.json: the key surfaces is missing");
+}
+
+TEST_CASE("project: any text gives a project or an error", "[io][project]") {
+    const auto said = [](std::string_view text) {
+        const auto result = parse_project(text, "", "p.json");
+        REQUIRE_FALSE(result);
+        return result.error().message();
+    };
+    CHECK(said("") == "p.json:1: this is not JSON");
+    CHECK(said("{\n\"format\": \"terrane-project 1\",\n}") == "p.json:3: this is not JSON");
+    CHECK(said("[]") == "p.json: must be an object");
+    CHECK(said(R"({"threads": 1, "threads": 2})") == "p.json: the key threads is there twice");
+    CHECK(said(R"({"threads": 1e999})").starts_with("p.json: "));
+    const auto text = full().dump();
+    for (std::size_t size = 0; size < text.size(); ++size)
+        CHECK(said(text.substr(0, size)) == "p.json:1: this is not JSON");
+    const auto missing = read_project("/nowhere/p.json");
+    REQUIRE_FALSE(missing);
+    CHECK(missing.error().code == ErrorCode::cannot_open);
+}
