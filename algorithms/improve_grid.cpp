@@ -73,7 +73,7 @@ void Grid::enter(std::uint32_t t, const Box& box, std::uint32_t patch) {
             for (std::int64_t z = range.low[2]; z <= range.high[2]; ++z) {
                 Cell& cell = level.find_or_make({x, y, z}, patch);
                 if (cell.patch != patch) cell.patch = no_group;
-                cell.entries.push_back(t);
+                cell.entries.push_back({t, patch});
                 ++entries_;
             }
 }
@@ -92,8 +92,7 @@ void Grid::move(std::uint32_t t, const Box& before, const Box& box, std::uint32_
                 if (is_there && patch != no_group) continue;
                 Cell& cell = level.find_or_make({x, y, z}, patch);
                 if (cell.patch != patch) cell.patch = no_group;
-                if (is_there) continue;
-                cell.entries.push_back(t);
+                cell.entries.push_back({t, patch});
                 ++entries_;
             }
 }

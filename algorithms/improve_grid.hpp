@@ -28,8 +28,8 @@ public:
     /// The same for one that was entered with the box `before`.
     void move(std::uint32_t t, const Box& before, const Box& box, std::uint32_t patch);
 
-    /// Calls visit(t) for at least all triangles entered whose boxes overlap, but for cells that
-    /// know the patch `but` only; maybe several times. Ends when visit gives false, and gives that.
+    /// Calls visit(t) for at least all triangles entered whose boxes overlap, but for those of the
+    /// patch `but`; maybe several times. Ends when visit gives false, and gives that.
     template <class Visit>
     bool visit(const Box& box, std::uint32_t but, const Visit& visit) const {
         for (const Level& level : levels_) {
@@ -52,10 +52,13 @@ public:
 
 private:
     using Place = std::array<std::int64_t, 3>;
+    struct Entry {
+        std::uint32_t triangle, patch;
+    };
     struct Cell {
         Place at{};
         std::uint32_t patch = 0; ///< of all entries, or no_group
-        std::vector<std::uint32_t> entries;
+        std::vector<Entry> entries;
     };
     struct Range {
         Place low, high;
@@ -85,8 +88,8 @@ private:
     template <class Visit>
     static bool visit_cell(const Cell& cell, std::uint32_t but, const Visit& visit) {
         if (but != no_group && cell.patch == but) return true;
-        for (const std::uint32_t t : cell.entries)
-            if (!visit(t)) return false;
+        for (const Entry& e : cell.entries)
+            if ((but == no_group || e.patch != but) && !visit(e.triangle)) return false;
         return true;
     }
     static Range range_of(const Level& level, const Box& box) {

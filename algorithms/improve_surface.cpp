@@ -244,6 +244,8 @@ std::size_t split_edges(Workshop& shop) {
         }
         if (more == 0) break;
         count += more;
+        // Halves of slivers are slivers: swapped, they need not be halved again and again.
+        if (round > 0 || 20 * more > mesh.triangles.size()) swap_edges(shop);
     }
     return count;
 }
