@@ -90,6 +90,7 @@ public:
             return false;
         }
         before_ = now;
+        ++shop_.moves;
         return true;
     }
 

@@ -63,10 +63,16 @@ bool split(Workshop& shop, const Edge& e) {
         shop.reference.above(middle, change.facing[0].second, mesh.hint_of[change.removed[0]]);
     if (place) {
         mesh.points[m] = place->point;
-        if (shop.guard.apply(change) == Verdict::allowed) return true;
+        if (shop.guard.apply(change) == Verdict::allowed) {
+            ++shop.splits;
+            return true;
+        }
         mesh.points[m] = middle;
     }
-    if (shop.guard.apply(change) == Verdict::allowed) return true;
+    if (shop.guard.apply(change) == Verdict::allowed) {
+        ++shop.splits;
+        return true;
+    }
     mesh.drop_last_vertex();
     return false;
 }
@@ -121,7 +127,9 @@ bool swap(Workshop& shop, const Edge& e, bool even) {
     set_facing(mesh, change);
     change.add(left, t);
     change.add(right, u);
-    return shop.guard.apply(change) == Verdict::allowed;
+    if (shop.guard.apply(change) != Verdict::allowed) return false;
+    ++shop.swaps;
+    return true;
 }
 
 /// Whether the collapse keeps the mesh what it is but for its division.
@@ -181,7 +189,7 @@ bool collapse(Workshop& shop, std::uint32_t gone, std::uint32_t kept, double lon
     change.on_border = on_curve;
     change.removed = mesh.star[gone];
     std::vector<std::uint32_t> at_edge;
-    double worst = 1, worst_before = 1;
+    double worst = 1, worst_before = 1, longest_added = 0;
     for (const std::uint32_t t : change.removed) {
         const Triangle& corners = mesh.triangles[t];
         worst_before = std::min(worst_before, shape_of(mesh, corners));
@@ -193,15 +201,20 @@ bool collapse(Workshop& shop, std::uint32_t gone, std::uint32_t kept, double lon
         }
         change.add(with(corners, gone, kept), t);
         worst = std::min(worst, shape_of(mesh, change.added.back()));
-        for (const std::uint32_t v : corners)
-            if (v != gone && mesh.edge_length(v, kept) > longest) return false;
+        for (const std::uint32_t v : corners) {
+            if (v == gone) continue;
+            longest = std::max(longest, mesh.edge_length(v, gone)); // no longer than it was
+            longest_added = std::max(longest_added, mesh.edge_length(v, kept));
+        }
     }
+    if (longest_added > longest) return false;
     if (change.added.empty() || !(worst > std::min(least, worst_before))) return false;
     if (!keeps_topology(mesh, gone, kept, change, at_edge)) return false;
     set_facing(mesh, change);
     if (shop.guard.apply(change) != Verdict::allowed) return false;
     if (on_curve) join_on_curve(mesh, gone, kept, other);
     mesh.kinds[gone] = VertexKind::unused;
+    ++shop.collapses;
     return true;
 }
 
@@ -244,8 +257,11 @@ std::size_t split_edges(Workshop& shop) {
         }
         if (more == 0) break;
         count += more;
-        // Halves of slivers are slivers: swapped, they need not be halved again and again.
-        if (round > 0 || 20 * more > mesh.triangles.size()) swap_edges(shop);
+        // Halves of slivers are slivers: swapped and collapsed, they are not halved again and
+        // again.
+        if (20 * more < mesh.triangles.size()) continue;
+        swap_edges(shop);
+        collapse_edges(shop);
     }
     return count;
 }
