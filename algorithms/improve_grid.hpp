@@ -40,9 +40,9 @@ public:
                     if (range.contains(cell.at) && !visit_cell(cell, but, visit)) return false;
                 continue;
             }
-            for (std::int64_t x = range.low[0]; x <= range.high[0]; ++x)
-                for (std::int64_t y = range.low[1]; y <= range.high[1]; ++y)
-                    for (std::int64_t z = range.low[2]; z <= range.high[2]; ++z) {
+            for (std::int64_t x = range.low.x; x <= range.high.x; ++x)
+                for (std::int64_t y = range.low.y; y <= range.high.y; ++y)
+                    for (std::int64_t z = range.low.z; z <= range.high.z; ++z) {
                         const Cell* const cell = level.find({x, y, z});
                         if (cell != nullptr && !visit_cell(*cell, but, visit)) return false;
                     }
@@ -51,7 +51,13 @@ public:
     }
 
 private:
-    using Place = std::array<std::int64_t, 3>;
+    struct Place {
+        std::int64_t x = 0, y = 0, z = 0;
+
+        friend bool operator==(const Place& a, const Place& b) {
+            return a.x == b.x && a.y == b.y && a.z == b.z;
+        }
+    };
     struct Entry {
         std::uint32_t triangle, patch;
     };
@@ -63,14 +69,13 @@ private:
     struct Range {
         Place low, high;
         [[nodiscard]] double count() const {
-            double n = 1;
-            for (std::size_t k = 0; k < 3; ++k) n *= static_cast<double>(high[k] - low[k] + 1);
-            return n;
+            return static_cast<double>(high.x - low.x + 1) *
+                   static_cast<double>(high.y - low.y + 1) *
+                   static_cast<double>(high.z - low.z + 1);
         }
         [[nodiscard]] bool contains(const Place& p) const {
-            for (std::size_t k = 0; k < 3; ++k)
-                if (p[k] < low[k] || p[k] > high[k]) return false;
-            return true;
+            return low.x <= p.x && p.x <= high.x && low.y <= p.y && p.y <= high.y && low.z <= p.z &&
+                   p.z <= high.z;
         }
         friend bool operator==(const Range&, const Range&) = default;
     };
@@ -93,12 +98,11 @@ private:
         return true;
     }
     static Range range_of(const Level& level, const Box& box) {
-        Range range{};
-        for (std::size_t k = 0; k < 3; ++k) {
-            range.low[k] = cell_of(box.low[k], level.size);
-            range.high[k] = cell_of(box.high[k], level.size);
-        }
-        return range;
+        const auto place = [&](const std::array<double, 3>& p) {
+            return Place{cell_of(p[0], level.size), cell_of(p[1], level.size),
+                         cell_of(p[2], level.size)};
+        };
+        return {place(box.low), place(box.high)};
     }
     static std::int64_t cell_of(double x, double size) {
         constexpr double most = 0x1p40; // beyond, all share the last cell: monotone, so still right

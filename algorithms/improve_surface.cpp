@@ -33,15 +33,20 @@ std::vector<std::pair<double, Edge>> inner_edges(const WorkMesh& mesh, const Wan
 
 /// Inner edges of triangles that have changed at this time or later, each once.
 std::vector<Edge> edges_changed_since(const WorkMesh& mesh, std::uint32_t time) {
-    std::vector<Edge> edges;
+    std::vector<std::uint64_t> keys;
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
         if (!mesh.in_use(t) || mesh.changed_at[t] < time) continue;
         for (std::size_t i = 0; i < 3; ++i) {
             const std::uint32_t a = mesh.triangles[t][i], b = mesh.triangles[t][(i + 1) % 3];
-            if (mesh.curve_at(a, b) == none) edges.push_back({std::min(a, b), std::max(a, b)});
+            if (mesh.curve_at(a, b) == none)
+                keys.push_back(std::uint64_t{std::min(a, b)} << 32U | std::max(a, b));
         }
     }
-    sort_unique(edges);
+    sort_unique(keys);
+    std::vector<Edge> edges;
+    edges.reserve(keys.size());
+    for (const std::uint64_t k : keys)
+        edges.push_back({static_cast<std::uint32_t>(k >> 32U), static_cast<std::uint32_t>(k)});
     return edges;
 }
 
