@@ -48,10 +48,13 @@ TEST_CASE("quality: q and angles agree, in any order of corners and at any scale
         REQUIRE(angles[0] + angles[1] + angles[2] == Approx(180).epsilon(1e-12));
         REQUIRE(q == Approx(by_half_angles(angles)).epsilon(1e-9));
         REQUIRE(q == Approx(quality_of(p[2], p[0], p[1])).epsilon(1e-12));
-        const auto larger = [&](const Point3& a) {
-            return Point3{std::ldexp(a.x, 60), std::ldexp(a.y, 60), std::ldexp(a.z, 60)};
-        };
-        REQUIRE(quality_of(larger(p[0]), larger(p[1]), larger(p[2])) == q);
+        for (const int power : {60, 1020, -900}) {
+            const auto larger = [&](const Point3& a) {
+                return Point3{std::ldexp(a.x, power), std::ldexp(a.y, power),
+                              std::ldexp(a.z, power)};
+            };
+            REQUIRE(quality_of(larger(p[0]), larger(p[1]), larger(p[2])) == q);
+        }
     }
 }
 
