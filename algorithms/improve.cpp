@@ -125,12 +125,16 @@ private:
 
     /// Slivers would only be split into more of them.
     void clean_first() {
-        report_.collapses += collapse_curves(shop_);
+        collapse_curves(shop_);
         if (!stopped()) guard_.group_again(run_);
-        report_.collapses += collapse_edges(shop_);
+        collapse_edges(shop_);
         regroup_if_needed();
-        report_.swaps += swap_edges(shop_);
+        swap_edges(shop_);
         regroup_if_needed();
+    }
+
+    [[nodiscard]] std::size_t changes() const {
+        return shop_.splits + shop_.collapses + shop_.swaps + shop_.moves;
     }
 
     /// Returns whether the next one is worth it.
@@ -138,29 +142,24 @@ private:
         if (run_.progress)
             run_.progress("improve", static_cast<double>(pass) / (options_.passes + 1));
         ++report_.passes;
+        const std::size_t before = changes();
         if (pass == 0) clean_first();
-        const std::size_t splits = split_curves(shop_);
-        const std::size_t collapses = collapse_curves(shop_);
-        report_.moves += slide_curves(shop_);
+        split_curves(shop_);
+        collapse_curves(shop_);
+        slide_curves(shop_);
         if (!stopped()) guard_.group_again(run_);
-        const std::size_t inner_splits = split_edges(shop_);
+        split_edges(shop_);
         regroup_if_needed();
-        const std::size_t inner_collapses = collapse_edges(shop_);
+        collapse_edges(shop_);
         regroup_if_needed();
-        if (pass < 2) report_.moves += shake(shop_);
-        std::size_t swaps = even_out(shop_);
+        if (pass < 2) shake(shop_);
+        even_out(shop_);
         regroup_if_needed();
-        report_.moves += smooth(shop_);
-        swaps += swap_edges(shop_);
+        smooth(shop_);
+        swap_edges(shop_);
         regroup_if_needed();
-        const std::size_t moves = smooth(shop_);
-        report_.splits += splits + inner_splits;
-        report_.collapses += collapses + inner_collapses;
-        report_.swaps += swaps;
-        report_.moves += moves;
-        const std::size_t changes =
-            splits + inner_splits + collapses + inner_collapses + swaps + moves;
-        return 200 * changes > mesh_.triangles.size();
+        smooth(shop_);
+        return 200 * (changes() - before) > mesh_.triangles.size();
     }
 
     /// Single bad triangles, when most are good.
@@ -168,15 +167,13 @@ private:
         if (run_.progress) run_.progress("improve", options_.passes / (options_.passes + 1.0));
         for (unsigned round = 0; round < 3 && !stopped(); ++round) {
             guard_.group_again(run_);
-            const std::size_t collapses = collapse_bad(shop_, bad_shape);
-            const std::size_t swaps = swap_edges(shop_);
-            report_.moves += slide_curves(shop_);
-            report_.moves += smooth(shop_);
+            const std::size_t before = shop_.collapses + shop_.swaps;
+            collapse_bad(shop_, bad_shape);
+            swap_edges(shop_);
+            slide_curves(shop_);
+            smooth(shop_);
             const std::size_t lifts = lift_worst(shop_, bad_shape);
-            report_.collapses += collapses;
-            report_.swaps += swaps;
-            report_.moves += lifts;
-            if (collapses + swaps + lifts == 0) break;
+            if (shop_.collapses + shop_.swaps == before && lifts == 0) break;
         }
     }
 
@@ -264,6 +261,10 @@ WorstCause Improver::cause_of_worst(Triangle t) {
 
 Result<Improved> Improver::assembled() {
     guard_.group_again(run_); // numbers without gaps
+    report_.splits = shop_.splits;
+    report_.collapses = shop_.collapses;
+    report_.swaps = shop_.swaps;
+    report_.moves = shop_.moves;
     report_.refused_contact = guard_.refusals().contact;
     report_.refused_deviation = guard_.refusals().deviation;
     report_.refused_shape = guard_.refusals().shape;

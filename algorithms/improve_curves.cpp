@@ -68,6 +68,7 @@ bool split(Workshop& shop, const CurveEdge& e) {
     if (from_inner) mesh.along[e.from][1] = m;
     if (to_inner) mesh.along[e.to][0] = m;
     if (!from_inner && !to_inner) mesh.drop_direct(e.from, e.to);
+    ++shop.splits;
     return true;
 }
 
@@ -98,6 +99,7 @@ bool slide(Workshop& shop, std::uint32_t v, double at) {
         return false;
     }
     mesh.place_on[v] = at;
+    ++shop.moves;
     return true;
 }
 

@@ -12,7 +12,7 @@ constexpr std::size_t most_levels = 48;
 
 std::size_t Grid::Level::slot_of(const Place& at) const {
     std::uint64_t h = 0;
-    for (const std::int64_t k : at) {
+    for (const std::int64_t k : {at.x, at.y, at.z}) {
         h = (h ^ static_cast<std::uint64_t>(k)) * 0x9E3779B97F4A7C15ULL;
         h ^= h >> 29U;
     }
@@ -68,12 +68,12 @@ std::size_t Grid::level_of(const Box& box) const {
 void Grid::enter(std::uint32_t t, const Box& box, std::uint32_t patch) {
     Level& level = levels_[level_of(box)];
     const Range range = range_of(level, box);
-    for (std::int64_t x = range.low[0]; x <= range.high[0]; ++x)
-        for (std::int64_t y = range.low[1]; y <= range.high[1]; ++y)
-            for (std::int64_t z = range.low[2]; z <= range.high[2]; ++z) {
+    for (std::int64_t x = range.low.x; x <= range.high.x; ++x)
+        for (std::int64_t y = range.low.y; y <= range.high.y; ++y)
+            for (std::int64_t z = range.low.z; z <= range.high.z; ++z) {
                 Cell& cell = level.find_or_make({x, y, z}, patch);
                 if (cell.patch != patch) cell.patch = no_group;
-                cell.entries.push_back(t);
+                cell.entries.push_back({t, patch});
                 ++entries_;
             }
 }
@@ -85,15 +85,14 @@ void Grid::move(std::uint32_t t, const Box& before, const Box& box, std::uint32_
     const bool same_level = level_of(before) == here;
     const Range old = range_of(level, before);
     if (same_level && old == range && patch != no_group) return;
-    for (std::int64_t x = range.low[0]; x <= range.high[0]; ++x)
-        for (std::int64_t y = range.low[1]; y <= range.high[1]; ++y)
-            for (std::int64_t z = range.low[2]; z <= range.high[2]; ++z) {
+    for (std::int64_t x = range.low.x; x <= range.high.x; ++x)
+        for (std::int64_t y = range.low.y; y <= range.high.y; ++y)
+            for (std::int64_t z = range.low.z; z <= range.high.z; ++z) {
                 const bool is_there = same_level && old.contains({x, y, z});
                 if (is_there && patch != no_group) continue;
                 Cell& cell = level.find_or_make({x, y, z}, patch);
                 if (cell.patch != patch) cell.patch = no_group;
-                if (is_there) continue;
-                cell.entries.push_back(t);
+                cell.entries.push_back({t, patch});
                 ++entries_;
             }
 }

@@ -28,8 +28,8 @@ public:
     /// The same for one that was entered with the box `before`.
     void move(std::uint32_t t, const Box& before, const Box& box, std::uint32_t patch);
 
-    /// Calls visit(t) for at least all triangles entered whose boxes overlap, but for cells that
-    /// know the patch `but` only; maybe several times. Ends when visit gives false, and gives that.
+    /// Calls visit(t) for at least all triangles entered whose boxes overlap, but for those of the
+    /// patch `but`; maybe several times. Ends when visit gives false, and gives that.
     template <class Visit>
     bool visit(const Box& box, std::uint32_t but, const Visit& visit) const {
         for (const Level& level : levels_) {
@@ -40,9 +40,9 @@ public:
                     if (range.contains(cell.at) && !visit_cell(cell, but, visit)) return false;
                 continue;
             }
-            for (std::int64_t x = range.low[0]; x <= range.high[0]; ++x)
-                for (std::int64_t y = range.low[1]; y <= range.high[1]; ++y)
-                    for (std::int64_t z = range.low[2]; z <= range.high[2]; ++z) {
+            for (std::int64_t x = range.low.x; x <= range.high.x; ++x)
+                for (std::int64_t y = range.low.y; y <= range.high.y; ++y)
+                    for (std::int64_t z = range.low.z; z <= range.high.z; ++z) {
                         const Cell* const cell = level.find({x, y, z});
                         if (cell != nullptr && !visit_cell(*cell, but, visit)) return false;
                     }
@@ -51,23 +51,31 @@ public:
     }
 
 private:
-    using Place = std::array<std::int64_t, 3>;
+    struct Place {
+        std::int64_t x = 0, y = 0, z = 0;
+
+        friend bool operator==(const Place& a, const Place& b) {
+            return a.x == b.x && a.y == b.y && a.z == b.z;
+        }
+    };
+    struct Entry {
+        std::uint32_t triangle, patch;
+    };
     struct Cell {
         Place at{};
         std::uint32_t patch = 0; ///< of all entries, or no_group
-        std::vector<std::uint32_t> entries;
+        std::vector<Entry> entries;
     };
     struct Range {
         Place low, high;
         [[nodiscard]] double count() const {
-            double n = 1;
-            for (std::size_t k = 0; k < 3; ++k) n *= static_cast<double>(high[k] - low[k] + 1);
-            return n;
+            return static_cast<double>(high.x - low.x + 1) *
+                   static_cast<double>(high.y - low.y + 1) *
+                   static_cast<double>(high.z - low.z + 1);
         }
         [[nodiscard]] bool contains(const Place& p) const {
-            for (std::size_t k = 0; k < 3; ++k)
-                if (p[k] < low[k] || p[k] > high[k]) return false;
-            return true;
+            return low.x <= p.x && p.x <= high.x && low.y <= p.y && p.y <= high.y && low.z <= p.z &&
+                   p.z <= high.z;
         }
         friend bool operator==(const Range&, const Range&) = default;
     };
@@ -85,17 +93,16 @@ private:
     template <class Visit>
     static bool visit_cell(const Cell& cell, std::uint32_t but, const Visit& visit) {
         if (but != no_group && cell.patch == but) return true;
-        for (const std::uint32_t t : cell.entries)
-            if (!visit(t)) return false;
+        for (const Entry& e : cell.entries)
+            if ((but == no_group || e.patch != but) && !visit(e.triangle)) return false;
         return true;
     }
     static Range range_of(const Level& level, const Box& box) {
-        Range range{};
-        for (std::size_t k = 0; k < 3; ++k) {
-            range.low[k] = cell_of(box.low[k], level.size);
-            range.high[k] = cell_of(box.high[k], level.size);
-        }
-        return range;
+        const auto place = [&](const std::array<double, 3>& p) {
+            return Place{cell_of(p[0], level.size), cell_of(p[1], level.size),
+                         cell_of(p[2], level.size)};
+        };
+        return {place(box.low), place(box.high)};
     }
     static std::int64_t cell_of(double x, double size) {
         constexpr double most = 0x1p40; // beyond, all share the last cell: monotone, so still right

@@ -39,15 +39,18 @@ void Guard::group_again(const Run& run) {
 }
 
 void Guard::fill_grid() {
-    double sum = 0;
+    // Long slivers are in the coarser cells; what comes is as long as is wanted.
+    double edges = 0, wanted = 0;
     std::size_t count = 0;
     box_of_.resize(mesh_.triangles.size());
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
         if (!mesh_.in_use(t)) continue;
-        sum += mesh_.edge_length(mesh_.triangles[t][0], mesh_.triangles[t][1]);
+        const std::uint32_t a = mesh_.triangles[t][0], b = mesh_.triangles[t][1];
+        edges += mesh_.edge_length(a, b);
+        wanted += mesh_.wanted_length(a, b);
         ++count;
     }
-    grid_.reset(count > 0 ? 3 * sum / static_cast<double>(count) : 1);
+    grid_.reset(count > 0 ? 3 * std::min(edges, wanted) / static_cast<double>(count) : 1);
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
         if (!mesh_.in_use(t)) continue;
         box_of_[t] = box_of(mesh_.points, mesh_.triangles[t]);
@@ -108,11 +111,10 @@ bool Guard::meets_properly(const Change& change, std::uint32_t patch) {
             all.high[k] = std::max(all.high[k], b.high[k]);
         }
     const auto proper = [&](std::uint32_t t) {
-        if (seen_[t] == change_ || !mesh_.in_use(t)) return true;
-        seen_[t] = change_;
         if (patch != no_group && patch_of_[t] == patch) return true;
         const Box& box = box_of_[t];
-        if (!box.overlaps(all)) return true;
+        if (!box.overlaps(all) || seen_[t] == change_ || !mesh_.in_use(t)) return true;
+        seen_[t] = change_;
         const Triangle& other = mesh_.triangles[t];
         for (std::size_t i = 0; i < change.added.size(); ++i)
             if (boxes_[i].overlaps(box) && improper_contact(mesh_.points, change.added[i], other))

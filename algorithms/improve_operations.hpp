@@ -37,6 +37,7 @@ struct Workshop {
     const std::vector<Curve>& curves; ///< of the input
     std::vector<double> curve_bound;  ///< per curve: how far an edge may be from it
     const Run& run;
+    std::size_t splits = 0, collapses = 0, swaps = 0, moves = 0; ///< made so far
     // When sweeps were made last: what has not changed since need not be looked at.
     std::uint32_t evened_at = 0, swapped_at = 0;
     std::vector<std::uint32_t> smoothed_at{}; ///< per vertex: when it was tried in vain

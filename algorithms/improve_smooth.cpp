@@ -9,7 +9,7 @@
 namespace terrane::improving {
 namespace {
 
-constexpr double least_gain = 1e-3;   ///< share of the sum of 1 / q that a move must take away
+constexpr double least_gain = 5e-3;   ///< share of the sum of 1 / q that a move must take away
 constexpr double shake_share = 0.2;   ///< of the wanted length
 constexpr double square_shape = 0.86; ///< q of half a square is 0.83
 
@@ -90,6 +90,7 @@ public:
             return false;
         }
         before_ = now;
+        ++shop_.moves;
         return true;
     }
 

@@ -33,15 +33,20 @@ std::vector<std::pair<double, Edge>> inner_edges(const WorkMesh& mesh, const Wan
 
 /// Inner edges of triangles that have changed at this time or later, each once.
 std::vector<Edge> edges_changed_since(const WorkMesh& mesh, std::uint32_t time) {
-    std::vector<Edge> edges;
+    std::vector<std::uint64_t> keys;
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
         if (!mesh.in_use(t) || mesh.changed_at[t] < time) continue;
         for (std::size_t i = 0; i < 3; ++i) {
             const std::uint32_t a = mesh.triangles[t][i], b = mesh.triangles[t][(i + 1) % 3];
-            if (mesh.curve_at(a, b) == none) edges.push_back({std::min(a, b), std::max(a, b)});
+            if (mesh.curve_at(a, b) == none)
+                keys.push_back(std::uint64_t{std::min(a, b)} << 32U | std::max(a, b));
         }
     }
-    sort_unique(edges);
+    sort_unique(keys);
+    std::vector<Edge> edges;
+    edges.reserve(keys.size());
+    for (const std::uint64_t k : keys)
+        edges.push_back({static_cast<std::uint32_t>(k >> 32U), static_cast<std::uint32_t>(k)});
     return edges;
 }
 
@@ -63,10 +68,16 @@ bool split(Workshop& shop, const Edge& e) {
         shop.reference.above(middle, change.facing[0].second, mesh.hint_of[change.removed[0]]);
     if (place) {
         mesh.points[m] = place->point;
-        if (shop.guard.apply(change) == Verdict::allowed) return true;
+        if (shop.guard.apply(change) == Verdict::allowed) {
+            ++shop.splits;
+            return true;
+        }
         mesh.points[m] = middle;
     }
-    if (shop.guard.apply(change) == Verdict::allowed) return true;
+    if (shop.guard.apply(change) == Verdict::allowed) {
+        ++shop.splits;
+        return true;
+    }
     mesh.drop_last_vertex();
     return false;
 }
@@ -121,7 +132,9 @@ bool swap(Workshop& shop, const Edge& e, bool even) {
     set_facing(mesh, change);
     change.add(left, t);
     change.add(right, u);
-    return shop.guard.apply(change) == Verdict::allowed;
+    if (shop.guard.apply(change) != Verdict::allowed) return false;
+    ++shop.swaps;
+    return true;
 }
 
 /// Whether the collapse keeps the mesh what it is but for its division.
@@ -181,7 +194,7 @@ bool collapse(Workshop& shop, std::uint32_t gone, std::uint32_t kept, double lon
     change.on_border = on_curve;
     change.removed = mesh.star[gone];
     std::vector<std::uint32_t> at_edge;
-    double worst = 1, worst_before = 1;
+    double worst = 1, worst_before = 1, longest_added = 0;
     for (const std::uint32_t t : change.removed) {
         const Triangle& corners = mesh.triangles[t];
         worst_before = std::min(worst_before, shape_of(mesh, corners));
@@ -193,15 +206,20 @@ bool collapse(Workshop& shop, std::uint32_t gone, std::uint32_t kept, double lon
         }
         change.add(with(corners, gone, kept), t);
         worst = std::min(worst, shape_of(mesh, change.added.back()));
-        for (const std::uint32_t v : corners)
-            if (v != gone && mesh.edge_length(v, kept) > longest) return false;
+        for (const std::uint32_t v : corners) {
+            if (v == gone) continue;
+            longest = std::max(longest, mesh.edge_length(v, gone)); // no longer than it was
+            longest_added = std::max(longest_added, mesh.edge_length(v, kept));
+        }
     }
+    if (longest_added > longest) return false;
     if (change.added.empty() || !(worst > std::min(least, worst_before))) return false;
     if (!keeps_topology(mesh, gone, kept, change, at_edge)) return false;
     set_facing(mesh, change);
     if (shop.guard.apply(change) != Verdict::allowed) return false;
     if (on_curve) join_on_curve(mesh, gone, kept, other);
     mesh.kinds[gone] = VertexKind::unused;
+    ++shop.collapses;
     return true;
 }
 
@@ -244,6 +262,11 @@ std::size_t split_edges(Workshop& shop) {
         }
         if (more == 0) break;
         count += more;
+        // Halves of slivers are slivers: swapped and collapsed, they are not halved again and
+        // again.
+        if (20 * more < mesh.triangles.size()) continue;
+        swap_edges(shop);
+        collapse_edges(shop);
     }
     return count;
 }

@@ -37,13 +37,16 @@ std::vector<double> edge_lengths(std::span<const Point3> vertices,
 } // namespace
 
 double quality_of(const Point3& a, const Point3& b, const Point3& c) {
-    const Point3 n = cross(minus(b, a), minus(c, a));
-    const double la = distance(b, c), lb = distance(c, a), lc = distance(a, b);
-    const double twice_area = std::hypot(n.x, n.y, n.z);
-    if (!(twice_area > 0)) return 0;
-    // r = area / s and R = a b c / (4 area), s half the circumference.
-    const double q = 4 * (twice_area / la) * (twice_area / lb) / (lc * (la + lb + lc));
-    return std::clamp(q, 0.0, 1.0);
+    const Point3 u = minus(b, a), v = minus(c, a);
+    const double size = std::max({std::fabs(u.x), std::fabs(u.y), std::fabs(u.z), std::fabs(v.x),
+                                  std::fabs(v.y), std::fabs(v.z)});
+    if (!(size > 0) || !std::isfinite(size)) return 0;
+    const auto scaled = [&](const Point3& d) { return Point3{d.x / size, d.y / size, d.z / size}; };
+    const Point3 p = scaled(u), q = scaled(v), r = minus(q, p), n = cross(p, q);
+    const double la = std::sqrt(dot(p, p)), lb = std::sqrt(dot(q, q)), lc = std::sqrt(dot(r, r));
+    const double sides = la * lb * lc * (la + lb + lc);
+    // The radii are r = area / s and R = a b c / (4 area), s half the circumference.
+    return sides > 0 ? std::clamp(4 * dot(n, n) / sides, 0.0, 1.0) : 0;
 }
 
 std::array<double, 3> angles_of(const Point3& a, const Point3& b, const Point3& c) {

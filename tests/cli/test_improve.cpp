@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <string>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "program.hpp"
+
+using namespace program_test;
+using Json = nlohmann::json;
+
+TEST_CASE("cli: improve writes a conforming mesh, its statistics and histograms", "[cli]") {
+    const Folder folder;
+    folder.input("two.obj", crossing);
+    const Outcome made = folder.run("improve in/two.obj -o out.obj -o out.vtp --edge-length 0.5 "
+                                    "--histogram q.svg --stats s.json");
+    INFO(made.err);
+    REQUIRE(made.status == 0);
+    CHECK(contains(made.out, "verified: the improved mesh is conforming, by exact check"));
+    CHECK(folder.run("check out.obj").status == 0);
+    const Json stats = Json::parse(folder.read("s.json"));
+    const auto& after = stats.at("quality").at("after");
+    CHECK(after.at("q").at("mean") > stats.at("quality").at("before").at("q").at("mean"));
+    CHECK(after.at("triangles") == stats.at("output").at("triangles"));
+    std::size_t counted = 0;
+    for (const std::size_t n : after.at("histogram")) counted += n;
+    CHECK(counted == after.at("triangles"));
+    CHECK(stats.at("deviation").at("measured_of_surfaces").at(0) <=
+          stats.at("deviation").at("bound_of_surfaces").at(0));
+    const std::string svg = folder.read("q.svg");
+    CHECK(svg.starts_with("<svg "));
+    CHECK(svg.ends_with("</svg>\n"));
+    CHECK(contains(svg, "after: " + std::to_string(after.at("triangles").get<int>())));
+}
+
+TEST_CASE("cli: improve refuses what makes no sense, and writes nothing", "[cli]") {
+    const Folder folder;
+    folder.input("two.obj", crossing);
+    for (const std::string options :
+         {"--edge-length -1", "--edge-length 1x", "--edge-length nan", "--edge-length-of fault",
+          "--edge-length-of nobody=1", "--edge-length-of fault=0", "--passes 0", "--turn -5",
+          "--max-deviation 1e-300", "--histogram nowhere/q.svg"}) {
+        const Outcome made = folder.run("improve in/two.obj -o out.obj " + options);
+        INFO(options << ": " << made.err);
+        CHECK(made.status == 2);
+        CHECK_FALSE(made.err.empty());
+    }
+    CHECK(folder.left().empty());
+}
+
+TEST_CASE("cli: improve writes the same bytes for any number of threads", "[cli]") {
+    const Folder folder;
+    const std::string model = "improve $D/ringmesh/split_cube.ml --edge-length 0.2 -o ";
+    REQUIRE(folder.run(model + "one.obj --threads 1").status == 0);
+    REQUIRE(folder.run(model + "four.obj --threads 4").status == 0);
+    CHECK(folder.read("one.obj") == folder.read("four.obj"));
+}
+
+TEST_CASE("cli: improve needs a conforming mesh", "[cli]") {
+    const Folder folder;
+    folder.input("tiny.off", tiny_triangles());
+    const Outcome made = folder.run("improve in/tiny.off -o out.obj --rounds 0");
+    CHECK(made.status == 1);
+    CHECK(contains(made.err, "only a conforming mesh can be improved"));
+    CHECK(folder.left().empty());
+}
