@@ -169,8 +169,7 @@ bool DiskMesh::is_at_border(std::uint32_t v) const {
     return !link || !link->closed;
 }
 
-bool DiskMesh::move_if_sound(std::uint32_t v, const Point3& to) {
-    constexpr double sound = 0.4; // better than this, a shape may get worse
+bool DiskMesh::move_if_sound(std::uint32_t v, const Point3& to, double sound) {
     const Point3 normal = normal_of(star_[v]);
     const auto worst = [&] {
         double least = std::numeric_limits<double>::infinity();

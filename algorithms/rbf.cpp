@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/edges.hpp>
 #include <terrane/algorithms/parallel.hpp>
 #include <terrane/algorithms/rbf_data.hpp>
 #include <terrane/algorithms/rbf_patches.hpp>
@@ -222,7 +223,8 @@ struct LeftOut {
 };
 
 LeftOut leave_out(const HoleData& data) {
-    const double width = std::max(data.radius / 4, 1.5 * data.edge);
+    const double most = *std::max_element(data.distances.begin(), data.distances.end());
+    const double width = std::max(std::min(data.radius / 4, most / 3), 1.5 * data.edge);
     LeftOut result;
     HoleData& kept = result.kept;
     std::vector<std::uint32_t> name(data.points.size(), UINT32_MAX);
@@ -308,23 +310,57 @@ double size_for(const HoleData& data, const BorderLoop& loop, const RbfOptions& 
     return std::max(data.edge, least);
 }
 
-/// Step (5). What lies under the surface, away from the border, is left out.
+/// The edges at which the data end, but for the border of the hole, as triangles without area.
+std::vector<Triangle> rim_of(const HoleData& data) {
+    std::vector<Triangle> rim;
+    group_edges(data.triangles, data.points.size())
+        .for_each([&](std::uint32_t low, std::uint32_t high, auto sides) {
+            const bool of_hole =
+                high < data.border && (high == low + 1 || high + 1 == low + data.border);
+            if (sides.size() == 1 && !of_hole) rim.push_back({low, high, high});
+        });
+    return rim;
+}
+
+/// What lies under the surface away from the border, or beyond where the data end.
+class Outside {
+public:
+    Outside(const HoleData& data, double size) :
+        size_(size), surface_(data.points, data.triangles), rim_(data.points, rim_of(data)),
+        border_(data.points, border_edges(data)) {}
+
+    [[nodiscard]] bool operator()(const Point3& p) const {
+        const double margin = 3 * size_, under = 1.5 * size_;
+        const double border = border_.distance(p, std::numeric_limits<double>::infinity());
+        if (border < margin) return false;
+        const double surface = surface_.distance(p, border);
+        if (surface < under) return true;
+        // Beyond the data the nearest of them is on their rim, as it is on no other limb of a fold.
+        return surface < border && rim_.distance(p, border) <= surface;
+    }
+
+private:
+    static std::vector<Triangle> border_edges(const HoleData& data) {
+        std::vector<Triangle> edges;
+        for (std::uint32_t i = 0; i < data.border; ++i) {
+            const auto j = static_cast<std::uint32_t>((i + 1) % data.border);
+            edges.push_back({i, j, j});
+        }
+        return edges;
+    }
+
+    double size_;
+    TriangleTree surface_, rim_, border_;
+};
+
+/// Step (5).
 Result<Surface> mesh_zero_level(const Implicit& f, const HoleData& data, double size,
                                 const Run& run) {
-    const TriangleTree surface(data.points, data.triangles);
-    std::vector<Triangle> edges;
-    for (std::uint32_t i = 0; i < data.border; ++i) {
-        const auto j = static_cast<std::uint32_t>((i + 1) % data.border);
-        edges.push_back({i, j, j});
-    }
-    const TriangleTree border(data.points, std::move(edges));
-    const double margin = 3 * size;
+    const Outside outside(data, size);
     ZeroLevelOptions options;
     options.size = size;
     options.seeds = std::span(data.points).first(data.border);
-    options.leave = [&](const Point3& p) {
-        return border.distance(p, margin) >= margin && surface.distance(p, 1.5 * size) < 1.5 * size;
-    };
+    options.leave = [&](const Point3& p) { return outside(p); };
     const SpaceFunction function{[&](const Point3& p) { return f(p); },
                                  [&](const Point3& p) { return f.smooth.gradient(p); }};
     return zero_level(function, options, run);
