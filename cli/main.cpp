@@ -66,7 +66,7 @@ ExitStatus run(int argc, char** argv) {
     const std::array commands{arrange_command(program), bench_command(program),
                               check_command(program),   tetrahedralize_command(program),
                               convert_command(program), verify_command(program),
-                              volume_command(program)};
+                              volume_command(program),  layer_command(program)};
     try {
         program.parse(argc, argv);
     } catch (const CLI::ParseError& stop) {
