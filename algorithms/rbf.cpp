@@ -267,9 +267,9 @@ double error_of(const HoleData& data, const LeftOut& left, const RbfOptions& opt
 /// Axes along and across the hole: the last along the mean normal of its border.
 std::array<Point3, 3> axes_of(const HoleData& data) {
     Point3 n;
-    for (std::size_t i = 0; i < data.border; ++i) n = along(n, 1, data.normals[i]);
+    for (std::size_t i = 0; i < data.next.size(); ++i) n = along(n, 1, data.normals[i]);
     const double size = length(n);
-    if (!(size > 0.1 * static_cast<double>(data.border))) return RbfPolynomial{}.axes;
+    if (!(size > 0.1 * static_cast<double>(data.next.size()))) return RbfPolynomial{}.axes;
     n = {n.x / size, n.y / size, n.z / size};
     const Point3 other = std::fabs(n.x) < 0.7 ? Point3{1, 0, 0} : Point3{0, 1, 0};
     Point3 u = cross(other, n);
@@ -316,7 +316,7 @@ std::vector<Triangle> rim_of(const HoleData& data) {
     group_edges(data.triangles, data.points.size())
         .for_each([&](std::uint32_t low, std::uint32_t high, auto sides) {
             const bool of_hole =
-                high < data.border && (high == low + 1 || high + 1 == low + data.border);
+                high < data.next.size() && (data.next[low] == high || data.next[high] == low);
             if (sides.size() == 1 && !of_hole) rim.push_back({low, high, high});
         });
     return rim;
@@ -342,10 +342,8 @@ public:
 private:
     static std::vector<Triangle> border_edges(const HoleData& data) {
         std::vector<Triangle> edges;
-        for (std::uint32_t i = 0; i < data.border; ++i) {
-            const auto j = static_cast<std::uint32_t>((i + 1) % data.border);
-            edges.push_back({i, j, j});
-        }
+        for (std::uint32_t i = 0; i < data.next.size(); ++i)
+            edges.push_back({i, data.next[i], data.next[i]});
         return edges;
     }
 
@@ -359,7 +357,7 @@ Result<Surface> mesh_zero_level(const Implicit& f, const HoleData& data, double 
     const Outside outside(data, size);
     ZeroLevelOptions options;
     options.size = size;
-    options.seeds = std::span(data.points).first(data.border);
+    options.seeds = std::span(data.points).first(data.next.size());
     options.leave = [&](const Point3& p) { return outside(p); };
     const SpaceFunction function{[&](const Point3& p) { return f(p); },
                                  [&](const Point3& p) { return f.smooth.gradient(p); }};
@@ -398,7 +396,7 @@ Status validate_options(const RbfOptions& o) {
 
 Result<Filling> fill_valid(const Surface& surface, const BorderLoop& loop,
                            const RbfOptions& options, RbfReport& report, const Run& run) {
-    const auto data = data_round(surface, loop, options.reach, options.rings);
+    const auto data = data_round(surface, loop, options.loops, {options.reach, options.rings});
     if (!data) return data.error();
     double validated = no_number;
     const auto polynomial = choose_polynomial(data.value(), options, validated, run);

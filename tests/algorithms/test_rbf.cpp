@@ -176,6 +176,27 @@ TEST_CASE("rbf: four holes on one horizon (the paper's Figure 22)", "[rbf]") {
     CHECK(std::equal(before.triangles.begin(), before.triangles.end(), s.triangles.begin()));
 }
 
+TEST_CASE("rbf: an island in a hole is data, and joined", "[rbf]") {
+    // A bump in the middle of the hole, of which only the island knows.
+    const auto bump = [](double x, double y) {
+        return 1.5 * std::exp(-(std::pow(x - 5, 2) + std::pow(y - 5, 2)) / 2);
+    };
+    const Surface s = punched(sheet(graph(bump), 0, 0, 10, 10, 50, 50, 0.2), [](const Point3& p) {
+        return disk(5, 5, 2.2)(p) && !disk(5, 5, 0.7)(p);
+    });
+    const auto loops = find_border_loops(s);
+    const auto filling = fill_by_rbf(s, holes_of(s).at(0), {.loops = loops.value()});
+    REQUIRE(filling);
+    const auto joined =
+        join_filling(s, holes_of(s).at(0), filling.value().surface, {.loops = loops.value()});
+    if (!joined) FAIL(joined.error().message());
+    CHECK(joined.value().report.islands == 1);
+    CHECK(find_border_loops(joined.value().surface).value().size() == 1);
+    CHECK(check(std::span(&joined.value().surface, 1)).value().clean());
+    CHECK(rms(s, joined.value().surface, [&](const Point3& p) { return p.z - bump(p.x, p.y); }) <
+          0.03);
+}
+
 TEST_CASE("rbf: more data than centres, and rough ones, are met by patches", "[rbf]") {
     std::mt19937_64 random(3);
     std::uniform_real_distribution<double> rough(-0.02, 0.02);
