@@ -65,8 +65,8 @@ ExitStatus run(int argc, char** argv) {
     program.footer(footer);
     const std::array commands{arrange_command(program), bench_command(program),
                               check_command(program),   tetrahedralize_command(program),
-                              convert_command(program), verify_command(program),
-                              volume_command(program)};
+                              convert_command(program), fill_command(program),
+                              verify_command(program),  volume_command(program)};
     try {
         program.parse(argc, argv);
     } catch (const CLI::ParseError& stop) {
