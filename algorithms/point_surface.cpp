@@ -7,6 +7,7 @@
 #include <Eigen/Dense>
 
 #include <terrane/algorithms/planar.hpp>
+#include <terrane/kernel/predicates.hpp>
 
 namespace terrane {
 namespace {
@@ -82,8 +83,9 @@ Result<std::vector<Triangle>> connect_points(std::span<const Point3> points,
     if (!triangles) return triangles;
     const double limit =
         options.max_edge > 0 ? options.max_edge : usual_limit(flat, triangles.value());
-    std::erase_if(triangles.value(),
-                  [&](const Triangle& t) { return longest_edge(flat, t) > limit; });
+    std::erase_if(triangles.value(), [&](const Triangle& t) {
+        return longest_edge(flat, t) > limit || collinear(points[t[0]], points[t[1]], points[t[2]]);
+    });
     return triangles;
 }
 

@@ -9,6 +9,8 @@
 
 #include <terrane/algorithms/check.hpp>
 #include <terrane/algorithms/fill_kriging.hpp>
+#include <terrane/algorithms/join.hpp>
+#include <terrane/algorithms/rbf.hpp>
 #include <terrane/algorithms/stopwatch.hpp>
 #include <terrane/cli/command.hpp>
 #include <terrane/cli/files.hpp>
@@ -44,7 +46,8 @@ constexpr auto footer =
 with a throw is a gap torn by a fault; gaps are left open unless --bridge-faults. --list says what
 there is, by the numbers that --holes takes.
 
-kriging needs a surface that is z = f(x, y) round the hole. The surface keeps all its vertices and
+kriging needs a surface that is z = f(x, y) round the hole; it foresees its error. rbf (the zero level
+of a radial basis function through points round the hole) takes any surface, folds too. The surface keeps all its vertices and
 triangles; new ones come after them and share the border's vertices. Where new triangles would cross
 others, nothing is written. VTP gets arrays invented (the number of the hole, 0 for what was given)
 and deviation (the expected error, mean of the corners). A hole that can't be filled is named and
@@ -53,7 +56,8 @@ left open, and the exit status is 1.
 Examples:
   terrane fill top.irap --list
   terrane fill --depth top.irap -o top.vtp --map top.svg
-  terrane fill horizons.ts -o filled.ts --holes 1,3 --points invented.csv)";
+  terrane fill horizons.ts -o filled.ts --holes 1,3 --points invented.csv
+  terrane fill fold.obj -o filled.obj --method rbf)";
 
 /// A hole and where it is from.
 struct NumberedHole {
@@ -194,6 +198,23 @@ Result<Filled> by_kriging(const FillCommand& command, const Surface& surface,
     return filled;
 }
 
+/// The surface that RBF gives goes beyond the border and is joined.
+Result<Filled> by_rbf(const FillCommand& command, const Surface& surface, const BorderLoop& loop,
+                      const Run& run) {
+    const auto filling = fill_by_rbf(surface, loop, {.size = command.mesh_size}, run);
+    if (!filling) return filling.error();
+    auto made = join_filling(surface, loop, filling.value().surface, {}, run);
+    if (!made) return made.error();
+    Filled filled;
+    filled.report = filling.value().report;
+    filled.report.invented = made.value().report.new_vertices;
+    filled.report.area = made.value().report.area;
+    for (const auto v : made.value().filling_vertices)
+        filled.deviation.push_back(filling.value().deviation[v]);
+    filled.surface = std::move(made.value().surface);
+    return filled;
+}
+
 /// Takes over what is new in `filled`, made from the surface as it was read.
 void append(const Surface& given, const Filled& filled, std::size_t number, Progress& progress) {
     const auto old = static_cast<std::uint32_t>(given.vertices.size());
@@ -229,7 +250,9 @@ Status fill_holes(const FillCommand& command, const std::vector<bool>& chosen, W
         const Surface& given = work.inputs.surfaces[hole.surface];
         session.begin(fmt::format("fill hole {}", hole.number), Phase::computing);
         const auto filled =
-            by_kriging(command, given, *hole.loop, work.loops[hole.surface], session.run());
+            command.method == "rbf"
+                ? by_rbf(command, given, *hole.loop, session.run())
+                : by_kriging(command, given, *hole.loop, work.loops[hole.surface], session.run());
         session.end_stage();
         if (filled) {
             hole.report = filled.value().report;
@@ -269,6 +292,15 @@ Result<std::string> contacts_of_new(const Work& work, std::size_t most, Session&
 // ---- What is said and written
 // --------------------------------------------------------------------
 
+/// What the method itself expects; else what it misses of data that are left out.
+std::string error_text(const FillReport& r) {
+    if (std::isfinite(r.expected_error))
+        return fmt::format("expected error {:.4g}", r.expected_error);
+    if (std::isfinite(r.validated_error))
+        return fmt::format("error {:.4g} at data left out", r.validated_error);
+    return "error not known";
+}
+
 std::string filled_text(const Work& work) {
     std::string text;
     std::size_t shown = 0, filled = 0, points = 0;
@@ -280,9 +312,8 @@ std::string filled_text(const Work& work) {
         points += r.invented;
         area += r.area;
         if (shown++ >= most_listed) continue;
-        text += fmt::format("hole {}: {} and area {:.6g} invented, expected error {:.4g}, from {}\n"
-                            "  {}\n",
-                            hole.number, counted(r.invented, "point"), r.area, r.expected_error,
+        text += fmt::format("hole {}: {} and area {:.6g} invented, {}, from {}\n  {}\n",
+                            hole.number, counted(r.invented, "point"), r.area, error_text(r),
                             counted(r.data, "point"), r.model);
     }
     if (shown > most_listed) text += fmt::format("and {} more\n", shown - most_listed);
@@ -295,6 +326,7 @@ Json json_of(const Work& work) {
     Json list = Json::array();
     for (const NumberedHole& hole : work.holes) {
         const BorderLoop& loop = *hole.loop;
+        const auto known = [](double value) { return std::isfinite(value) ? Json(value) : Json(); };
         Json entry{{"hole", hole.number},
                    {"surface", work.inputs.labels[hole.surface]},
                    {"kind", loop.kind == LoopKind::hole ? "hole" : "fault gap"},
@@ -308,8 +340,8 @@ Json json_of(const Work& work) {
             entry["filled"] = {{"points", hole.report->invented},
                                {"area", hole.report->area},
                                {"data", hole.report->data},
-                               {"expected_error", hole.report->expected_error},
-                               {"validated_error", hole.report->validated_error},
+                               {"expected_error", known(hole.report->expected_error)},
+                               {"validated_error", known(hole.report->validated_error)},
                                {"model", hole.report->model}};
         if (!hole.refused.empty()) entry["refused"] = hole.refused;
         list.push_back(std::move(entry));
@@ -327,7 +359,9 @@ std::string csv_of(const Work& work) {
         for (auto v = work.inputs.surfaces[s].vertices.size(); v < p.filled.vertices.size(); ++v) {
             const Point3& q = p.filled.vertices[v];
             const double d = p.deviation[v];
-            text += fmt::format("{},{},{},{:.6g},{:.6g},\"{}\"\n", q.x, q.y, q.z, d, d * d, name);
+            const auto errors =
+                std::isfinite(d) ? fmt::format("{:.6g},{:.6g}", d, d * d) : std::string(",");
+            text += fmt::format("{},{},{},{},\"{}\"\n", q.x, q.y, q.z, errors, name);
         }
     }
     return text;
@@ -440,8 +474,9 @@ void add_choice(CLI::App& app, FillCommand& command) {
 }
 
 void add_method(CLI::App& app, FillCommand& command) {
-    app.add_option("--method", command.method, "kriging (default: kriging)")
-        ->check(CLI::IsMember({"kriging"}).description(""))
+    app.add_option("--method", command.method,
+                   "kriging, for z = f(x, y), or rbf, for any surface (default: kriging)")
+        ->check(CLI::IsMember({"kriging", "rbf"}).description(""))
         ->type_name("METHOD");
     app.add_option(
            "--model", command.model,

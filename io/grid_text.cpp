@@ -27,17 +27,21 @@ std::string_view TokenStream::next() {
     return token;
 }
 
+Error TokenStream::ends_before(std::string_view what) const {
+    auto sentence = fmt::format("the file ends before {}", what);
+    return in_.number() == 0 ? in_.file_error(ErrorCode::bad_syntax, std::move(sentence))
+                             : in_.error(ErrorCode::bad_syntax, std::move(sentence));
+}
+
 MaybeError TokenStream::number(std::string_view what, double& value) {
     const auto token = next();
-    if (token.empty())
-        return in_.error(ErrorCode::bad_syntax, fmt::format("the file ends before {}", what));
+    if (token.empty()) return ends_before(what);
     return in_.read_number(token, value);
 }
 
 MaybeError TokenStream::integer(std::string_view what, std::int64_t& value) {
     const auto token = next();
-    if (token.empty())
-        return in_.error(ErrorCode::bad_syntax, fmt::format("the file ends before {}", what));
+    if (token.empty()) return ends_before(what);
     if (parse_integer(token, value)) return std::nullopt;
     return in_.error(ErrorCode::bad_syntax, fmt::format("{} is not {}", shown(token), what));
 }

@@ -41,6 +41,8 @@ public:
     [[nodiscard]] std::size_t bytes_left() const { return rest_.size() + in_.bytes_left(); }
 
 private:
+    [[nodiscard]] Error ends_before(std::string_view what) const;
+
     LineParser& in_;
     std::string_view rest_;
     bool commas_;

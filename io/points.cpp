@@ -111,8 +111,10 @@ private:
         std::array<double, 3> p{};
         for (std::size_t i = 0; i < 3; ++i) {
             if (chosen_->at(i) >= columns.size())
-                return in_.error(ErrorCode::bad_syntax,
-                                 fmt::format("a point needs {} numbers", chosen_->at(i) + 1));
+                return in_.error(
+                    ErrorCode::bad_syntax,
+                    fmt::format("a point needs {} numbers",
+                                *std::max_element(chosen_->begin(), chosen_->end()) + 1));
             if (auto trouble = in_.read_number(columns[chosen_->at(i)], p[i])) return trouble;
         }
         const bool ends_line = p[0] == 999 && p[1] == 999 && p[2] == 999;

@@ -13,12 +13,11 @@
 namespace terrane {
 
 /// One Surface called `name` with all points as vertices, connected by connect_points; one for each
-/// text in quotes that stands in front of the numbers, called so.
+/// text that stands in front of the numbers, called so.
 /// - Columns stand apart by blanks, tabs, commas or semicolons. Lines that begin with # ! @ or //
-///   are comments, as are lines before the first point that do not begin with a number; a line EOD
-///   or EOB ends the points.
-/// - Which columns: those that the last line of words before the points calls x, y, z (also
-/// easting,
+///   are comments, as are lines before the first point that begin with a word; a line EOD or EOB
+///   ends the points.
+/// - Which columns: those that the last line of words before the points calls x, y, z (or easting,
 ///   northing, depth, elevation; inline and crossline where there are no x and y), in any case;
 ///   else the first three numbers; of five in each line the last three (inline, crossline, x, y,
 ///   z).

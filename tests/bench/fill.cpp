@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What filled holes miss of surfaces that are known: kriging beside CGAL's fairing and a plain
-// linear patch, in one run.
+// What filled holes miss of surfaces that are known: kriging and RBF beside CGAL's fairing and a
+// plain linear patch, in one run.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -11,6 +11,8 @@
 
 #include <terrane/algorithms/fill_kriging.hpp>
 #include <terrane/algorithms/holes.hpp>
+#include <terrane/algorithms/join.hpp>
+#include <terrane/algorithms/rbf.hpp>
 
 #include "fill_models.hpp"
 #include "fill_yardstick.hpp"
@@ -38,6 +40,19 @@ void print_yardstick(const Model& model, const BorderLoop& loop, const char* way
         std::printf("  %s %10s %10s %6.2fs", way, "-", "-", seconds);
 }
 
+void print_rbf(const Model& model, const BorderLoop& loop) {
+    const auto start = std::chrono::steady_clock::now();
+    const auto filling = fill_by_rbf(model.holed, loop);
+    const auto made = filling ? join_filling(model.holed, loop, filling.value().surface)
+                              : Result<Joined>(filling.error());
+    const double seconds = seconds_since(start);
+    if (made)
+        print_misfit("rbf", misfit(model, made.value().surface, model.holed.triangles.size()),
+                     seconds);
+    else
+        std::printf("  rbf: %s", made.error().message().c_str());
+}
+
 void run(const Model& model, bool yardsticks) {
     const auto loops = find_border_loops(model.holed);
     if (!loops) return;
@@ -56,6 +71,7 @@ void run(const Model& model, bool yardsticks) {
     } else {
         std::printf("  kriging refuses");
     }
+    print_rbf(model, *hole);
     if (yardsticks) {
         print_yardstick(model, *hole, "fair", true);
         print_yardstick(model, *hole, "linear", false);
