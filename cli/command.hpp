@@ -19,6 +19,7 @@ Command arrange_command(CLI::App& program);
 Command bench_command(CLI::App& program);
 Command check_command(CLI::App& program);
 Command convert_command(CLI::App& program);
+Command fill_command(CLI::App& program);
 Command layer_command(CLI::App& program);
 Command tetrahedralize_command(CLI::App& program);
 Command verify_command(CLI::App& program);
