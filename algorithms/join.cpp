@@ -353,7 +353,8 @@ std::vector<double> widths(const Border& border, const JoinOptions& options) {
     return {half, half / 8, 4 * half};
 }
 
-/// Outer borders of other parts whose boxes overlap the loop's.
+/// Outer borders of other parts whose boxes overlap the loop's, made wider by its longest side: an
+/// island need not be as flat as the border. What the filling does not pass through is no island.
 std::vector<BorderLoop> islands_near(const Surface& surface, const BorderLoop& loop,
                                      std::span<const BorderLoop> loops) {
     const auto box = [&](const BorderLoop& l) {
@@ -368,7 +369,13 @@ std::vector<BorderLoop> islands_near(const Surface& surface, const BorderLoop& l
         }
         return b;
     };
-    const Box around = box(loop);
+    Box around = box(loop);
+    double longest = 0;
+    for (std::size_t k = 0; k < 3; ++k) longest = std::max(longest, around.high[k] - around.low[k]);
+    for (std::size_t k = 0; k < 3; ++k) {
+        around.low[k] -= longest;
+        around.high[k] += longest;
+    }
     std::vector<BorderLoop> islands;
     for (const BorderLoop& l : loops) {
         const bool valid = std::all_of(l.vertices.begin(), l.vertices.end(), [&](std::uint32_t v) {
