@@ -16,26 +16,14 @@ constexpr auto footer =
     R"(Nothing is arranged, merged or repaired: the same triangles with the same coordinates, bit by bit.
 Binary STL holds float32 only, which is said. Reads .ts .ml .obj .off .stl .ply, writes .vtp .obj
 .ts .ply .off .stl .msh .inp .mesh .poly .smesh.
+Grids (Irap .irap .gri, ZMAP+ .zmap, CPS-3 .cps3, ESRI .asc) become surfaces with holes where heights
+are missing, points (.xyz .csv .dat .txt .poi .pol, GOCAD .vs .pl) by Delaunay triangles without
+edges longer than --max-edge.
 
 Examples:
   terrane convert faults.ts faults.obj
+  terrane convert --depth top.irap top.vtp
   terrane convert --format ts --output-format vtp - - < faults.ts > faults.vtp)";
-
-/// The surfaces one after the other: each triangle in one surface, no vertex shared between two.
-Mesh concatenate(const std::vector<Surface>& surfaces) {
-    Mesh mesh;
-    for (const Surface& s : surfaces) {
-        const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-        const auto number = static_cast<std::uint32_t>(mesh.surfaces.size());
-        mesh.surfaces.push_back({s.name, s.role});
-        mesh.vertices.insert(mesh.vertices.end(), s.vertices.begin(), s.vertices.end());
-        for (const Triangle& t : s.triangles) {
-            mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-            mesh.surfaces_of.push_back(std::array{number});
-        }
-    }
-    return mesh;
-}
 
 bool loses_digits(const Mesh& mesh) {
     const auto narrow = [](double x) { return static_cast<double>(static_cast<float>(x)) != x; };
@@ -80,6 +68,7 @@ Command convert_command(CLI::App& program) {
     app->add_option("--output-format", options->files.output_format,
                     "Format of OUT, where its extension does not tell")
         ->type_name("FORMAT");
+    add_reading(*app, options->files);
     add_msh(*app, options->files);
     app->add_flag("--ascii", options->files.ascii, "STL as text, with doubles, not float32");
     app->footer(footer);

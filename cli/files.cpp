@@ -37,6 +37,11 @@ Result<Format> format_of_output(const FileOptions& options, const std::string& p
                  path};
 }
 
+std::optional<Format> format_of_input(const FileOptions& options, const std::string& path) {
+    if (!options.input_format.empty()) return format_named(options.input_format);
+    return path == "-" ? format_named(options.format) : std::nullopt;
+}
+
 bool fits(Format format, OutputKind kind) {
     return kind == OutputKind::tetrahedra ? holds_tetrahedra(format) : holds_surfaces(format);
 }
@@ -48,10 +53,12 @@ Status check_streams(const FileOptions& options) {
     if (dashes(options.inputs) > 1) return usage("standard input can be read only once");
     if (dashes(options.outputs) + (options.stats == "-" ? 1 : 0) > 1)
         return usage("standard output can take only one file");
-    if (dashes(options.inputs) == 1 && options.format.empty())
+    if (dashes(options.inputs) == 1 && options.format.empty() && options.input_format.empty())
         return usage("the format must be given: --format FORMAT", "standard input");
     if (!options.format.empty() && !format_named(options.format))
         return Error{ErrorCode::unknown_format, "unknown format " + options.format, ""};
+    if (!options.input_format.empty() && !format_named(options.input_format))
+        return Error{ErrorCode::unknown_format, "unknown format " + options.input_format, ""};
     return Done{};
 }
 
@@ -97,6 +104,22 @@ void add_inputs(CLI::App& command, FileOptions& options) {
                     "Format of whatever is -: ts, ml, obj, off, stl, ply, vtp, vtu, msh, inp, "
                     "mesh, poly, smesh")
         ->type_name("FORMAT");
+    add_reading(command, options);
+}
+
+void add_reading(CLI::App& command, FileOptions& options) {
+    command
+        .add_option("--input-format", options.input_format,
+                    "Format of IN, where its extension does not tell; of grids and points: irap, "
+                    "zmap, cps3, asc, xyz, vs")
+        ->type_name("FORMAT");
+    command.add_flag("--depth", options.read.depth,
+                     "Grids and points: heights are depths, positive down");
+    command
+        .add_option("--max-edge", options.read.max_edge,
+                    "Points: triangles with longer edges are left out (default: twice the median)")
+        ->check(CLI::PositiveNumber.description(""))
+        ->type_name("LENGTH");
 }
 
 void add_output(CLI::App& command, FileOptions& options, const char* help) {
@@ -138,7 +161,9 @@ Result<std::vector<Output>> plan_outputs(const FileOptions& options, OutputKind 
         if (!fits(format.value(), kind))
             return Error{ErrorCode::unsupported,
                          kind == OutputKind::surfaces
-                             ? "this format is for tetrahedra, not for surfaces"
+                             ? is_read(format.value())
+                                   ? "this format is read, not written"
+                                   : "this format is for tetrahedra, not for surfaces"
                              : "tetrahedra are written as .vtu, .msh, .inp or .mesh",
                          path};
         if (const auto folder = check_folder(path); !folder) return folder.error();
@@ -154,8 +179,7 @@ Result<Inputs> read_inputs(const FileOptions& options, Session& session) {
     Inputs all;
     session.begin("read", Phase::idle);
     for (const auto& path : options.inputs) {
-        const auto format = path == "-" ? format_named(options.format) : std::nullopt;
-        auto read = read_surfaces(path, format);
+        auto read = read_surfaces(path, format_of_input(options, path), options.read);
         if (!read) {
             session.end_stage();
             return read.error();
@@ -182,6 +206,21 @@ void append(Inputs& inputs, std::vector<Surface> surfaces, const std::string& or
         inputs.files.push_back(origin);
     }
     inputs.labels = labels_of(inputs.surfaces);
+}
+
+Mesh concatenate(const std::vector<Surface>& surfaces) {
+    Mesh mesh;
+    for (const Surface& s : surfaces) {
+        const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+        const auto number = static_cast<std::uint32_t>(mesh.surfaces.size());
+        mesh.surfaces.push_back({s.name, s.role});
+        mesh.vertices.insert(mesh.vertices.end(), s.vertices.begin(), s.vertices.end());
+        for (const Triangle& t : s.triangles) {
+            mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+            mesh.surfaces_of.push_back(std::array{number});
+        }
+    }
+    return mesh;
 }
 
 std::string name_of_inputs(const FileOptions& options) {

@@ -23,7 +23,9 @@ struct FileOptions {
     std::vector<std::string> inputs;
     std::vector<std::string> outputs;
     std::string format;        ///< of every "-"
+    std::string input_format;  ///< of the inputs, whatever they are called
     std::string output_format; ///< of the outputs, whatever they are called
+    ReadOptions read;          ///< of grids and points
     std::string stats;         ///< empty: none
     unsigned threads = 0;      ///< 0: all cores
     bool ascii = false;        ///< STL as text
@@ -31,6 +33,8 @@ struct FileOptions {
 };
 
 void add_inputs(CLI::App& command, FileOptions& options);
+/// How grids and points are read.
+void add_reading(CLI::App& command, FileOptions& options);
 void add_output(CLI::App& command, FileOptions& options, const char* help);
 void add_msh(CLI::App& command, FileOptions& options);
 void add_threads(CLI::App& command, FileOptions& options);
@@ -65,6 +69,9 @@ Result<Inputs> read_inputs(const FileOptions& options, Session& session);
 /// Adds surfaces that are no input of the user's, with a word on where they come from. Counts of
 /// the input stay.
 void append(Inputs& inputs, std::vector<Surface> surfaces, const std::string& origin);
+
+/// The surfaces one after the other: each triangle in one surface, no vertex shared between two.
+Mesh concatenate(const std::vector<Surface>& surfaces);
 
 /// "basin.ts", "basin.ts and 3 more files"
 std::string name_of_inputs(const FileOptions& options);

@@ -37,8 +37,14 @@ Result<std::vector<Surface>> read(std::string_view contents) {
     return parse_surfaces(contents, "fuzz", *format_named(format_name));
 }
 
+/// Formats that are only read are written as PLY.
+Format written_format() {
+    const Format format = *format_named(format_name);
+    return holds_surfaces(format) ? format : Format::ply;
+}
+
 std::string written(const Mesh& mesh) {
-    switch (*format_named(format_name)) {
+    switch (written_format()) {
     case Format::gocad:
         return to_gocad(mesh);
     case Format::obj:
@@ -126,7 +132,7 @@ void check_round_trip(const std::vector<Surface>& surfaces) {
     for (const Surface& s : surfaces)
         if (!s.triangles.empty()) first.push_back(in_use(s));
     const std::string text = written(mesh_of(first));
-    const auto again = parse_surfaces(text, "fuzz", *format_named(format_name));
+    const auto again = parse_surfaces(text, "fuzz", written_format());
     if (!again)
         fuzz::fail("what was written can't be read: " + again.error().message() + "\n" + text);
     const auto what = difference(first, again.value());

@@ -300,6 +300,46 @@ FILES = {
 }
 
 
+def irap_binary(columns, rows, heights, rotation=0.0):
+    def record(payload):
+        size = struct.pack(">i", len(payload))
+        return size + payload + size
+    head = struct.pack(">ii6f", -996, rows, 0, 9, 0, 9, 1, 1)
+    return (record(head) + record(struct.pack(">i3f", columns, rotation, 5, 6)) +
+            record(struct.pack(">7i", *[0] * 7)) +
+            record(struct.pack(f">{len(heights)}f", *heights)))
+
+
+FILES.update({
+    "irap": {
+        "text": "-996 2 1.5 2\n0 3 0 2\n3 30 100 200\n0 0 0 0 0 0 0\n1 2 9999900.0 3 4 5\n",
+        "binary": irap_binary(3, 2, [1, 2, 3, 4, 1e30, 6], 30)},
+    "zmap": {
+        "plain": "! made\n@top HEADER, GRID, 2\n 10, -99999.0, , 4, 1\n"
+                 " 2, 3, 0.0, 2.0, 0.0, 1.0\n 0.0, 0.0, 0.0\n@\n+ data\n 1.0 2.0\n"
+                 " -99999.0 3.0\n 4.0 5.0\n",
+        "fields": "@top HEADER, GRID, 3\n4, -9, NUL, 0, 1\n3,2,0,1,0,2\n0,0,0\n@\n"
+                  "100020003000\n4000-999 NUL\n"},
+    "cps3": {
+        "plain": "FSASCI 0 1 COMPUTED 0 0.1E+31\nFSATTR 0 0\nFSLIMI 0 2 0 1 1 6\nFSNROW 2 3\n"
+                 "FSXINC 1 1\n->top\n1 2 0.1E+31\n4 5 6\n"},
+    "asc": {
+        "corner": "ncols 3\nnrows 2\nxllcorner 10\nyllcorner 20\ncellsize 5\n"
+                  "NODATA_value -9999\n1 2 3\n4 -9999 6\n",
+        "centre": "NCOLS 2\nNROWS 2\nXLLCENTER 0\nYLLCENTER 0\nDX 1\nDY 2\n1 2\n3 4\n"},
+    "xyz": {
+        "columns": "0 0 1\n1 0 2\n0 1 3\n1 1 1e30\n999 999 999\n2 2 5\n",
+        "named": "id;X;Y;Z\n7;0;0;1\n8;1;0;2\n9;0;1;3\n",
+        "quoted": '# "X" "Y" "Z"\n"top" 0 0 1\n"top" 1 0 2\n"top" 0 1 3\n"base" 0 0 0\n',
+        "five": "1 1 0 0 5\n1 2 0 1 5\n2 1 1 0 5\n2 2 1 1 -999.25\nEOD\n"},
+    "vs": {
+        "vset": "GOCAD VSet 1\nHEADER {\nname:top\n}\nZPOSITIVE Depth\nVRTX 1 0 0 1\n"
+                "VRTX 2 1 0 2\nPVRTX 3 0 1 3 9\nATOM 4 1\nEND\n",
+        "pline": "GOCAD PLine 1\nHEADER {\nname:stick\n}\nILINE\nVRTX 1 0 0 1\nVRTX 2 1 0 2\n"
+                 "SEG 1 2\nEND\nGOCAD PLine 1\nILINE\nVRTX 1 0 1 3\nVRTX 2 1 1 4\nEND\n"},
+})
+
+
 def main():
     folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else
                           pathlib.Path(__file__).parent / "corpus")

@@ -6,17 +6,23 @@
 
 #include <terrane/io/abaqus.hpp>
 #include <terrane/io/atomic_file.hpp>
+#include <terrane/io/cps3.hpp>
+#include <terrane/io/esri.hpp>
 #include <terrane/io/gmsh.hpp>
 #include <terrane/io/gmsh22.hpp>
+#include <terrane/io/grid_text.hpp>
+#include <terrane/io/irap.hpp>
 #include <terrane/io/medit.hpp>
 #include <terrane/io/memory.hpp>
 #include <terrane/io/obj.hpp>
 #include <terrane/io/off.hpp>
 #include <terrane/io/ply.hpp>
+#include <terrane/io/points.hpp>
 #include <terrane/io/poly.hpp>
 #include <terrane/io/stl.hpp>
 #include <terrane/io/text.hpp>
 #include <terrane/io/vtk.hpp>
+#include <terrane/io/zmap.hpp>
 
 namespace terrane {
 
@@ -28,23 +34,18 @@ namespace {
 /// A file has at least 3 bytes per vertex, so below this size 32-bit indices are enough.
 constexpr std::uint64_t max_bytes = 3 * (std::uint64_t(1) << 32) - 3;
 
-constexpr std::array<std::pair<std::string_view, Format>, 16> names{{
-    {"ts", Format::gocad},
-    {"ml", Format::gocad},
-    {"gp", Format::gocad},
-    {"mx", Format::gocad},
-    {"obj", Format::obj},
-    {"off", Format::off},
-    {"stl", Format::stl},
-    {"ply", Format::ply},
-    {"vtp", Format::vtp},
-    {"vtu", Format::vtu},
-    {"msh", Format::msh},
-    {"msh22", Format::msh22},
-    {"inp", Format::inp},
-    {"mesh", Format::medit},
-    {"poly", Format::poly},
-    {"smesh", Format::smesh},
+constexpr std::array<std::pair<std::string_view, Format>, 33> names{{
+    {"ts", Format::gocad},    {"ml", Format::gocad},   {"gp", Format::gocad},
+    {"mx", Format::gocad},    {"obj", Format::obj},    {"off", Format::off},
+    {"stl", Format::stl},     {"ply", Format::ply},    {"vtp", Format::vtp},
+    {"vtu", Format::vtu},     {"msh", Format::msh},    {"msh22", Format::msh22},
+    {"inp", Format::inp},     {"mesh", Format::medit}, {"poly", Format::poly},
+    {"smesh", Format::smesh}, {"irap", Format::irap},  {"gri", Format::irap},
+    {"fgr", Format::irap},    {"zmap", Format::zmap},  {"zycor", Format::zmap},
+    {"cps3", Format::cps3},   {"cps", Format::cps3},   {"asc", Format::esri},
+    {"agr", Format::esri},    {"xyz", Format::xyz},    {"csv", Format::xyz},
+    {"txt", Format::xyz},     {"dat", Format::xyz},    {"poi", Format::xyz},
+    {"pol", Format::xyz},     {"vs", Format::vset},    {"pl", Format::vset},
 }};
 
 std::string place_of(const fs::path& path, bool reading) {
@@ -67,7 +68,7 @@ Result<Format> choose_format(const fs::path& path, std::optional<Format> wanted,
 }
 
 Result<std::vector<Surface>> parse(std::string_view contents, std::string_view source,
-                                   Format format) {
+                                   Format format, const ReadOptions& options) {
     const std::string place(source);
     const auto name = fs::path(place).stem().string();
     if (contents.size() > max_bytes)
@@ -83,6 +84,18 @@ Result<std::vector<Surface>> parse(std::string_view contents, std::string_view s
         return read_stl(contents, source, name);
     case Format::ply:
         return read_ply(contents, source, name);
+    case Format::irap:
+        return surfaces_of(read_irap(contents, source, name), source, options);
+    case Format::zmap:
+        return surfaces_of(read_zmap(contents, source, name), source, options);
+    case Format::cps3:
+        return surfaces_of(read_cps3(contents, source, name), source, options);
+    case Format::esri:
+        return surfaces_of(read_esri(contents, source, name), source, options);
+    case Format::xyz:
+        return read_points(contents, source, name, options);
+    case Format::vset:
+        return read_gocad_points(contents, source, name, options);
     default:
         break;
     }
@@ -119,7 +132,10 @@ Result<std::string> contents_of(const Mesh& mesh, Format format, const WriteOpti
     default:
         break;
     }
-    return Error{ErrorCode::unsupported, "this format is for tetrahedra, not for surfaces", ""};
+    return Error{ErrorCode::unsupported,
+                 is_read(format) ? "this format is read, not written"
+                                 : "this format is for tetrahedra, not for surfaces",
+                 ""};
 }
 
 Result<std::string> contents_of(const TetrahedralMesh& mesh, Format format,
@@ -156,8 +172,21 @@ Status write(const AnyMesh& mesh, const fs::path& path, const WriteOptions& opti
 
 } // namespace
 
+bool is_read(Format format) {
+    switch (format) {
+    case Format::gocad:
+    case Format::obj:
+    case Format::off:
+    case Format::stl:
+    case Format::ply:
+        return true;
+    default:
+        return format >= Format::irap;
+    }
+}
+
 bool holds_surfaces(Format format) {
-    return format != Format::vtu;
+    return format != Format::vtu && format < Format::irap;
 }
 
 bool holds_tetrahedra(Format format) {
@@ -177,18 +206,20 @@ std::optional<Format> format_of(const fs::path& path) {
 }
 
 Result<std::vector<Surface>> parse_surfaces(std::string_view contents, std::string_view source,
-                                            Format format) {
-    return guard_memory(std::string(source), [&] { return parse(contents, source, format); });
+                                            Format format, const ReadOptions& options) {
+    return guard_memory(std::string(source),
+                        [&] { return parse(contents, source, format, options); });
 }
 
-Result<std::vector<Surface>> read_surfaces(const fs::path& path, std::optional<Format> format) {
+Result<std::vector<Surface>> read_surfaces(const fs::path& path, std::optional<Format> format,
+                                           const ReadOptions& options) {
     const auto place = place_of(path, true);
     return guard_memory(place, [&]() -> Result<std::vector<Surface>> {
         const auto chosen = choose_format(path, format, true);
         if (!chosen) return chosen.error();
         const auto contents = read_file(path);
         if (!contents) return contents.error();
-        return parse(contents.value(), place, chosen.value());
+        return parse(contents.value(), place, chosen.value(), options);
     });
 }
 

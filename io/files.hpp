@@ -14,6 +14,7 @@
 #include <terrane/algorithms/result.hpp>
 #include <terrane/io/cell_array.hpp>
 #include <terrane/io/gocad.hpp>
+#include <terrane/io/grid.hpp>
 #include <terrane/io/poly.hpp>
 
 namespace terrane {
@@ -32,7 +33,16 @@ enum class Format {
     medit, ///< .mesh, written only
     poly,  ///< .poly, written only: TetGen, surfaces
     smesh, ///< .smesh, written only: the same
+    irap,  ///< .irap .gri .fgr, read only: a grid, text or binary
+    zmap,  ///< .zmap .zycor, read only: a grid
+    cps3,  ///< .cps3 .cps, read only: a grid
+    esri,  ///< .asc .agr, read only: a grid
+    xyz,   ///< .xyz .csv .txt .dat .poi .pol, read only: points
+    vset,  ///< .vs .pl, read only: points of GOCAD's VSet and PLine
 };
+
+/// Whether surfaces can be read from it.
+bool is_read(Format format);
 
 /// Whether surfaces, or tetrahedra, can be written in it.
 bool holds_surfaces(Format format);
@@ -50,12 +60,14 @@ std::optional<Format> format_named(std::string_view name);
 /// nothing_to_do, bad_syntax, bad_number, bad_index, out_of_memory; the place is "file:line", or
 /// "file, byte n" in binary files.
 Result<std::vector<Surface>> read_surfaces(const std::filesystem::path& path,
-                                           std::optional<Format> format = std::nullopt);
+                                           std::optional<Format> format = std::nullopt,
+                                           const ReadOptions& options = {});
 
 /// The same for a file's contents; `source` is its name in messages and for nameless surfaces.
-/// Total: any bytes give surfaces or an error, in time and memory linear in their number.
+/// Total: any bytes give surfaces or an error, in time and memory linear in their number; points
+/// take the time of connect_points.
 Result<std::vector<Surface>> parse_surfaces(std::string_view contents, std::string_view source,
-                                            Format format);
+                                            Format format, const ReadOptions& options = {});
 
 /// A GOCAD model with its parts and regions. Errors: as read_surfaces.
 Result<GocadModel> read_model(const std::filesystem::path& path);

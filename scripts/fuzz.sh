@@ -12,7 +12,8 @@ cd "$(dirname "$0")/.."
 
 seconds=${1:-60}
 shift || true
-readers=(read_ts read_ml read_obj read_off read_stl read_ply)
+readers=(read_ts read_ml read_obj read_off read_stl read_ply read_irap read_zmap read_cps3 read_asc
+         read_xyz read_vs)
 targets=("$@")
 [[ ${#targets[@]} -gt 0 ]] ||
     targets=(corefine arrange rounding tetrahedra predicates tri_tri search regions volumes "${readers[@]}")

@@ -3,8 +3,11 @@
 // Readers are total: any bytes give surfaces that keep their promises, or an error with a sentence.
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <random>
+#include <string>
 
 #include <terrane/io/atomic_file.hpp>
 #include <terrane/io/files.hpp>
@@ -21,7 +24,9 @@ using namespace terrane::test;
 
 namespace {
 
-constexpr Format readable[] = {Format::gocad, Format::obj, Format::off, Format::stl, Format::ply};
+constexpr Format readable[] = {Format::gocad, Format::obj,  Format::off,  Format::stl,
+                               Format::ply,   Format::irap, Format::zmap, Format::cps3,
+                               Format::esri,  Format::xyz,  Format::vset};
 
 bool keeps_its_promises(const std::vector<Surface>& surfaces) {
     bool any = false;
@@ -84,6 +89,11 @@ TEST_CASE("readers are total", "[io][files]") {
     std::vector<std::string> seeds{to_gocad(mesh), to_obj(mesh),       to_off(mesh),
                                    to_ply(mesh),   to_stl_ascii(mesh), to_stl(mesh).value()};
     seeds.push_back(read_file(std::string(TERRANE_TEST_DATA) + "/ringmesh/split_cube.ml").value());
+    for (const std::string format : {"irap", "zmap", "cps3", "asc", "xyz", "vs"})
+        for (const auto& seed : std::filesystem::directory_iterator(
+                 std::string(TERRANE_SOURCE_DIR) + "/fuzz/corpus/read_" + format))
+            seeds.push_back(read_file(seed.path()).value());
+    std::sort(seeds.begin(), seeds.end()); // folders are listed in any order
     std::mt19937 random(20240501);
     check_total("");
     for (const auto& seed : seeds) {

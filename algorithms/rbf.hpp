@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// A hole filled from the data round it by radial basis functions: any surface, folds too.
+//
+// Steps:
+//   (1) data: the vertices within `reach` times the hole's radius of its border along the surface,
+//       and the first `rings` rings in any case, with normals (rbf_data.hpp);
+//   (2) constraints: f = 0 at centres; at some of them, spread evenly, also f = +-d at a distance d
+//       along the normal, where no other part of the surface is as near;
+//   (3) centres: a well-spread start, then again and again the data that f misses most, until it
+//       misses none by more than `tolerance` or there are `most_centres` (rbf_function.hpp);
+//   (4) what f then still misses at the data, be they millions, is made up for by a partition of
+//       unity: small patches with a function |p - q| of their own, blended, and fading away into
+//       the hole (rbf_patches.hpp). So every datum is met, whatever the number of centres;
+//   (5) the zero level over the hole and a margin beyond it as triangles (zero_level.hpp).
+// Guarantees: the same bytes for any number of threads. The filling goes at least two edge lengths
+// beyond the border where the surface does; it is to be joined (join.hpp).
+// Cost: n^3 / 3 for n constraints, at most 2000; n per lattice point of (5).
+// Source: the paper, 4.1, equation (10); Carr et al. (2001) for (2) and (3); Ohtake et al. (2003)
+// for (4).
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include <terrane/algorithms/filling.hpp>
+#include <terrane/algorithms/holes.hpp>
+#include <terrane/algorithms/rbf_function.hpp>
+#include <terrane/algorithms/result.hpp>
+#include <terrane/algorithms/run.hpp>
+#include <terrane/algorithms/surface.hpp>
+
+namespace terrane {
+
+struct RbfOptions {
+    double reach = 1;               ///< of the data, in radii of a disk with the hole's area
+    unsigned rings = 4;             ///< of vertices, at least
+    std::size_t most_centres = 800; ///< on the surface, 10 to 2000
+    double offset = 0; ///< d, unit of the surface; 0: a 20th of the radius or half a border edge,
+                       ///< the larger; less where the surface comes near to itself
+    double tolerance = 0; ///< unit of the surface; 0: a thousandth of the median border edge
+    double size = 0;      ///< edge length of the filling; 0: the median border edge, or more where
+                          ///< the hole would take more than most_vertices
+    std::size_t most_vertices = 50'000;
+    unsigned degree = 0; ///< of the polynomial part along the hole: 1 is the paper's, up to 6; 0:
+                         ///< of 1 to 4 the one that predicts best the data left out when the hole
+                         ///< is made wider by a quarter of its radius
+    std::span<const BorderLoop> loops{}; ///< all of the surface: islands in the hole are data, too
+};
+
+/// What happened, for people. Lengths in the unit of the surface.
+struct RbfReport {
+    std::size_t data = 0, centres = 0, offsets = 0; ///< on the surface; constraints off it
+    unsigned degree = 0;                            ///< of the polynomial part
+    std::size_t patches = 0;                        ///< of step (4); 0 where step (3) sufficed
+    double missed = 0;                              ///< largest |f| at the data after step (3)
+    double largest_error = 0; ///< the same at the end: the interpolation error
+    double rms_error = 0;
+    double offset = 0, size = 0; ///< as used
+    RbfSolution solution;
+};
+
+/// The zero level, made by steps (1) to (5).
+/// Errors: bad_option, bad_index, bad_number; unsupported (an island that touches the border in a
+/// vertex; too large a level for its edge length); nothing_to_do; interrupted, out_of_memory.
+Result<Filling> fill_by_rbf(const Surface& surface, const BorderLoop& loop,
+                            const RbfOptions& options = {}, const Run& run = {});
+
+/// The same, with what happened.
+Result<Filling> fill_by_rbf(const Surface& surface, const BorderLoop& loop,
+                            const RbfOptions& options, RbfReport& report, const Run& run);
+
+} // namespace terrane

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/rbf_function.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Dense>
+#include <Eigen/QR>
+#include <mpfr.h>
+
+#include <terrane/algorithms/vectors.hpp>
+
+namespace terrane {
+namespace {
+
+using Matrix = Eigen::MatrixXd;
+using Vector = Eigen::VectorXd;
+
+constexpr mpfr_prec_t residual_bits = 128;
+
+/// A number of residual_bits, freed with its scope.
+class Wide {
+public:
+    Wide() { mpfr_init2(number_, residual_bits); }
+    ~Wide() { mpfr_clear(number_); }
+    Wide(const Wide&) = delete;
+    Wide& operator=(const Wide&) = delete;
+    operator mpfr_ptr() { return number_; } // NOLINT: as MPFR's functions take it
+
+private:
+    mpfr_t number_;
+};
+
+struct System {
+    Matrix points; ///< n x 3, scaled
+    Vector values;
+    Matrix terms; ///< n x m: the polynomial's, at each point
+};
+
+/// values - (kernel weights + polynomial), each entry summed in wide numbers.
+Vector residual(const System& s, const Vector& weights, const Vector& polynomial) {
+    const Eigen::Index n = s.values.size();
+    std::vector<Wide> sums(static_cast<std::size_t>(n));
+    const auto sum = [&](Eigen::Index i) -> Wide& { return sums[static_cast<std::size_t>(i)]; };
+    Wide square, d, root;
+    for (Eigen::Index i = 0; i < n; ++i) {
+        mpfr_set_d(sum(i), s.values[i], MPFR_RNDN);
+        for (Eigen::Index k = 0; k < polynomial.size(); ++k) {
+            mpfr_set_d(d, s.terms(i, k), MPFR_RNDN);
+            mpfr_mul_d(d, d, polynomial[k], MPFR_RNDN);
+            mpfr_sub(sum(i), sum(i), d, MPFR_RNDN);
+        }
+    }
+    for (Eigen::Index i = 0; i < n; ++i)
+        for (Eigen::Index j = 0; j < i; ++j) { // each pair once: the kernel is symmetric
+            mpfr_set_zero(square, 1);
+            for (Eigen::Index k = 0; k < 3; ++k) {
+                mpfr_set_d(d, s.points(i, k), MPFR_RNDN);
+                mpfr_sub_d(d, d, s.points(j, k), MPFR_RNDN);
+                mpfr_fma(square, d, d, square, MPFR_RNDN);
+            }
+            mpfr_sqrt(root, square, MPFR_RNDN);
+            mpfr_mul(square, square, root, MPFR_RNDN);
+            mpfr_mul_d(d, square, weights[j], MPFR_RNDN);
+            mpfr_sub(sum(i), sum(i), d, MPFR_RNDN);
+            mpfr_mul_d(d, square, weights[i], MPFR_RNDN);
+            mpfr_sub(sum(j), sum(j), d, MPFR_RNDN);
+        }
+    Vector result(n);
+    for (Eigen::Index i = 0; i < n; ++i) result[i] = mpfr_get_d(sum(i), MPFR_RNDN);
+    return result;
+}
+
+Matrix kernel_matrix(const Matrix& points) {
+    const Eigen::Index n = points.rows();
+    Matrix kernel(n, n);
+    for (Eigen::Index j = 0; j < n; ++j)
+        for (Eigen::Index i = 0; i <= j; ++i) {
+            const double square = (points.row(i) - points.row(j)).squaredNorm();
+            kernel(i, j) = kernel(j, i) = square * std::sqrt(square);
+        }
+    return kernel;
+}
+
+/// The factored system: weights orthogonal to the polynomials, and the polynomial.
+class Solver {
+public:
+    Solver(const System& system, Matrix turned) : qr_(system.terms), m_(system.terms.cols()) {
+        const Eigen::Index n = turned.rows();
+        turned.applyOnTheLeft(qr_.householderQ().transpose());
+        turned.applyOnTheRight(qr_.householderQ());
+        rows_ = turned.topRightCorner(m_, n - m_);
+        factor_.compute(turned.bottomRightCorner(n - m_, n - m_));
+    }
+    [[nodiscard]] bool ok() const {
+        const Vector r = qr_.matrixQR().diagonal().head(m_).cwiseAbs();
+        constexpr double flat = 1e-10; // in a unit box: some polynomial is 0 at all points
+        return r.minCoeff() > flat * r.maxCoeff() && factor_.info() == Eigen::Success;
+    }
+    [[nodiscard]] double condition() const { return 1 / factor_.rcond(); }
+
+    /// Adds to weights and polynomial what makes up for the right side.
+    void add_solution(const Vector& right, Vector& weights, Vector& polynomial) const {
+        Vector turned = right;
+        turned.applyOnTheLeft(qr_.householderQ().transpose());
+        const Eigen::Index n = right.size();
+        Vector part = Vector::Zero(n);
+        part.tail(n - m_) = factor_.solve(turned.tail(n - m_));
+        const Vector rest = turned.head(m_) - rows_ * part.tail(n - m_);
+        polynomial +=
+            qr_.matrixQR().topLeftCorner(m_, m_).triangularView<Eigen::Upper>().solve(rest);
+        part.applyOnTheLeft(qr_.householderQ());
+        weights += part;
+    }
+
+private:
+    Eigen::HouseholderQR<Matrix> qr_;
+    Eigen::Index m_; ///< terms of the polynomial
+    Matrix rows_;    ///< of the turned kernel: from the complement to polynomials
+    Eigen::LLT<Matrix> factor_;
+};
+
+/// Solves, and refines while that helps.
+void solve(const System& system, const Solver& solver, Vector& weights, Vector& polynomial,
+           unsigned most_refinements, RbfSolution& solution, const Run& run) {
+    solver.add_solution(system.values, weights, polynomial);
+    solution.first_residual = solution.residual = std::numeric_limits<double>::quiet_NaN();
+    if (most_refinements == 0) return;
+    Vector left = residual(system, weights, polynomial);
+    solution.first_residual = solution.residual = left.cwiseAbs().maxCoeff();
+    for (unsigned k = 0; k < most_refinements && !run.stop.stop_requested(); ++k) {
+        if (solution.residual == 0) return;
+        Vector better = weights, polynomial_better = polynomial;
+        solver.add_solution(left, better, polynomial_better);
+        const Vector next = residual(system, better, polynomial_better);
+        const double largest = next.cwiseAbs().maxCoeff();
+        if (!(largest < solution.residual)) return;
+        const bool enough = largest > solution.residual / 2;
+        weights = better;
+        polynomial = polynomial_better;
+        left = next;
+        solution.residual = largest;
+        ++solution.refinements;
+        if (enough) return;
+    }
+}
+
+} // namespace
+
+std::array<double, 3> RbfFunction::scaled(const Point3& p) const {
+    const Point3 d{(p.x - middle_.x) / scale_, (p.y - middle_.y) / scale_,
+                   (p.z - middle_.z) / scale_};
+    return {dot(d, basis_.axes[0]), dot(d, basis_.axes[1]), dot(d, basis_.axes[2])};
+}
+
+double RbfFunction::operator()(const Point3& p) const {
+    if (polynomial_.empty()) return 0;
+    const auto [u, v, w] = scaled(p);
+    using Array = Eigen::Map<const Eigen::ArrayXd>;
+    const auto n = static_cast<Eigen::Index>(x_.size());
+    const Array cx(x_.data(), n), cy(y_.data(), n), cz(z_.data(), n), c(weights_.data(), n);
+    const auto square = (cx - u).square() + (cy - v).square() + (cz - w).square();
+    double sum = (c * square * square.sqrt()).sum();
+    std::size_t term = 0;
+    double up = 1;
+    for (unsigned i = 0; i <= basis_.degree; ++i, up *= u) {
+        double both = up;
+        for (unsigned j = 0; i + j <= basis_.degree; ++j, both *= v)
+            sum += polynomial_[term++] * both;
+    }
+    return scale_ * (sum + polynomial_[term] * w);
+}
+
+Point3 RbfFunction::gradient(const Point3& p) const {
+    if (polynomial_.empty()) return {};
+    const auto [u, v, w] = scaled(p);
+    std::array<double, 3> g{0, 0, polynomial_.back()};
+    for (std::size_t i = 0; i < x_.size(); ++i) {
+        const double du = u - x_[i], dv = v - y_[i], dw = w - z_[i];
+        const double slope = 3 * weights_[i] * std::sqrt(du * du + dv * dv + dw * dw);
+        g = {g[0] + slope * du, g[1] + slope * dv, g[2] + slope * dw};
+    }
+    std::size_t term = 0;
+    for (unsigned i = 0; i <= basis_.degree; ++i)
+        for (unsigned j = 0; i + j <= basis_.degree; ++j, ++term) {
+            const double a = polynomial_[term];
+            if (i > 0) g[0] += a * i * std::pow(u, i - 1) * std::pow(v, j);
+            if (j > 0) g[1] += a * j * std::pow(u, i) * std::pow(v, j - 1);
+        }
+    const auto& axes = basis_.axes;
+    return {g[0] * axes[0].x + g[1] * axes[1].x + g[2] * axes[2].x,
+            g[0] * axes[0].y + g[1] * axes[1].y + g[2] * axes[2].y,
+            g[0] * axes[0].z + g[1] * axes[1].z + g[2] * axes[2].z};
+}
+
+Result<RbfFit> fit_rbf(std::span<const Point3> points, std::span<const double> values,
+                       const RbfSetting& setting, const Run& run) {
+    const auto bad = [](const char* what) { return Error{ErrorCode::bad_option, what, ""}; };
+    const RbfPolynomial& basis = setting.polynomial;
+    if (basis.degree < 1 || basis.degree > 6) return bad("the degree of the polynomial is 1 to 6");
+    const std::size_t m = basis.terms();
+    if (points.size() <= m || values.size() != points.size())
+        return bad("too few points for radial basis functions");
+    RbfFit fit;
+    RbfFunction& f = fit.function;
+    f.basis_ = basis;
+    Point3 low = points[0], high = points[0];
+    for (const Point3& p : points) {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    f.middle_ = {(low.x + high.x) / 2, (low.y + high.y) / 2, (low.z + high.z) / 2};
+    f.scale_ = std::max({high.x - low.x, high.y - low.y, high.z - low.z}) / 2;
+    if (!(f.scale_ > 0)) return bad("all points are the same");
+    const auto n = static_cast<Eigen::Index>(points.size());
+    System system{Matrix(n, 3), Vector(n), Matrix(n, static_cast<Eigen::Index>(m))};
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        const auto [u, v, w] = f.scaled(points[k]);
+        f.x_.push_back(u);
+        f.y_.push_back(v);
+        f.z_.push_back(w);
+        system.points.row(i) << u, v, w;
+        system.values[i] = values[k] / f.scale_;
+        Eigen::Index term = 0;
+        double up = 1;
+        for (unsigned a = 0; a <= basis.degree; ++a, up *= u) {
+            double both = up;
+            for (unsigned b = 0; a + b <= basis.degree; ++b, both *= v)
+                system.terms(i, term++) = both;
+        }
+        system.terms(i, term) = w;
+    }
+    const Solver solver(system, kernel_matrix(system.points));
+    if (!solver.ok())
+        return bad("a polynomial is 0 at all points, or points are too near together");
+    Vector weights = Vector::Zero(n), polynomial = Vector::Zero(static_cast<Eigen::Index>(m));
+    solve(system, solver, weights, polynomial, setting.most_refinements, fit.solution, run);
+    if (run.stop.stop_requested()) return Error{ErrorCode::interrupted, "stopped on request", ""};
+    f.weights_.assign(weights.begin(), weights.end());
+    f.polynomial_.assign(polynomial.begin(), polynomial.end());
+    fit.solution.centres = points.size();
+    fit.solution.condition = solver.condition();
+    fit.solution.residual *= f.scale_;
+    fit.solution.first_residual *= f.scale_;
+    return fit;
+}
+
+} // namespace terrane

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Functions of space that take given values at given points: f(p) = sum of c_i |p - p_i|^3 plus a
+// polynomial. Of all functions with these values the one whose third derivatives, but for those of
+// the polynomial, are least.
+//
+// The system is full and ill-conditioned. What is done about it: coordinates are scaled to a unit
+// box; the polynomial's orthogonal complement makes the rest positive definite (Householder, then
+// Cholesky); residuals are computed with MPFR in 128 bits and the solution refined until they no
+// longer fall by half; the condition is estimated and all of it is reported.
+// Cost: n^3 / 3 to fit n points, n per value.
+// Source: the paper, 4.1, equation (10); Wendland (2005), 6.3 and 8.5, for the complement.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <terrane/algorithms/result.hpp>
+#include <terrane/algorithms/run.hpp>
+#include <terrane/kernel/point.hpp>
+
+namespace terrane {
+
+/// The polynomial part: all monomials in u and v up to a degree, and w alone, for the coordinates
+/// along three axes at right angles. Degree 1 is the linear part of the paper, whatever the axes.
+/// Higher ones follow a surface that is near the plane of u and v.
+struct RbfPolynomial {
+    unsigned degree = 1;                                           ///< 1 to 6
+    std::array<Point3, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}; ///< u, v, w: unit vectors
+
+    [[nodiscard]] std::size_t terms() const { return (degree + 1) * (degree + 2) / 2 + 1; }
+};
+
+/// How well the system was solved.
+struct RbfSolution {
+    std::size_t centres = 0;
+    double condition = 0;      ///< estimate of the positive definite part's, in the 1-norm
+    unsigned refinements = 0;  ///< steps that lowered the residual
+    double first_residual = 0; ///< largest, before refinement; unit of the values
+    double residual = 0;       ///< largest, of the coefficients in use; unit of the values
+};
+
+struct RbfFit;
+struct RbfSetting;
+
+class RbfFunction {
+public:
+    /// 0 everywhere.
+    RbfFunction() = default;
+
+    [[nodiscard]] double operator()(const Point3& p) const;
+    [[nodiscard]] Point3 gradient(const Point3& p) const;
+    [[nodiscard]] std::size_t centre_count() const { return x_.size(); }
+
+    friend Result<RbfFit> fit_rbf(std::span<const Point3>, std::span<const double>,
+                                  const RbfSetting&, const Run&);
+
+private:
+    [[nodiscard]] std::array<double, 3> scaled(const Point3& p) const;
+
+    Point3 middle_{};
+    double scale_ = 1;              ///< half the longest side of the box
+    std::vector<double> x_, y_, z_; ///< centres, scaled
+    std::vector<double> weights_;   ///< per centre
+    RbfPolynomial basis_;
+    std::vector<double> polynomial_; ///< per term: by rising power of v within rising power of
+                                     ///< u, then w
+};
+
+struct RbfSetting {
+    RbfPolynomial polynomial;
+    unsigned most_refinements = 6; ///< 0: residuals are not even computed, and NaN
+};
+
+struct RbfFit {
+    RbfFunction function;
+    RbfSolution solution;
+};
+
+/// The points are distinct, more than the polynomial has terms, and no polynomial is 0 at all of
+/// them. Errors: bad_option where points are not as they should be, or too near to one another to
+/// be told apart; interrupted.
+Result<RbfFit> fit_rbf(std::span<const Point3> points, std::span<const double> values,
+                       const RbfSetting& setting = {}, const Run& run = {});
+
+} // namespace terrane

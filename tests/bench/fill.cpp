@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// What filled holes miss of surfaces that are known: kriging and RBF beside CGAL's fairing and a
+// plain linear patch, in one run.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+
+#include <terrane/algorithms/fill_kriging.hpp>
+#include <terrane/algorithms/holes.hpp>
+#include <terrane/algorithms/join.hpp>
+#include <terrane/algorithms/rbf.hpp>
+#include <terrane/io/files.hpp>
+
+#include "fill_models.hpp"
+#include "fill_yardstick.hpp"
+
+using namespace terrane;
+using namespace fill_bench;
+
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void print_misfit(const char* way, const Misfit& m, double seconds) {
+    std::printf("  %s %9.3g %9.3g /%9.3g %5.2fs", way, m.rms, m.largest, m.vertex_rms, seconds);
+}
+
+void print_yardstick(const Model& model, const BorderLoop& loop, const char* way, bool fair) {
+    const auto start = std::chrono::steady_clock::now();
+    const auto filled = filled_by_cgal(model.holed, loop.vertices, fair);
+    const double seconds = seconds_since(start);
+    if (filled)
+        print_misfit(way, misfit(model, *filled, model.holed.triangles.size()), seconds);
+    else
+        std::printf("  %s %10s %10s %6.2fs", way, "-", "-", seconds);
+}
+
+void print_rbf(const Model& model, const BorderLoop& loop) {
+    const auto start = std::chrono::steady_clock::now();
+    const auto filling = fill_by_rbf(model.holed, loop);
+    const auto made = filling ? join_filling(model.holed, loop, filling.value().surface)
+                              : Result<Joined>(filling.error());
+    const double seconds = seconds_since(start);
+    if (made)
+        print_misfit("rbf", misfit(model, made.value().surface, model.holed.triangles.size()),
+                     seconds);
+    else
+        std::printf("  rbf: %s", made.error().message().c_str());
+}
+
+void run(const Model& model, bool yardsticks) {
+    const auto loops = find_border_loops(model.holed);
+    if (!loops) return;
+    const auto hole = std::find_if(loops.value().begin(), loops.value().end(),
+                                   [](const BorderLoop& l) { return l.kind != LoopKind::outer; });
+    std::printf("%-18s %4.0f%% %4zu %-5s", model.name.c_str(), 100 * model.share,
+                hole->vertices.size(), hole->kind == LoopKind::fault_gap ? "gap" : "hole");
+    const auto start = std::chrono::steady_clock::now();
+    const auto filling = fill_by_kriging(model.holed, *hole);
+    const double seconds = seconds_since(start);
+    if (filling) {
+        const auto filled = joined(model.holed, filling.value());
+        const FillReport& r = filling.value().report;
+        print_misfit("kriging", misfit(model, filled, model.holed.triangles.size()), seconds);
+        std::printf(" (predicted %.3g, left out %.3g)", r.expected_error, r.validated_error);
+    } else {
+        std::printf("  kriging refuses");
+    }
+    print_rbf(model, *hole);
+    if (yardsticks) {
+        print_yardstick(model, *hole, "fair", true);
+        print_yardstick(model, *hole, "linear", false);
+    }
+    std::printf("\n");
+    if (filling)
+        std::printf("    %s\n", filling.value().report.model.c_str());
+    else
+        std::printf("    %s\n", filling.error().message().c_str());
+}
+
+// ---- Real horizons
+// -------------------------------------------------------------------------------
+
+/// The surface without the triangles at the vertices that are within `radius` of a place.
+struct Punched {
+    Surface surface;
+    std::vector<Point3> removed; ///< vertices that only these triangles had
+};
+
+Punched punched(const Surface& s, const Point3& centre, double radius) {
+    Punched result;
+    result.surface = {s.name, s.role, s.vertices, {}};
+    std::vector<bool> kept(s.vertices.size()), had(s.vertices.size());
+    for (const Triangle& t : s.triangles) {
+        const bool near = std::any_of(t.begin(), t.end(), [&](std::uint32_t v) {
+            return std::hypot(s.vertices[v].x - centre.x, s.vertices[v].y - centre.y) < radius;
+        });
+        for (const auto v : t) (near ? had : kept)[v] = true;
+        if (!near) result.surface.triangles.push_back(t);
+    }
+    for (std::size_t v = 0; v < s.vertices.size(); ++v)
+        if (had[v] && !kept[v]) result.removed.push_back(s.vertices[v]);
+    return result;
+}
+
+/// Height of the triangles from `first` on over a place, or NaN.
+double height_over(const Surface& s, std::size_t first, const Point3& p) {
+    for (auto i = first; i < s.triangles.size(); ++i) {
+        const Triangle& t = s.triangles[i];
+        const Point3 &a = s.vertices[t[0]], &b = s.vertices[t[1]], &c = s.vertices[t[2]];
+        const double area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+        const double u = ((b.x - p.x) * (c.y - p.y) - (b.y - p.y) * (c.x - p.x)) / area;
+        const double v = ((c.x - p.x) * (a.y - p.y) - (c.y - p.y) * (a.x - p.x)) / area;
+        if (u >= -1e-9 && v >= -1e-9 && u + v <= 1 + 1e-9)
+            return u * a.z + v * b.z + (1 - u - v) * c.z;
+    }
+    return NAN;
+}
+
+struct Sum {
+    double squares = 0;
+    std::size_t count = 0;
+
+    void add(const Surface& filled, std::size_t first, const std::vector<Point3>& removed) {
+        for (const Point3& p : removed)
+            if (const double z = height_over(filled, first, p); std::isfinite(z)) {
+                squares += (z - p.z) * (z - p.z);
+                ++count;
+            }
+    }
+    [[nodiscard]] double root() const { return std::sqrt(squares / double(count)); }
+};
+
+/// Nine holes of one size, one after the other, where the data are.
+void punch(const Surface& s, double radius) {
+    Sum kriging, rbf, fair, linear;
+    double expected = 0, left_out = 0;
+    std::size_t holes = 0;
+    for (int k = 1; k <= 9; ++k) {
+        const Point3& centre = s.vertices[s.vertices.size() * std::size_t(k) / 10];
+        const auto p = punched(s, centre, radius);
+        const auto loops = find_border_loops(p.surface);
+        if (!loops || p.removed.size() < 5) continue;
+        const auto hole =
+            std::find_if(loops.value().begin(), loops.value().end(), [&](const BorderLoop& l) {
+                return l.kind != LoopKind::outer &&
+                       std::hypot(l.centre.x - centre.x, l.centre.y - centre.y) < radius;
+            });
+        if (hole == loops.value().end()) continue; // it has met the outer border
+        const auto first = p.surface.triangles.size();
+        const auto filling = fill_by_kriging(p.surface, *hole);
+        if (!filling) continue;
+        ++holes;
+        kriging.add(joined(p.surface, filling.value()), first, p.removed);
+        expected += std::pow(filling.value().report.expected_error, 2);
+        left_out += std::pow(filling.value().report.validated_error, 2);
+        if (const auto surface = fill_by_rbf(p.surface, *hole))
+            if (const auto made = join_filling(p.surface, *hole, surface.value().surface))
+                rbf.add(made.value().surface, first, p.removed);
+        if (const auto made = filled_by_cgal(p.surface, hole->vertices, true))
+            fair.add(*made, first, p.removed);
+        if (const auto made = filled_by_cgal(p.surface, hole->vertices, false))
+            linear.add(*made, first, p.removed);
+    }
+    std::printf(
+        "%-22s radius %-7g %zu holes, %zu points: kriging %.3g (expected %.3g, patches left "
+        "out %.3g)  rbf %.3g  fair %.3g  linear %.3g\n",
+        s.name.c_str(), radius, holes, kriging.count, kriging.root(),
+        std::sqrt(expected / double(holes)), std::sqrt(left_out / double(holes)), rbf.root(),
+        fair.root(), linear.root());
+}
+
+int punch_file(const char* file, double step) {
+    const auto surfaces = read_surfaces(file, std::nullopt, {.depth = true});
+    if (!surfaces) {
+        std::fprintf(stderr, "%s\n", surfaces.error().message().c_str());
+        return 2;
+    }
+    for (const Surface& s : surfaces.value())
+        for (const double cells : {3.0, 6.0, 12.0}) punch(s, cells * step);
+    return 0;
+}
+
+} // namespace
+
+// terrane_bench_fill [--alone]: known surfaces, without CGAL's ways. terrane_bench_fill FILE STEP:
+// holes of 3, 6 and 12 steps of a grid punched into a real horizon.
+int main(int argc, char** argv) {
+    if (argc == 3) return punch_file(argv[1], std::atof(argv[2]));
+    const bool yardsticks = argc < 2 || std::strcmp(argv[1], "--alone") != 0;
+    std::printf("root mean square and largest error / root mean square at new vertices, seconds\n");
+    for (const Model& model : models()) run(model, yardsticks);
+}

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Surfaces that are known everywhere, with a hole.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <terrane/algorithms/surface.hpp>
+
+namespace fill_bench {
+
+struct Model {
+    std::string name;
+    bool smooth = true;                                 ///< no noise, no throw
+    bool graph = true;                                  ///< z = f(x, y)
+    double share = 0;                                   ///< of the area: the hole
+    std::function<double(double x, double y)> height{}; ///< of a graph, exactly
+    terrane::Surface holed;
+    terrane::Surface whole; ///< the truth, four times as fine
+};
+
+/// 30 surfaces of 60 x 60 cells: planes, waves, domes, noise, folds, throws; holes of 1 to 20 % of
+/// the area.
+std::vector<Model> models();
+
+/// Area-weighted root mean square and maximum of the distance between points of the triangles from
+/// `first` on and the truth; the same of their vertices after those of the holed surface alone,
+/// which leaves out that triangles are flat.
+struct Misfit {
+    double rms = 0, largest = 0;
+    double vertex_rms = 0, vertex_largest = 0;
+};
+Misfit misfit(const Model& model, const terrane::Surface& filled, std::size_t first);
+
+} // namespace fill_bench

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// `terrane fill` and the readers of grids and points, seen from outside.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <set>
+#include <sstream>
+#include <string>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "program.hpp"
+
+using namespace program_test;
+using Json = nlohmann::json;
+
+namespace {
+
+double wave(double x, double y) {
+    return 15 * std::sin(x / 60) * std::cos(y / 80) + 0.1 * x;
+}
+
+/// An Irap grid of 24 x 24 nodes, 10 apart, as depths, without those that are left out.
+std::string irap(const std::function<bool(int, int)>& left_out,
+                 const std::function<double(double, double)>& z = wave) {
+    std::string text = "-996 24 10 10\n0 230 0 230\n24 0 0 0\n0 0 0 0 0 0 0\n";
+    for (int j = 0; j < 24; ++j)
+        for (int i = 0; i < 24; ++i)
+            text += left_out(i, j) ? "9999900 " : std::to_string(-z(10.0 * i, 10.0 * j)) + "\n";
+    return text;
+}
+
+bool two_discs(int i, int j) {
+    return std::hypot(i - 7, j - 8) < 2.5 || std::hypot(i - 16, j - 15) < 4.2;
+}
+
+/// A tear with one side lifted.
+std::string torn() {
+    const auto left_out = [](int i, int j) { return i == 12 && j > 4 && j < 18; };
+    return irap(left_out,
+                [](double x, double y) { return x > 120 && y > 45 && y < 175 ? 60.0 : 0.0; });
+}
+
+/// Largest difference between z and the truth among the vertices of an OBJ.
+double largest_error(const std::string& obj) {
+    double largest = 0;
+    std::istringstream in(obj);
+    std::string word;
+    while (in >> word)
+        if (double x = 0, y = 0, z = 0; word == "v" && in >> x >> y >> z)
+            largest = std::max(largest, std::abs(z - wave(x, y)));
+    return largest;
+}
+
+} // namespace
+
+TEST_CASE("cli: convert reads a grid with its holes, depth or elevation", "[cli]") {
+    const Folder folder;
+    const auto in = folder.input("top.irap", irap(two_discs));
+    REQUIRE(folder.run("convert --depth " + in + " out.obj").status == 0);
+    CHECK(largest_error(folder.read("out.obj")) < 1e-5);
+    CHECK(folder.run("convert " + in + " down.obj").status == 0);
+    CHECK(largest_error(folder.read("down.obj")) > 1);
+    const auto as_text = folder.input("top.txt", irap(two_discs));
+    CHECK(folder.run("convert --depth --input-format irap " + as_text + " again.obj").status == 0);
+    CHECK(folder.read("again.obj") == folder.read("out.obj"));
+    const auto wrong = folder.run("convert --input-format grid " + as_text + " no.obj");
+    CHECK(wrong.status == 2);
+    CHECK(contains(wrong.err, "unknown format grid"));
+    const auto out = folder.run("convert " + in + " out.irap");
+    CHECK(out.status == 2);
+    CHECK(contains(out.err, "this format is read, not written"));
+    CHECK(folder.run("check --depth " + in).status == 0);
+}
+
+TEST_CASE("cli: fill lists holes, by numbers, and writes nothing then", "[cli]") {
+    const Folder folder;
+    const auto in = folder.input("top.irap", irap(two_discs));
+    const auto r = folder.run("fill " + in + " --list --stats s.json");
+    INFO(r.err);
+    REQUIRE(r.status == 0);
+    CHECK(contains(r.out, "top: 1 outer border, 2 holes, 0 fault gaps\n"));
+    CHECK(folder.left() == std::set<std::string>{"s.json"});
+    const auto holes = Json::parse(folder.read("s.json"))["holes"];
+    REQUIRE(holes.size() == 2);
+    CHECK(holes[0]["hole"] == 1);
+    CHECK(holes[0]["area"].get<double>() > holes[1]["area"].get<double>());
+    CHECK(holes[0]["kind"] == "hole");
+}
+
+TEST_CASE("cli: fill by kriging and by RBF, with a map, points and a report", "[cli]") {
+    for (const std::string method : {"kriging", "rbf"}) {
+        const Folder folder;
+        const auto in = folder.input("top.irap", irap(two_discs));
+        const auto r = folder.run("fill --depth " + in + " -o out.obj -o out.vtp --method " +
+                                  method + " --map m.svg --points p.csv --stats s.json");
+        INFO(r.err);
+        REQUIRE(r.status == 0);
+        CHECK(contains(r.out, "filled 2 of 2 holes: "));
+        CHECK(largest_error(folder.read("out.obj")) < 0.1);
+        CHECK(contains(folder.read("out.vtp"), "Name=\"invented\""));
+        CHECK(contains(folder.read("out.vtp"), "Name=\"deviation\""));
+        CHECK(folder.read("m.svg").starts_with("<svg"));
+        CHECK(folder.read("p.csv").starts_with("x,y,z,deviation,variance,surface\n"));
+        const auto holes = Json::parse(folder.read("s.json"))["holes"];
+        std::size_t invented = 0;
+        for (const auto& hole : holes) invented += hole["filled"]["points"].get<std::size_t>();
+        const auto csv = folder.read("p.csv");
+        CHECK(std::size_t(std::count(csv.begin(), csv.end(), '\n')) == invented + 1);
+        CHECK(folder.run("check out.obj").status == 0);
+        const auto after = folder.run("fill out.obj --list");
+        CHECK(contains(after.out, "1 outer border, 0 holes"));
+    }
+}
+
+TEST_CASE("cli: fill leaves what was not asked for: numbers, sizes, fault gaps", "[cli]") {
+    const Folder folder;
+    const auto in = folder.input("top.irap", irap(two_discs));
+    CHECK(contains(folder.run("fill " + in + " -o a.obj --holes 2").out, "filled 1 of 2 holes"));
+    CHECK(contains(folder.run("fill a.obj --list").out, "1 hole,"));
+    CHECK(contains(folder.run("fill " + in + " -o b.obj --max-area 3000").out,
+                   "filled 1 of 2 holes"));
+    for (const std::string list : {"3", "0", "x", "1,,2", "1x"}) {
+        const auto r = folder.run("fill " + in + " -o c.obj --holes " + list);
+        CHECK(r.status == 2);
+        CHECK(contains(r.err, "see --list"));
+    }
+    const auto tear = folder.input("tear.irap", torn());
+    const auto left = folder.run("fill --depth " + tear + " -o d.obj");
+    CHECK(left.status == 0);
+    CHECK(contains(left.out, "0 holes, 1 fault gap"));
+    CHECK(contains(left.out, "filled 0 of 1 hole"));
+    CHECK(contains(folder.run("fill --depth --bridge-faults " + tear + " -o e.obj").out,
+                   "filled 1 of 1 hole"));
+    CHECK(folder.run("fill " + in).status == 2); // neither -o nor --list
+    CHECK(folder.left() == std::set<std::string>{"a.obj", "b.obj", "d.obj", "e.obj"});
+}
+
+TEST_CASE("cli: fill names holes that kriging can't fill, leaves them open, and status is 1",
+          "[cli]") {
+    std::string fold;
+    const int n = 40;
+    for (int j = 0; j <= n; ++j)
+        for (int i = 0; i <= n; ++i) {
+            const double t = 2 * M_PI * i / n;
+            fold += "v " + std::to_string(6.0 * i - 40 * std::sin(2 * t)) + " " +
+                    std::to_string(6.0 * j) + " " + std::to_string(60 * std::sin(t)) + "\n";
+        }
+    for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i) {
+            if (std::hypot(i + 0.5 - 18, j + 0.5 - 20) < 4) continue;
+            const int a = j * (n + 1) + i + 1, d = a + n + 1;
+            fold += "f " + std::to_string(a) + " " + std::to_string(a + 1) + " " +
+                    std::to_string(d + 1) + " " + std::to_string(d) + "\n";
+        }
+    const Folder folder;
+    const auto in = folder.input("fold.obj", fold);
+    const auto refused = folder.run("fill " + in + " -o out.obj");
+    CHECK(refused.status == 1);
+    CHECK(contains(refused.err, "hole 1 of fold is left open"));
+    CHECK(contains(refused.err, "no graph z = f(x, y)"));
+    const auto rbf = folder.run("fill " + in + " -o rbf.obj --method rbf");
+    INFO(rbf.err);
+    CHECK(rbf.status == 0);
+    CHECK(folder.run("check rbf.obj").status == 0);
+}
