@@ -491,7 +491,7 @@ void add_method(CLI::App& app, FillCommand& command) {
         ->check(CLI::PositiveNumber.description(""))
         ->type_name("LENGTH");
     app.add_option("--rings", command.rings,
-                   "Rings of triangles round the hole that are data (default: 10)")
+                   "Rings of triangles round the hole that are data (default: 5)")
         ->check(CLI::Range(1U, 1000U).description(""))
         ->type_name("N");
 }
