@@ -15,12 +15,12 @@ constexpr std::size_t most_sides = 96; ///< of a polygon to fill: the effort gro
 
 /// The table of best triangulations of a polygon's parts: of corners i to j, the worst shape.
 struct Table {
-    explicit Table(std::size_t sides) :
-        sides_(sides), worst(sides * sides, std::numeric_limits<double>::infinity()),
-        apex(sides * sides, 0) {}
-    [[nodiscard]] std::size_t at(std::size_t i, std::size_t j) const { return i * sides_ + j; }
+    explicit Table(std::size_t count) :
+        sides(count), worst(count * count, std::numeric_limits<double>::infinity()),
+        apex(count * count, 0) {}
+    [[nodiscard]] std::size_t at(std::size_t i, std::size_t j) const { return i * sides + j; }
 
-    std::size_t sides_;
+    std::size_t sides;
     std::vector<double> worst;       ///< infinite where there is nothing to fill
     std::vector<std::uint32_t> apex; ///< third corner of the triangle on the side i j
 };
@@ -169,8 +169,7 @@ bool DiskMesh::is_at_border(std::uint32_t v) const {
     return !link || !link->closed;
 }
 
-bool DiskMesh::move_if_sound(std::uint32_t v, const Point3& to) {
-    constexpr double sound = 0.4; // better than this, a shape may get worse
+bool DiskMesh::move_if_sound(std::uint32_t v, const Point3& to, double sound) {
     const Point3 normal = normal_of(star_[v]);
     const auto worst = [&] {
         double least = std::numeric_limits<double>::infinity();

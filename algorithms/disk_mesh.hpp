@@ -37,9 +37,9 @@ public:
 
     /// Whether it has an edge with one triangle.
     [[nodiscard]] bool is_at_border(std::uint32_t v) const;
-    /// Moves v unless a triangle at it would turn away from where those at it faced, or get worse
-    /// than all were and badly shaped.
-    bool move_if_sound(std::uint32_t v, const Point3& to);
+    /// Moves v unless a triangle at it would turn away from where those at it faced, or the worst
+    /// shape there would get worse and be below `sound`.
+    bool move_if_sound(std::uint32_t v, const Point3& to, double sound);
 
     /// Takes v out and fills its star with the triangles, among all triangulations, whose worst
     /// shape is best. A border vertex leaves a straight border edge. False, and nothing is changed,

@@ -122,19 +122,44 @@ Result<Border> border_of(const Surface& surface, const BorderLoop& loop) {
     return border;
 }
 
+/// The borders that an inner part ends at, one after the other.
+struct BorderPoints {
+    std::vector<Point3> points;
+    std::vector<std::uint32_t> vertices; ///< per point: of the surface
+    std::vector<std::uint32_t> next;     ///< per point: the next in its loop
+    std::vector<std::uint32_t> before;   ///< per point: the one before
+    std::vector<Edge> chords;            ///< see Border; places here
+};
+
+BorderPoints border_points(std::span<const Border> borders, const InnerPart& part) {
+    BorderPoints all;
+    for (const std::uint32_t b : part.borders) {
+        const BorderLine& line = borders[b].line;
+        const auto first = static_cast<std::uint32_t>(all.points.size()),
+                   n = static_cast<std::uint32_t>(line.points.size());
+        for (std::uint32_t i = 0; i < n; ++i) {
+            all.points.push_back(line.points[i]);
+            all.vertices.push_back(line.vertices[i]);
+            all.next.push_back(first + (i + 1) % n);
+            all.before.push_back(first + (i + n - 1) % n);
+        }
+        for (const Edge& e : borders[b].chords) all.chords.push_back({first + e[0], first + e[1]});
+    }
+    return all;
+}
+
 /// Step (5): the rows between the border and what stays of the filling.
 class Rows {
 public:
-    Rows(const Border& border, const InnerPart& part, double clearance) :
+    Rows(const BorderPoints& border, const InnerPart& part, double clearance) :
         border_(border), part_(part), clearance_(clearance),
-        mesh_(part.points, part.triangles, taken_edges()),
-        movable_(part.points.size(), false) {
+        mesh_(part.points, part.triangles, taken_edges()), movable_(part.points.size(), false) {
         for (std::size_t v = 0; v < part.filling.size(); ++v) movable_[v] = true;
     }
 
     Result<DiskMesh> operator()(JoinReport& report) {
         for (std::size_t i = 0; i < part_.corners.size(); ++i)
-            mesh_.move(part_.corners[i], border_.line.points[i]);
+            mesh_.move(part_.corners[i], border_.points[i]);
         if (const auto done = straighten(); !done) return done.error();
         report.given_way = make_room();
         mesh_.improve(near_border());
@@ -187,8 +212,7 @@ private:
 
     /// Distance to border edge i as a share of what must be kept.
     [[nodiscard]] bool too_near(const Point3& p, std::size_t i, double filling_edge) const {
-        const auto& points = border_.line.points;
-        const Point3 &a = points[i], &b = points[(i + 1) % points.size()];
+        const Point3 &a = border_.points[i], &b = border_.points[border_.next[i]];
         const double room = clearance_ * std::min(length(minus(b, a)), filling_edge);
         return distance_to_triangle(p, a, b, b) < room;
     }
@@ -206,7 +230,7 @@ private:
                     if (!movable_[w] || !mesh_.is_alive(w)) continue;
                     const Point3& p = mesh_.points()[w];
                     if (!too_near(p, i, filling_edge) &&
-                        !too_near(p, (i + n - 1) % n, filling_edge))
+                        !too_near(p, border_.before[i], filling_edge))
                         continue;
                     if (!mesh_.remove(w)) continue;
                     changed = true;
@@ -225,21 +249,21 @@ private:
         return vertices;
     }
 
-    const Border& border_;
+    const BorderPoints& border_;
     const InnerPart& part_;
     double clearance_;
     DiskMesh mesh_;
-    std::vector<bool> movable_;            ///< per point: it is the filling's own
+    std::vector<bool> movable_; ///< per point: it is the filling's own
 };
 
 /// The surface with the new triangles after its own.
-Joined append(const Surface& surface, const Border& border, const InnerPart& part,
+Joined append(const Surface& surface, const BorderPoints& border, const InnerPart& part,
               const DiskMesh& mesh) {
     Joined joined;
     joined.surface = surface;
     std::vector<std::uint32_t> name(part.points.size(), UINT32_MAX);
     for (std::size_t i = 0; i < part.corners.size(); ++i)
-        name[part.corners[i]] = border.line.vertices[i];
+        name[part.corners[i]] = border.vertices[i];
     for (std::uint32_t v = 0; v < part.filling.size(); ++v) {
         if (!mesh.is_alive(v)) continue;
         name[v] = static_cast<std::uint32_t>(joined.surface.vertices.size());
@@ -294,23 +318,28 @@ Status check_new(const Surface& surface, std::size_t old_triangles, const Run& r
     return Done{};
 }
 
-/// All steps, with one width of the strip.
-Result<Joined> join_with(const Surface& surface, const Border& border, const Surface& filling,
-                         double strip, const JoinOptions& options, const Run& run) {
-    const auto part = cut_inner_part(border.line, filling, strip, options.search, run);
+/// All steps, with one width of the strip. borders: of the hole, then of what may be islands.
+Result<Joined> join_with(const Surface& surface, std::span<const Border> borders,
+                         const Surface& filling, double strip, const JoinOptions& options,
+                         const Run& run) {
+    std::vector<BorderLine> lines;
+    for (const Border& b : borders) lines.push_back(b.line);
+    const auto part = cut_inner_part(lines, filling, strip, options.search, run);
     if (!part) return part.error();
+    const BorderPoints border = border_points(borders, part.value());
     JoinReport report;
     const auto mesh = Rows(border, part.value(), options.clearance)(report);
     if (!mesh) return mesh.error();
     Joined joined = append(surface, border, part.value(), mesh.value());
     joined.report.strip = strip;
     joined.report.given_way = report.given_way;
+    joined.report.islands = part.value().borders.size() - 1;
     joined.report.curve_vertices = part.value().corners.size() + part.value().between.size();
     joined.report.inside_triangles = part.value().triangles.size();
-    for (std::size_t i = 0; i < border.line.points.size(); ++i)
-        joined.report.largest_step = std::max(
-            joined.report.largest_step,
-            length(minus(part.value().points[part.value().corners[i]], border.line.points[i])));
+    for (std::size_t i = 0; i < border.points.size(); ++i)
+        joined.report.largest_step =
+            std::max(joined.report.largest_step,
+                     length(minus(part.value().points[part.value().corners[i]], border.points[i])));
     if (const auto good = check_new(joined.surface, surface.triangles.size(), run); !good)
         return good.error();
     return joined;
@@ -324,16 +353,49 @@ std::vector<double> widths(const Border& border, const JoinOptions& options) {
     return {half, half / 8, 4 * half};
 }
 
+/// Outer borders of other parts whose boxes overlap the loop's.
+std::vector<BorderLoop> islands_near(const Surface& surface, const BorderLoop& loop,
+                                     std::span<const BorderLoop> loops) {
+    const auto box = [&](const BorderLoop& l) {
+        Box b{{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
+        for (const std::uint32_t v : l.vertices) {
+            const Point3& p = surface.vertices[v];
+            const std::array<double, 3> x{p.x, p.y, p.z};
+            for (std::size_t k = 0; k < 3; ++k) {
+                b.low[k] = std::min(b.low[k], x[k]);
+                b.high[k] = std::max(b.high[k], x[k]);
+            }
+        }
+        return b;
+    };
+    const Box around = box(loop);
+    std::vector<BorderLoop> islands;
+    for (const BorderLoop& l : loops) {
+        const bool valid = std::all_of(l.vertices.begin(), l.vertices.end(), [&](std::uint32_t v) {
+            return v < surface.vertices.size();
+        });
+        if (valid && l.kind == LoopKind::outer && l.part != loop.part && around.overlaps(box(l)))
+            islands.push_back(l);
+    }
+    return islands;
+}
+
 Result<Joined> join_valid(const Surface& surface, const BorderLoop& loop, const Surface& filling,
                           const JoinOptions& options, const Run& run) {
     const auto border = border_of(surface, loop);
     if (!border) return border.error();
+    std::vector<Border> borders{border.value()};
+    for (const BorderLoop& other : islands_near(surface, loop, options.loops)) {
+        auto island = border_of(surface, other);
+        if (!island) return island.error();
+        borders.push_back(std::move(island).value());
+    }
     std::optional<Error> first;
     const auto tries = widths(border.value(), options);
     for (std::size_t i = 0; i < tries.size(); ++i) {
         if (run.progress)
             run.progress("join", static_cast<double>(i) / static_cast<double>(tries.size()));
-        auto joined = join_with(surface, border.value(), filling, tries[i], options, run);
+        auto joined = join_with(surface, borders, filling, tries[i], options, run);
         if (joined) return joined;
         const ErrorCode code = joined.error().code;
         if (code != ErrorCode::not_closed && code != ErrorCode::improper_contact)

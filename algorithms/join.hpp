@@ -8,7 +8,8 @@
 //   (2) the exact arrangement of S_bound and the filling; the edges that both share are the curve.
 //       It must hold one closed line that passes all walls of the strip once and in order;
 //   (3) the filling's triangles of the arrangement, which contain that line as edges;
-//   (4) the part inside: diffusion from the line's inner side, stopped at it. It must be a disk;
+//   (4) the part inside: diffusion from the line's inner side, stopped at it. It must be a disk,
+//       or one with a hole for each island;
 //   (5) conforming rows: the points where the line crosses the normals become the border's
 //   vertices,
 //       the others of the line are taken out one after the other, and so are vertices of the
@@ -24,6 +25,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <terrane/algorithms/holes.hpp>
@@ -40,7 +42,9 @@ struct JoinOptions {
     double clearance =
         0.5; ///< a vertex of the filling nearer to a border edge than this share of
              ///< the edge's length (or of the filling's own edges, if less) gives way
-    Search search = Search::mixed; ///< never changes the result
+    Search search = Search::mixed;       ///< never changes the result
+    std::span<const BorderLoop> loops{}; ///< all of the surface: what hangs together with the rest
+                                         ///< nowhere and lies in the hole, an island, is joined too
 };
 
 /// Lengths and areas: unit of the surface, in floating point.
@@ -51,6 +55,7 @@ struct JoinReport {
     std::size_t given_way = 0;        ///< vertices of the filling that were too near to the border
     std::size_t new_vertices = 0, new_triangles = 0;
     double area = 0;         ///< of the new triangles: what was invented
+    std::size_t islands = 0; ///< that were joined, too
     double largest_step = 0; ///< how far the filling passes from a border vertex at most
 };
 

@@ -14,104 +14,92 @@
 namespace terrane {
 namespace {
 
-constexpr std::uint32_t strip_surface = 0, filling_surface = 1; ///< order in the arrangement
-
-std::string place_of(const BorderLine& border, std::size_t i) {
-    const Point3& p = border.points[i];
-    return "border vertex " + std::to_string(border.vertices[i]) + " (" + std::to_string(p.x) +
-           ", " + std::to_string(p.y) + ", " + std::to_string(p.z) + ")";
-}
-
-std::string place_of(const Point3& p) {
+std::string text_of(const Point3& p) {
     return "(" + std::to_string(p.x) + ", " + std::to_string(p.y) + ", " + std::to_string(p.z) +
            ")";
 }
 
-/// An edge that the strip and the filling share. Vertices are those of the arrangement.
+Error not_closed(const BorderLine& border, std::size_t wall, const char* how) {
+    return {ErrorCode::not_closed, std::string("the strip along the border ") + how,
+            "border vertex " + std::to_string(border.vertices[wall]) + " " +
+                text_of(border.points[wall])};
+}
+
+/// An edge that a strip and the filling share. Vertices are those of the arrangement.
 struct CurveEdge {
     Edge ends{};
     std::uint32_t wall = 0;
     std::array<std::uint32_t, 2> triangles{}; ///< of the filling, on its sides
 };
 
-/// The closed line round the hole, in the direction of the loop.
+/// The closed line along a border, in the direction of its loop.
 struct CurveLine {
     std::vector<std::uint32_t> vertices; ///< of the arrangement; from vertex k to k + 1 runs edge k
-    std::vector<std::uint32_t> edges;    ///< indices into the curve's edges
+    std::vector<CurveEdge> edges;
     std::vector<std::uint32_t> corner_at; ///< per border point: where in `vertices` its corner is
+    Sign front{}; ///< Positive where the front of the filling is where the normals point
 };
 
-class InnerPartFinder {
+/// Finds the line that one strip cuts into the filling: surface `strip` of the arrangement.
+class LineFinder {
 public:
-    InnerPartFinder(const BorderLine& border, const Arrangement& arrangement) :
-        border_(border), a_(arrangement) {}
+    LineFinder(const BorderLine& border, const Arrangement& arrangement, std::uint32_t strip) :
+        border_(border), a_(arrangement), strip_(strip),
+        filling_(static_cast<std::uint32_t>(arrangement.surfaces.size() - 1)) {}
 
-    Result<InnerPart> operator()() {
+    Result<CurveLine> operator()() {
         if (const auto done = find_curve(); !done) return done.error();
         if (const auto done = find_line(); !done) return done.error();
-        const auto sign = direction();
-        if (!sign) return sign.error();
-        if (const auto done = spread(sign.value()); !done) return done.error();
-        return part(sign.value());
+        const auto front = direction();
+        if (!front) return front.error();
+        line_.front = front.value();
+        return line_;
     }
 
 private:
-    [[nodiscard]] bool of_surface(std::uint32_t t, std::uint32_t s) const {
-        const auto list = a_.surfaces_of[t];
-        return list.size() == 1 && list[0] == s;
-    }
-    [[nodiscard]] Point3 point(std::uint32_t v) const { return a_.points.nearest(a_.vertices[v]); }
     [[nodiscard]] std::size_t walls() const { return border_.points.size(); }
-
+    [[nodiscard]] Error fault(std::size_t wall, const char* how) const {
+        return not_closed(border_, wall, how);
+    }
     Status find_curve();
     Status find_line();
     Status walk(std::span<const std::uint32_t> edges);
     Status find_corners();
-    Result<Sign> direction() const;
-    Status spread(Sign sign);
-    [[nodiscard]] bool is_disk() const;
-    Result<InnerPart> part(Sign sign) const;
-    [[nodiscard]] Error not_closed(std::size_t wall, const char* how) const {
-        return {ErrorCode::not_closed, std::string("the strip along the border ") + how,
-                place_of(border_, wall)};
-    }
+    [[nodiscard]] Result<Sign> direction() const;
 
     const BorderLine& border_;
     const Arrangement& a_;
+    std::uint32_t strip_, filling_;
     std::vector<CurveEdge> curve_;
     CurveLine line_;
-    std::vector<std::uint32_t> inside_; ///< triangles of the arrangement, ascending
 };
 
 /// All edges that strip and filling share, each with the wall it lies on.
-Status InnerPartFinder::find_curve() {
+Status LineFinder::find_curve() {
+    const std::uint32_t first = a_.inputs.first[strip_];
     for (std::uint32_t t = 0; t < a_.triangles.size(); ++t)
-        if (a_.surfaces_of[t].size() > 1) {
-            const std::uint32_t wall = a_.parents_of[t][0] / 2;
-            return not_closed(wall, "and the filling overlap in an area");
-        }
+        if (const auto list = a_.surfaces_of[t]; list.size() > 1 && list[0] == strip_)
+            return fault((a_.parents_of[t][0] - first) / 2, "and the filling overlap in an area");
     for (std::size_t e = 0; e < a_.adjacency.edges.size(); ++e) {
         std::vector<std::uint32_t> of_filling, on_walls;
         for (const std::uint32_t t : a_.adjacency.triangles_at[e])
-            if (of_surface(t, filling_surface))
+            if (a_.surfaces_of[t][0] == filling_)
                 of_filling.push_back(t);
-            else
-                for (const std::uint32_t p : a_.parents_of[t]) on_walls.push_back(p / 2);
+            else if (a_.surfaces_of[t][0] == strip_)
+                for (const std::uint32_t p : a_.parents_of[t]) on_walls.push_back((p - first) / 2);
         if (of_filling.empty() || on_walls.empty()) continue;
         sort_unique(on_walls);
         if (on_walls.size() > 1)
-            return not_closed(on_walls[0],
-                              "meets the filling along a normal or crosses itself there");
+            return fault(on_walls[0], "meets the filling along a normal or crosses itself there");
         if (of_filling.size() != 2)
-            return not_closed(on_walls[0],
-                              "meets the filling where that ends or is no simple sheet");
+            return fault(on_walls[0], "meets the filling where that ends or is no simple sheet");
         curve_.push_back({a_.adjacency.edges[e], on_walls[0], {of_filling[0], of_filling[1]}});
     }
     return Done{};
 }
 
-/// The connected part of the curve that passes the most walls: the line round the hole.
-Status InnerPartFinder::find_line() {
+/// The connected part of the curve that passes the most walls.
+Status LineFinder::find_line() {
     Sets sets(a_.vertices.size());
     for (const CurveEdge& e : curve_) sets.join(e.ends[0], e.ends[1]);
     std::map<std::uint32_t, std::vector<std::uint32_t>> parts;
@@ -130,25 +118,24 @@ Status InnerPartFinder::find_line() {
     }
     const auto missed = std::find(best.begin(), best.end(), false);
     if (missed != best.end())
-        return not_closed(static_cast<std::size_t>(missed - best.begin()),
-                          "does not cut the filling in one line: it misses it here");
+        return fault(static_cast<std::size_t>(missed - best.begin()),
+                     "does not cut the filling in one line: it misses it here");
     if (const auto done = walk(*found); !done) return done.error();
     return find_corners();
 }
 
 /// The edges in order, from one to the next.
-Status InnerPartFinder::walk(std::span<const std::uint32_t> edges) {
+Status LineFinder::walk(std::span<const std::uint32_t> edges) {
     std::map<std::uint32_t, std::vector<std::uint32_t>> at;
     for (const std::uint32_t e : edges)
         for (const std::uint32_t v : curve_[e].ends) at[v].push_back(e);
     for (const auto& [v, list] : at)
         if (list.size() != 2)
-            return not_closed(curve_[list[0]].wall,
-                              "cuts the filling in a line that branches or ends");
+            return fault(curve_[list[0]].wall, "cuts the filling in a line that branches or ends");
     std::uint32_t vertex = curve_[edges[0]].ends[0], edge = edges[0];
     do {
         line_.vertices.push_back(vertex);
-        line_.edges.push_back(edge);
+        line_.edges.push_back(curve_[edge]);
         const Edge& ends = curve_[edge].ends;
         vertex = ends[0] == vertex ? ends[1] : ends[0];
         const auto& next = at.at(vertex);
@@ -158,9 +145,9 @@ Status InnerPartFinder::walk(std::span<const std::uint32_t> edges) {
 }
 
 /// Turns the line into the loop's direction and finds where it passes from wall to wall.
-Status InnerPartFinder::find_corners() {
+Status LineFinder::find_corners() {
     const std::size_t n = line_.edges.size();
-    const auto wall = [&](std::size_t k) { return curve_[line_.edges[k % n]].wall; };
+    const auto wall = [&](std::size_t k) { return line_.edges[k % n].wall; };
     std::size_t forward = 0, backward = 0;
     for (std::size_t k = 0; k < n; ++k) {
         forward += wall(k + 1) == (wall(k) + 1) % walls() ? 1 : 0;
@@ -175,119 +162,174 @@ Status InnerPartFinder::find_corners() {
         const std::uint32_t here = wall(k + n - 1), next = wall(k);
         if (here == next) continue;
         if (next != (here + 1) % walls() || corners[next])
-            return not_closed(next, "cuts the filling in a line that does not follow the border");
+            return fault(next, "cuts the filling in a line that does not follow the border");
         corners[next] = static_cast<std::uint32_t>(k);
     }
     for (std::size_t i = 0; i < walls(); ++i) {
-        if (!corners[i]) return not_closed(i, "cuts the filling in a line that misses a normal");
+        if (!corners[i]) return fault(i, "cuts the filling in a line that misses a normal");
         line_.corner_at.push_back(*corners[i]);
     }
     return Done{};
 }
 
-/// Whether the front of the filling is where the normals point, by the sides on which the upper
-/// ends of the normals lie.
-Result<Sign> InnerPartFinder::direction() const {
+/// By the sides of the filling on which the upper ends of the normals lie.
+Result<Sign> LineFinder::direction() const {
     std::optional<Sign> common;
-    for (std::size_t i = 0; i < walls(); ++i) {
-        const std::size_t edge = line_.edges[line_.corner_at[i]];
-        const auto top = static_cast<std::uint32_t>(2 * i + 1);
-        for (const std::uint32_t t : curve_[edge].triangles) {
+    const auto points = a_.points.inputs();
+    const std::uint32_t first = a_.inputs.first_vertex[strip_];
+    for (std::size_t i = 0; i < walls(); ++i)
+        for (const std::uint32_t t : line_.edges[line_.corner_at[i]].triangles) {
             const Triangle& c = a_.inputs.corners[a_.parents_of[t][0]];
-            const auto points = a_.points.inputs();
-            const Sign side = orient3d(points[c[0]], points[c[1]], points[c[2]], points[top]);
-            // Wound counterclockwise as seen from d where orient3d is Positive.
+            const Point3& top = points[first + 2 * i + 1];
+            const Sign side = orient3d(points[c[0]], points[c[1]], points[c[2]], top);
             if (side == Sign::Zero) continue;
             if (common && *common != side)
-                return not_closed(i, "cuts a filling whose front changes sides");
+                return fault(i, "cuts a filling whose front changes sides");
             common = side;
         }
-    }
-    return common ? Result<Sign>(*common) : not_closed(0, "lies in the filling");
+    return common ? Result<Sign>(*common) : fault(0, "lies in the filling");
 }
 
-/// Step (4): from the triangles on the line's inner side over all edges but the line's.
-Status InnerPartFinder::spread(Sign sign) {
-    std::vector<std::uint32_t> of_filling;
-    for (std::uint32_t t = 0; t < a_.triangles.size(); ++t)
-        if (of_surface(t, filling_surface)) of_filling.push_back(t);
-    std::vector<Triangle> corners;
-    for (const std::uint32_t t : of_filling) corners.push_back(a_.triangles[t]);
-    std::vector<Edge> stops;
-    std::vector<bool> is_inside(corners.size(), false), is_outside(corners.size(), false);
-    const std::size_t n = line_.edges.size();
-    for (std::size_t k = 0; k < n; ++k) {
-        const CurveEdge& e = curve_[line_.edges[k]];
-        stops.push_back(e.ends);
-        const std::uint32_t from = line_.vertices[k], to = line_.vertices[(k + 1) % n];
-        for (const std::uint32_t t : e.triangles) {
-            const auto local = static_cast<std::size_t>(
-                std::lower_bound(of_filling.begin(), of_filling.end(), t) - of_filling.begin());
-            // The surface lies on the left, so what is inside lies on the right.
-            const bool left = runs_along(a_.triangles[t], from, to) == (sign == Sign::Positive);
-            (left ? is_outside : is_inside)[local] = true;
-        }
+/// Steps (4): what lies on the inner side of the hole's line.
+class InnerPartFinder {
+public:
+    InnerPartFinder(const Arrangement& arrangement, std::vector<std::optional<CurveLine>> lines) :
+        a_(arrangement), filling_(static_cast<std::uint32_t>(arrangement.surfaces.size() - 1)),
+        lines_(std::move(lines)) {
+        for (std::uint32_t t = 0; t < a_.triangles.size(); ++t)
+            if (a_.surfaces_of[t][0] == filling_) {
+                of_filling_.push_back(t);
+                corners_.push_back(a_.triangles[t]);
+            }
     }
+
+    Result<InnerPart> operator()() {
+        Sets sets(corners_.size());
+        const auto flaws = join_neighbours(sets);
+        if (const auto done = spread(sets, flaws); !done) return done.error();
+        if (!is_disk_with_holes())
+            return Error{ErrorCode::not_closed,
+                         "the strip cuts the filling in a line that does not enclose a disk",
+                         text_of(point(lines_[0]->vertices[0]))};
+        return part();
+    }
+
+private:
+    /// Triangles, by place in of_filling_, at edges of the filling other than with two triangles.
+    struct Flaws {
+        std::vector<std::uint32_t> border, crowded;
+    };
+    [[nodiscard]] Point3 point(std::uint32_t v) const { return a_.points.nearest(a_.vertices[v]); }
+    [[nodiscard]] Flaws join_neighbours(Sets& sets) const;
+    Status spread(Sets& sets, const Flaws& flaws);
+    [[nodiscard]] bool is_disk_with_holes() const;
+    [[nodiscard]] Result<InnerPart> part() const;
+
+    /// Calls visit(place in of_filling_, whether on the left) for the triangles beside a line.
+    template <class Visit>
+    void beside(const CurveLine& line, const Visit& visit) const {
+        const std::size_t n = line.edges.size();
+        for (std::size_t k = 0; k < n; ++k)
+            for (const std::uint32_t t : line.edges[k].triangles) {
+                const bool along =
+                    runs_along(a_.triangles[t], line.vertices[k], line.vertices[(k + 1) % n]);
+                const auto at = std::lower_bound(of_filling_.begin(), of_filling_.end(), t);
+                visit(static_cast<std::uint32_t>(at - of_filling_.begin()),
+                      along == (line.front == Sign::Positive));
+            }
+    }
+
+    const Arrangement& a_;
+    std::uint32_t filling_;
+    std::vector<std::optional<CurveLine>> lines_; ///< per border; none where there is none
+    std::vector<std::uint32_t> of_filling_;       ///< triangles of the arrangement, ascending
+    std::vector<Triangle> corners_;               ///< of these
+    std::vector<std::uint32_t> borders_;          ///< that the inner part ends at
+    std::vector<std::uint32_t> inside_;           ///< triangles of the arrangement, ascending
+};
+
+/// Joins triangles of the filling over all edges but those of lines.
+InnerPartFinder::Flaws InnerPartFinder::join_neighbours(Sets& sets) const {
+    std::vector<Edge> stops;
+    for (const auto& line : lines_)
+        if (line)
+            for (const CurveEdge& e : line->edges) stops.push_back(e.ends);
     std::sort(stops.begin(), stops.end());
-    Sets sets(corners.size());
-    std::vector<std::uint32_t> at_border, crowded;
-    group_edges(corners, a_.vertices.size())
+    Flaws flaws;
+    group_edges(corners_, a_.vertices.size())
         .for_each([&](std::uint32_t low, std::uint32_t high, auto sides) {
             if (std::binary_search(stops.begin(), stops.end(), Edge{low, high})) return;
-            if (sides.size() == 1) at_border.push_back(sides[0].triangle);
-            if (sides.size() > 2) crowded.push_back(sides[0].triangle);
+            if (sides.size() == 1) flaws.border.push_back(sides[0].triangle);
+            if (sides.size() > 2) flaws.crowded.push_back(sides[0].triangle);
             for (const auto& s : sides) sets.join(sides[0].triangle, s.triangle);
         });
-    std::vector<bool> reached(corners.size(), false), beyond(corners.size(), false);
-    for (std::uint32_t t = 0; t < corners.size(); ++t) {
-        if (is_inside[t]) reached[sets.find(t)] = true;
-        if (is_outside[t]) beyond[sets.find(t)] = true;
-    }
-    for (const std::uint32_t t : crowded)
+    return flaws;
+}
+
+/// From the inner side of the hole's line; lines of other borders that are reached are those of
+/// islands. The surface lies on the left of each, so what is to be filled lies on the right.
+Status InnerPartFinder::spread(Sets& sets, const Flaws& flaws) {
+    std::vector<bool> reached(corners_.size(), false);
+    beside(*lines_[0], [&](std::uint32_t t, bool left) {
+        if (!left) reached[sets.find(t)] = true;
+    });
+    const auto fault = [&](ErrorCode code, const char* what, std::uint32_t t) {
+        return Error{code, what, text_of(point(corners_[t][0]))};
+    };
+    for (const std::uint32_t t : flaws.crowded)
         if (reached[sets.find(t)])
-            return Error{ErrorCode::improper_contact, "the filling meets itself inside the hole",
-                         place_of(point(corners[t][0]))};
-    for (const std::uint32_t t : at_border)
+            return fault(ErrorCode::improper_contact, "the filling meets itself inside the hole",
+                         t);
+    for (const std::uint32_t t : flaws.border)
         if (reached[sets.find(t)])
-            return Error{ErrorCode::not_closed, "the filling has a border inside the hole",
-                         place_of(point(corners[t][0]))};
-    for (std::uint32_t t = 0; t < corners.size(); ++t) {
-        const std::uint32_t set = sets.find(t);
-        if (reached[set] && beyond[set])
-            return Error{ErrorCode::not_closed,
-                         "the line round the hole does not divide the filling",
-                         place_of(point(corners[t][0]))};
-        if (reached[set]) inside_.push_back(of_filling[t]);
+            return fault(ErrorCode::not_closed, "the filling has a border inside the hole", t);
+    for (std::uint32_t b = 0; b < lines_.size(); ++b) {
+        if (!lines_[b]) continue;
+        std::optional<std::uint32_t> on_left, on_right;
+        beside(*lines_[b], [&](std::uint32_t t, bool left) {
+            if (reached[sets.find(t)]) (left ? on_left : on_right) = t;
+        });
+        if (on_left)
+            return fault(ErrorCode::not_closed,
+                         "the line along the border does not divide the filling", *on_left);
+        if (on_right) borders_.push_back(b);
     }
+    for (std::uint32_t t = 0; t < corners_.size(); ++t)
+        if (reached[sets.find(t)]) inside_.push_back(of_filling_[t]);
     return Done{};
 }
 
-/// Connected, with the line as its only border: a disk iff V - E + F = 1.
-bool InnerPartFinder::is_disk() const {
+/// Connected, with the lines as its only borders: V - E + F = 2 - number of lines.
+bool InnerPartFinder::is_disk_with_holes() const {
     std::vector<std::uint32_t> vertices;
-    for (const std::uint32_t t : inside_)
-        for (const std::uint32_t v : a_.triangles[t]) vertices.push_back(v);
-    sort_unique(vertices);
-    const std::size_t twice_edges = 3 * inside_.size() + line_.edges.size();
     Sets sets(a_.vertices.size());
     for (const std::uint32_t t : inside_)
-        for (const std::uint32_t v : a_.triangles[t]) sets.join(a_.triangles[t][0], v);
+        for (const std::uint32_t v : a_.triangles[t]) {
+            vertices.push_back(v);
+            sets.join(a_.triangles[t][0], v);
+        }
+    sort_unique(vertices);
+    std::size_t twice_edges = 3 * inside_.size();
+    for (const std::uint32_t b : borders_) twice_edges += lines_[b]->edges.size();
     const bool one = std::all_of(vertices.begin(), vertices.end(), [&](std::uint32_t v) {
         return sets.find(v) == sets.find(vertices[0]);
     });
-    return one && 2 * (vertices.size() + inside_.size()) == twice_edges + 2;
+    return one && 2 * (vertices.size() + inside_.size() + borders_.size()) == twice_edges + 4;
 }
 
-Result<InnerPart> InnerPartFinder::part(Sign sign) const {
-    if (!is_disk()) return not_closed(0, "cuts the filling in a line that does not enclose a disk");
-    const auto first = a_.inputs.first_vertex[filling_surface];
-    std::vector<std::uint32_t> of_line = line_.vertices, used;
-    std::sort(of_line.begin(), of_line.end());
+Result<InnerPart> InnerPartFinder::part() const {
+    const auto first = a_.inputs.first_vertex[filling_];
+    std::vector<std::uint32_t> of_lines, used;
+    for (const std::uint32_t b : borders_)
+        of_lines.insert(of_lines.end(), lines_[b]->vertices.begin(), lines_[b]->vertices.end());
+    std::vector<bool> on_line(a_.vertices.size(), false);
+    for (const std::uint32_t v : of_lines) on_line[v] = true;
     for (const std::uint32_t t : inside_)
         for (const std::uint32_t v : a_.triangles[t])
-            if (!std::binary_search(of_line.begin(), of_line.end(), v)) used.push_back(v);
+            if (!on_line[v]) used.push_back(v);
     sort_unique(used);
     InnerPart part;
+    part.borders = borders_;
     std::vector<std::uint32_t> name(a_.vertices.size(), UINT32_MAX);
     const auto add = [&](std::uint32_t v) {
         name[v] = static_cast<std::uint32_t>(part.points.size());
@@ -297,24 +339,27 @@ Result<InnerPart> InnerPartFinder::part(Sign sign) const {
         const PointIndex p = a_.vertices[v];
         if (!a_.points.is_input(p) || p < first)
             return Error{ErrorCode::improper_contact,
-                         "the filling crosses itself, or the strip, inside the hole",
-                         place_of(point(v))};
+                         "the filling crosses itself, or a strip, inside the hole",
+                         text_of(point(v))};
         add(v);
         part.filling.push_back(p - first);
     }
-    for (const std::uint32_t v : line_.vertices) add(v);
+    for (const std::uint32_t v : of_lines) add(v);
     for (const std::uint32_t t : inside_) {
         Triangle c = a_.triangles[t];
-        if (sign == Sign::Negative) std::swap(c[1], c[2]);
+        if (lines_[0]->front == Sign::Negative) std::swap(c[1], c[2]);
         part.triangles.push_back({name[c[0]], name[c[1]], name[c[2]]});
     }
-    std::vector<bool> is_corner(line_.vertices.size(), false);
-    for (const std::uint32_t k : line_.corner_at) {
-        is_corner[k] = true;
-        part.corners.push_back(name[line_.vertices[k]]);
+    for (const std::uint32_t b : borders_) {
+        const CurveLine& line = *lines_[b];
+        std::vector<bool> is_corner(line.vertices.size(), false);
+        for (const std::uint32_t k : line.corner_at) {
+            is_corner[k] = true;
+            part.corners.push_back(name[line.vertices[k]]);
+        }
+        for (std::size_t k = 0; k < line.vertices.size(); ++k)
+            if (!is_corner[k]) part.between.push_back(name[line.vertices[k]]);
     }
-    for (std::size_t k = 0; k < line_.vertices.size(); ++k)
-        if (!is_corner[k]) part.between.push_back(name[line_.vertices[k]]);
     return part;
 }
 
@@ -336,12 +381,20 @@ Surface strip_along(const BorderLine& border, double half_width) {
     return strip;
 }
 
-Result<InnerPart> cut_inner_part(const BorderLine& border, const Surface& filling,
+Result<InnerPart> cut_inner_part(std::span<const BorderLine> borders, const Surface& filling,
                                  double half_width, Search search, const Run& run) {
-    const std::array<Surface, 2> both{strip_along(border, half_width), filling};
-    const auto arrangement = arrange(both, {.search = search}, run);
+    std::vector<Surface> all;
+    for (const BorderLine& border : borders) all.push_back(strip_along(border, half_width));
+    all.push_back(filling);
+    const auto arrangement = arrange(all, {.search = search}, run);
     if (!arrangement) return arrangement.error();
-    return InnerPartFinder(border, arrangement.value())();
+    std::vector<std::optional<CurveLine>> lines;
+    for (std::uint32_t b = 0; b < borders.size(); ++b) {
+        auto line = LineFinder(borders[b], arrangement.value(), b)();
+        if (!line && b == 0) return line.error();
+        lines.push_back(line ? std::optional(std::move(line).value()) : std::nullopt);
+    }
+    return InnerPartFinder(arrangement.value(), std::move(lines))();
 }
 
 } // namespace terrane

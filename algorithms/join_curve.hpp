@@ -26,19 +26,23 @@ struct BorderLine {
 /// has the lower vertex 2 i and the upper vertex 2 i + 1, `half_width` from it.
 Surface strip_along(const BorderLine& border, double half_width);
 
-/// The filling within the curve, as a disk.
+/// The filling within the curve: a disk, or one with a hole for each island.
 struct InnerPart {
     std::vector<Point3> points;         ///< of the filling, then those of the curve, to the
                                         ///< nearest doubles
     std::vector<std::uint32_t> filling; ///< per point of the filling: its vertex there, ascending
     std::vector<Triangle> triangles;    ///< indices into points; a new triangle at a border edge
                                         ///< is wound opposite to the loop
-    std::vector<std::uint32_t> corners; ///< per border point: the curve's point on its normal
+    std::vector<std::uint32_t> borders; ///< which of the borders it ends at: the hole's, 0, and
+                                        ///< those of islands, ascending
+    std::vector<std::uint32_t> corners; ///< per border point of these borders, one after the
+                                        ///< other: the curve's point on its normal
     std::vector<std::uint32_t> between; ///< the other points of the curve, in order
 };
 
-/// Errors: not_closed, improper_contact, and those of arrange.
-Result<InnerPart> cut_inner_part(const BorderLine& border, const Surface& filling,
+/// borders: of the hole, and of what may be islands in it: those that the filling passes through
+/// inside the hole are. Errors: not_closed, improper_contact, and those of arrange.
+Result<InnerPart> cut_inner_part(std::span<const BorderLine> borders, const Surface& filling,
                                  double half_width, Search search, const Run& run);
 
 } // namespace terrane

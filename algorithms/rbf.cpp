@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/edges.hpp>
 #include <terrane/algorithms/parallel.hpp>
 #include <terrane/algorithms/rbf_data.hpp>
 #include <terrane/algorithms/rbf_patches.hpp>
@@ -222,7 +223,8 @@ struct LeftOut {
 };
 
 LeftOut leave_out(const HoleData& data) {
-    const double width = std::max(data.radius / 4, 1.5 * data.edge);
+    const double most = *std::max_element(data.distances.begin(), data.distances.end());
+    const double width = std::max(std::min(data.radius / 4, most / 3), 1.5 * data.edge);
     LeftOut result;
     HoleData& kept = result.kept;
     std::vector<std::uint32_t> name(data.points.size(), UINT32_MAX);
@@ -265,9 +267,9 @@ double error_of(const HoleData& data, const LeftOut& left, const RbfOptions& opt
 /// Axes along and across the hole: the last along the mean normal of its border.
 std::array<Point3, 3> axes_of(const HoleData& data) {
     Point3 n;
-    for (std::size_t i = 0; i < data.border; ++i) n = along(n, 1, data.normals[i]);
+    for (std::size_t i = 0; i < data.next.size(); ++i) n = along(n, 1, data.normals[i]);
     const double size = length(n);
-    if (!(size > 0.1 * static_cast<double>(data.border))) return RbfPolynomial{}.axes;
+    if (!(size > 0.1 * static_cast<double>(data.next.size()))) return RbfPolynomial{}.axes;
     n = {n.x / size, n.y / size, n.z / size};
     const Point3 other = std::fabs(n.x) < 0.7 ? Point3{1, 0, 0} : Point3{0, 1, 0};
     Point3 u = cross(other, n);
@@ -308,23 +310,55 @@ double size_for(const HoleData& data, const BorderLoop& loop, const RbfOptions& 
     return std::max(data.edge, least);
 }
 
-/// Step (5). What lies under the surface, away from the border, is left out.
+/// The edges at which the data end, but for the border of the hole, as triangles without area.
+std::vector<Triangle> rim_of(const HoleData& data) {
+    std::vector<Triangle> rim;
+    group_edges(data.triangles, data.points.size())
+        .for_each([&](std::uint32_t low, std::uint32_t high, auto sides) {
+            const bool of_hole =
+                high < data.next.size() && (data.next[low] == high || data.next[high] == low);
+            if (sides.size() == 1 && !of_hole) rim.push_back({low, high, high});
+        });
+    return rim;
+}
+
+/// What lies under the surface away from the border, or beyond where the data end.
+class Outside {
+public:
+    Outside(const HoleData& data, double size) :
+        size_(size), surface_(data.points, data.triangles), rim_(data.points, rim_of(data)),
+        border_(data.points, border_edges(data)) {}
+
+    [[nodiscard]] bool operator()(const Point3& p) const {
+        const double margin = 3 * size_, under = 1.5 * size_;
+        const double border = border_.distance(p, std::numeric_limits<double>::infinity());
+        if (border < margin) return false;
+        const double surface = surface_.distance(p, border);
+        if (surface < under) return true;
+        // Beyond the data the nearest of them is on their rim, as it is on no other limb of a fold.
+        return surface < border && rim_.distance(p, border) <= surface;
+    }
+
+private:
+    static std::vector<Triangle> border_edges(const HoleData& data) {
+        std::vector<Triangle> edges;
+        for (std::uint32_t i = 0; i < data.next.size(); ++i)
+            edges.push_back({i, data.next[i], data.next[i]});
+        return edges;
+    }
+
+    double size_;
+    TriangleTree surface_, rim_, border_;
+};
+
+/// Step (5).
 Result<Surface> mesh_zero_level(const Implicit& f, const HoleData& data, double size,
                                 const Run& run) {
-    const TriangleTree surface(data.points, data.triangles);
-    std::vector<Triangle> edges;
-    for (std::uint32_t i = 0; i < data.border; ++i) {
-        const auto j = static_cast<std::uint32_t>((i + 1) % data.border);
-        edges.push_back({i, j, j});
-    }
-    const TriangleTree border(data.points, std::move(edges));
-    const double margin = 3 * size;
+    const Outside outside(data, size);
     ZeroLevelOptions options;
     options.size = size;
-    options.seeds = std::span(data.points).first(data.border);
-    options.leave = [&](const Point3& p) {
-        return border.distance(p, margin) >= margin && surface.distance(p, 1.5 * size) < 1.5 * size;
-    };
+    options.seeds = std::span(data.points).first(data.next.size());
+    options.leave = [&](const Point3& p) { return outside(p); };
     const SpaceFunction function{[&](const Point3& p) { return f(p); },
                                  [&](const Point3& p) { return f.smooth.gradient(p); }};
     return zero_level(function, options, run);
@@ -362,7 +396,7 @@ Status validate_options(const RbfOptions& o) {
 
 Result<Filling> fill_valid(const Surface& surface, const BorderLoop& loop,
                            const RbfOptions& options, RbfReport& report, const Run& run) {
-    const auto data = data_round(surface, loop, options.reach, options.rings);
+    const auto data = data_round(surface, loop, options.loops, {options.reach, options.rings});
     if (!data) return data.error();
     double validated = no_number;
     const auto polynomial = choose_polynomial(data.value(), options, validated, run);

@@ -21,6 +21,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 
 #include <terrane/algorithms/filling.hpp>
 #include <terrane/algorithms/holes.hpp>
@@ -44,6 +45,7 @@ struct RbfOptions {
     unsigned degree = 0; ///< of the polynomial part along the hole: 1 is the paper's, up to 6; 0:
                          ///< of 1 to 4 the one that predicts best the data left out when the hole
                          ///< is made wider by a quarter of its radius
+    std::span<const BorderLoop> loops{}; ///< all of the surface: islands in the hole are data, too
 };
 
 /// What happened, for people. Lengths in the unit of the surface.
@@ -58,8 +60,9 @@ struct RbfReport {
     RbfSolution solution;
 };
 
-/// A function of space whose zero level runs through the data, made by steps (1) to (4).
-/// Errors: bad_option, bad_index, bad_number, interrupted, out_of_memory.
+/// The zero level, made by steps (1) to (5).
+/// Errors: bad_option, bad_index, bad_number; unsupported (an island that touches the border in a
+/// vertex; too large a level for its edge length); nothing_to_do; interrupted, out_of_memory.
 Result<Filling> fill_by_rbf(const Surface& surface, const BorderLoop& loop,
                             const RbfOptions& options = {}, const Run& run = {});
 

@@ -69,9 +69,12 @@ std::vector<double> distances_from(const Soup& soup, std::span<const std::uint32
     return distance;
 }
 
-/// Turns triangles so that they run along the loop, spreading from it over edges of two triangles.
-void wind_by_loop(std::vector<Triangle>& triangles, std::size_t vertices, std::size_t border) {
-    const EdgeSides edges = group_edges(triangles, vertices);
+/// Turns triangles so that they run along the loops, spreading from those over edges of two
+/// triangles.
+void wind_by_loops(HoleData& data) {
+    auto& triangles = data.triangles;
+    const std::size_t border = data.next.size();
+    const EdgeSides edges = group_edges(triangles, data.points.size());
     std::vector<std::vector<std::uint32_t>> beside(triangles.size());
     std::vector<bool> done(triangles.size(), false);
     std::vector<std::uint32_t> front;
@@ -86,13 +89,15 @@ void wind_by_loop(std::vector<Triangle>& triangles, std::size_t vertices, std::s
             beside[sides[0].triangle].push_back(sides[1].triangle);
             beside[sides[1].triangle].push_back(sides[0].triangle);
         } else if (sides.size() == 1 && high < border) {
-            if (high == low + 1) wind(sides[0].triangle, low, high);
-            if (low == 0 && high + 1 == border) wind(sides[0].triangle, high, low);
+            if (data.next[low] == high) wind(sides[0].triangle, low, high);
+            if (data.next[high] == low) wind(sides[0].triangle, high, low);
         }
     });
-    for (std::size_t i = 0; i < front.size(); ++i) {
-        const Triangle t = triangles[front[i]];
-        for (const std::uint32_t other : std::vector(beside[front[i]]))
+    while (!front.empty()) {
+        const std::uint32_t here = front.back();
+        front.pop_back();
+        const Triangle t = triangles[here];
+        for (const std::uint32_t other : beside[here])
             for (unsigned k = 0; k < 3; ++k) {
                 const std::uint32_t a = t[k], b = t[(k + 1) % 3];
                 const Triangle& o = triangles[other];
@@ -123,44 +128,111 @@ void find_normals(HoleData& data) {
     }
 }
 
-} // namespace
+/// Whether p is within the loop seen along its mean normal, and near its plane.
+class WithinLoop {
+public:
+    WithinLoop(const Surface& surface, const BorderLoop& loop, double radius) :
+        centre_(loop.centre), radius_(radius) {
+        Point3 n;
+        for (const std::uint32_t v : loop.vertices) points_.push_back(surface.vertices[v]);
+        for (std::size_t i = 0; i < points_.size(); ++i) {
+            const Point3 c = cross(minus(points_[i], centre_), minus(at(i + 1), centre_));
+            n = {n.x + c.x, n.y + c.y, n.z + c.z};
+        }
+        const double size = length(n);
+        normal_ = size > 0 ? Point3{n.x / size, n.y / size, n.z / size} : Point3{0, 0, 1};
+    }
+    [[nodiscard]] bool operator()(const Point3& p) const {
+        double least = std::numeric_limits<double>::infinity(), most = -least, turn = 0;
+        for (std::size_t i = 0; i < points_.size(); ++i) {
+            const double height = dot(minus(points_[i], p), normal_);
+            least = std::min(least, height);
+            most = std::max(most, height);
+            const Point3 a = flat(points_[i], p), b = flat(at(i + 1), p);
+            turn += std::atan2(dot(cross(a, b), normal_), dot(a, b));
+        }
+        return std::fabs(turn) > 3 && least < radius_ && most > -radius_; // a full turn is 6.28
+    }
 
-Result<HoleData> data_round(const Surface& surface, const BorderLoop& loop, double reach,
-                            unsigned rings) {
-    if (const auto valid = validate(std::span(&surface, 1)); !valid) return valid.error();
+private:
+    [[nodiscard]] const Point3& at(std::size_t i) const { return points_[i % points_.size()]; }
+    [[nodiscard]] Point3 flat(const Point3& q, const Point3& p) const {
+        const Point3 d = minus(q, p);
+        const double h = dot(d, normal_);
+        return {d.x - h * normal_.x, d.y - h * normal_.y, d.z - h * normal_.z};
+    }
+
+    std::vector<Point3> points_;
+    Point3 centre_, normal_;
+    double radius_;
+};
+
+Status validate_loop(const Surface& surface, const BorderLoop& loop) {
     if (loop.vertices.size() < 3)
         return Error{ErrorCode::bad_option, "a loop needs three vertices", ""};
     for (const std::uint32_t v : loop.vertices)
         if (v >= surface.vertices.size())
             return Error{ErrorCode::bad_index, "the loop names no vertex", std::to_string(v)};
-    const Soup soup = merge_surfaces(std::span(&surface, 1));
+    return Done{};
+}
+
+double median_edge(const HoleData& data) {
+    std::vector<double> edges;
+    for (std::size_t i = 0; i < data.next.size(); ++i)
+        edges.push_back(length(minus(data.points[data.next[i]], data.points[i])));
+    const auto middle = edges.begin() + static_cast<std::ptrdiff_t>(edges.size() / 2);
+    std::nth_element(edges.begin(), middle, edges.end());
+    return *middle;
+}
+
+} // namespace
+
+Result<HoleData> data_round(const Surface& surface, const BorderLoop& loop,
+                            std::span<const BorderLoop> loops, DataRange range) {
+    if (const auto valid = validate(std::span(&surface, 1)); !valid) return valid.error();
+    if (const auto valid = validate_loop(surface, loop); !valid) return valid.error();
     HoleData data;
     data.radius = std::sqrt(std::max(loop.area, 0.0) / std::acos(-1.0));
-    const auto distance = distances_from(soup, loop.vertices, reach * data.radius, rings);
-    std::vector<std::uint32_t> name(soup.points.size(), UINT32_MAX);
-    const auto add = [&](std::uint32_t v) {
-        if (name[v] != UINT32_MAX) return;
+    std::vector<const BorderLoop*> borders{&loop};
+    const WithinLoop within(surface, loop, data.radius);
+    for (const BorderLoop& l : loops) {
+        if (l.kind != LoopKind::outer || l.part == loop.part) continue;
+        if (const auto valid = validate_loop(surface, l); !valid) return valid.error();
+        if (within(surface.vertices[l.vertices[0]])) borders.push_back(&l);
+    }
+    const Soup soup = merge_surfaces(std::span(&surface, 1));
+    std::vector<std::uint32_t> name(soup.points.size(), UINT32_MAX), of_borders;
+    const auto add = [&](std::uint32_t v, double distance) {
         name[v] = static_cast<std::uint32_t>(data.points.size());
         data.points.push_back(soup.points[v]);
-        data.distances.push_back(distance[v]);
+        data.distances.push_back(distance);
     };
-    for (const std::uint32_t v : loop.vertices) add(v);
-    data.border = data.points.size();
-    if (data.border != loop.vertices.size())
-        return Error{ErrorCode::bad_option, "the loop passes a vertex twice", ""};
+    for (const BorderLoop* border : borders) {
+        const auto first = static_cast<std::uint32_t>(data.next.size()),
+                   n = static_cast<std::uint32_t>(border->vertices.size());
+        for (std::uint32_t i = 0; i < n; ++i) {
+            const std::uint32_t v = border->vertices[i];
+            if (name[v] != UINT32_MAX)
+                return border == &loop
+                           ? Error{ErrorCode::bad_option, "the loop passes a vertex twice",
+                                   std::to_string(v)}
+                           : Error{ErrorCode::unsupported,
+                                   "an island touches the border of the hole, or another island",
+                                   "vertex " + std::to_string(v)};
+            add(v, 0);
+            of_borders.push_back(v);
+            data.next.push_back(first + (i + 1) % n);
+        }
+    }
+    const auto distance = distances_from(soup, of_borders, range.reach * data.radius, range.rings);
     for (std::uint32_t v = 0; v < soup.points.size(); ++v)
-        if (distance[v] < never) add(v);
+        if (distance[v] < never && name[v] == UINT32_MAX) add(v, distance[v]);
     for (const Triangle& t : soup.triangles)
         if (distance[t[0]] < never && distance[t[1]] < never && distance[t[2]] < never)
             data.triangles.push_back({name[t[0]], name[t[1]], name[t[2]]});
-    wind_by_loop(data.triangles, data.points.size(), data.border);
+    wind_by_loops(data);
     find_normals(data);
-    std::vector<double> edges;
-    for (std::size_t i = 0; i < data.border; ++i)
-        edges.push_back(length(minus(data.points[(i + 1) % data.border], data.points[i])));
-    const auto middle = edges.begin() + static_cast<std::ptrdiff_t>(edges.size() / 2);
-    std::nth_element(edges.begin(), middle, edges.end());
-    data.edge = *middle;
+    data.edge = median_edge(data);
     return data;
 }
 

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include <terrane/algorithms/holes.hpp>
@@ -13,21 +15,30 @@
 
 namespace terrane {
 
-/// Vertices near a border, along the surface. Those of the border come first, in its order.
+/// Vertices near a border, along the surface. Those of the hole's border come first, in its order,
+/// then those of islands in it.
 struct HoleData {
     std::vector<Point3> points;      ///< distinct
     std::vector<Point3> normals;     ///< per point: unit, the surface on the loop's left
     std::vector<double> distances;   ///< per point: from the border along edges
     std::vector<Triangle> triangles; ///< the surface's between them, wound by the normals
-    std::size_t border = 0;          ///< how many points are the border's
+    std::vector<std::uint32_t> next; ///< per border point: the next in its loop. So many points
+                                     ///< are the borders'
     double edge = 0;                 ///< median border edge
     double radius = 0;               ///< of a disk with the hole's area
 };
 
+struct DataRange {
+    double reach = 1;   ///< in radii of the hole
+    unsigned rings = 4; ///< of vertices, at least
+};
+
 /// All vertices not farther from the border along edges than `reach` times the radius, and those of
-/// the first `rings` rings. Cost: linear in the surface, n log n in the data.
-/// Errors: bad_option, bad_index (a loop that is none), bad_number.
-Result<HoleData> data_round(const Surface& surface, const BorderLoop& loop, double reach,
-                            unsigned rings);
+/// the first `rings` rings; of islands the same. `loops`: those of the surface, among which islands
+/// are the outer ones of other parts within the hole, seen along its mean normal, and not farther
+/// from it than its radius. Cost: linear in the surface, n log n in the data. Errors: bad_option,
+/// bad_index (a loop that is none), bad_number.
+Result<HoleData> data_round(const Surface& surface, const BorderLoop& loop,
+                            std::span<const BorderLoop> loops, DataRange range);
 
 } // namespace terrane

@@ -17,6 +17,10 @@
 namespace terrane {
 namespace {
 
+// With cubes of this share of the size, and edges below `shortest` thinned out, those that stay
+// have the size on average.
+constexpr double step_share = 0.72, shortest = 0.48;
+
 constexpr std::int64_t most_steps = (1 << 20) - 4; ///< of the lattice along an axis: 20 bits
 
 /// A lattice point, and the cube of which it is the lowest corner.
@@ -115,7 +119,7 @@ private:
 
     /// Room on all sides of the seeds for the level to leave their box, as far as the box is long.
     Status lay_lattice() {
-        step_ = options_.size;
+        step_ = step_share * options_.size;
         if (!(step_ > 0) || options_.seeds.empty())
             return Error{ErrorCode::bad_option, "the zero level needs an edge length and seeds",
                          ""};
@@ -315,7 +319,8 @@ void smooth(DiskMesh& mesh, const SpaceFunction& function, double size, bool mov
             const auto count = static_cast<double>(near.size());
             p = {p.x / count, p.y / count, p.z / count};
         }
-        mesh.move_if_sound(v, onto_level(function, p, size / 2));
+        // To be on the level matters more than shape.
+        mesh.move_if_sound(v, onto_level(function, p, size / 3), move_to_middle ? 0.4 : 0.05);
     }
 }
 
@@ -340,12 +345,11 @@ Result<Surface> zero_level(const SpaceFunction& function, const ZeroLevelOptions
     auto marched = Marcher(function, options, run)();
     if (!marched) return marched;
     DiskMesh mesh(std::move(marched.value().vertices), std::move(marched.value().triangles));
-    constexpr double least = 0.66; // of the size: edges are then 1.0 of it on average
-    thin(mesh, least * options.size);
+    thin(mesh, shortest * options.size);
     std::vector<std::uint32_t> all;
     for (std::uint32_t v = 0; v < mesh.points().size(); ++v)
         if (mesh.is_alive(v)) all.push_back(v);
-    for (const bool move : {false, true, true}) {
+    for (const bool move : {false, true, true, false}) {
         if (run.stop.stop_requested())
             return Error{ErrorCode::interrupted, "stopped on request", ""};
         smooth(mesh, function, options.size, move);

@@ -20,6 +20,7 @@ Command bench_command(CLI::App& program);
 Command check_command(CLI::App& program);
 Command convert_command(CLI::App& program);
 Command fill_command(CLI::App& program);
+Command layer_command(CLI::App& program);
 Command tetrahedralize_command(CLI::App& program);
 Command verify_command(CLI::App& program);
 Command volume_command(CLI::App& program);

@@ -200,10 +200,11 @@ Result<Filled> by_kriging(const FillCommand& command, const Surface& surface,
 
 /// The surface that RBF gives goes beyond the border and is joined.
 Result<Filled> by_rbf(const FillCommand& command, const Surface& surface, const BorderLoop& loop,
-                      const Run& run) {
-    const auto filling = fill_by_rbf(surface, loop, {.size = command.mesh_size}, run);
+                      std::span<const BorderLoop> loops, const Run& run) {
+    const auto filling =
+        fill_by_rbf(surface, loop, {.size = command.mesh_size, .loops = loops}, run);
     if (!filling) return filling.error();
-    auto made = join_filling(surface, loop, filling.value().surface, {}, run);
+    auto made = join_filling(surface, loop, filling.value().surface, {.loops = loops}, run);
     if (!made) return made.error();
     Filled filled;
     filled.report = filling.value().report;
@@ -251,7 +252,7 @@ Status fill_holes(const FillCommand& command, const std::vector<bool>& chosen, W
         session.begin(fmt::format("fill hole {}", hole.number), Phase::computing);
         const auto filled =
             command.method == "rbf"
-                ? by_rbf(command, given, *hole.loop, session.run())
+                ? by_rbf(command, given, *hole.loop, work.loops[hole.surface], session.run())
                 : by_kriging(command, given, *hole.loop, work.loops[hole.surface], session.run());
         session.end_stage();
         if (filled) {

@@ -63,10 +63,10 @@ ExitStatus run(int argc, char** argv) {
     program.set_version_flag("--version", std::string("terrane " TERRANE_VERSION "\n") + licence);
     program.require_subcommand(1);
     program.footer(footer);
-    const std::array commands{arrange_command(program), bench_command(program),
-                              check_command(program),   tetrahedralize_command(program),
-                              convert_command(program), fill_command(program),
-                              verify_command(program),  volume_command(program)};
+    const std::array commands{
+        arrange_command(program),        bench_command(program),   check_command(program),
+        tetrahedralize_command(program), convert_command(program), fill_command(program),
+        layer_command(program),          verify_command(program),  volume_command(program)};
     try {
         program.parse(argc, argv);
     } catch (const CLI::ParseError& stop) {
