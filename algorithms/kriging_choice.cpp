@@ -16,7 +16,9 @@ constexpr std::size_t patches = 5;
 constexpr double worth_no_nugget = 0.8;
 constexpr double worth_degree_2 = 0.8;
 constexpr double worth_gaussian = 0.5;
-constexpr std::size_t least_data = 20; ///< with fewer nothing is chosen by what is missed
+constexpr double worth_noisy_gaussian = 0.9; ///< the same, where most of what is missed is noise
+constexpr double mostly_noise = 0.3;         ///< share of the mean square
+constexpr std::size_t least_data = 20;       ///< with fewer nothing is chosen by what is missed
 constexpr std::array all_models{VariogramModel::spherical, VariogramModel::exponential,
                                 VariogramModel::power, VariogramModel::gaussian};
 
@@ -112,8 +114,10 @@ private:
         if (options.most_nugget == 0 && best_.variogram.nugget > 0) share *= worth_no_nugget;
         if (degree > best_.degree) share *= worth_degree_2;
         if (options.model == VariogramModel::gaussian &&
-            best_.variogram.model != VariogramModel::gaussian)
-            share *= worth_gaussian;
+            best_.variogram.model != VariogramModel::gaussian) {
+            const double noise = mostly_noise * best_.blocks.error * best_.blocks.error;
+            share *= options.most_nugget > noise ? worth_noisy_gaussian : worth_gaussian;
+        }
         return share;
     }
 
