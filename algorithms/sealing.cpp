@@ -8,6 +8,7 @@
 #include <map>
 #include <new>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <tuple>
@@ -38,6 +39,10 @@ double length(const Point3& a) {
 
 Point3 middle(const Point3& p, const Point3& q) {
     return {p.x + (q.x - p.x) / 2, p.y + (q.y - p.y) / 2, p.z + (q.z - p.z) / 2};
+}
+
+std::array<Point3, 2> in_order(const Point3& p, const Point3& q) {
+    return {std::min(p, q), std::max(p, q)};
 }
 
 Error interrupted() {
@@ -194,27 +199,37 @@ private:
         return Done{};
     }
 
-    /// Border edges of the surfaces as they were, not of strips, with gaps that are small enough.
+    /// Free parts of borders of the surfaces as they were, without strips, that are near enough.
     [[nodiscard]] std::vector<Gap> gaps(const Distances& distances) const {
         const auto by_input = strips_by_input(kept_, strips_);
+        std::vector<bool> is_strip;
+        for (const std::uint32_t strip : by_input) is_strip.push_back(strip != none);
         std::vector<Gap> found;
-        for (const BorderEdge& edge : open_border_edges(kept_)) {
-            if (by_input[edge.triangle] != none) continue;
+        for (const BorderEdge& edge : open_border_edges(kept_, is_strip))
             if (auto gap = distances.gap_at(edge)) found.push_back(std::move(*gap));
-        }
         return found;
+    }
+
+    /// The ends of border edges, in order, that have a strip already.
+    [[nodiscard]] std::set<std::array<Point3, 2>> edges_with_strip() const {
+        std::set<std::array<Point3, 2>> edges;
+        for (const StripTriangle& t : strips_)
+            if (t.is_base[0] && t.is_base[1]) edges.insert(in_order(t.corners[0], t.corners[1]));
+        return edges;
     }
 
     [[nodiscard]] std::vector<StripTriangle> new_strips(bool along) {
         const Distances distances(kept_, options_.distance);
         const Distances farther(kept_, 2 * options_.distance);
         std::vector<StripEdge> edges;
+        const auto done = edges_with_strip();
         for (Gap& gap : gaps(distances)) {
+            const std::array ends{kept_.points.input(gap.edge.from),
+                                  kept_.points.input(gap.edge.to)};
+            if (done.contains(in_order(ends[0], ends[1]))) continue;
             StripEdge& strip = edges.emplace_back();
             strip.edge = gap.edge;
             strip.piece = static_cast<std::uint32_t>(gaps_.size());
-            const std::array ends{kept_.points.input(gap.edge.from),
-                                  kept_.points.input(gap.edge.to)};
             strip.reach = std::max(along_plane * gap.largest, least_steps * step_at(ends));
             if (!along) {
                 const auto a = farther.nearest(ends[0], gap.edge),

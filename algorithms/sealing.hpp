@@ -54,7 +54,8 @@ struct Sealed {
     Arrangement arrangement;       ///< restricted to what is kept
     std::vector<SealChange> changes; ///< by kind, surface, place
     unsigned passes = 0;             ///< in which strips were made
-    double left = 0; ///< length of free borders that are still this near to another surface
+    double left = 0; ///< length of the input's free borders that are still this near to another
+                     ///< surface, as where they end beyond it, beside its own border
 };
 
 /// Errors: bad_option (the distance is not positive), those of arrange.

@@ -163,8 +163,8 @@ bool lies_on(const Arrangement& a, const Edge& edge, std::uint32_t input_triangl
     });
 }
 
-std::vector<BorderEdge> open_border_edges(const Arrangement& a) {
-    std::vector<bool> unusable(a.inputs.corners.size(), false);
+std::vector<BorderEdge> open_border_edges(const Arrangement& a, std::vector<bool> unusable) {
+    unusable.resize(a.inputs.corners.size(), false);
     for (const std::uint32_t t : a.degenerate) unusable[t] = true;
     for (const auto& [repeated, first] : a.inputs.duplicates)
         if (a.inputs.surface_of(repeated) == a.inputs.surface_of(first)) unusable[repeated] = true;

