@@ -250,9 +250,10 @@ TEST_CASE("cli: tetrahedralize with a box, and what it refuses", "[cli]") {
     CHECK(sized.status == 0);
     const auto left = folder.left();
     for (const std::string bad :
-         {"-o c.vtu --around 0,0,0,1,1,1", "-o c.vtu --around 1,2,3", "-o c.vtu --around a,b,c,d,e,f",
-          "-o c.vtu --around -2,-2,-2,6,6,nan", "-o c.vtu --margin -1", "-o c.vtu --edge-length 0",
-          "-o c.vtu --quality 0.5", "-o c.obj", "-o c.poly", "-o c.vtu -o c.vtp"}) {
+         {"-o c.vtu --around 0,0,0,1,1,1", "-o c.vtu --around 1,2,3",
+          "-o c.vtu --around a,b,c,d,e,f", "-o c.vtu --around -2,-2,-2,6,6,nan",
+          "-o c.vtu --margin -1", "-o c.vtu --edge-length 0", "-o c.vtu --quality 0.5", "-o c.obj",
+          "-o c.poly", "-o c.vtu -o c.vtp"}) {
         INFO(bad);
         const auto r = folder.run("tetrahedralize " + in + " " + bad);
         CHECK(r.status == 2);
