@@ -15,9 +15,8 @@
 // the input moves; a strip that closes no gap is not there, and parts none of the others. Where no
 // gap is small enough it is the arrangement of the input itself.
 // Distances are in floating point, from the ends and middles of the free parts of border edges to
-// the nearest other surface; a part of an edge is extended as a whole or not at all; a gap of a
-// surface to itself is none. Cost: three arrangements at least where there is something to do, up
-// to seven.
+// the nearest other surface; a part of an edge is extended as a whole or not at all; a gap of a surface to itself is none.
+// Cost: three arrangements at least where there is something to do, up to seven.
 #pragma once
 
 #include <cstdint>
