@@ -25,7 +25,8 @@ inline constexpr std::size_t dihedral_bins = 18; ///< of 10 degrees each; 180 co
 struct TetrahedraShape {
     ShapeSpread dihedral; ///< degrees, six per tetrahedron
     std::array<std::size_t, dihedral_bins> dihedral_histogram{};
-    ShapeSpread radius_edge; ///< circumradius to shortest edge; infinite where a tetrahedron is flat
+    ShapeSpread
+        radius_edge; ///< circumradius to shortest edge; infinite where a tetrahedron is flat
     std::array<std::size_t, radius_edge_bounds.size() + 1> radius_edge_histogram{};
 };
 

@@ -203,9 +203,9 @@ private:
         w.options.radius_edge_ratio = t.quality;
         w.options.time_limit = t.time_limit;
         for (const auto& [name, length] : t.size_of)
-            w.size_of.push_back({{name, start + "size_of." + name}, length});
+            w.size_of.push_back({{name, fmt::format("{}size_of.{}", start, name)}, length});
         for (const auto& [name, length] : t.size_in)
-            w.size_in.push_back({{name, start + "size_in." + name}, length});
+            w.size_in.push_back({{name, fmt::format("{}size_in.{}", start, name)}, length});
         for (std::size_t i = 0; i < t.split.size(); ++i)
             w.split.push_back({t.split[i], fmt::format("{}split[{}]", start, i)});
         w.outside = t.outside.value_or(project_.volume.index() == 0);

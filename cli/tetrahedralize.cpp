@@ -227,6 +227,7 @@ Command tetrahedralize_command(CLI::App& program) {
         *app, command->files,
         "File for the tetrahedra, .vtu .msh .inp .mesh; - is standard output; may be repeated");
     add_msh(*app, command->files);
+    add_roles(*app, command->roles);
     add_tetrahedra_options(*app, *command);
     add_settings(*app, command->settings);
     add_threads(*app, command->files);

@@ -14,9 +14,9 @@
 #include "../support/effort.hpp"
 #include "../support/points.hpp"
 #include "../support/solids.hpp"
-#include <terrane/algorithms/without_outside.hpp>
 #include <terrane/algorithms/rounding.hpp>
 #include <terrane/algorithms/tetrahedra.hpp>
+#include <terrane/algorithms/without_outside.hpp>
 #include <terrane/io/files.hpp>
 #include <terrane/kernel/predicates.hpp>
 

@@ -222,7 +222,7 @@ TEST_CASE("cli: tetrahedralize reports checks and shapes", "[cli]") {
     CHECK(check["dihedral"]["max"] > 71);
     CHECK(contains(folder.read("a.msh"), "$MeshFormat\n2.2 0 8\n"));
     CHECK(contains(folder.read("a.msh"), "\n3 2 \"region 1: "));
-    CHECK(contains(folder.read("a.inp"), "*ELEMENT, TYPE=C3D4, ELSET=region_4\n"));
+    CHECK(contains(folder.read("a.inp"), "\n** region 4: "));
     CHECK(contains(folder.read("a.mesh"), "\nTetrahedra\n" + std::to_string(tetrahedra) + "\n"));
 }
 
