@@ -159,7 +159,7 @@ private:
     [[nodiscard]] VertexKind kind_of_vertex(std::uint32_t v,
                                             const std::vector<std::uint32_t>& star) const {
         const auto& ends = curve_edges_at_[v];
-        if (ends.size() != 0 && ends.size() != 2) return VertexKind::corner;
+        if (!ends.empty() && ends.size() != 2) return VertexKind::corner;
         if (!fans_are_plain(v, star)) return VertexKind::corner;
         if (ends.empty()) return VertexKind::inner;
         const Point3 &p = mesh_.vertices[v], &a = mesh_.vertices[ends[0]],

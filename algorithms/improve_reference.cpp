@@ -256,9 +256,9 @@ Reference::Cover Reference::covered(const Target& target, std::uint32_t start) {
 }
 
 bool Reference::near_one(const Corners& triangle, std::uint32_t t, double bound) const {
-    const auto& [a, b, c] = features_.triangles[t];
+    const Triangle& c = features_.triangles[t];
     return std::all_of(triangle.begin(), triangle.end(), [&](const Point3& p) {
-        return to_triangle(p, points_[a], points_[b], points_[c]) <= bound;
+        return to_triangle(p, points_[c[0]], points_[c[1]], points_[c[2]]) <= bound;
     });
 }
 

@@ -76,8 +76,7 @@ QualityReport measure_quality(std::span<const Point3> vertices,
     report.triangles = triangles.size();
     if (triangles.empty()) return report;
     std::vector<double> q, smallest, largest;
-    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-        const auto& [i, j, k] = triangles[t];
+    for (const auto& [i, j, k] : triangles) {
         q.push_back(quality_of(vertices[i], vertices[j], vertices[k]));
         const auto angles = angles_of(vertices[i], vertices[j], vertices[k]);
         smallest.push_back(*std::min_element(angles.begin(), angles.end()));
