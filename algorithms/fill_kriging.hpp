@@ -16,8 +16,8 @@ namespace terrane {
 
 struct KrigingOptions {
     FitOptions variogram{};
-    double mesh_size = 0; ///< of the filling, unit of x and y; 0: median edge of the hole's border
-    std::size_t rings = 10; ///< of triangles round the hole whose corners are data; >= 1
+    double mesh_size = 0;  ///< of the filling, unit of x and y; 0: median edge of the hole's border
+    std::size_t rings = 5; ///< of triangles round the hole whose corners are data; >= 1
     std::span<const BorderLoop> loops{}; ///< all of the surface: parts of it that lie within the
                                          ///< hole are data too, and left out of the filling
 };

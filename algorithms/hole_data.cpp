@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <unordered_map>
 
 #include <Eigen/Dense>
@@ -106,10 +107,34 @@ private:
     std::vector<std::uint32_t> ring_, all_;
 };
 
-/// How far the heights of points with neighbours on all sides are off the plane through these,
-/// squared, on average; less what the neighbours' own noise adds.
+/// Off the parabola by least squares through other points, squared, less what the noise of those
+/// adds; none where they do not tell one.
+std::optional<double> squared_noise(const Point3& p, const std::vector<const Point3*>& others) {
+    using Terms = Eigen::Matrix<double, 6, 1>;
+    double scale = 0;
+    for (const Point3* q : others)
+        scale = std::max({scale, std::abs(q->x - p.x), std::abs(q->y - p.y)});
+    if (others.size() < 10 || !(scale > 0)) return std::nullopt;
+    Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
+    Terms right = Terms::Zero();
+    for (const Point3* q : others) {
+        const double u = (q->x - p.x) / scale, v = (q->y - p.y) / scale;
+        Terms terms;
+        terms << 1, u, v, u * u, u * v, v * v;
+        normal += terms * terms.transpose();
+        right += terms * (q->z - p.z);
+    }
+    const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> solver(normal);
+    if (!(solver.rcond() > 1e-10)) return std::nullopt;
+    const double off = solver.solve(right)[0];
+    const Terms first = Terms::Unit(0);
+    return off * off / (1 + solver.solve(first)[0]);
+}
+
+/// The mean over points that have neighbours, and these others, on all sides.
 double noise_of(const std::vector<Point3>& points,
                 const std::vector<std::array<std::uint32_t, 2>>& edges, std::size_t border) {
+    constexpr std::size_t most = 2000; // points that are looked at
     std::vector<std::vector<std::uint32_t>> beside(points.size());
     for (const auto& [a, b] : edges) {
         beside[a].push_back(b);
@@ -117,19 +142,18 @@ double noise_of(const std::vector<Point3>& points,
     }
     double sum = 0;
     std::size_t count = 0;
-    for (std::size_t i = border; i < points.size(); ++i) {
-        const auto n = static_cast<Eigen::Index>(beside[i].size());
-        if (n < 5) continue;
-        Eigen::MatrixX3d a(n, 3);
-        Eigen::VectorXd z(n);
-        for (Eigen::Index k = 0; k < n; ++k) {
-            const Point3& q = points[beside[i][static_cast<std::size_t>(k)]];
-            a.row(k) << 1, q.x - points[i].x, q.y - points[i].y;
-            z[k] = q.z - points[i].z;
+    const auto step = std::max<std::size_t>(points.size() / most, 1);
+    for (std::size_t i = border; i < points.size(); i += step) {
+        std::vector<std::uint32_t> near;
+        for (const auto v : beside[i]) near.insert(near.end(), beside[v].begin(), beside[v].end());
+        sort_unique(near);
+        std::vector<const Point3*> others;
+        for (const auto v : near)
+            if (v != i) others.push_back(&points[v]);
+        if (const auto noise = squared_noise(points[i], others)) {
+            sum += *noise;
+            ++count;
         }
-        const Eigen::Vector3d plane = a.colPivHouseholderQr().solve(z);
-        sum += plane[0] * plane[0] / (1 + 1 / static_cast<double>(n));
-        ++count;
     }
     return count > 0 ? sum / static_cast<double>(count) : HUGE_VAL;
 }

@@ -22,7 +22,7 @@ struct HoleData {
     std::vector<std::array<std::uint32_t, 2>> edges; ///< of the triangles near, lower index first
     std::vector<std::uint32_t> inner_of;             ///< per border edge, in the order of points:
                                                      ///< the third corner of its triangle
-    double noise = 0; ///< mean square by which heights miss the plane through their neighbours
+    double noise = 0; ///< mean square by which heights miss parabolas through points near
 };
 
 /// Corners of `rings` rings of triangles round the loops, as far as they are a graph over x and y.

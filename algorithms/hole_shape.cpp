@@ -216,10 +216,11 @@ bool is_fault_gap(const Soup& soup, const TracedLoop& traced, const GapRule& rul
         total += weight;
         if (jump * dot(downhill, direction) > 0) agreed += weight;
     }
-    loop.throw_ = weighted_median(std::move(jumps));
+    loop.fault_throw = weighted_median(std::move(jumps));
     loop.width = weighted_median(std::move(widths));
-    return total > 0 && agreed >= agreement * total && loop.throw_ >= rule.slope * loop.width &&
-           loop.throw_ > 0 && loop.throw_ >= roughness_factor * hole.roughness();
+    return total > 0 && agreed >= agreement * total &&
+           loop.fault_throw >= rule.slope * loop.width && loop.fault_throw > 0 &&
+           loop.fault_throw >= roughness_factor * hole.roughness();
 }
 
 } // namespace terrane::detail

@@ -43,7 +43,7 @@ struct BorderLoop {
     double length = 0;        ///< of its edges
     double area = 0;          ///< of its projection onto the plane that makes it largest
     Point3 centre{};          ///< of its edges, weighted by their lengths
-    double throw_ = 0;        ///< holes: median distance, along the normal of the surface
+    double fault_throw = 0;   ///< holes: median distance, along the normal of the surface
                               ///< there, by which its facing sides miss each other
     double width = 0;         ///< holes: median distance between facing sides
 };

@@ -11,10 +11,16 @@ namespace {
 
 constexpr std::size_t most_validated = 150;
 constexpr std::size_t patches = 5;
-constexpr double worth_no_nugget = 0.8; ///< share of what is missed with one that may be left
-constexpr std::size_t least_data = 20;  ///< with fewer nothing is chosen by what is missed
-constexpr std::array all_models{VariogramModel::gaussian, VariogramModel::spherical,
-                                VariogramModel::exponential, VariogramModel::power};
+// Shares of what the best one so far misses, that may be left by one which can go astray far from
+// data: without a nugget, with a steeper trend, and smooth without end.
+constexpr double worth_no_nugget = 0.8;
+constexpr double worth_degree_2 = 0.8;
+constexpr double worth_gaussian = 0.5;
+constexpr double worth_noisy_gaussian = 0.9; ///< the same, where most of what is missed is noise
+constexpr double mostly_noise = 0.3;         ///< share of the mean square
+constexpr std::size_t least_data = 20;       ///< with fewer nothing is chosen by what is missed
+constexpr std::array all_models{VariogramModel::spherical, VariogramModel::exponential,
+                                VariogramModel::power, VariogramModel::gaussian};
 
 /// At most so many, evenly.
 std::vector<Point3> thinned(std::span<const Point3> data) {
@@ -75,8 +81,9 @@ public:
             bins_.push_back(experimental_variogram(residuals(data, degree), close, longest));
     }
 
-    /// Takes what misses less than `share` of what the best one so far does.
-    void attempt(unsigned degree, const FitOptions& options, double share = 1) {
+    /// Takes what misses enough less than the best one so far.
+    void attempt(unsigned degree, const FitOptions& options) {
+        double share = share_for(degree, options);
         Variogram variogram = fit_variogram(bins_[degree - 1], options);
         const bool smooth = variogram.model == VariogramModel::gaussian && options.most_nugget == 0;
         for (int stretched = 0; stretched < (smooth ? 3 : 1); ++stretched) {
@@ -98,11 +105,22 @@ public:
         attempt(best_.degree, options);
     }
 
-    [[nodiscard]] bool best_is_noisy() const { return best_.variogram.nugget > 0; }
     [[nodiscard]] bool few() const { return patches_.size() < least_data; }
     [[nodiscard]] const ModelChoice& best() const { return best_; }
 
 private:
+    [[nodiscard]] double share_for(unsigned degree, const FitOptions& options) const {
+        double share = 1;
+        if (options.most_nugget == 0 && best_.variogram.nugget > 0) share *= worth_no_nugget;
+        if (degree > best_.degree) share *= worth_degree_2;
+        if (options.model == VariogramModel::gaussian &&
+            best_.variogram.model != VariogramModel::gaussian) {
+            const double noise = mostly_noise * best_.blocks.error * best_.blocks.error;
+            share *= options.most_nugget > noise ? worth_noisy_gaussian : worth_gaussian;
+        }
+        return share;
+    }
+
     Patches patches_;
     std::vector<std::vector<VariogramBin>> bins_; ///< by degree - 1
     ModelChoice best_;
@@ -118,14 +136,15 @@ ModelChoice choose_model(std::span<const Point3> data,
     FitOptions fit = options;
     fit.anisotropy = false;
     const unsigned highest = chooser.few() ? 1 : 2;
-    for (const bool noisy : {true, false})
-        for (unsigned degree = 1; degree <= highest; ++degree)
-            for (const auto model : all_models) {
-                if (options.model && *options.model != model) continue;
-                fit.model = model;
+    for (const auto model : all_models) {
+        if (options.model && *options.model != model) continue;
+        fit.model = model;
+        for (const bool noisy : {true, false})
+            for (unsigned degree = 1; degree <= highest; ++degree) {
                 fit.most_nugget = noisy ? std::min(noise, options.most_nugget) : 0;
-                chooser.attempt(degree, fit, chooser.best_is_noisy() ? worth_no_nugget : 1);
+                chooser.attempt(degree, fit);
             }
+    }
     if (options.anisotropy && !chooser.few()) chooser.attempt_anisotropy();
     ModelChoice best = chooser.best();
     if (best.blocks.expected > 0 && best.blocks.error > 0) {

@@ -158,8 +158,8 @@ std::string table_of(const Work& work) {
         text += fmt::format("{:>6}  {:<10} {:>8} {:>12.6g} {:>12.6g} {:>10.4g} {:>10.4g}  "
                             "({:.8g}, {:.8g}, {:.6g}) {}\n",
                             hole.number, loop.kind == LoopKind::hole ? "hole" : "fault gap",
-                            loop.vertices.size(), loop.length, loop.area, loop.width, loop.throw_,
-                            loop.centre.x, loop.centre.y, loop.centre.z,
+                            loop.vertices.size(), loop.length, loop.area, loop.width,
+                            loop.fault_throw, loop.centre.x, loop.centre.y, loop.centre.z,
                             work.inputs.labels[hole.surface]);
     }
     return text;
@@ -335,7 +335,7 @@ Json json_of(const Work& work) {
                    {"length", loop.length},
                    {"area", loop.area},
                    {"width", loop.width},
-                   {"throw", loop.throw_},
+                   {"throw", loop.fault_throw},
                    {"centre", {loop.centre.x, loop.centre.y, loop.centre.z}}};
         if (hole.report)
             entry["filled"] = {{"points", hole.report->invented},
@@ -492,7 +492,7 @@ void add_method(CLI::App& app, FillCommand& command) {
         ->check(CLI::PositiveNumber.description(""))
         ->type_name("LENGTH");
     app.add_option("--rings", command.rings,
-                   "Rings of triangles round the hole that are data (default: 10)")
+                   "Rings of triangles round the hole that are data (default: 5)")
         ->check(CLI::Range(1U, 1000U).description(""))
         ->type_name("N");
 }

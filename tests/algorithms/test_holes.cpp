@@ -253,10 +253,10 @@ TEST_CASE("holes: a gap with a throw is a fault's, whatever the tilt; without on
             const auto hole = loops_of(torn(0, columns, tilt));
             REQUIRE(hole.size() == 2);
             CHECK(hole[1].kind == LoopKind::hole);
-            CHECK(hole[1].throw_ < 1e-9);
+            CHECK(hole[1].fault_throw < 1e-9);
         }
     const auto gap = loops_of(torn(60, 2));
-    CHECK(gap[1].throw_ == Approx(60).epsilon(0.1));
+    CHECK(gap[1].fault_throw == Approx(60).epsilon(0.1));
     const auto patient = find_border_loops(torn(60, 2), {}, {.slope = 10});
     REQUIRE(patient);
     CHECK(patient.value()[1].kind == LoopKind::hole);
