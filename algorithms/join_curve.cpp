@@ -190,7 +190,7 @@ Result<Sign> LineFinder::direction() const {
     return common ? Result<Sign>(*common) : fault(0, "lies in the filling");
 }
 
-/// Steps (4): what lies on the inner side of the hole's line.
+/// Step (4): what lies on the inner side of the hole's line.
 class InnerPartFinder {
 public:
     InnerPartFinder(const Arrangement& arrangement, std::vector<std::optional<CurveLine>> lines) :

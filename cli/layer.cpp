@@ -189,8 +189,8 @@ Result<ExitStatus> layer_files(LayerCommand& command, Session& session) {
 Command layer_command(CLI::App& program) {
     auto command = std::make_shared<LayerCommand>();
     auto* app = program.add_subcommand("layer", "Make soft horizons give way to harder ones");
-    app->add_option("IN", command->files.inputs, "Files with surfaces, for --layer")
-        ->type_name("FILE");
+    add_inputs(*app, command->files);
+    app->get_option("IN")->required(false); // or --hard and --soft
     app->add_option("--hard", command->hard, "File with the hard horizon")->type_name("FILE");
     app->add_option("--soft", command->soft, "File with the soft horizon")->type_name("FILE");
     app->add_option("--keep", command->keep, "Side of the hard one on which the soft one stays")
