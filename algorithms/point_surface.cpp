@@ -12,6 +12,8 @@
 namespace terrane {
 namespace {
 
+constexpr double worth_tilting = 0.8; ///< of the length of edges, that must be left at most
+
 /// Two axes in the best plane and its normal, as rows.
 Eigen::Matrix3d best_axes(std::span<const Point3> points, const Eigen::Vector3d& centre,
                           double scale) {
@@ -28,7 +30,8 @@ Eigen::Matrix3d best_axes(std::span<const Point3> points, const Eigen::Vector3d&
     return axes;
 }
 
-/// The points as seen along the normal of the best plane.
+/// The points as seen along the normal of the best plane; none where that is within 45 degrees of
+/// z.
 std::vector<Point3> flattened(std::span<const Point3> points) {
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();
     double scale = 0;
@@ -37,13 +40,13 @@ std::vector<Point3> flattened(std::span<const Point3> points) {
     for (const Point3& p : points)
         scale =
             std::max(scale, (Eigen::Vector3d(p.x, p.y, p.z) - centre).lpNorm<Eigen::Infinity>());
-    std::vector<Point3> flat(points.begin(), points.end());
-    if (!(scale > 0) || !std::isfinite(scale)) return flat;
+    if (!(scale > 0) || !std::isfinite(scale)) return {};
     const Eigen::Matrix3d axes = best_axes(points, centre, scale);
-    if (std::abs(axes(2, 2)) >= std::sqrt(0.5)) return flat;
-    for (Point3& p : flat) {
+    if (std::abs(axes(2, 2)) >= std::sqrt(0.5)) return {};
+    std::vector<Point3> flat;
+    for (const Point3& p : points) {
         const Eigen::Vector3d q = axes * (Eigen::Vector3d(p.x, p.y, p.z) - centre);
-        p = {q.x(), q.y(), 0};
+        flat.push_back({q.x(), q.y(), 0});
     }
     return flat;
 }
@@ -57,18 +60,19 @@ double longest_edge(std::span<const Point3> points, const Triangle& t) {
     return longest;
 }
 
-/// Twice the median of all edges, those between two triangles counted twice.
-double usual_limit(std::span<const Point3> points, std::span<const Triangle> triangles) {
+/// Of all edges, those between two triangles counted twice; 0 for none.
+double median_edge(std::span<const Point3> points, std::span<const Triangle> triangles,
+                   bool in_plane) {
     std::vector<double> lengths;
     for (const Triangle& t : triangles)
         for (unsigned i = 0; i < 3; ++i) {
             const Point3 &a = points[t[i]], &b = points[t[(i + 1) % 3]];
-            lengths.push_back(std::hypot(a.x - b.x, a.y - b.y));
+            lengths.push_back(std::hypot(a.x - b.x, a.y - b.y, in_plane ? 0 : a.z - b.z));
         }
     if (lengths.empty()) return 0;
     const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
     std::nth_element(lengths.begin(), middle, lengths.end());
-    return 2 * *middle;
+    return *middle;
 }
 
 } // namespace
@@ -78,11 +82,21 @@ Result<std::vector<Triangle>> connect_points(std::span<const Point3> points,
     if (!(options.max_edge >= 0))
         return Error{ErrorCode::bad_option, "the longest edge must be a length", ""};
     if (points.size() < 3) return std::vector<Triangle>{};
-    const auto flat = flattened(points);
+    std::vector<Point3> flat(points.begin(), points.end());
     auto triangles = delaunay(flat, run);
     if (!triangles) return triangles;
+    if (auto tilted = flattened(points); !tilted.empty()) {
+        auto others = delaunay(tilted, run);
+        if (!others) return others;
+        const double upright = median_edge(points, triangles.value(), false);
+        const double along = median_edge(points, others.value(), false);
+        if (upright == 0 || along < worth_tilting * upright) {
+            flat = std::move(tilted);
+            triangles = std::move(others);
+        }
+    }
     const double limit =
-        options.max_edge > 0 ? options.max_edge : usual_limit(flat, triangles.value());
+        options.max_edge > 0 ? options.max_edge : 2 * median_edge(flat, triangles.value(), true);
     std::erase_if(triangles.value(), [&](const Triangle& t) {
         return longest_edge(flat, t) > limit || collinear(points[t[0]], points[t[1]], points[t[2]]);
     });

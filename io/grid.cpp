@@ -55,8 +55,9 @@ private:
         for (std::size_t k = 0; k < grid_.values.size(); ++k) {
             const double value = grid_.values[k];
             if (std::isnan(value)) continue;
-            const double u = static_cast<double>(k % grid_.nx) * grid_.dx;
-            const double v = static_cast<double>(k / grid_.nx) * grid_.dy;
+            const std::size_t column = k % grid_.nx, row = k / grid_.nx;
+            const double u = static_cast<double>(column) * grid_.dx;
+            const double v = static_cast<double>(row) * grid_.dy;
             const Point3 p{grid_.x + u * turn_.cosine - v * turn_.sine,
                            grid_.y + u * turn_.sine + v * turn_.cosine,
                            depth_ && value != 0 ? -value : value};

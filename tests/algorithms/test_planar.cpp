@@ -218,3 +218,14 @@ TEST_CASE("connect_points: long edges are left out, by the plane of the points",
     CHECK(connect_points(points, {.max_edge = 1e9}).value().size() > level.value().size());
     CHECK(connect_points(points, {.max_edge = -1}).error().code == ErrorCode::bad_option);
 }
+
+TEST_CASE("connect_points: a steep horizon that is narrow is still seen from above", "[planar]") {
+    std::vector<Point3> points;
+    for (int i = 0; i < 8; ++i)
+        for (int j = 0; j < 60; ++j)
+            points.push_back({2.0 * i, 2.0 * j, 20 * std::sin(0.1 * j) + 0.5 * j});
+    const auto strip = connect_points(points);
+    REQUIRE(strip);
+    CHECK(strip.value().size() == 2 * 7 * 59);
+    for (const Triangle& t : strip.value()) CHECK(doubled_area(points, t) == 4);
+}

@@ -52,7 +52,7 @@ TEST_CASE("cli: wrong usage ends with status 2, before any work", "[cli]") {
     refused(folder, "arrange " + in + " -o out.obj --search quick", 2, "--search");
     refused(folder, "arrange " + in + " -o out.obj --threads many", 2, "--threads");
     refused(folder, "arrange " + in + " -o out.obj --rounds 9", 2, "--rounds");
-    refused(folder, "arrange missing.obj -o out.xyz", 2, "out.xyz: no format");
+    refused(folder, "arrange missing.obj -o out.abc", 2, "out.abc: no format");
     refused(folder, "arrange missing.obj -o out", 2, "out: no format");
     refused(folder, "arrange missing.obj -o out.vtu", 2, "for tetrahedra");
     refused(folder, "arrange missing.obj -o no/out.obj", 2, "no/out.obj: there is no folder no");

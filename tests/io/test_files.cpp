@@ -45,7 +45,7 @@ TEST_CASE("files: the extension tells the format, in any case", "[io][files]") {
     CHECK(format_of("x.mesh") == Format::medit);
     CHECK(format_of("x.poly") == Format::poly);
     CHECK(format_of("x.smesh") == Format::smesh);
-    CHECK_FALSE(format_of("x.xyz"));
+    CHECK_FALSE(format_of("x.abc"));
     CHECK_FALSE(format_of("x"));
     CHECK_FALSE(format_of("-"));
     CHECK(format_named("PLY") == Format::ply);
@@ -114,7 +114,7 @@ TEST_CASE("files: reading what can't be read", "[io][files]") {
     fs::create_directory(folder / "folder.obj");
     check(read_surfaces(folder / "folder.obj"), cannot_open,
           (folder / "folder.obj").string() + ": cannot be read: Is a directory");
-    check(read_surfaces("a.xyz"), unknown_format, "a.xyz: unknown format \".xyz\"");
+    check(read_surfaces("a.abc"), unknown_format, "a.abc: unknown format \".abc\"");
     check(read_surfaces("a"), unknown_format,
           "a: the file name has no extension that tells the format");
     check(read_surfaces("-"), unknown_format, "standard input: the format must be given");
@@ -129,7 +129,7 @@ TEST_CASE("files: what can't be written leaves nothing behind", "[io][files]") {
     using enum ErrorCode;
     CHECK(code_of(write_mesh(mesh, folder / "no/a.obj")) == cannot_open);
     CHECK(code_of(write_mesh(mesh, folder.path(), {.format = Format::obj})) == cannot_open);
-    CHECK(code_of(write_mesh(mesh, folder / "a.xyz")) == unknown_format);
+    CHECK(code_of(write_mesh(mesh, folder / "a.abc")) == unknown_format);
     CHECK(code_of(write_mesh(mesh, folder / "a.vtu")) == unsupported);
     CHECK(code_of(write_tetrahedra(two_tetrahedra(), folder / "a.obj")) == unsupported);
     const auto stl = write_mesh(mesh, folder / "a.stl");
