@@ -250,6 +250,7 @@ WorstCause Improver::cause_of_worst(Triangle t) {
     if (all_on_curves) return WorstCause::close_curves;
     const Refusals before = guard_.refusals();
     const double below = shape_of(mesh_, t) * (1 + 1e-9);
+    shop_.lifted_at.clear(); // tried before, in vain: here for the reasons
     lift_worst(shop_, below);
     collapse_bad(shop_, below);
     const Refusals& after = guard_.refusals();
