@@ -11,6 +11,7 @@
 #include <terrane/algorithms/improve_operations.hpp>
 #include <terrane/algorithms/improve_sizes.hpp>
 #include <terrane/algorithms/stopwatch.hpp>
+#include <terrane/algorithms/volumes.hpp>
 
 namespace terrane {
 namespace {
@@ -178,6 +179,8 @@ private:
     }
 
     Result<Improved> assembled();
+    [[nodiscard]] Result<bool> sides_kept(const Mesh& after,
+                                          std::span<const std::uint32_t> sheets) const;
     [[nodiscard]] Mesh output() const;
     void add_intersection_edges(std::span<const std::uint32_t> name_of, Mesh& out) const;
     WorstCause cause_of_worst(Triangle t);
@@ -250,6 +253,7 @@ WorstCause Improver::cause_of_worst(Triangle t) {
     if (all_on_curves) return WorstCause::close_curves;
     const Refusals before = guard_.refusals();
     const double below = shape_of(mesh_, t) * (1 + 1e-9);
+    shop_.lifted_at.clear(); // tried before, in vain: here for the reasons
     lift_worst(shop_, below);
     collapse_bad(shop_, below);
     const Refusals& after = guard_.refusals();
@@ -257,6 +261,29 @@ WorstCause Improver::cause_of_worst(Triangle t) {
     const std::size_t contact = after.contact - before.contact;
     if (deviation == 0 && contact == 0) return WorstCause::shape;
     return deviation >= contact ? WorstCause::deviation : WorstCause::contact;
+}
+
+/// Whether volumes can be renamed so that each sheet has the same ones on its sides as before.
+Result<bool> Improver::sides_kept(const Mesh& after, std::span<const std::uint32_t> sheets) const {
+    const auto old = find_volumes(input_, run_);
+    if (!old) return old.error();
+    const auto now = find_volumes(after, run_);
+    if (!now) return now.error();
+    std::vector<std::uint32_t> to(old.value().measures.size(), none);
+    std::vector<std::uint32_t> back(now.value().measures.size(), none);
+    if (to.size() != back.size()) return false;
+    to[0] = back[0] = 0;
+    for (std::size_t t = 0; t < sheets.size(); ++t)
+        for (std::size_t side = 0; side < 2; ++side) {
+            const std::uint32_t a = old.value().of_sides[features_.first_of[sheets[t]]][side];
+            const std::uint32_t b = now.value().of_sides[t][side];
+            if (to[a] == none && back[b] == none) {
+                to[a] = b;
+                back[b] = a;
+            }
+            if (to[a] != b || back[b] != a) return false;
+        }
+    return true;
 }
 
 Result<Improved> Improver::assembled() {
@@ -284,6 +311,9 @@ Result<Improved> Improver::assembled() {
     if (!holds)
         return Error{ErrorCode::internal,
                      "the improved mesh is not conforming: " + holds.error().message(), ""};
+    const auto kept = sides_kept(improved.mesh, sheets);
+    if (!kept) return kept.error();
+    report_.sides_kept = kept.value();
     improved.report = report_;
     return improved;
 }

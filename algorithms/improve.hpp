@@ -9,7 +9,9 @@
 //     doubles show that no two triangles meet improperly by it, and all is tested again at the end.
 // (2) Corners stay where they are. Curves (where other than two triangles meet, or two of different
 //     surfaces or regions, and creases) keep their vertices on the curves as they were. Sheets and
-//     curves are only ever re-divided, so surfaces, regions and blocks keep their identity.
+//     curves are only ever re-divided, so surfaces and regions keep their identity. Steps are not
+//     continuous: a piece smaller than max_deviation may come to lie beyond a sheet near it. The
+//     volumes on both sides of each sheet are compared at the end: report.sides_kept says so.
 // (3) Each point of the result is within max_deviation of its part of the surface as it was, shown
 //     with rounding errors counted in; each edge of a curve within a third of that.
 // (4) It ends: moves and swaps lower a sum of shapes or the largest angle, splits and collapses are
@@ -67,6 +69,7 @@ struct ImproveReport {
     std::size_t splits = 0, collapses = 0, swaps = 0, moves = 0;
     std::size_t refused_contact = 0, refused_deviation = 0, refused_shape = 0; ///< changes
     unsigned passes = 0;
+    bool sides_kept = false; ///< each sheet has the same volumes on its sides as before: exactly
     WorstCause worst_cause = WorstCause::none; ///< of after.worst
     double seconds_check = 0, seconds_improve = 0;
 };

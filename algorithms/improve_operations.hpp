@@ -41,6 +41,7 @@ struct Workshop {
     // When sweeps were made last: what has not changed since need not be looked at.
     std::uint32_t evened_at = 0, swapped_at = 0;
     std::vector<std::uint32_t> smoothed_at{}; ///< per vertex: when it was tried in vain
+    std::vector<std::uint32_t> lifted_at{};   ///< the same
 };
 
 /// Whether the straight edge between two places of a curve is within its bound of all between them,

@@ -217,12 +217,20 @@ std::size_t shake(Workshop& shop) {
 
 std::size_t lift_worst(Workshop& shop, double below) {
     Mover mover(shop);
+    ++shop.mesh.now;
+    shop.lifted_at.resize(shop.mesh.kinds.size(), 0);
     const auto is_bad = [&](std::uint32_t v) {
-        return std::any_of(
-            shop.mesh.star[v].begin(), shop.mesh.star[v].end(),
-            [&](std::uint32_t t) { return shape_of(shop.mesh, shop.mesh.triangles[t]) < below; });
+        return shop.mesh.changed_since(v, shop.lifted_at[v]) &&
+               std::any_of(shop.mesh.star[v].begin(), shop.mesh.star[v].end(),
+                           [&](std::uint32_t t) {
+                               return shape_of(shop.mesh, shop.mesh.triangles[t]) < below;
+                           });
     };
-    return for_inner(shop, is_bad, [&](std::uint32_t v) { return lift_vertex(shop, mover, v); });
+    return for_inner(shop, is_bad, [&](std::uint32_t v) {
+        const bool moved = lift_vertex(shop, mover, v);
+        shop.lifted_at[v] = moved ? 0 : ++shop.mesh.now;
+        return moved;
+    });
 }
 
 } // namespace terrane::improving

@@ -135,7 +135,10 @@ Result<ExitStatus> improve_files(const ImproveCommand& command, Session& session
         const Mesh& mesh = measured.value().improved.mesh;
         const auto narrow = stl_is_conforming(mesh, files, outputs.value(), session);
         if (!narrow) return narrow.error();
-        clean = narrow.value();
+        clean = narrow.value() && measured.value().improved.report.sides_kept;
+        if (!measured.value().improved.report.sides_kept)
+            warn("a small piece came to lie beyond a surface near it, so the blocks would not be "
+                 "the same; try a smaller --max-deviation");
         Stopwatch writing;
         if (clean) {
             const auto written = write_all(command, measured.value(), outputs.value(), session);
