@@ -18,8 +18,10 @@
 //     done in a bounded number of passes.
 // (5) The result depends on neither threads nor time.
 // Cost: some microseconds per triangle and pass, then one exact test of the whole.
-// Source: the paper, section 4; Semenova, Savchenko and Hagiwara (2004) for trapezium drawing; the
-// alternation of the four as in Botsch and Kobbelt (2004).
+// Source: the paper, section 4; the alternation of the four as in Botsch and Kobbelt (2004).
+// Trapezium drawing is named after Semenova, Savchenko and Hagiwara (2004), whose formula was not
+// at hand: here a node slides parallel to the opposite edge until above its middle, by the mean of
+// all triangles at it, and then back onto the surface.
 #pragma once
 
 #include <cstdint>

@@ -2,7 +2,7 @@
 //
 // Property: any bytes give surfaces or an error that says something and where; what is accepted
 // can be arranged, and survives writing and reading to the last bit.
-// Built once per format, TERRANE_FUZZ_FORMAT.
+// One program per format: format_name is linked in.
 #include <algorithm>
 #include <bit>
 #include <cctype>
@@ -24,9 +24,9 @@
 using namespace terrane;
 using fuzz::require;
 
-namespace {
+extern const std::string_view format_name; ///< "ts", "obj", ...
 
-constexpr std::string_view format_name = TERRANE_FUZZ_FORMAT;
+namespace {
 
 Result<std::vector<Surface>> read(std::string_view contents) {
     if (format_name == "ml") {
