@@ -8,8 +8,8 @@
 
 #include <Eigen/Dense>
 #include <fmt/format.h>
-#include <nanoflann.hpp>
 
+#include <terrane/algorithms/flat_cloud.hpp>
 #include <terrane/algorithms/lists.hpp>
 #include <terrane/algorithms/sets.hpp>
 #include <terrane/algorithms/soup.hpp>
@@ -158,19 +158,6 @@ double noise_of(const std::vector<Point3>& points,
     return count > 0 ? sum / static_cast<double>(count) : HUGE_VAL;
 }
 
-struct FlatCloud {
-    std::vector<std::array<double, 2>> points;
-
-    [[nodiscard]] std::size_t kdtree_get_point_count() const { return points.size(); }
-    [[nodiscard]] double kdtree_get_pt(std::size_t i, std::size_t axis) const {
-        return points[i][axis];
-    }
-    template <class Box>
-    bool kdtree_get_bbox(Box&) const {
-        return false;
-    }
-};
-
 /// Points along the borders, no farther apart than half a mesh size.
 FlatCloud sampled(std::span<const Point3> points, std::span<const Polygon> borders, double size) {
     constexpr double most = 1000; // per edge
@@ -220,10 +207,6 @@ private:
 };
 
 class Placer {
-    using Tree =
-        nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, FlatCloud>,
-                                            FlatCloud, 2>;
-
 public:
     Placer(std::span<const Point3> points, std::span<const Polygon> borders, double size) :
         points_(points), outer_(borders[0]), size_(size), cloud_(sampled(points, borders, size)),
@@ -293,7 +276,7 @@ private:
     const Polygon& outer_;
     double size_;
     FlatCloud cloud_;
-    Tree tree_;
+    FlatTree tree_;
     double x0_, y0_, y1_;
 };
 

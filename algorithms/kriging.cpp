@@ -9,10 +9,11 @@
 #include <unordered_set>
 
 #include <Eigen/Dense>
-#include <nanoflann.hpp>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
+
+#include <terrane/algorithms/flat_cloud.hpp>
+#include <terrane/algorithms/parallel.hpp>
 
 namespace terrane {
 namespace {
@@ -63,27 +64,11 @@ private:
     VectorXd factors_;
 };
 
-/// Data for nanoflann, with x and y scaled so that distances are those of the variogram.
-struct Cloud {
-    std::vector<std::array<double, 2>> points;
-
-    [[nodiscard]] std::size_t kdtree_get_point_count() const { return points.size(); }
-    [[nodiscard]] double kdtree_get_pt(std::size_t i, std::size_t axis) const {
-        return points[i][axis];
-    }
-    template <class Box>
-    bool kdtree_get_bbox(Box&) const {
-        return false;
-    }
-};
-
-/// Some of the data, to be searched.
+/// Some of the data, with x and y scaled so that distances are those of the variogram, to be
+/// searched.
 class Level {
-    using Tree =
-        nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Cloud>, Cloud, 2>;
-
 public:
-    Level(Cloud cloud, std::vector<std::uint32_t> numbers) :
+    Level(FlatCloud cloud, std::vector<std::uint32_t> numbers) :
         cloud_(std::move(cloud)), numbers_(std::move(numbers)),
         tree_(2, cloud_, nanoflann::KDTreeSingleIndexAdaptorParams(8)) {
         tree_.buildIndex();
@@ -108,9 +93,9 @@ public:
     [[nodiscard]] std::size_t size() const { return numbers_.size(); }
 
 private:
-    Cloud cloud_;
+    FlatCloud cloud_;
     std::vector<std::uint32_t> numbers_;
-    Tree tree_;
+    FlatTree tree_;
 };
 
 /// The system of ordinary kriging for some data, by covariances.
@@ -209,7 +194,7 @@ struct Kriging::State {
 
     /// Each level keeps one datum per cell; cells double until few are left.
     void build_levels() {
-        Cloud all;
+        FlatCloud all;
         std::vector<std::uint32_t> numbers(data.size());
         std::array<double, 2> low{HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL};
         for (std::uint32_t i = 0; i < data.size(); ++i) {
@@ -225,7 +210,7 @@ struct Kriging::State {
         levels.push_back(std::make_unique<Level>(all, numbers));
         if (!(spacing > 0)) return;
         for (double cell = 2 * spacing; levels.back()->size() > 4 * neighbours; cell *= 2) {
-            Cloud kept;
+            FlatCloud kept;
             std::vector<std::uint32_t> kept_numbers;
             std::unordered_set<std::uint64_t> taken;
             for (std::uint32_t i = 0; i < data.size(); ++i) {
@@ -303,8 +288,8 @@ std::vector<Estimate> Kriging::at(std::span<const Point3> places, const Run& run
         const auto some = [&](const tbb::blocked_range<std::size_t>& range) {
             for (auto i = range.begin(); i != range.end(); ++i) result[i] = one(i);
         };
-        tbb::task_arena arena(static_cast<int>(std::max(run.threads, 1U)));
-        arena.execute([&] { tbb::parallel_for(tbb::blocked_range(first, first + count), some); });
+        with_threads(run,
+                     [&] { tbb::parallel_for(tbb::blocked_range(first, first + count), some); });
     }
     return result;
 }

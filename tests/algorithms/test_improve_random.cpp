@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <ostream>
 #include <set>
 #include <string>
 #include <vector>
@@ -31,10 +30,6 @@ struct Judged {
     std::size_t lines = 0, patches = 0, interfaces = 0;
 
     friend bool operator==(const Judged&, const Judged&) = default;
-    friend std::ostream& operator<<(std::ostream& out, const Judged& j) {
-        return out << j.blocks << " blocks, " << j.corners.size() << " corners, " << j.lines
-                   << " lines, " << j.patches << " patches, " << j.interfaces << " interfaces";
-    }
 };
 
 Judged structure_of(const Mesh& mesh) {
