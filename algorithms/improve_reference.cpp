@@ -11,6 +11,10 @@
 namespace terrane::improving {
 namespace {
 
+/// More than quotients between 0 and 1 are off by rounding, which is a few units in 2^-53: edges
+/// are followed a little too far and heights taken a little too large, never the other way.
+constexpr double share_error = 0x1p-26;
+
 constexpr unsigned most_steps = 256;    ///< of a walk
 constexpr unsigned most_covered = 2048; ///< triangles under one
 constexpr unsigned most_parts = 48;     ///< of one triangle
@@ -220,7 +224,7 @@ Reference::Cover Reference::visit(const Target& target, std::uint32_t t) {
             if (from < 0 && to >= 0) low = std::max(low, from / (from - to));
             if (to < 0 && from >= 0) high = std::min(high, from / (from - to));
         }
-        if (misses || low > high + 1e-9) continue;
+        if (misses || low > high + share_error) continue;
         const std::uint32_t beyond = features_.across[t][i];
         if (beyond == none) return Cover::open;
         if (seen_[beyond] != search_) {
@@ -229,7 +233,7 @@ Reference::Cover Reference::visit(const Target& target, std::uint32_t t) {
         }
         if (all_near) continue;
         const double rise = heights[k] - heights[i];
-        const double most = target.bound - 1e-8 * std::fabs(rise);
+        const double most = target.bound - 2 * share_error * std::fabs(rise);
         if (!(std::fabs(heights[i] + low * rise) <= most) ||
             !(std::fabs(heights[i] + high * rise) <= most))
             return Cover::far;

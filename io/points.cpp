@@ -249,24 +249,26 @@ private:
     bool again_ = false; ///< the current line is still to be read
 };
 
-} // namespace
-
-Result<std::vector<Surface>> read_points(std::string_view contents, std::string_view source,
-                                         std::string_view name, const ReadOptions& options) {
+template <class Reader>
+Result<std::vector<Surface>> read_by(std::string_view contents, std::string_view source,
+                                     std::string_view name, const ReadOptions& options) {
     std::vector<Surface> surfaces;
-    if (auto trouble = PointReader(contents, source).read(surfaces)) return *trouble;
+    if (auto trouble = Reader(contents, source).read(surfaces)) return *trouble;
     for (Surface& s : surfaces)
         if (s.name.empty()) s.name = name;
     return connected(std::move(surfaces), source, options);
 }
 
+} // namespace
+
+Result<std::vector<Surface>> read_points(std::string_view contents, std::string_view source,
+                                         std::string_view name, const ReadOptions& options) {
+    return read_by<PointReader>(contents, source, name, options);
+}
+
 Result<std::vector<Surface>> read_gocad_points(std::string_view contents, std::string_view source,
                                                std::string_view name, const ReadOptions& options) {
-    std::vector<Surface> surfaces;
-    if (auto trouble = GocadPointReader(contents, source).read(surfaces)) return *trouble;
-    for (Surface& s : surfaces)
-        if (s.name.empty()) s.name = name;
-    return connected(std::move(surfaces), source, options);
+    return read_by<GocadPointReader>(contents, source, name, options);
 }
 
 } // namespace terrane
