@@ -101,9 +101,15 @@ struct Stamp {
     std::uint32_t vertex = 0; ///< index into Faces::vertices
 };
 
+// Where a vertex is: a part that leaves a plane to one side is above or below with all corners that
+// do not rest on it.
+constexpr std::uint8_t rests = 0, above = 1, below = 2, neither = 3;
+constexpr std::uint8_t unknown = 0xff;
+
 struct Scratch {
     std::array<std::vector<Stamp>, 2> stamps;
     std::vector<std::uint8_t> sides;            ///< per vertex of a face
+    std::vector<std::uint8_t> beyond;           ///< per vertex: see edges_before, or unknown
     std::vector<std::uint32_t> left, left_back; ///< entries of Faces::parts without proof
 };
 
@@ -146,8 +152,11 @@ private:
     [[nodiscard]] bool is_apart(const std::array<Point3, 3>& f, double extent, const Face& g) const;
     [[nodiscard]] bool is_clear(const Face& f, std::uint32_t entry, std::uint32_t g,
                                 std::span<const Stamp> stamps, double d) const;
+    [[nodiscard]] bool find_sides(const Face& f, const Face& g, double d,
+                                  std::span<const Stamp> stamps, std::uint32_t g_name,
+                                  std::vector<std::uint8_t>& sides) const;
     void find_left(std::uint32_t f, std::uint32_t g, std::span<const Stamp> stamps,
-                   std::vector<std::uint8_t>& sides, std::vector<std::uint32_t>& left) const;
+                   Scratch& scratch, std::vector<std::uint32_t>& left) const;
     void add_pairs(const Scratch& scratch, Found& found) const;
 
     const MovedParts& moved_;
@@ -327,23 +336,62 @@ bool Prover::is_clear(const Face& f, std::uint32_t entry, std::uint32_t g,
     return false;
 }
 
-/// The parts of f that may meet parts of g improperly. Most lie on one side of its plane.
-void Prover::find_left(std::uint32_t f_name, std::uint32_t g_name, std::span<const Stamp> stamps,
-                       std::vector<std::uint8_t>& sides, std::vector<std::uint32_t>& left) const {
-    const Face &f = face(f_name), &g = face(g_name);
-    const double d = margin(f.extent, g);
-    const Functional height = g.height;
-    constexpr std::uint8_t above = 1, below = 2, neither = 3;
+/// Where the vertices of f are: above the plane of g, below it, resting on a vertex of g in it, or
+/// neither. True if what rises at all rises enough for whatever rests.
+bool Prover::find_sides(const Face& f, const Face& g, double d, std::span<const Stamp> stamps,
+                        std::uint32_t g_name, std::vector<std::uint8_t>& sides) const {
     sides.resize(f.vertex_end - f.vertex);
     const Point3* place = faces_.places.data() + f.vertex;
+    const Functional height = g.height;
+    double least_lift = std::numeric_limits<double>::infinity(), most_rise = 0;
     for (std::size_t k = 0; k < sides.size(); ++k) {
-        const double u = height(place[k]);
+        const double u = height(place[k]), lift = std::fabs(u);
         sides[k] = static_cast<std::uint8_t>(neither - (u > d ? below : 0) - (u < -d ? above : 0));
+        if (lift > d) {
+            least_lift = std::min(least_lift, lift);
+            continue;
+        }
+        const auto v = f.vertex + static_cast<std::uint32_t>(k);
+        const Stamp& s = stamps[faces_.vertices[v]];
+        if (s.face != g_name || !(lift <= d / 2)) continue;
+        sides[k] = rests;
+        const double rise = least_rise(faces_.sizes[s.vertex], faces_.sizes[v].longest, d);
+        most_rise = std::max(most_rise, rise);
     }
+    return least_lift > most_rise;
+}
+
+/// The edges of g beyond which p lies by more than d: a bit for each.
+std::uint8_t edges_before(const Face& g, const Point3& p, double d) {
+    unsigned edges = 0;
+    for (unsigned j = 0; j < 3; ++j)
+        if (g.beyond[j](p) > d) edges |= 1u << j;
+    return static_cast<std::uint8_t>(edges);
+}
+
+/// The parts of f that may meet parts of g improperly. Most lie on one side of its plane, or leave
+/// it at vertices of both.
+void Prover::find_left(std::uint32_t f_name, std::uint32_t g_name, std::span<const Stamp> stamps,
+                       Scratch& scratch, std::vector<std::uint32_t>& left) const {
+    const Face &f = face(f_name), &g = face(g_name);
+    const double d = margin(f.extent, g);
+    auto& sides = scratch.sides;
+    const bool all_leave = find_sides(f, g, d, stamps, g_name, sides);
+    scratch.beyond.assign(sides.size(), unknown);
+    const auto beyond = [&](std::uint32_t v) {
+        std::uint8_t& edges = scratch.beyond[v];
+        if (edges == unknown) edges = edges_before(g, faces_.places[f.vertex + v], d);
+        return edges;
+    };
     left.clear();
     for (std::uint32_t e = f.part; e < f.part_end; ++e) {
         const auto& [i, j, k] = faces_.corners[e];
-        if ((sides[i] | sides[j] | sides[k]) != neither) continue;
+        const auto together = sides[i] | sides[j] | sides[k];
+        if (together == above || together == below) {
+            const bool any_rests = sides[i] == rests || sides[j] == rests || sides[k] == rests;
+            if (all_leave || !any_rests) continue;
+        }
+        if ((beyond(i) & beyond(j) & beyond(k)) != 0) continue;
         if (!is_clear(f, e, g_name, stamps, d)) left.push_back(e);
     }
 }
@@ -377,10 +425,10 @@ void Prover::test_group(std::size_t first, std::size_t last, Scratch& scratch, F
     stamp(g, scratch.stamps[0]);
     for (std::size_t i = first; i < last; ++i) {
         const std::uint32_t f = meeting_[i].second;
-        find_left(f, g, scratch.stamps[0], scratch.sides, scratch.left);
+        find_left(f, g, scratch.stamps[0], scratch, scratch.left);
         if (scratch.left.empty()) continue;
         stamp(f, scratch.stamps[1]);
-        find_left(g, f, scratch.stamps[1], scratch.sides, scratch.left_back);
+        find_left(g, f, scratch.stamps[1], scratch, scratch.left_back);
         add_pairs(scratch, found);
     }
 }

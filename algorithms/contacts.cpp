@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include <terrane/algorithms/construction_table.hpp>
 #include <terrane/algorithms/parallel.hpp>
@@ -100,8 +101,8 @@ bool FacePiece::is_inner_segment() const {
     return true;
 }
 
-Contacts find_contacts(const TriangleSoup& soup, std::span<const CandidatePair> candidates,
-                       const Run& run) {
+Contacts find_contacts(const TriangleSoup& soup, std::vector<Point3> points,
+                       std::span<const CandidatePair> candidates, const Run& run) {
     const auto blocks =
         for_blocks<PairBlock>(candidates.size(), 16384, run, [&](std::size_t a, std::size_t b) {
             return test_pairs(soup, candidates.subspan(a, b - a));
@@ -116,7 +117,7 @@ Contacts find_contacts(const TriangleSoup& soup, std::span<const CandidatePair> 
         for (const PairContact& c : block.contacts) collector.add(c);
     }
     sort_by_face(contacts.pieces);
-    contacts.points = PointStore({soup.points.begin(), soup.points.end()});
+    contacts.points = PointStore(std::move(points));
     contacts.points.append(collector.constructions());
     return contacts;
 }

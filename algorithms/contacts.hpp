@@ -59,9 +59,9 @@ struct Contacts {
     PredicateCounts predicates;
 };
 
-/// Step (b), (c): the pieces. `groups` as in candidate_pairs.
-Contacts find_contacts(const TriangleSoup& soup, std::span<const CandidatePair> candidates,
-                       const Run& run);
+/// Step (b), (c): the pieces. The store takes `points`: those of the soup.
+Contacts find_contacts(const TriangleSoup& soup, std::vector<Point3> points,
+                       std::span<const CandidatePair> candidates, const Run& run);
 
 /// Where segments cross inside a face: fills in crossings and appends their points.
 void find_crossings(const TriangleSoup& soup, Contacts& contacts, const Run& run);

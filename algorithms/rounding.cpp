@@ -39,10 +39,13 @@ private:
 /// First what crosses is snapped where it lies, with fine grids, so that as little as possible
 /// moves. That is enough for single mishaps; sheets that are nearly coplanar over an area multiply
 /// under it (touching_ridges_turned), so where the contacts do not shrink to a quarter in a round,
-/// the input triangles concerned are snapped instead and arranged anew.
+/// the input triangles concerned are snapped instead and arranged anew: at once where contacts are
+/// crowded from the start (coplanar_half_turned), since fine rounds only multiply them.
 constexpr std::array fine_digits{4, 8, 12};
 constexpr std::array coarse_digits{16, 20, 24, 28, 32};
-constexpr unsigned widenings = 3; ///< how often more input triangles join before a coarser grid
+constexpr std::size_t crowded = 8;    ///< fewer triangles per contact are crowded
+constexpr std::size_t multiplied = 8; ///< so many times the contacts: snapping made it worse
+constexpr unsigned widenings = 3;     ///< how often more input triangles join before a coarser grid
 
 SnapGrid grid_of_digits(std::span<const Point3> points, int digits) {
     std::array<double, 3> largest{};
@@ -73,20 +76,28 @@ std::vector<std::uint32_t> vanished(const Arrangement& a, const Lists<std::uint3
 
 class Rounding {
 public:
-    Rounding(const Arrangement& a, const RoundingOptions& options, const Run& run) :
-        arrangement_(a), options_(options), run_(run) {}
+    /// Crowded contacts are left as they are unless `even_crowded`.
+    Rounding(const Arrangement& a, const RoundingOptions& options, bool even_crowded,
+             const Run& run) :
+        arrangement_(a),
+        options_(options), even_crowded_(even_crowded), run_(run) {}
 
     Result<RoundedMesh> operator()() {
         to_nearest();
         auto pairs = first_contacts();
+        state_.only_dirty(pairs);
         find_first_regions();
         out_.report.naive_contacts = pairs.size();
-        if (!pairs.empty()) repair(pairs);
+        left_crowded_ = !even_crowded_ && crowded * pairs.size() > arrangement_.triangles.size();
+        if (!pairs.empty() && !left_crowded_) repair(pairs);
         if (run_.stop.stop_requested())
             return Error{ErrorCode::interrupted, "stopped on request", ""};
         finish(pairs);
         return std::move(out_);
     }
+
+    /// Whether contacts were left as they are since they were crowded.
+    [[nodiscard]] bool left_crowded() const { return left_crowded_; }
 
 private:
     void repair(std::vector<CandidatePair>& pairs);
@@ -94,9 +105,9 @@ private:
     [[nodiscard]] PairFilter is_improper() const;
     std::vector<CandidatePair> first_contacts();
     std::vector<CandidatePair> contacts();
-    void snap_round(std::span<const CandidatePair> pairs, const SnapGrid& grid);
+    bool snap_round(std::span<const CandidatePair> pairs, const SnapGrid& grid);
     void snap_corners(std::span<const CandidatePair> pairs, const SnapGrid& grid);
-    void divide_again();
+    bool divide_again(std::size_t most_pairs);
     void find_first_regions();
     void finish(std::span<const CandidatePair> pairs);
     void report_moves();
@@ -104,8 +115,10 @@ private:
 
     const Arrangement& arrangement_;
     const RoundingOptions& options_;
+    const bool even_crowded_;
     const Run& run_;
     RoundingState state_;
+    bool left_crowded_ = false;
     bool changed_ = false;           ///< the triangles are no longer those of the arrangement
     std::optional<Regions> regions_; ///< while the triangles are those of the arrangement
     RoundedMesh out_;
@@ -147,7 +160,11 @@ void Rounding::repair(std::vector<CandidatePair>& pairs) {
         if (out_.report.rounds == options_.max_rounds || run_.stop.stop_requested()) return;
         ++out_.report.rounds;
         const RoundingState before = state_;
-        auto left = (snap_round(pairs, grid_of_digits(state_.points, digits)), contacts());
+        if (!snap_round(pairs, grid_of_digits(state_.points, digits))) {
+            state_ = before;
+            return;
+        }
+        auto left = contacts();
         const bool helps = 4 * left.size() <= pairs.size();
         if (left.size() < pairs.size())
             pairs = std::move(left);
@@ -169,7 +186,10 @@ PairFilter Rounding::is_improper() const {
 std::vector<CandidatePair> Rounding::contacts() {
     const auto dirty = state_.dirty_triangles(run_);
     if (dirty.empty()) return {};
-    return candidate_pairs_of({state_.points, state_.triangles}, dirty, {}, is_improper(), run_);
+    auto pairs =
+        candidate_pairs_of({state_.points, state_.triangles}, dirty, {}, is_improper(), run_);
+    state_.only_dirty(pairs);
+    return pairs;
 }
 
 /// The same right after rounding to nearest. Only what is not clear from patches that still project
@@ -217,13 +237,15 @@ std::vector<CandidatePair> Rounding::first_contacts() {
     return pairs;
 }
 
-void Rounding::snap_round(std::span<const CandidatePair> pairs, const SnapGrid& grid) {
+/// False if snapping made so many more contacts that dividing them is not worth it.
+bool Rounding::snap_round(std::span<const CandidatePair> pairs, const SnapGrid& grid) {
     changed_ = true;
     snap_corners(pairs, grid);
     state_.tidy(run_);
-    divide_again();
+    if (!divide_again(multiplied * pairs.size())) return false;
     state_.end_round();
     state_.tidy(run_);
+    return true;
 }
 
 void Rounding::snap_corners(std::span<const CandidatePair> pairs, const SnapGrid& grid) {
@@ -237,12 +259,14 @@ void Rounding::snap_corners(std::span<const CandidatePair> pairs, const SnapGrid
 }
 
 /// What still crosses is divided, exactly; the new points go to the nearest doubles, which are much
-/// finer than the grid: so most of them stay clear of each other.
-void Rounding::divide_again() {
+/// finer than the grid: so most of them stay clear of each other. False, and nothing divided, for
+/// more pairs than most_pairs.
+bool Rounding::divide_again(std::size_t most_pairs) {
     const auto pairs = contacts();
-    if (pairs.empty()) return;
+    if (pairs.size() > most_pairs) return false;
+    if (pairs.empty()) return true;
     Division division = divide({state_.points, state_.triangles}, pairs, run_);
-    if (run_.stop.stop_requested()) return;
+    if (run_.stop.stop_requested()) return true;
     const auto first_new = static_cast<std::uint32_t>(state_.points.size());
     std::vector<std::uint32_t> name_of(division.points.size());
     for (const PointIndex p : division.ascending) {
@@ -254,6 +278,7 @@ void Rounding::divide_again() {
         for (std::uint32_t& v : t)
             if (v >= first_new) v = name_of[v];
     state_.replace_triangles(std::move(division.triangles), division.faces_of);
+    return true;
 }
 
 void Rounding::report_moves() {
@@ -490,7 +515,7 @@ Result<RoundedMesh> snap_input(const Arrangement& a, RoundedMesh first,
                 if (!again && is_external(again.error().code)) return again.error();
                 if (!again) return first; // too coarse: a boundary is no longer closed
             }
-            auto rounded = Rounding(again.value(), options, run)();
+            auto rounded = Rounding(again.value(), options, true, run)();
             if (!rounded) return rounded;
             ++rounds;
             if (rounded.value().report.clean) {
@@ -508,12 +533,15 @@ Result<RoundedMesh> snap_input(const Arrangement& a, RoundedMesh first,
 Result<RoundedMesh> round_to_doubles(const Arrangement& arrangement, const RoundingOptions& options,
                                      const Run& run) {
     try {
-        auto rounded = Rounding(arrangement, options, run)();
         // Arranged anew, the input gets back what was taken out.
         const bool may_snap_input =
             (arrangement.whole || arrangement.restrict_again) && options.max_rounds > 0;
+        Rounding where_it_lies(arrangement, options, !may_snap_input, run);
+        auto rounded = where_it_lies();
         if (rounded && !rounded.value().report.clean && may_snap_input)
             rounded = snap_input(arrangement, std::move(rounded).value(), options, run);
+        if (rounded && !rounded.value().report.clean && where_it_lies.left_crowded())
+            rounded = Rounding(arrangement, options, true, run)();
         if (rounded && (rounded.value().report.collapsed_triangles > 0 ||
                         !rounded.value().report.vanished.empty()))
             report_lost_regions(arrangement, rounded.value());

@@ -61,6 +61,13 @@ std::vector<std::uint32_t> RoundingState::dirty_triangles(const Run& run) const 
         }));
 }
 
+void RoundingState::only_dirty(std::span<const CandidatePair> improper) {
+    is_dirty.assign(points.size(), false);
+    for (const CandidatePair& p : improper)
+        for (const std::uint32_t t : {p.first, p.second})
+            for (const std::uint32_t v : triangles[t]) is_dirty[v] = true;
+}
+
 void RoundingState::add_point(const Point3& p, double moved) {
     points.push_back(p);
     move.push_back(moved);

@@ -9,6 +9,7 @@
 
 #include <terrane/algorithms/lists.hpp>
 #include <terrane/algorithms/run.hpp>
+#include <terrane/algorithms/search/search.hpp>
 #include <terrane/algorithms/surface.hpp>
 #include <terrane/kernel/point_store.hpp>
 
@@ -36,6 +37,10 @@ struct RoundingState {
     double deviation = 0;            ///< sum over the ended rounds of the largest move
 
     [[nodiscard]] std::vector<std::uint32_t> dirty_triangles(const Run& run) const;
+
+    /// Makes the corners of these triangles dirty and all other points not: right where these are
+    /// all the pairs that meet improperly.
+    void only_dirty(std::span<const CandidatePair> improper);
 
     /// Appends a dirty point that is at most `moved` from its exact place.
     void add_point(const Point3& p, double moved);
