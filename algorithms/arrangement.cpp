@@ -149,7 +149,7 @@ Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
     if (run.stop.stop_requested()) return interrupted();
 
     // (c) contacts, (d) equal points merged, (e) triangulation of what is touched, (f) one mesh
-    Division division = divide({soup.points, soup.triangles}, candidates, run);
+    Division division = divide(std::move(soup.points), soup.triangles, candidates, run);
     if (run.stop.stop_requested()) return interrupted();
     const DivisionStatistics& d = division.statistics;
     a.statistics.candidates = candidates.size();
@@ -195,7 +195,10 @@ Result<Arrangement> arrange(std::span<const Surface> surfaces, const ArrangeOpti
                             const Run& run) {
     if (const auto valid = validate(surfaces); !valid) return valid.error();
     try {
-        return arrange_checked(surfaces, options, run);
+        // In one arena all stages find the threads awake.
+        Result<Arrangement> arranged = Error{};
+        with_threads(run, [&] { arranged = arrange_checked(surfaces, options, run); });
+        return arranged;
     } catch (const std::bad_alloc&) {
         return Error{ErrorCode::out_of_memory, "not enough memory for the arrangement", ""};
     } catch (const std::logic_error& broken) {

@@ -124,9 +124,9 @@ public:
         moved_(moved) {
         for (const double m : moved.moves) move_ = std::max(move_, m);
         choose_faces(meeting, run);
-        collect_parts();
+        collect_parts(run);
         number_vertices();
-        for (Face& f : faces_.faces) measure_parts(f);
+        for_faces(run, [this](Face& f) { measure_parts(f); });
     }
 
     [[nodiscard]] Unclear operator()(const Run& run);
@@ -138,9 +138,11 @@ private:
     }
     [[nodiscard]] std::vector<CandidatePair>
     close_pairs(std::span<const CandidatePair> meeting) const;
+    template <class Visit>
+    void for_faces(const Run& run, const Visit& visit);
     void choose_faces(std::span<const CandidatePair> meeting, const Run& run);
     [[nodiscard]] double margin(double extent, const Face& g) const;
-    void collect_parts();
+    void collect_parts(const Run& run);
     void number_vertices();
     void measure_parts(Face& f);
     [[nodiscard]] const Face& face(std::uint32_t f) const {
@@ -182,36 +184,60 @@ std::vector<CandidatePair> Prover::close_pairs(std::span<const CandidatePair> me
     return close;
 }
 
+/// Several at a time, under the default rounding mode.
+template <class Visit>
+void Prover::for_faces(const Run& run, const Visit& visit) {
+    constexpr std::size_t least = 256; // of faces for a thread
+    for_ranges(
+        faces_.faces.size(), run,
+        [&](std::size_t first, std::size_t last) {
+            for (std::size_t f = first; f < last; ++f) visit(faces_.faces[f]);
+        },
+        4, least);
+}
+
 void Prover::choose_faces(std::span<const CandidatePair> meeting, const Run& run) {
     const auto blocks = for_blocks<std::vector<CandidatePair>>(
-        meeting.size(), 4096, run, [&](std::size_t first, std::size_t last) {
+        meeting.size(), 1024, run, [&](std::size_t first, std::size_t last) {
             return close_pairs(meeting.subspan(first, last - first));
         });
     for (const auto& block : blocks) meeting_.insert(meeting_.end(), block.begin(), block.end());
     faces_.slot_of.assign(moved_.faces.size(), none);
+    std::vector<std::uint32_t> names;
     for (const CandidatePair& p : meeting_)
         for (const std::uint32_t f : {p.first, p.second}) {
             if (faces_.slot_of[f] != none) continue;
-            faces_.slot_of[f] = static_cast<std::uint32_t>(faces_.faces.size());
-            Face& measured = faces_.faces.emplace_back(measure(corners_of(f)));
-            for (unsigned j = 0; j < 3; ++j) measured.beyond[j] = beyond_edge(measured, j);
+            faces_.slot_of[f] = static_cast<std::uint32_t>(names.size());
+            names.push_back(f);
         }
+    faces_.faces.resize(names.size());
+    for_faces(run, [&](Face& f) {
+        f = measure(corners_of(names[static_cast<std::size_t>(&f - faces_.faces.data())]));
+        for (unsigned j = 0; j < 3; ++j) f.beyond[j] = beyond_edge(f, j);
+    });
 }
 
-void Prover::collect_parts() {
-    const auto for_entries = [&](const auto& visit) {
-        for (std::uint32_t t = 0; t < moved_.faces_of.size(); ++t)
-            for (const std::uint32_t f : moved_.faces_of[t])
-                if (const std::uint32_t s = faces_.slot_of[f]; s != none) visit(t, faces_.faces[s]);
+void Prover::collect_parts(const Run& run) {
+    struct Entry {
+        std::uint32_t slot, part;
     };
-    for_entries([](std::uint32_t, Face& f) { ++f.part_end; });
+    const auto entries = concatenated(parts_of_ranges<std::vector<Entry>>(
+        moved_.faces_of.size(), run, [&](std::size_t first, std::size_t last) {
+            std::vector<Entry> found;
+            for (auto t = static_cast<std::uint32_t>(first); t < last; ++t)
+                for (const std::uint32_t f : moved_.faces_of[t])
+                    if (const std::uint32_t s = faces_.slot_of[f]; s != none)
+                        found.push_back({s, t});
+            return found;
+        }));
+    for (const Entry& e : entries) ++faces_.faces[e.slot].part_end;
     std::uint32_t total = 0;
     for (Face& f : faces_.faces) {
         f.part = total;
         total += std::exchange(f.part_end, total);
     }
     faces_.parts.resize(total);
-    for_entries([&](std::uint32_t t, Face& f) { faces_.parts[f.part_end++] = t; });
+    for (const Entry& e : entries) faces_.parts[faces_.faces[e.slot].part_end++] = e.part;
 }
 
 void Prover::number_vertices() {

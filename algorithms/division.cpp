@@ -251,11 +251,12 @@ private:
 
 } // namespace
 
-Division divide(const TriangleSoup& soup, std::span<const CandidatePair> candidates,
-                const Run& run) {
+Division divide(std::vector<Point3> points, std::span<const Triangle> triangles,
+                std::span<const CandidatePair> candidates, const Run& run) {
     Stopwatch watch;
     Division out;
-    Contacts contacts = find_contacts(soup, candidates, run);
+    const TriangleSoup soup{points, triangles}; // the points stay where they are when moved
+    Contacts contacts = find_contacts(soup, std::move(points), candidates, run);
     find_crossings(soup, contacts, run);
     if (run.stop.stop_requested()) return out;
     PointOrder order = order_points(soup, contacts);

@@ -39,9 +39,9 @@ struct Division {
     DivisionStatistics statistics;
 };
 
-/// `candidates` must hold all pairs that meet improperly. Check run.stop afterwards: a stopped run
+/// Triangles as in TriangleSoup. `candidates` must hold all pairs that meet improperly. Check run.stop afterwards: a stopped run
 /// leaves the result unfinished. Throws std::logic_error where a promise of the kernel is broken.
-Division divide(const TriangleSoup& soup, std::span<const CandidatePair> candidates,
-                const Run& run);
+Division divide(std::vector<Point3> points, std::span<const Triangle> triangles,
+                std::span<const CandidatePair> candidates, const Run& run);
 
 } // namespace terrane

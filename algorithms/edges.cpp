@@ -2,48 +2,66 @@
 #include <terrane/algorithms/edges.hpp>
 
 #include <algorithm>
+#include <utility>
 
 #include <terrane/algorithms/parallel.hpp>
 
 namespace terrane {
 
+namespace {
+
+/// Visits the sides of triangles [first, last).
+template <class Visit>
+void for_sides(std::span<const Triangle> triangles, std::size_t first, std::size_t last,
+               const Visit& visit) {
+    for (auto t = static_cast<std::uint32_t>(first); t < last; ++t) {
+        const auto [a, b, c] = triangles[t];
+        visit(std::min(a, b), std::max(a, b), t);
+        visit(std::min(b, c), std::max(b, c), t);
+        visit(std::min(c, a), std::max(c, a), t);
+    }
+}
+
+} // namespace
+
 EdgeSides group_edges(std::span<const Triangle> triangles, std::size_t vertex_count,
                       const Run& run) {
-    EdgeSides e;
-    e.starts.assign(vertex_count + 2, 0);
-    // Each range of lower vertices looks at all triangles.
-    const auto for_edges = [&](std::size_t first, std::size_t last, const auto& visit) {
-        const auto side = [&](std::uint32_t v, std::uint32_t w, std::uint32_t t) {
-            const std::uint32_t low = std::min(v, w);
-            if (low >= first && low < last) visit(low, std::max(v, w), t);
-        };
-        for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-            const auto [a, b, c] = triangles[t];
-            side(a, b, t);
-            side(b, c, t);
-            side(c, a, t);
-        }
+    // A counting sort. Each share of the triangles has its own counts, which become the places
+    // where its sides go: behind those of the shares before.
+    constexpr std::size_t least = 8192, most_shares = 8; // of triangles; their counts take memory
+    const std::size_t shares = std::clamp<std::size_t>(
+        triangles.size() / least, 1, std::min<std::size_t>(std::max(run.threads, 1U), most_shares));
+    std::vector<std::vector<std::uint32_t>> places(shares);
+    const auto for_shares = [&](const auto& work) {
+        for_ranges(
+            shares, run,
+            [&](std::size_t first, std::size_t last) {
+                for (std::size_t s = first; s < last; ++s)
+                    work(places[s], triangles.size() * s / shares,
+                         triangles.size() * (s + 1) / shares);
+            },
+            1, 1);
     };
-    // Counted two places ahead, so that filling moves each start to where it belongs.
-    for_ranges(
-        vertex_count, run,
-        [&](std::size_t first, std::size_t last) {
-            for_edges(first, last, [&](std::uint32_t low, std::uint32_t, std::uint32_t) {
-                ++e.starts[low + 2];
-            });
-        },
-        1);
-    for (std::size_t v = 2; v < e.starts.size(); ++v) e.starts[v] += e.starts[v - 1];
-    e.sides.resize(3 * triangles.size());
-    for_ranges(
-        vertex_count, run,
-        [&](std::size_t first, std::size_t last) {
-            for_edges(first, last, [&](std::uint32_t low, std::uint32_t high, std::uint32_t t) {
-                e.sides[e.starts[low + 1]++] = {high, t};
-            });
-        },
-        1);
-    e.starts.pop_back();
+    for_shares([&](auto& counts, std::size_t first, std::size_t last) {
+        counts.assign(vertex_count, 0);
+        for_sides(triangles, first, last,
+                  [&](std::uint32_t low, std::uint32_t, std::uint32_t) { ++counts[low]; });
+    });
+    EdgeSides e;
+    e.starts.resize(vertex_count + 1);
+    std::uint32_t total = 0;
+    for (std::size_t v = 0; v < vertex_count; ++v) {
+        e.starts[v] = total;
+        for (auto& counts : places) total += std::exchange(counts[v], total);
+    }
+    e.starts[vertex_count] = total;
+    e.sides.resize(total);
+    for_shares([&](auto& next, std::size_t first, std::size_t last) {
+        for_sides(triangles, first, last,
+                  [&](std::uint32_t low, std::uint32_t high, std::uint32_t t) {
+                      e.sides[next[low]++] = {high, t};
+                  });
+    });
     for_ranges(vertex_count, run, [&](std::size_t first, std::size_t last) {
         for (std::size_t v = first; v < last; ++v)
             std::sort(e.sides.begin() + e.starts[v], e.sides.begin() + e.starts[v + 1]);

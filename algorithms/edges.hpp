@@ -8,6 +8,7 @@
 
 #include <terrane/algorithms/mesh.hpp>
 #include <terrane/algorithms/run.hpp>
+#include <terrane/algorithms/unfilled.hpp>
 
 namespace terrane {
 
@@ -20,8 +21,8 @@ struct EdgeSides {
         friend auto operator<=>(const Side&, const Side&) = default;
     };
     std::vector<std::uint32_t>
-        starts;              ///< per vertex, and the total: sides whose smaller vertex it is
-    std::vector<Side> sides; ///< by smaller vertex, then larger vertex, then triangle
+        starts;           ///< per vertex, and the total: sides whose smaller vertex it is
+    Unfilled<Side> sides; ///< by smaller vertex, then larger vertex, then triangle
 
     /// Calls visit(low, high, sides of this edge) for each edge, ascending.
     template <class Visit>

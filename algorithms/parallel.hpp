@@ -18,10 +18,11 @@
 namespace terrane {
 
 /// Carries out work with the threads of the run. Within another such work it has the same ones: an
-/// arena of its own would wait for threads that the outer one holds. Not more than the machine has:
-/// TBB would print that it ignores the rest.
+/// arena of its own would wait for threads that the outer one holds, and its threads would have to
+/// be woken. Not more than the machine has: TBB would print that it ignores the rest.
 template <class Work>
 void with_threads(const Run& run, const Work& work) {
+    if (run.threads <= 1) return work();
     const int threads =
         std::min(static_cast<int>(std::min(run.threads, 4096U)), tbb::info::default_concurrency());
     if (tbb::this_task_arena::max_concurrency() == threads) return work();
@@ -50,11 +51,11 @@ std::vector<Block> for_blocks(std::size_t count, std::size_t block_size, const R
 }
 
 /// Calls work(first, last) for ranges that cut up [0, count), several at a time. What they write
-/// must not depend on where the cuts are. The rounding mode is the default one.
+/// must not depend on where the cuts are. The rounding mode is the default one. `least`: of fewer a
+/// thread costs more than it spares.
 template <class Work>
 void for_ranges(std::size_t count, const Run& run, const Work& work,
-                std::size_t ranges_per_thread = 4) {
-    constexpr std::size_t least = 8192; // below, a thread costs more than it spares
+                std::size_t ranges_per_thread = 4, std::size_t least = 8192) {
     const std::size_t ranges =
         run.threads <= 1 ? 1 : std::min(ranges_per_thread * run.threads, count / least + 1);
     if (ranges == 1) return work(std::size_t{0}, count);

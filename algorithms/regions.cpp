@@ -49,17 +49,6 @@ public:
         Regions out;
         const auto& surfaces = surfaces_of_;
         const auto& first_slot = sets_.flattened();
-        std::vector<std::uint32_t> triangle_of(surfaces.values.size());
-        std::vector<double> area(surfaces.values.size());
-        for_ranges(surfaces.size(), run_, [&](std::size_t first, std::size_t last) {
-            for (auto t = static_cast<std::uint32_t>(first); t < last; ++t) {
-                const double size = area_of(vertices, triangles_[t]);
-                for (std::uint32_t s = surfaces.offsets[t]; s < surfaces.offsets[t + 1]; ++s) {
-                    triangle_of[s] = t;
-                    area[s] = size;
-                }
-            }
-        });
         auto order = first_slots(first_slot); // of regions, by surface then by triangle
         std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
             return surfaces.values[a] < surfaces.values[b];
@@ -67,7 +56,7 @@ public:
         std::vector<std::uint32_t> number_of(surfaces.values.size());
         for (const std::uint32_t s : order) {
             number_of[s] = static_cast<std::uint32_t>(out.regions.size());
-            out.regions.push_back({surfaces.values[s], triangle_of[s], 0, 0, {}});
+            out.regions.push_back({surfaces.values[s], triangle_of(s), 0, 0, {}});
         }
         out.regions_of.offsets = surfaces.offsets;
         auto& region_of = out.regions_of.values;
@@ -75,12 +64,7 @@ public:
         for_ranges(region_of.size(), run_, [&](std::size_t first, std::size_t last) {
             for (std::size_t s = first; s < last; ++s) region_of[s] = number_of[first_slot[s]];
         });
-        // One after the other: the last digits of a sum depend on its order.
-        for (std::size_t s = 0; s < region_of.size(); ++s) {
-            Region& r = out.regions[region_of[s]];
-            ++r.triangles;
-            r.area += area[s];
-        }
+        measure(vertices, out);
         find_neighbours(out);
         return out;
     }
@@ -107,6 +91,51 @@ private:
         for (const auto& part : crossing)
             for (const auto& [t, u] : part)
                 sets_.join(surfaces_of_.offsets[t], surfaces_of_.offsets[u]);
+    }
+
+    [[nodiscard]] std::uint32_t triangle_of(std::uint32_t slot) const {
+        const auto& offsets = surfaces_of_.offsets;
+        return static_cast<std::uint32_t>(std::upper_bound(offsets.begin(), offsets.end(), slot) -
+                                          offsets.begin() - 1);
+    }
+
+    /// Slots of one region, one after the other.
+    struct Stretch {
+        std::uint32_t region;
+        std::size_t triangles;
+        double area;
+    };
+
+    /// Counts and areas. The last digits of a sum depend on its order: stretches end at multiples
+    /// of a fixed number of triangles and are added up one after the other.
+    void measure(std::span<const Point3> vertices, Regions& out) const {
+        constexpr std::size_t block = 4096;
+        const std::size_t count = triangles_.size();
+        const auto cut = [&](std::size_t t) {
+            return t == count ? t : (t + block - 1) / block * block;
+        };
+        const auto parts = parts_of_ranges<std::vector<Stretch>>(
+            count, run_, [&](std::size_t first, std::size_t last) {
+                std::vector<Stretch> part;
+                const std::size_t end = std::min(count, cut(last));
+                bool ended = true;
+                for (std::size_t t = cut(first); t < end; ++t) {
+                    const double area = area_of(vertices, triangles_[t]);
+                    ended = ended || t % block == 0;
+                    for (const std::uint32_t r : out.regions_of[t]) {
+                        if (ended || part.back().region != r) part.push_back({r, 0, 0});
+                        ended = false;
+                        ++part.back().triangles;
+                        part.back().area += area;
+                    }
+                }
+                return part;
+            });
+        for (const auto& part : parts)
+            for (const Stretch& s : part) {
+                out.regions[s.region].triangles += s.triangles;
+                out.regions[s.region].area += s.area;
+            }
     }
 
     // Two triangles of an edge that is no stop lie in the same surfaces.

@@ -265,7 +265,7 @@ bool Rounding::divide_again(std::size_t most_pairs) {
     const auto pairs = contacts();
     if (pairs.size() > most_pairs) return false;
     if (pairs.empty()) return true;
-    Division division = divide({state_.points, state_.triangles}, pairs, run_);
+    Division division = divide(state_.points, state_.triangles, pairs, run_);
     if (run_.stop.stop_requested()) return true;
     const auto first_new = static_cast<std::uint32_t>(state_.points.size());
     std::vector<std::uint32_t> name_of(division.points.size());
@@ -528,23 +528,29 @@ Result<RoundedMesh> snap_input(const Arrangement& a, RoundedMesh first,
     return first;
 }
 
+Result<RoundedMesh> round_all(const Arrangement& a, const RoundingOptions& options,
+                              const Run& run) {
+    // Arranged anew, the input gets back what was taken out.
+    const bool may_snap_input = (a.whole || a.restrict_again) && options.max_rounds > 0;
+    Rounding where_it_lies(a, options, !may_snap_input, run);
+    auto rounded = where_it_lies();
+    const auto is_unclean = [&] { return rounded && !rounded.value().report.clean; };
+    if (is_unclean() && may_snap_input)
+        rounded = snap_input(a, std::move(rounded).value(), options, run);
+    if (is_unclean() && where_it_lies.left_crowded()) rounded = Rounding(a, options, true, run)();
+    if (rounded && (rounded.value().report.collapsed_triangles > 0 ||
+                    !rounded.value().report.vanished.empty()))
+        report_lost_regions(a, rounded.value());
+    return rounded;
+}
+
 } // namespace
 
 Result<RoundedMesh> round_to_doubles(const Arrangement& arrangement, const RoundingOptions& options,
                                      const Run& run) {
     try {
-        // Arranged anew, the input gets back what was taken out.
-        const bool may_snap_input =
-            (arrangement.whole || arrangement.restrict_again) && options.max_rounds > 0;
-        Rounding where_it_lies(arrangement, options, !may_snap_input, run);
-        auto rounded = where_it_lies();
-        if (rounded && !rounded.value().report.clean && may_snap_input)
-            rounded = snap_input(arrangement, std::move(rounded).value(), options, run);
-        if (rounded && !rounded.value().report.clean && where_it_lies.left_crowded())
-            rounded = Rounding(arrangement, options, true, run)();
-        if (rounded && (rounded.value().report.collapsed_triangles > 0 ||
-                        !rounded.value().report.vanished.empty()))
-            report_lost_regions(arrangement, rounded.value());
+        Result<RoundedMesh> rounded = Error{};
+        with_threads(run, [&] { rounded = round_all(arrangement, options, run); });
         return rounded;
     } catch (const std::bad_alloc&) {
         return Error{ErrorCode::out_of_memory, "not enough memory for the rounding", ""};

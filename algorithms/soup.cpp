@@ -2,7 +2,6 @@
 #include <terrane/algorithms/soup.hpp>
 
 #include <algorithm>
-#include <atomic>
 #include <bit>
 #include <numeric>
 
@@ -42,60 +41,63 @@ private:
     std::vector<std::uint32_t> slots_;
 };
 
-// One bit for each of 2^n classes of hashes, eight times as many as points.
-class Bits {
+// Per input vertex, the first one at the same place. Points are told apart by classes of hashes,
+// eight times as many as points: most are alone in theirs, and only the others are compared.
+class Places {
 public:
-    explicit Bits(std::size_t points) :
-        shift_(64 - static_cast<unsigned>(std::bit_width(8 * points + 64))),
-        words_((std::size_t{1} << (64 - shift_)) / 64, 0) {}
+    Places(const std::vector<Point3>& points, const Run& run) : points_(points), run_(run) {
+        const auto shift = 64 - static_cast<unsigned>(std::bit_width(8 * points.size() + 64));
+        words_ = (std::size_t{1} << (64 - shift)) / 64;
+        class_of_.resize(points.size());
+        for_ranges(points.size(), run, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t v = begin; v < end; ++v)
+                class_of_[v] = static_cast<std::uint32_t>(hash(points_[v]) >> shift);
+        });
+    }
 
-    [[nodiscard]] bool has(std::uint64_t hash) const {
-        return (words_[hash >> shift_ >> 6] >> (hash >> shift_ & 63) & 1) != 0;
-    }
-    /// Returns whether it was set before.
-    bool set(std::uint64_t hash) {
-        const std::uint64_t bit = std::uint64_t{1} << (hash >> shift_ & 63);
-        std::uint64_t& word = words_[hash >> shift_ >> 6];
-        const bool was_set = (word & bit) != 0;
-        word |= bit;
-        return was_set;
-    }
-    /// The same while other threads do so, too.
-    bool set_atomically(std::uint64_t hash) {
-        const std::uint64_t bit = std::uint64_t{1} << (hash >> shift_ & 63);
-        const std::atomic_ref<std::uint64_t> word(words_[hash >> shift_ >> 6]);
-        return (word.fetch_or(bit, std::memory_order_relaxed) & bit) != 0;
+    [[nodiscard]] std::vector<std::uint32_t> first_at_same() {
+        find_shared_classes();
+        std::vector<std::uint32_t> first(points_.size());
+        const auto others = concatenated(parts_of_ranges<std::vector<std::uint32_t>>(
+            points_.size(), run_, [&](std::size_t begin, std::size_t end) {
+                std::vector<std::uint32_t> part;
+                for (auto v = static_cast<std::uint32_t>(begin); v < end; ++v) {
+                    first[v] = v;
+                    const std::uint32_t c = class_of_[v];
+                    if ((shared_[c / 64] >> (c % 64) & 1) != 0) part.push_back(v);
+                }
+                return part;
+            }));
+        FirstIndex seen(others.size());
+        for (const std::uint32_t v : others) first[v] = seen.enter(points_, v);
+        return first;
     }
 
 private:
-    unsigned shift_;
-    std::vector<std::uint64_t> words_;
-};
+    // Each thread looks at all points and has classes of its own, in words of its own.
+    void find_shared_classes() {
+        std::vector<std::uint64_t> taken(words_, 0);
+        shared_.assign(words_, 0);
+        for_ranges(
+            words_, run_,
+            [&](std::size_t first, std::size_t last) {
+                for (const std::uint32_t c : class_of_) {
+                    const std::size_t word = c / 64;
+                    if (word < first || word >= last) continue;
+                    const std::uint64_t bit = std::uint64_t{1} << (c % 64);
+                    shared_[word] |= taken[word] & bit;
+                    taken[word] |= bit;
+                }
+            },
+            1);
+    }
 
-// Per input vertex, the first one at the same place. Most points are alone in their class, which
-// two sets small enough for the cache tell; only the others are compared.
-std::vector<std::uint32_t> first_at_same_place(const std::vector<Point3>& points, const Run& run) {
-    Bits once(points.size()), twice(points.size());
-    for_ranges(points.size(), run, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t v = begin; v < end; ++v) {
-            const std::uint64_t h = hash(points[v]);
-            if (run.threads <= 1 ? once.set(h) : once.set_atomically(h)) twice.set_atomically(h);
-        }
-    });
-    std::vector<std::uint32_t> first(points.size());
-    const auto others = concatenated(parts_of_ranges<std::vector<std::uint32_t>>(
-        points.size(), run, [&](std::size_t begin, std::size_t end) {
-            std::vector<std::uint32_t> part;
-            for (auto v = static_cast<std::uint32_t>(begin); v < end; ++v) {
-                first[v] = v;
-                if (twice.has(hash(points[v]))) part.push_back(v);
-            }
-            return part;
-        }));
-    FirstIndex seen(others.size());
-    for (const std::uint32_t v : others) first[v] = seen.enter(points, v);
-    return first;
-}
+    const std::vector<Point3>& points_;
+    const Run& run_;
+    std::size_t words_ = 0;
+    Unfilled<std::uint32_t> class_of_;  ///< per point
+    std::vector<std::uint64_t> shared_; ///< a bit per class: it has several points
+};
 
 bool has_area(const std::vector<Point3>& points, const Triangle& t) {
     if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return false;
@@ -234,7 +236,7 @@ Soup merge_surfaces(std::span<const Surface> surfaces, const Run& run) {
         });
     }
 
-    const auto first = first_at_same_place(soup.points, run);
+    const auto first = Places(soup.points, run).first_at_same();
     name_corners(soup, surfaces, first, run);
     take_triangles(soup, run);
     soup.edges = group_edges(soup.triangles, soup.points.size(), run);

@@ -19,11 +19,11 @@ namespace terrane {
 /// Input vertices and triangles are counted through all surfaces, in order.
 struct Soup {
     std::vector<Point3> points;            ///< all input vertices
-    std::vector<Triangle> triangles;       ///< the distinct ones with area; corners are the first
+    Unfilled<Triangle> triangles;          ///< the distinct ones with area; corners are the first
                                            ///< input vertex with these coordinates
     std::vector<Triangle> input_corners;   ///< per input triangle: the same, degenerate or not
-    std::vector<std::uint32_t> input_of;   ///< per triangle: its input triangle, ascending
-    std::vector<std::uint32_t> surface_of; ///< per triangle: the surface of input_of
+    Unfilled<std::uint32_t> input_of;      ///< per triangle: its input triangle, ascending
+    Unfilled<std::uint32_t> surface_of;    ///< per triangle: the surface of input_of
     std::vector<std::uint32_t> degenerate; ///< input triangles without area, ascending
     std::vector<std::array<std::uint32_t, 2>> duplicates; ///< {input triangle, the first with the
                                                           ///< same three points}, ascending

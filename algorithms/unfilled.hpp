@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace terrane {
+
+/// Leaves elements made without a value as they come: a pass over a large array less where each
+/// element is written anyway.
+template <class T>
+struct UnfilledAllocator : std::allocator<T> {
+    template <class U>
+    struct rebind { // NOLINT(readability-identifier-naming): the name is the standard's
+        using other = UnfilledAllocator<U>;
+    };
+    template <class U, class... Arguments>
+    void construct(U* at, Arguments&&... arguments) {
+        if constexpr (sizeof...(Arguments) == 0)
+            ::new (static_cast<void*>(at)) U;
+        else
+            ::new (static_cast<void*>(at)) U(std::forward<Arguments>(arguments)...);
+    }
+};
+
+/// resize leaves new elements without a value. For types without a constructor of their own.
+template <class T>
+using Unfilled = std::vector<T, UnfilledAllocator<T>>;
+
+} // namespace terrane
