@@ -48,26 +48,41 @@ std::vector<std::uint32_t> triangles_near_new(const Divided& divided, std::vecto
 
 /// All edges between vertices of new triangles, for both ends of which is_new holds.
 Adjacency edges_of_new(const Divided& divided, const Labels& old_labels,
-                       std::span<const std::uint32_t> near, const std::vector<char>& is_new) {
-    std::vector<Triangle> corners;
-    Labels labels;
-    for (const std::uint32_t t : near) {
-        corners.push_back(divided.triangles[t]);
-        const auto faces = divided.faces_of[t];
-        labels.push_back(faces.size() == 1 ? old_labels[faces[0]] : no_label);
+                       std::span<const std::uint32_t> near, const std::vector<char>& is_new,
+                       const Run& run) {
+    // Only they have a number of their own, in the same order.
+    std::vector<std::uint32_t> vertices;
+    Unfilled<std::uint32_t> number_of;
+    number_of.resize(is_new.size());
+    for (std::uint32_t v = 0; v < is_new.size(); ++v) {
+        if (is_new[v] == 0) continue;
+        number_of[v] = static_cast<std::uint32_t>(vertices.size());
+        vertices.push_back(v);
     }
+    const auto other = static_cast<std::uint32_t>(vertices.size()); // at most one in a triangle
+    std::vector<Triangle> corners(near.size());
+    Labels labels(near.size());
+    for_ranges(near.size(), run, [&](std::size_t first, std::size_t last) {
+        for (std::size_t k = first; k < last; ++k) {
+            const Triangle& c = divided.triangles[near[k]];
+            for (unsigned i = 0; i < 3; ++i)
+                corners[k][i] = is_new[c[i]] != 0 ? number_of[c[i]] : other;
+            const auto faces = divided.faces_of[near[k]];
+            labels[k] = faces.size() == 1 ? old_labels[faces[0]] : no_label;
+        }
+    });
     Adjacency a;
     Adjacency::Inner& inner = a.inner.emplace_back();
     std::vector<std::uint32_t> triangles;
-    group_edges(corners, divided.vertex_count)
+    group_edges(corners, vertices.size() + 1, run)
         .for_each([&](std::uint32_t low, std::uint32_t high, auto sides) {
-            if (is_new[low] == 0 || is_new[high] == 0) return;
+            if (high == other) return;
             triangles.clear();
             for (const auto& s : sides) triangles.push_back(near[s.triangle]);
             if (sides.size() == 2 && is_inner(labels[sides[0].triangle], labels[sides[1].triangle]))
                 inner.push_back({triangles[0], triangles[1]});
             else
-                add_edge(a, {low, high}, triangles);
+                add_edge(a, {vertices[low], vertices[high]}, triangles);
         });
     return a;
 }
@@ -148,7 +163,7 @@ Adjacency adjacency_after(const EdgeSides& old, const Labels& old_labels, const 
     auto parts = parts_of_ranges<Adjacency>(old.starts.size() - 1, run, kept_edges);
     Adjacency all = std::move(parts.front());
     for (std::size_t k = 1; k < parts.size(); ++k) append(all, std::move(parts[k]));
-    merge(all, edges_of_new(divided, old_labels, near, is_new));
+    merge(all, edges_of_new(divided, old_labels, near, is_new, run));
     return all;
 }
 

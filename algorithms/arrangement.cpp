@@ -193,7 +193,7 @@ Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
 
 Result<Arrangement> arrange(std::span<const Surface> surfaces, const ArrangeOptions& options,
                             const Run& run) {
-    if (const auto valid = validate(surfaces); !valid) return valid.error();
+    if (const auto valid = validate(surfaces, run); !valid) return valid.error();
     try {
         // In one arena all stages find the threads awake.
         Result<Arrangement> arranged = Error{};

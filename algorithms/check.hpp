@@ -66,6 +66,6 @@ struct CheckReport {
 Result<CheckReport> check(std::span<const Surface> surfaces, const Run& run = {});
 
 /// bad_number or bad_index with the place, for surfaces that no stage may be given.
-Status validate(std::span<const Surface> surfaces);
+Status validate(std::span<const Surface> surfaces, const Run& run = {});
 
 } // namespace terrane

@@ -17,7 +17,7 @@ namespace terrane {
 struct InputTriangles {
     std::vector<std::uint32_t> first;        ///< per surface, and the total at the end
     std::vector<std::uint32_t> first_vertex; ///< the same for input vertices
-    std::vector<Triangle> corners;           ///< per input triangle: input vertices at the first
+    Unfilled<Triangle> corners;              ///< per input triangle: input vertices at the first
                                              ///< place where their coordinates occur
     std::vector<std::array<std::uint32_t, 2>> duplicates; ///< {input triangle, the first with the
                                                           ///< same three points}, ascending

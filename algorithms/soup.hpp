@@ -21,7 +21,7 @@ struct Soup {
     std::vector<Point3> points;            ///< all input vertices
     Unfilled<Triangle> triangles;          ///< the distinct ones with area; corners are the first
                                            ///< input vertex with these coordinates
-    std::vector<Triangle> input_corners;   ///< per input triangle: the same, degenerate or not
+    Unfilled<Triangle> input_corners;      ///< per input triangle: the same, degenerate or not
     Unfilled<std::uint32_t> input_of;      ///< per triangle: its input triangle, ascending
     Unfilled<std::uint32_t> surface_of;    ///< per triangle: the surface of input_of
     std::vector<std::uint32_t> degenerate; ///< input triangles without area, ascending
