@@ -9,6 +9,7 @@
 
 #include <tbb/enumerable_thread_specific.h>
 
+#include <terrane/algorithms/clearance_faces.hpp>
 #include <terrane/algorithms/intersection.hpp>
 #include <terrane/algorithms/parallel.hpp>
 #include <terrane/algorithms/sets.hpp>
@@ -17,64 +18,7 @@
 namespace terrane {
 namespace {
 
-constexpr std::uint32_t none = UINT32_MAX;
-constexpr double unit = std::numeric_limits<double>::epsilon(); // of one operation, in any mode
-// Lengths between these have squares, and areas of triangles whose squares, are normal doubles; an
-// area, and an altitude, is not below the square of the shortest. Range of a type, no tolerance.
-constexpr double longest_length = 0x1p+249, shortest_length = 0x1p-249;
-constexpr double smallest_area = shortest_length * shortest_length;
-
-double length(const Point3& a) {
-    return std::sqrt(dot(a, a));
-}
-
-/// u(p) = normal . (p - origin).
-struct Functional {
-    Point3 origin, normal;
-
-    [[nodiscard]] double operator()(const Point3& p) const { return dot(normal, minus(p, origin)); }
-};
-
-/// What the lemma needs to know of a face and its parts.
-struct Face {
-    std::array<Point3, 3> corners;
-    Functional height;                ///< above its plane
-    std::array<Functional, 3> beyond; ///< each edge; of faces that are not apart
-    double functional_error = 0; ///< of this and those of the edges, per distance from the face
-    double extent = 0;           ///< longest edge of the face
-    std::uint32_t part = 0, part_end = 0;     ///< range in Faces::parts
-    std::uint32_t vertex = 0, vertex_end = 0; ///< range in Faces::vertices
-};
-
-/// The distance beyond edge j of f.
-Functional beyond_edge(const Face& f, unsigned j) {
-    const Point3 e = minus(f.corners[(j + 1) % 3], f.corners[j]), m = cross(e, f.height.normal);
-    const double factor = 1 / length(e);
-    return {f.corners[j], {m.x * factor, m.y * factor, m.z * factor}};
-}
-
-/// Relative to an edge of length e between points whose differences err by a unit, the altitude
-/// and the direction of the normal err by a few: the bounds are several times larger.
-Face measure(const std::array<Point3, 3>& c) {
-    Face f;
-    f.corners = c;
-    const Point3 u = minus(c[1], c[0]), v = minus(c[2], c[0]), w = minus(c[2], c[1]),
-                 n = cross(u, v);
-    const double size = length(n), factor = 1 / size;
-    f.height = {c[0], {n.x * factor, n.y * factor, n.z * factor}};
-    const double squared = std::max({dot(u, u), dot(v, v), dot(w, w)});
-    f.extent = std::sqrt(squared);
-    const bool usable = size > smallest_area && f.extent < longest_length;
-    f.functional_error =
-        usable ? 64 * unit * squared * factor : std::numeric_limits<double>::infinity();
-    return f;
-}
-
-/// Of the parts of a face at one vertex.
-struct Sizes {
-    double altitude = std::numeric_limits<double>::infinity(); ///< a: the least
-    double longest = 0;                                        ///< l: the longest edge
-};
+using namespace clearance;
 
 /// No two corners are farther apart.
 double extent_bound(const std::array<Point3, 3>& c) {
@@ -83,17 +27,6 @@ double extent_bound(const std::array<Point3, 3>& c) {
     const auto [low_z, high_z] = std::minmax({c[0].z, c[1].z, c[2].z});
     return ((high_x - low_x) + (high_y - low_y) + (high_z - low_z)) * (1 + 0x1p-40);
 }
-
-struct Faces {
-    std::vector<std::uint32_t> slot_of; ///< per face: index into faces, or none
-    std::vector<Face> faces;
-    std::vector<std::uint32_t> parts;         ///< by face
-    std::vector<std::array<std::uint32_t, 3>> ///< per entry of parts: corners, counted in the
-        corners;                              ///< vertices of the face
-    std::vector<std::uint32_t> vertices;      ///< by face, each once: points
-    std::vector<Point3> places;               ///< of vertices
-    std::vector<Sizes> sizes;                 ///< of vertices
-};
 
 /// Which vertices are a face's: per point.
 struct Stamp {
@@ -108,8 +41,8 @@ constexpr std::uint8_t unknown = 0xff;
 
 struct Scratch {
     std::array<std::vector<Stamp>, 2> stamps;
-    std::vector<std::uint8_t> sides;            ///< per vertex of a face
-    std::vector<std::uint8_t> beyond;           ///< per vertex: see edges_before, or unknown
+    std::vector<std::uint8_t> sides;            ///< per corner of a cell
+    std::vector<std::uint8_t> beyond;           ///< per corner: see edges_before, or unknown
     std::vector<std::uint32_t> left, left_back; ///< entries of Faces::parts without proof
 };
 
@@ -118,51 +51,57 @@ struct Found {
     std::vector<std::uint32_t> parts;
 };
 
+double most_of(std::span<const double> moves) {
+    return moves.empty() ? 0 : *std::max_element(moves.begin(), moves.end());
+}
+
 class Prover {
 public:
     Prover(const MovedParts& moved, std::span<const CandidatePair> meeting, const Run& run) :
-        moved_(moved) {
-        for (const double m : moved.moves) move_ = std::max(move_, m);
-        choose_faces(meeting, run);
-        collect_parts(run);
-        number_vertices();
-        for_faces(run, [this](Face& f) { measure_parts(f); });
-    }
+        moved_(moved), move_(most_of(moved.moves)), meeting_(close_pairs(meeting, run)),
+        faces_(moved, meeting_, move_, run) {}
 
     [[nodiscard]] Unclear operator()(const Run& run);
 
 private:
+    /// What parts of another face are to be told clear of.
+    struct Pair {
+        const Face& g;
+        std::uint32_t g_name;
+        std::span<const Stamp> stamps; ///< of g
+        double d;                      ///< the margin
+    };
+
     [[nodiscard]] std::array<Point3, 3> corners_of(std::uint32_t f) const {
         const Triangle& c = moved_.faces[f];
         return {moved_.face_points[c[0]], moved_.face_points[c[1]], moved_.face_points[c[2]]};
     }
+    [[nodiscard]] std::vector<CandidatePair> close_pairs(std::span<const CandidatePair> meeting,
+                                                         const Run& run) const;
     [[nodiscard]] std::vector<CandidatePair>
     close_pairs(std::span<const CandidatePair> meeting) const;
-    template <class Visit>
-    void for_faces(const Run& run, const Visit& visit);
-    void choose_faces(std::span<const CandidatePair> meeting, const Run& run);
     [[nodiscard]] double margin(double extent, const Face& g) const;
-    void collect_parts(const Run& run);
-    void number_vertices();
-    void measure_parts(Face& f);
     [[nodiscard]] const Face& face(std::uint32_t f) const {
         return faces_.faces[faces_.slot_of[f]];
+    }
+    [[nodiscard]] std::span<const Cell> cells_of(const Face& f) const {
+        return {faces_.cells.data() + f.cell, faces_.cells.data() + f.cell_end};
     }
     void add_restless(const Face& f, std::vector<std::uint32_t>& parts) const;
     void test_group(std::size_t first, std::size_t last, Scratch& scratch, Found& found) const;
     void stamp(std::uint32_t f, std::vector<Stamp>& stamps) const;
     [[nodiscard]] bool is_apart(const std::array<Point3, 3>& f, double extent, const Face& g) const;
-    [[nodiscard]] bool is_clear(const Face& f, std::uint32_t entry, std::uint32_t g,
-                                std::span<const Stamp> stamps, double d) const;
-    [[nodiscard]] bool find_sides(const Face& f, const Face& g, double d,
-                                  std::span<const Stamp> stamps, std::uint32_t g_name,
+    [[nodiscard]] bool is_clear(const Pair& pair, const Cell& cell, std::uint32_t entry) const;
+    [[nodiscard]] bool find_sides(const Pair& pair, const Cell& cell,
                                   std::vector<std::uint8_t>& sides) const;
+    void find_left(const Pair& pair, const Cell& cell, Scratch& scratch,
+                   std::vector<std::uint32_t>& left) const;
     void find_left(std::uint32_t f, std::uint32_t g, std::span<const Stamp> stamps,
                    Scratch& scratch, std::vector<std::uint32_t>& left) const;
     void add_pairs(const Scratch& scratch, Found& found) const;
 
     const MovedParts& moved_;
-    double move_ = 0;                    ///< d: the most
+    double move_;                        ///< d: the most
     std::vector<CandidatePair> meeting_; ///< the pairs of faces that are not apart as a whole
     Faces faces_;                        ///< of these
 };
@@ -184,99 +123,15 @@ std::vector<CandidatePair> Prover::close_pairs(std::span<const CandidatePair> me
     return close;
 }
 
-/// Several at a time, under the default rounding mode.
-template <class Visit>
-void Prover::for_faces(const Run& run, const Visit& visit) {
-    constexpr std::size_t least = 256; // of faces for a thread
-    for_ranges(
-        faces_.faces.size(), run,
-        [&](std::size_t first, std::size_t last) {
-            for (std::size_t f = first; f < last; ++f) visit(faces_.faces[f]);
-        },
-        4, least);
-}
-
-void Prover::choose_faces(std::span<const CandidatePair> meeting, const Run& run) {
+std::vector<CandidatePair> Prover::close_pairs(std::span<const CandidatePair> meeting,
+                                               const Run& run) const {
     const auto blocks = for_blocks<std::vector<CandidatePair>>(
         meeting.size(), 1024, run, [&](std::size_t first, std::size_t last) {
             return close_pairs(meeting.subspan(first, last - first));
         });
-    for (const auto& block : blocks) meeting_.insert(meeting_.end(), block.begin(), block.end());
-    faces_.slot_of.assign(moved_.faces.size(), none);
-    std::vector<std::uint32_t> names;
-    for (const CandidatePair& p : meeting_)
-        for (const std::uint32_t f : {p.first, p.second}) {
-            if (faces_.slot_of[f] != none) continue;
-            faces_.slot_of[f] = static_cast<std::uint32_t>(names.size());
-            names.push_back(f);
-        }
-    faces_.faces.resize(names.size());
-    for_faces(run, [&](Face& f) {
-        f = measure(corners_of(names[static_cast<std::size_t>(&f - faces_.faces.data())]));
-        for (unsigned j = 0; j < 3; ++j) f.beyond[j] = beyond_edge(f, j);
-    });
-}
-
-void Prover::collect_parts(const Run& run) {
-    struct Entry {
-        std::uint32_t slot, part;
-    };
-    const auto entries = concatenated(parts_of_ranges<std::vector<Entry>>(
-        moved_.faces_of.size(), run, [&](std::size_t first, std::size_t last) {
-            std::vector<Entry> found;
-            for (auto t = static_cast<std::uint32_t>(first); t < last; ++t)
-                for (const std::uint32_t f : moved_.faces_of[t])
-                    if (const std::uint32_t s = faces_.slot_of[f]; s != none)
-                        found.push_back({s, t});
-            return found;
-        }));
-    for (const Entry& e : entries) ++faces_.faces[e.slot].part_end;
-    std::uint32_t total = 0;
-    for (Face& f : faces_.faces) {
-        f.part = total;
-        total += std::exchange(f.part_end, total);
-    }
-    faces_.parts.resize(total);
-    for (const Entry& e : entries) faces_.parts[faces_.faces[e.slot].part_end++] = e.part;
-}
-
-void Prover::number_vertices() {
-    std::vector<std::uint32_t> last(moved_.points.size(), none), number(moved_.points.size());
-    faces_.corners.resize(faces_.parts.size());
-    for (std::uint32_t s = 0; s < faces_.faces.size(); ++s) {
-        Face& f = faces_.faces[s];
-        f.vertex = static_cast<std::uint32_t>(faces_.vertices.size());
-        for (std::uint32_t e = f.part; e < f.part_end; ++e)
-            for (unsigned i = 0; i < 3; ++i) {
-                const std::uint32_t v = moved_.parts[faces_.parts[e]][i];
-                if (last[v] != s) {
-                    last[v] = s;
-                    number[v] = static_cast<std::uint32_t>(faces_.vertices.size()) - f.vertex;
-                    faces_.vertices.push_back(v);
-                    faces_.places.push_back(moved_.points[v]);
-                }
-                faces_.corners[e][i] = number[v];
-            }
-        f.vertex_end = static_cast<std::uint32_t>(faces_.vertices.size());
-    }
-    faces_.sizes.resize(faces_.vertices.size());
-}
-
-void Prover::measure_parts(Face& f) {
-    for (std::uint32_t e = f.part; e < f.part_end; ++e) {
-        const auto& c = faces_.corners[e];
-        const Point3* place = faces_.places.data() + f.vertex;
-        const Point3 &p = place[c[0]], &q = place[c[1]], &r = place[c[2]];
-        const Point3 u = minus(q, p), v = minus(r, p), w = minus(r, q);
-        const double l = std::sqrt(std::max({dot(u, u), dot(v, v), dot(w, w)}));
-        const bool usable = l > shortest_length && l < longest_length;
-        const double a = usable ? length(cross(u, v)) / l : 0;
-        for (const std::uint32_t corner : c) {
-            Sizes& at = faces_.sizes[f.vertex + corner];
-            at.longest = std::max(at.longest, l * (1 + 0x1p-40) + 2 * move_);
-            at.altitude = std::min(at.altitude, a * (1 - 0x1p-40) - 64 * unit * l - 4 * move_);
-        }
-    }
+    std::vector<CandidatePair> close;
+    for (const auto& block : blocks) close.insert(close.end(), block.begin(), block.end());
+    return close;
 }
 
 /// a^2 >= 64 d l; also false where anything has underflown.
@@ -287,12 +142,14 @@ bool is_calm(const Sizes& s, double d) {
 /// Parts of it that may meet another one of it improperly.
 void Prover::add_restless(const Face& f, std::vector<std::uint32_t>& parts) const {
     if (f.part_end - f.part == 1) return;
-    const auto calm = [&](std::uint32_t v) {
-        return is_calm(faces_.sizes[f.vertex + v], 4 * move_);
-    };
-    for (std::uint32_t e = f.part; e < f.part_end; ++e) {
-        const auto& c = faces_.corners[e];
-        if (!std::all_of(c.begin(), c.end(), calm)) parts.push_back(faces_.parts[e]);
+    for (const Cell& cell : cells_of(f)) {
+        const auto calm = [&](std::uint32_t corner) {
+            return is_calm(faces_.sizes[faces_.vertex_at[cell.corner + corner]], 4 * move_);
+        };
+        for (std::uint32_t e = cell.part; e < cell.part_end; ++e) {
+            const auto& c = faces_.corners[e];
+            if (!std::all_of(c.begin(), c.end(), calm)) parts.push_back(faces_.parts[e]);
+        }
     }
 }
 
@@ -330,18 +187,19 @@ double least_rise(const Sizes& there, double longest, double d) {
 }
 
 /// Case (1) or (2) of the lemma for a part of another face, by any of the functionals.
-bool Prover::is_clear(const Face& f, std::uint32_t entry, std::uint32_t g,
-                      std::span<const Stamp> stamps, double d) const {
+bool Prover::is_clear(const Pair& pair, const Cell& cell, std::uint32_t entry) const {
+    const double d = pair.d;
     std::array<Point3, 3> at;
     std::array<bool, 3> on{}; // it is a vertex of g
     std::array<const Sizes*, 3> there{};
     double longest = std::numeric_limits<double>::infinity();
     for (unsigned i = 0; i < 3; ++i) {
-        const std::uint32_t v = f.vertex + faces_.corners[entry][i];
-        const Stamp& s = stamps[faces_.vertices[v]];
-        on[i] = s.face == g;
+        const std::uint32_t corner = cell.corner + faces_.corners[entry][i];
+        const std::uint32_t v = faces_.vertex_at[corner];
+        const Stamp& s = pair.stamps[faces_.vertices[v]];
+        on[i] = s.face == pair.g_name;
         if (on[i]) there[i] = &faces_.sizes[s.vertex];
-        at[i] = faces_.places[v];
+        at[i] = faces_.places[corner];
         longest = std::min(longest, faces_.sizes[v].longest); // its own is in all three
     }
     double least = d; // what corners off g must rise above
@@ -354,21 +212,21 @@ bool Prover::is_clear(const Face& f, std::uint32_t entry, std::uint32_t g,
         return (rests_a || a > least) && (rests_b || b > least) && (rests_c || c > least) &&
                !(rests_a && rests_b && rests_c);
     };
-    const Face& other = face(g);
-    const double a = other.height(at[0]), b = other.height(at[1]), c = other.height(at[2]);
+    const double a = pair.g.height(at[0]), b = pair.g.height(at[1]), c = pair.g.height(at[2]);
     if (leaves(a, b, c) || leaves(-a, -b, -c)) return true;
-    for (const Functional& u : other.beyond)
+    for (const Functional& u : pair.g.beyond)
         if (leaves(u(at[0]), u(at[1]), u(at[2]))) return true;
     return false;
 }
 
-/// Where the vertices of f are: above the plane of g, below it, resting on a vertex of g in it, or
-/// neither. True if what rises at all rises enough for whatever rests.
-bool Prover::find_sides(const Face& f, const Face& g, double d, std::span<const Stamp> stamps,
-                        std::uint32_t g_name, std::vector<std::uint8_t>& sides) const {
-    sides.resize(f.vertex_end - f.vertex);
-    const Point3* place = faces_.places.data() + f.vertex;
-    const Functional height = g.height;
+/// Where the corners of a cell are: above the plane of g, below it, resting on a vertex of g in it,
+/// or neither. True if what rises at all rises enough for whatever rests.
+bool Prover::find_sides(const Pair& pair, const Cell& cell,
+                        std::vector<std::uint8_t>& sides) const {
+    sides.resize(cell.corner_end - cell.corner);
+    const Point3* place = faces_.places.data() + cell.corner;
+    const Functional height = pair.g.height;
+    const double d = pair.d;
     double least_lift = std::numeric_limits<double>::infinity(), most_rise = 0;
     for (std::size_t k = 0; k < sides.size(); ++k) {
         const double u = height(place[k]), lift = std::fabs(u);
@@ -377,14 +235,23 @@ bool Prover::find_sides(const Face& f, const Face& g, double d, std::span<const 
             least_lift = std::min(least_lift, lift);
             continue;
         }
-        const auto v = f.vertex + static_cast<std::uint32_t>(k);
-        const Stamp& s = stamps[faces_.vertices[v]];
-        if (s.face != g_name || !(lift <= d / 2)) continue;
+        const std::uint32_t v = faces_.vertex_at[cell.corner + k];
+        const Stamp& s = pair.stamps[faces_.vertices[v]];
+        if (s.face != pair.g_name || !(lift <= d / 2)) continue;
         sides[k] = rests;
         const double rise = least_rise(faces_.sizes[s.vertex], faces_.sizes[v].longest, d);
         most_rise = std::max(most_rise, rise);
     }
     return least_lift > most_rise;
+}
+
+/// All of the cell is farther than d from the plane, on one side. Its centre is a point of the face
+/// but for rounding, or not far from one: twice the margin is room for that.
+bool is_far(const Cell& cell, const Functional& height, double d) {
+    const Point3 &n = height.normal, &h = cell.half;
+    const double spread =
+        (std::fabs(n.x) * h.x + std::fabs(n.y) * h.y + std::fabs(n.z) * h.z) * (1 + 0x1p-40);
+    return std::fabs(height(cell.centre)) - spread > 2 * d;
 }
 
 /// The edges of g beyond which p lies by more than d: a bit for each.
@@ -395,31 +262,39 @@ std::uint8_t edges_before(const Face& g, const Point3& p, double d) {
     return static_cast<std::uint8_t>(edges);
 }
 
-/// The parts of f that may meet parts of g improperly. Most lie on one side of its plane, or leave
-/// it at vertices of both.
-void Prover::find_left(std::uint32_t f_name, std::uint32_t g_name, std::span<const Stamp> stamps,
-                       Scratch& scratch, std::vector<std::uint32_t>& left) const {
-    const Face &f = face(f_name), &g = face(g_name);
-    const double d = margin(f.extent, g);
+/// The parts of a cell that may meet parts of g improperly. Most lie on one side of its plane, or
+/// leave it at vertices of both.
+void Prover::find_left(const Pair& pair, const Cell& cell, Scratch& scratch,
+                       std::vector<std::uint32_t>& left) const {
     auto& sides = scratch.sides;
-    const bool all_leave = find_sides(f, g, d, stamps, g_name, sides);
+    const bool all_leave = find_sides(pair, cell, sides);
     scratch.beyond.assign(sides.size(), unknown);
-    const auto beyond = [&](std::uint32_t v) {
-        std::uint8_t& edges = scratch.beyond[v];
-        if (edges == unknown) edges = edges_before(g, faces_.places[f.vertex + v], d);
+    const auto beyond = [&](std::uint32_t corner) {
+        std::uint8_t& edges = scratch.beyond[corner];
+        if (edges == unknown)
+            edges = edges_before(pair.g, faces_.places[cell.corner + corner], pair.d);
         return edges;
     };
-    left.clear();
-    for (std::uint32_t e = f.part; e < f.part_end; ++e) {
+    for (std::uint32_t e = cell.part; e < cell.part_end; ++e) {
         const auto& [i, j, k] = faces_.corners[e];
-        const auto together = sides[i] | sides[j] | sides[k];
+        const int together = sides[i] | sides[j] | sides[k];
         if (together == above || together == below) {
             const bool any_rests = sides[i] == rests || sides[j] == rests || sides[k] == rests;
             if (all_leave || !any_rests) continue;
         }
         if ((beyond(i) & beyond(j) & beyond(k)) != 0) continue;
-        if (!is_clear(f, e, g_name, stamps, d)) left.push_back(e);
+        if (!is_clear(pair, cell, e)) left.push_back(e);
     }
+}
+
+/// The same of all f; where it has many parts, most cells are far from the plane.
+void Prover::find_left(std::uint32_t f_name, std::uint32_t g_name, std::span<const Stamp> stamps,
+                       Scratch& scratch, std::vector<std::uint32_t>& left) const {
+    const Face &f = face(f_name), &g = face(g_name);
+    const Pair pair{g, g_name, stamps, margin(f.extent, g)};
+    left.clear();
+    for (const Cell& cell : cells_of(f))
+        if (!is_far(cell, g.height, pair.d)) find_left(pair, cell, scratch, left);
 }
 
 /// Few pairs are listed where their boxes overlap; where they are many, the parts of the smaller

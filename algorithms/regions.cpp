@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include <terrane/algorithms/parallel.hpp>
 #include <terrane/algorithms/sets.hpp>
@@ -157,7 +158,9 @@ private:
             }));
     }
 
-    void find_neighbours(Regions& out) const {
+    /// Calls visit(r, q) for regions r that have q on the other side of a stop; often the same.
+    template <class Visit>
+    void for_neighbours(const Regions& out, const Visit& visit) const {
         std::vector<std::uint32_t> here;
         for (std::size_t e = 0; e < at_stop_.size(); ++e) {
             here.clear();
@@ -167,15 +170,26 @@ private:
             }
             for (const std::uint32_t r : here)
                 for (const std::uint32_t q : here)
-                    if (q != r && (out.regions[r].neighbours.empty() ||
-                                   out.regions[r].neighbours.back() != q))
-                        out.regions[r].neighbours.push_back(q);
+                    if (q != r) visit(r, q);
         }
-        for (Region& r : out.regions) {
-            std::sort(r.neighbours.begin(), r.neighbours.end());
-            r.neighbours.erase(std::unique(r.neighbours.begin(), r.neighbours.end()),
-                               r.neighbours.end());
-        }
+    }
+
+    void find_neighbours(Regions& out) const {
+        std::vector<std::size_t> end(out.regions.size() + 1, 0); // counted one place ahead
+        for_neighbours(out, [&](std::uint32_t r, std::uint32_t) { ++end[r + 1]; });
+        std::partial_sum(end.begin(), end.end(), end.begin());
+        std::vector<std::uint32_t> found(end.back());
+        for_neighbours(out, [&](std::uint32_t r, std::uint32_t q) { found[end[r]++] = q; });
+        for_ranges(out.regions.size(), run_, [&](std::size_t first, std::size_t last) {
+            for (std::size_t r = first; r < last; ++r) {
+                const auto at = [&](std::size_t k) {
+                    return found.begin() + static_cast<std::ptrdiff_t>(k);
+                };
+                const auto begin = at(r == 0 ? 0 : end[r - 1]);
+                std::sort(begin, at(end[r]));
+                out.regions[r].neighbours.assign(begin, std::unique(begin, at(end[r])));
+            }
+        });
     }
 
     std::span<const Triangle> triangles_;
