@@ -170,11 +170,9 @@ bool Prover::is_apart(const std::array<Point3, 3>& f, double extent, const Face&
     const double d = margin(extent, g);
     const double a = g.height(f[0]), b = g.height(f[1]), c = g.height(f[2]);
     if ((a > d && b > d && c > d) || (a < -d && b < -d && c < -d)) return true;
-    for (unsigned j = 0; j < 3; ++j) {
-        const Functional u = beyond_edge(g, j);
-        if (u(f[0]) > d && u(f[1]) > d && u(f[2]) > d) return true;
-    }
-    return false;
+    return std::any_of(g.beyond.begin(), g.beyond.end(), [&](const Functional& u) {
+        return u(f[0]) > d && u(f[1]) > d && u(f[2]) > d;
+    });
 }
 
 /// What the other corners must rise to when a part leaves g at a vertex; infinite where g is not

@@ -44,13 +44,14 @@ Centre centre_of(const MovedParts& moved, std::uint32_t part, const Point3& norm
             sum(z >= x && z >= y ? &Point3::y : &Point3::z), part};
 }
 
-} // namespace
-
+/// The distance beyond edge j of f.
 Functional beyond_edge(const Face& f, unsigned j) {
     const Point3 e = minus(f.corners[(j + 1) % 3], f.corners[j]), m = cross(e, f.height.normal);
     const double factor = 1 / length(e);
     return {f.corners[j], {m.x * factor, m.y * factor, m.z * factor}};
 }
+
+} // namespace
 
 // Relative to an edge of length e between points whose differences err by a unit, the altitude and
 // the direction of the normal err by a few: the bounds are several times larger.
@@ -66,6 +67,7 @@ Face measure(const std::array<Point3, 3>& corners) {
     const bool usable = size > smallest_area && f.extent < longest_length;
     f.functional_error =
         usable ? 64 * unit * squared * factor : std::numeric_limits<double>::infinity();
+    for (unsigned j = 0; j < 3; ++j) f.beyond[j] = beyond_edge(f, j);
     return f;
 }
 
@@ -107,7 +109,6 @@ void Faces::choose(const MovedParts& moved, std::span<const CandidatePair> pairs
     faces.resize(names.size());
     for_faces(run, [&](Face& f) {
         f = measure(corners_of(moved, names[static_cast<std::size_t>(&f - faces.data())]));
-        for (unsigned j = 0; j < 3; ++j) f.beyond[j] = beyond_edge(f, j);
     });
 }
 

@@ -34,7 +34,7 @@ struct Functional {
 struct Face {
     std::array<Point3, 3> corners;
     Functional height;                ///< above its plane
-    std::array<Functional, 3> beyond; ///< each edge; of faces that are not apart
+    std::array<Functional, 3> beyond; ///< each edge
     double functional_error = 0; ///< of this and those of the edges, per distance from the face
     double extent = 0;           ///< longest edge of the face
     std::uint32_t part = 0, part_end = 0;     ///< range in Faces::parts
@@ -42,11 +42,8 @@ struct Face {
     std::uint32_t vertex = 0, vertex_end = 0; ///< range in Faces::vertices
 };
 
-/// Without the functionals of the edges and the ranges.
+/// Without the ranges.
 Face measure(const std::array<Point3, 3>& corners);
-
-/// The distance beyond edge j of f.
-Functional beyond_edge(const Face& f, unsigned j);
 
 /// Of the parts of a face at one vertex.
 struct Sizes {
