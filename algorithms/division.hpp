@@ -39,8 +39,9 @@ struct Division {
     DivisionStatistics statistics;
 };
 
-/// Triangles as in TriangleSoup. `candidates` must hold all pairs that meet improperly. Check run.stop afterwards: a stopped run
-/// leaves the result unfinished. Throws std::logic_error where a promise of the kernel is broken.
+/// Triangles as in TriangleSoup. `candidates` must hold all pairs that meet improperly. Check
+/// run.stop afterwards: a stopped run leaves the result unfinished. Throws std::logic_error where a
+/// promise of the kernel is broken.
 Division divide(std::vector<Point3> points, std::span<const Triangle> triangles,
                 std::span<const CandidatePair> candidates, const Run& run);
 

@@ -43,7 +43,8 @@ private:
 /// crowded from the start (coplanar_half_turned), since fine rounds only multiply them.
 constexpr std::array fine_digits{4, 8, 12};
 constexpr std::array coarse_digits{16, 20, 24, 28, 32};
-constexpr std::size_t crowded = 8;    ///< fewer triangles per contact are crowded
+constexpr std::size_t many = 1024;    ///< fewer contacts are no crowd
+constexpr std::size_t crowded = 8;    ///< fewer triangles per contact are one
 constexpr std::size_t multiplied = 8; ///< so many times the contacts: snapping made it worse
 constexpr unsigned widenings = 3;     ///< how often more input triangles join before a coarser grid
 
@@ -88,7 +89,8 @@ public:
         state_.only_dirty(pairs);
         find_first_regions();
         out_.report.naive_contacts = pairs.size();
-        left_crowded_ = !even_crowded_ && crowded * pairs.size() > arrangement_.triangles.size();
+        left_crowded_ = !even_crowded_ && pairs.size() >= many &&
+                        crowded * pairs.size() > arrangement_.triangles.size();
         if (!pairs.empty() && !left_crowded_) repair(pairs);
         if (run_.stop.stop_requested())
             return Error{ErrorCode::interrupted, "stopped on request", ""};
