@@ -121,7 +121,55 @@ void examine(Random& random, const Surface& surface, double size, Found& found) 
     }
 }
 
+/// A large triangle cut by two families of triangles into more than 256 parts.
+Surface much_cut(Random& random) {
+    const auto near = [&](double x) { return x + random_real(random, -0.02, 0.02); };
+    Surface s;
+    const auto add = [&](const Point3& a, const Point3& b, const Point3& c) {
+        const auto first = static_cast<std::uint32_t>(s.vertices.size());
+        s.vertices.insert(s.vertices.end(), {a, b, c});
+        s.triangles.push_back({first, first + 1, first + 2});
+    };
+    add({-2, -2, near(0)}, {6, -2, near(0)}, {-2, 6, near(0)});
+    for (int k = 0; k < 12; ++k) {
+        const double at = k / 12.0;
+        add({near(at), -1.5, -1}, {near(at), 2.5, -1}, {near(at), 0.5, 1});
+        add({-1.5, near(at), -1}, {2.5, near(at), -1}, {0.5, near(at), 1});
+    }
+    return s;
+}
+
 } // namespace
+
+TEST_CASE("clearance: the same of a face with so many parts that far ones are left out") {
+    Random random(113);
+    int improper = 0;
+    for (int i = 0; i < cases(12); ++i) {
+        const Arrangement a = arrange(std::vector{much_cut(random)}).value();
+        REQUIRE(a.degenerate.empty());
+        const auto of_first = std::count_if(a.parents_of.values.begin(), a.parents_of.values.end(),
+                                            [](auto p) { return p == 0; });
+        REQUIRE(of_first > 256);
+        // Wide moves make some triangles flat, small ones nothing improper.
+        const Moved m = moved(random, a, std::pow(10, random_real(random, -6, -3)));
+        const Unclear unclear = find_unclear(
+            {a.points.inputs(), a.inputs.corners, m.points, m.moves, a.triangles, a.parents_of},
+            all_pairs(a.inputs.first.back()), {});
+        const auto has = [&](const auto& list, const auto& value) {
+            return std::binary_search(list.begin(), list.end(), value);
+        };
+        const auto pairs = candidate_pairs({m.points, a.triangles}, {}, Search::automatic);
+        for (const CandidatePair& p : pairs) {
+            if (!improper_contact(m.points, a.triangles[p.first], a.triangles[p.second])) continue;
+            ++improper;
+            REQUIRE((has(unclear.pairs, p) || has(unclear.parts, p.first) ||
+                     has(unclear.parts, p.second) || has(unclear.restless, p.first) ||
+                     has(unclear.restless, p.second)));
+        }
+        CHECK(unclear.parts.size() < a.triangles.size());
+    }
+    CHECK(improper > 0);
+}
 
 TEST_CASE("clearance: what is not listed as unclear is proper") {
     Random random(111);
