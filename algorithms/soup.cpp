@@ -227,14 +227,9 @@ Soup merge_surfaces(std::span<const Surface> surfaces, const Run& run) {
     }
     soup.first_input_vertex.push_back(static_cast<std::uint32_t>(vertices));
     soup.first_input_triangle.push_back(static_cast<std::uint32_t>(triangles));
-    soup.points.resize(vertices);
-    for (std::size_t s = 0; s < surfaces.size(); ++s) {
-        const auto& from = surfaces[s].vertices;
-        Point3* const to = soup.points.data() + soup.first_input_vertex[s];
-        for_ranges(from.size(), run, [&](std::size_t begin, std::size_t end) {
-            std::copy(from.data() + begin, from.data() + end, to + begin);
-        });
-    }
+    soup.points.reserve(vertices);
+    for (const Surface& s : surfaces)
+        soup.points.insert(soup.points.end(), s.vertices.begin(), s.vertices.end());
 
     const auto first = Places(soup.points, run).first_at_same();
     name_corners(soup, surfaces, first, run);
