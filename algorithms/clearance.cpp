@@ -184,6 +184,28 @@ double least_rise(const Sizes& there, double longest, double d) {
     return 128 * d * ratio * ratio;
 }
 
+/// Where a part passes the end of a line on which faces cross, it has corners above and below. So
+/// the distance e beyond the edge there is turned round it, into the height h, until two corners
+/// are equally far. Corners `before` the edge must all rise by that.
+template <class Leaves>
+bool leaves_turned(const std::array<double, 3>& e, const std::array<double, 3>& h,
+                   const std::array<bool, 3>& before, double least, const Leaves& leaves) {
+    bool up = true, down = true;
+    for (unsigned i = 0; i < 3; ++i)
+        if (before[i]) {
+            up = up && h[i] > least;
+            down = down && h[i] < -least;
+        }
+    for (unsigned i = 0; i < 3 && (up || down); ++i) {
+        const unsigned j = (i + 1) % 3;
+        const double across = h[j] - h[i], along = e[i] - e[j];
+        const double size = std::copysign(std::sqrt(across * across + along * along), across);
+        const double c = across / size, s = along / size;
+        if (leaves(c * e[0] + s * h[0], c * e[1] + s * h[1], c * e[2] + s * h[2])) return true;
+    }
+    return false;
+}
+
 /// Case (1) or (2) of the lemma for a part of another face, by any of the functionals.
 bool Prover::is_clear(const Pair& pair, const Cell& cell, std::uint32_t entry) const {
     const double d = pair.d;
@@ -203,6 +225,7 @@ bool Prover::is_clear(const Pair& pair, const Cell& cell, std::uint32_t entry) c
     double least = d; // what corners off g must rise above
     for (unsigned i = 0; i < 3; ++i)
         if (on[i]) least = std::max(least, least_rise(*there[i], longest, d));
+    if (std::isinf(least)) return false;
     const auto leaves = [&](double a, double b, double c) {
         const bool rests_a = on[0] && std::fabs(a) <= d / 2,
                    rests_b = on[1] && std::fabs(b) <= d / 2,
@@ -210,10 +233,17 @@ bool Prover::is_clear(const Pair& pair, const Cell& cell, std::uint32_t entry) c
         return (rests_a || a > least) && (rests_b || b > least) && (rests_c || c > least) &&
                !(rests_a && rests_b && rests_c);
     };
-    const double a = pair.g.height(at[0]), b = pair.g.height(at[1]), c = pair.g.height(at[2]);
-    if (leaves(a, b, c) || leaves(-a, -b, -c)) return true;
-    for (const Functional& u : pair.g.beyond)
-        if (leaves(u(at[0]), u(at[1]), u(at[2]))) return true;
+    const Functional& height = pair.g.height;
+    const std::array<double, 3> h{height(at[0]), height(at[1]), height(at[2])};
+    if (leaves(h[0], h[1], h[2]) || leaves(-h[0], -h[1], -h[2])) return true;
+    for (const Functional& u : pair.g.beyond) {
+        const std::array<double, 3> e{u(at[0]), u(at[1]), u(at[2])};
+        if (leaves(e[0], e[1], e[2])) return true;
+        std::array<bool, 3> before{};
+        for (unsigned i = 0; i < 3; ++i)
+            before[i] = e[i] <= least && !(on[i] && std::fabs(e[i]) <= d / 2);
+        if (leaves_turned(e, h, before, least, leaves)) return true;
+    }
     return false;
 }
 

@@ -4,10 +4,11 @@
 // provably do not, face against face, with no pair of parts looked at.
 //
 // Two faces F and G, divided exactly; every vertex of their parts within d of its exact place. Let
-// u be a unit functional that is <= 0 on G (the height above its plane, above or below, or the
-// distance beyond one of its edges): after the move u <= d on the parts of G. A part c of F
-// (1) with u > d at all corners meets no part of G;
-// (2) whose corners either are vertices of parts of G with |u| <= d, or have u >= 64 d (l / a)^2,
+// u be a unit functional that is <= 0 on G (the height above its plane, above or below, the
+// distance beyond one of its edges, or the latter turned round its edge by less than a right
+// angle): after the move u <= d on the parts of G. A part c of F (1) with u > d at all corners
+// meets no part of G; (2) whose corners either are vertices of parts of G with |u| <= d, or have u
+// >= 64 d (l / a)^2,
 //     meets each part of G in their common vertices and edges only, where a^2 >= 64 d l. Here l is
 //     at least the longest edge of c and of the parts of G at those vertices, and a at most the
 //     least altitude of these.
