@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <memory>
 #include <string_view>
@@ -19,10 +20,12 @@ namespace {
 
 constexpr std::size_t most_contacts = 10; ///< on the terminal
 constexpr const char* default_holes = "all";
+constexpr const char* no_smoothing = "none";
 
 struct FillCommand {
     FileOptions files;
     FillSettings settings;
+    std::string smoothing = no_smoothing; ///< as it was said
     std::string holes = default_holes;
     bool list = false;
     std::string map;    ///< empty: none
@@ -34,10 +37,11 @@ constexpr auto footer =
 with a throw is a gap torn by a fault; gaps are left open unless --bridge-faults. --list says what
 there is, by the numbers that --holes takes.
 
-kriging needs a surface that is z = f(x, y) round the hole; it foresees its error. rbf (the zero level
-of a radial basis function through points round the hole) takes any surface, folds too. The surface keeps all its vertices and
-triangles; new ones come after them and share the border's vertices. Where new triangles would cross
-others, nothing is written. VTP gets arrays invented (the number of the hole, 0 for what was given)
+kriging needs a surface that is z = f(x, y) round the hole. rbf (the zero level of a radial basis
+function through points round the hole) takes any surface, folds too; with --smoothing it need not
+meet these points. Both foresee their errors. The surface keeps all its vertices and triangles; new
+ones come after them and share the border's vertices. Where new triangles would cross others, nothing
+is written. VTP gets arrays invented (the number of the hole, 0 for what was given)
 and deviation (the expected error, mean of the corners). A hole that can't be filled is named and
 left open, and the exit status is 1.
 
@@ -140,6 +144,23 @@ Result<bool> fill_and_write(const FillCommand& command, const std::vector<Output
     return refused.empty();
 }
 
+Status read_smoothing(FillCommand& command) {
+    const std::string& text = command.smoothing;
+    if (text == no_smoothing) return Done{};
+    if (command.settings.method != "rbf")
+        return Error{ErrorCode::bad_option, "is of --method rbf", "--smoothing"};
+    double length = 0;
+    if (text != "auto") {
+        const char* const end = text.data() + text.size();
+        const auto read = std::from_chars(text.data(), end, length);
+        if (read.ec != std::errc{} || read.ptr != end || !(length > 0) || !std::isfinite(length))
+            return Error{ErrorCode::bad_option, "needs none, auto or a length: " + text,
+                         "--smoothing"};
+    }
+    command.settings.smoothing = length;
+    return Done{};
+}
+
 Result<ExitStatus> fill_files(const FillCommand& command, Session& session) {
     Stopwatch total;
     const auto outputs = plan(command);
@@ -194,6 +215,10 @@ void add_method(CLI::App& app, FillCommand& command) {
         ->type_name("MODEL");
     app.add_flag("--isotropic", command.settings.isotropic,
                  "The variogram is the same in all directions");
+    app.add_option("--smoothing", command.smoothing,
+                   "Of rbf: none; auto, as much as predicts data best from others; or the root "
+                   "mean square by which data may be missed (default: none)")
+        ->type_name("none|auto|LENGTH");
     app.add_option("--mesh-size", command.settings.mesh_size,
                    "Edges of the filling (default: the median edge of the hole's border)")
         ->check(CLI::PositiveNumber.description(""))
@@ -226,6 +251,7 @@ Command fill_command(CLI::App& program) {
     add_stats(*app, options->files);
     app->footer(footer);
     return {app, [options] {
+                if (const auto read = read_smoothing(*options); !read) return fail(read.error());
                 Session session(options->files.threads);
                 const auto status = fill_files(*options, session);
                 return status ? status.value() : fail(status.error());

@@ -2,6 +2,7 @@
 #include <terrane/cli/fill_stage.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -49,8 +50,11 @@ Result<OneFilled> by_kriging(const FillSettings& settings, const Surface& surfac
 Result<OneFilled> by_rbf(const FillSettings& settings, const Surface& surface,
                          const BorderLoop& loop, std::span<const BorderLoop> loops,
                          const Run& run) {
-    const auto filling =
-        fill_by_rbf(surface, loop, {.size = settings.mesh_size, .loops = loops}, run);
+    RbfOptions options;
+    options.size = settings.mesh_size;
+    options.loops = loops;
+    options.smoothing = settings.smoothing;
+    const auto filling = fill_by_rbf(surface, loop, options, run);
     if (!filling) return filling.error();
     auto made = join_filling(surface, loop, filling.value().surface, {.loops = loops}, run);
     if (!made) return made.error();
@@ -58,8 +62,14 @@ Result<OneFilled> by_rbf(const FillSettings& settings, const Surface& surface,
     filled.report = filling.value().report;
     filled.report.invented = made.value().report.new_vertices;
     filled.report.area = made.value().report.area;
-    for (const auto v : made.value().filling_vertices)
+    double squares = 0;
+    for (const auto v : made.value().filling_vertices) {
         filled.deviation.push_back(filling.value().deviation[v]);
+        squares += filled.deviation.back() * filled.deviation.back();
+    }
+    if (!filled.deviation.empty()) // of what was joined, without the margin beyond the border
+        filled.report.expected_error =
+            std::sqrt(squares / static_cast<double>(filled.deviation.size()));
     filled.surface = std::move(made.value().surface);
     return filled;
 }

@@ -28,7 +28,8 @@ struct FillSettings {
     std::size_t rings = KrigingOptions{}.rings; ///< of data, for kriging
     double gap_slope = GapRule{}.slope;
     bool isotropic = false;
-    bool bridge = false; ///< fault gaps, too
+    bool bridge = false;               ///< fault gaps, too
+    std::optional<double> smoothing{}; ///< RbfOptions::smoothing
 };
 
 /// A surface whose holes are to be filled.

@@ -36,6 +36,7 @@ FillSettings settings_of(const ProjectFill& entry) {
     s.mesh_size = entry.mesh_size.value_or(s.mesh_size);
     s.gap_slope = entry.gap_slope.value_or(s.gap_slope);
     s.bridge = entry.bridge_faults;
+    s.smoothing = entry.smoothing;
     return s;
 }
 

@@ -31,8 +31,9 @@ constexpr std::array<std::string_view, 12> project_level{
     "extend", "seal",   "improve", "tetrahedra", "outputs"};
 constexpr std::array<std::string_view, 5> surfaces_level{"file", "objects", "name", "role",
                                                          "depth"};
-constexpr std::array<std::string_view, 7> fill_level{
-    "surface", "method", "model", "max_area", "mesh_size", "gap_slope", "bridge_faults"};
+constexpr std::array<std::string_view, 8> fill_level{"surface",       "method",    "model",
+                                                     "max_area",      "mesh_size", "gap_slope",
+                                                     "bridge_faults", "smoothing"};
 constexpr std::array<std::string_view, 2> layers_level{"order", "min_thickness"};
 constexpr std::array<std::string_view, 2> layer_level{"surface", "hardness"};
 constexpr std::array<std::string_view, 4> volume_level{"box", "rotated_box", "polygon", "within"};
@@ -319,7 +320,16 @@ private:
             f.gap_slope = in_.positive(*v, path + ".gap_slope");
         if (const Json* v = in_.find(json, "bridge_faults"))
             f.bridge_faults = in_.truth(*v, path + ".bridge_faults");
+        if (const Json* v = in_.find(json, "smoothing"))
+            f.smoothing = smoothing(*v, path + ".smoothing");
         return f;
+    }
+
+    double smoothing(const Json& value, const std::string& path) {
+        if (value == "auto") return 0;
+        if (value.is_number()) return in_.positive(value, path);
+        in_.fail(path, "must be auto or a number larger than 0");
+        return 0;
     }
 
     ProjectLayers layers(const Json& json) {

@@ -53,6 +53,7 @@ struct ProjectFill {
     std::optional<double> mesh_size{}; ///< none: as the border's edges
     std::optional<double> gap_slope{}; ///< none: as GapRule has it
     bool bridge_faults = false;        ///< gaps that a fault has torn, too
+    std::optional<double> smoothing{}; ///< root mean square by which rbf may miss data; 0: "auto"
 };
 
 /// A horizon of a stack, and how hard it is.

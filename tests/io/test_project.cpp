@@ -33,8 +33,9 @@ json full() {
         "surfaces": [{"file": "a.ts", "objects": ["top", "base"], "role": "horizon"},
                      {"file": "/b.ts", "objects": ["x"], "name": "F1", "role": "fault", "depth": true}],
         "fill": [{"surface": "top", "method": "rbf", "model": "power", "max_area": 1000,
-                  "mesh_size": 2.5, "gap_slope": 0.5, "bridge_faults": true},
-                 {"surface": "base"}],
+                  "mesh_size": 2.5, "gap_slope": 0.5, "bridge_faults": true,
+                  "smoothing": 0.25},
+                 {"surface": "base", "smoothing": "auto"}, {"surface": "salt"}],
         "layers": {"order": [{"surface": "top", "hardness": 1.5},
                              {"surface": "base", "hardness": -2}], "min_thickness": 0.5},
         "volume_of_interest": {"box": {"low": [0, 0, -1.5], "high": [1, 2, 3]}},
@@ -222,7 +223,7 @@ TEST_CASE("project: all keys are read", "[io][project]") {
     CHECK(p.surfaces[1].role == Role::fault);
     CHECK(p.surfaces[1].depth);
     CHECK_FALSE(p.surfaces[0].depth);
-    REQUIRE(p.fill.size() == 2);
+    REQUIRE(p.fill.size() == 3);
     CHECK(p.fill[0].surface == "top");
     CHECK(p.fill[0].method == "rbf");
     CHECK(p.fill[0].model == "power");
@@ -230,6 +231,9 @@ TEST_CASE("project: all keys are read", "[io][project]") {
     CHECK(p.fill[0].mesh_size == 2.5);
     CHECK(p.fill[0].gap_slope == 0.5);
     CHECK(p.fill[0].bridge_faults);
+    CHECK(p.fill[0].smoothing == 0.25);
+    CHECK(p.fill[1].smoothing == 0.0);
+    CHECK_FALSE(p.fill[2].smoothing.has_value());
     CHECK(p.fill[1].surface == "base");
     CHECK(p.fill[1].method == "kriging");
     CHECK(p.fill[1].model == "auto");
@@ -345,6 +349,8 @@ TEST_CASE("project: what is wrong is named by its key", "[io][project]") {
     CHECK(with("/surfaces/0/colour", 1) ==
           "p.json: surfaces[0].colour: unknown key; there are file, objects, name, role or depth");
     CHECK(with("/fill/0/method", "guess") == "p.json: fill[0].method: must be kriging or rbf");
+    CHECK(with("/fill/0/smoothing", "much") ==
+          "p.json: fill[0].smoothing: must be auto or a number larger than 0");
     CHECK(with("/layers/order/1/hard", 2) ==
           "p.json: layers.order[1].hard: unknown key; there are surface or hardness");
     CHECK(with("/layers/order", json::array()) ==
