@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Dense>
+
 #include <terrane/algorithms/parallel.hpp>
 #include <terrane/algorithms/rbf_fit.hpp>
 #include <terrane/algorithms/vectors.hpp>
@@ -51,49 +53,49 @@ RbfError::RbfError(const HoleData& data, const RbfPolynomial& polynomial, double
     nugget_ = nugget * static_cast<double>(points_.size()) /
               static_cast<double>(std::max<std::size_t>(data.points.size(), 1)) /
               (scale_ * scale_ * scale_);
-    const auto n = static_cast<Eigen::Index>(points_.size());
-    const Eigen::Index m = terms_at({}).size();
+    const auto n = static_cast<Eigen::Index>(points_.size()),
+               m = static_cast<Eigen::Index>(terms());
     Eigen::MatrixXd system = Eigen::MatrixXd::Zero(n + m, n + m);
+    Eigen::VectorXd row(m);
     for (Eigen::Index i = 0; i < n; ++i) {
         const Point3& p = points_[static_cast<std::size_t>(i)];
         for (Eigen::Index j = 0; j < i; ++j)
             system(i, j) = system(j, i) = cubed_distance(p, points_[static_cast<std::size_t>(j)]);
         system(i, i) = nugget_;
-        const Eigen::VectorXd terms = terms_at(p);
-        system.block(i, n, 1, m) = terms.transpose();
-        system.block(n, i, m, 1) = terms;
+        terms_at(p, row.data());
+        system.block(i, n, 1, m) = row.transpose();
+        system.block(n, i, m, 1) = row;
     }
-    system_.compute(system);
+    const Eigen::MatrixXd inverse = system.partialPivLu().inverse();
+    inverse_.assign(inverse.data(), inverse.data() + inverse.size());
 }
 
 /// Monomials along the surface: across it all data may be 0.
-Eigen::VectorXd RbfError::terms_at(const Point3& p) const {
+void RbfError::terms_at(const Point3& p, double* terms) const {
     const double u = dot(p, basis_.axes[0]), v = dot(p, basis_.axes[1]);
-    Eigen::VectorXd terms(static_cast<Eigen::Index>(basis_.terms()) - 1);
-    Eigen::Index next = 0;
     double up = 1;
     for (unsigned i = 0; i <= basis_.degree; ++i, up *= u) {
         double both = up;
-        for (unsigned j = 0; i + j <= basis_.degree; ++j, both *= v) terms[next++] = both;
+        for (unsigned j = 0; i + j <= basis_.degree; ++j, both *= v) *terms++ = both;
     }
-    return terms;
 }
 
 std::vector<double> RbfError::at(std::span<const Point3> places, bool measured,
                                  const Run& run) const {
     std::vector<double> result(places.size());
-    const auto n = static_cast<Eigen::Index>(points_.size());
+    const std::size_t n = points_.size();
+    const auto size = static_cast<Eigen::Index>(n + terms());
+    const Eigen::Map<const Eigen::MatrixXd> inverse(inverse_.data(), size, size);
+    const double unit = scale_ * scale_ * scale_;
     for_ranges(places.size(), run, [&](std::size_t first, std::size_t last) {
+        Eigen::VectorXd right(size);
         for (std::size_t k = first; k < last; ++k) {
             const Point3 d = minus(places[k], middle_);
             const Point3 p{d.x / scale_, d.y / scale_, d.z / scale_};
-            Eigen::VectorXd right(system_.matrixLU().rows());
-            for (Eigen::Index i = 0; i < n; ++i)
-                right[i] = cubed_distance(p, points_[static_cast<std::size_t>(i)]);
-            const Eigen::VectorXd terms = terms_at(p);
-            right.tail(terms.size()) = terms;
-            const double variance = -right.dot(system_.solve(right)) + (measured ? nugget_ : 0);
-            result[k] = std::sqrt(std::max(variance, 0.0) * scale_ * scale_ * scale_);
+            for (std::size_t i = 0; i < n; ++i) right.data()[i] = cubed_distance(p, points_[i]);
+            terms_at(p, right.data() + n);
+            const double variance = -right.dot(inverse * right) + (measured ? nugget_ : 0);
+            result[k] = std::sqrt(std::max(variance, 0.0) * unit);
         }
     });
     return result;

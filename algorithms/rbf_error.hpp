@@ -4,12 +4,9 @@
 // rbf.
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <span>
 #include <vector>
-
-#include <Eigen/Dense>
-#include <Eigen/LU>
 
 #include <terrane/algorithms/rbf_data.hpp>
 #include <terrane/algorithms/rbf_function.hpp>
@@ -33,14 +30,15 @@ public:
                                          const Run& run) const;
 
 private:
-    [[nodiscard]] Eigen::VectorXd terms_at(const Point3& p) const;
+    [[nodiscard]] std::size_t terms() const { return basis_.terms() - 1; }
+    void terms_at(const Point3& p, double* terms) const;
 
     std::vector<Point3> points_; ///< scaled
     RbfPolynomial basis_;
     Point3 middle_;
     double scale_ = 1;
     double nugget_ = 0;
-    Eigen::PartialPivLU<Eigen::MatrixXd> system_;
+    std::vector<double> inverse_; ///< of the kriging system: square, of points and terms
 };
 
 } // namespace terrane

@@ -289,7 +289,8 @@ struct Trials {
 
     /// Enough to tell forms apart.
     static RbfOptions fewer(RbfOptions options) {
-        options.most_centres = std::min<std::size_t>(4 * options.most_centres, 800);
+        const std::size_t enough = options.smoothing ? 400 : 800;
+        options.most_centres = std::min<std::size_t>(4 * options.most_centres, enough);
         return options;
     }
 

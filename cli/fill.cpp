@@ -98,9 +98,9 @@ Status write_all(const FillCommand& command, const std::vector<Output>& outputs,
               output.path == "-" ? "" : "wrote " + output.path + "\n");
     }
     if (!command.map.empty())
-        if (const auto written = write_file(command.map, map_of(work)); !written) return written;
+        if (auto written = write_file(command.map, map_of(work)); !written) return written;
     if (!command.points.empty())
-        if (const auto written = write_file(command.points, csv_of(work)); !written) return written;
+        if (auto written = write_file(command.points, csv_of(work)); !written) return written;
     return Done{};
 }
 

@@ -67,9 +67,9 @@ Result<OneFilled> by_rbf(const FillSettings& settings, const Surface& surface,
         filled.deviation.push_back(filling.value().deviation[v]);
         squares += filled.deviation.back() * filled.deviation.back();
     }
-    if (!filled.deviation.empty()) // of what was joined, without the margin beyond the border
-        filled.report.expected_error =
-            std::sqrt(squares / static_cast<double>(filled.deviation.size()));
+    // Of what was joined, without the margin beyond the border.
+    filled.report.expected_error =
+        std::sqrt(squares / std::max(1.0, static_cast<double>(filled.deviation.size())));
     filled.surface = std::move(made.value().surface);
     return filled;
 }

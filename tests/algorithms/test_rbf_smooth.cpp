@@ -278,6 +278,7 @@ TEST_CASE("rbf: noise of the data stays out of the hole, met or smoothed", "[rbf
          {std::optional<double>(), std::optional<double>(0.0), std::optional<double>(0.05)}) {
         RbfOptions options;
         options.smoothing = smoothing;
+        options.most_centres = 400;
         RbfReport report;
         const auto filling = fill_by_rbf(s, hole, options, report, {});
         REQUIRE(filling);
