@@ -151,7 +151,8 @@ private:
             points.push_back(data_.points[i]);
             values.push_back(0);
         }
-        auto fit = smooth_rbf(points_, points, values, form_.polynomial, *options_.smoothing, run_);
+        auto fit = smooth_rbf(points_, points, values, form_.polynomial,
+                              options_.smoothing.value_or(0), run_);
         if (!fit) return fit.error();
         Implicit f;
         f.smooth = std::move(fit.value().function);
