@@ -288,6 +288,12 @@ TEST_CASE("rbf: noise of the data stays out of the hole, met or smoothed", "[rbf
             CHECK(report.rms_error == Approx(0.05).epsilon(0.2));
         } else {
             CHECK(report.largest_error < 1e-10);
+            RbfOptions again = options; // no trace of what was asked for once
+            again.smoothing = 40.0;
+            again.smoothing.reset();
+            const auto same = fill_by_rbf(s, hole, again);
+            REQUIRE(same);
+            CHECK(same.value().surface.vertices == filling.value().surface.vertices);
         }
         const auto made = join_filling(s, hole, filling.value().surface);
         if (!made) FAIL(made.error().message());
