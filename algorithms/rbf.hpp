@@ -11,8 +11,8 @@
 //       much, else along normals;
 //   (3) centres: a well-spread start, then again and again the data that f misses most, until it
 //       misses none by more than `tolerance` or there are `most_centres` (rbf_function.hpp). With
-//       smoothing, and where it is the better by a tenth: the well-spread ones alone, their weights
-//       from all data by penalised least squares (rbf_smooth.cpp);
+//       smoothing, and where it is the better by a quarter: the well-spread ones alone, their
+//       weights from all data by penalised least squares (rbf_smooth.cpp);
 //   (4) what f then still misses at the data, be they millions, is made up for by a partition of
 //       unity: small patches with a function |p - q| of their own, blended, and fading away into
 //       the hole (rbf_patches.hpp). So every datum is met, whatever the number of centres; not with

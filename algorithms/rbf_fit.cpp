@@ -405,6 +405,7 @@ Result<RbfChoice> choose_form(const HoleData& data, const RbfOptions& options, c
         least = trial;
     };
     constexpr double worth = 0.9;   // what is less plain must be better by so much
+    constexpr double much = 0.75;   // likewise, for what takes roughness for noise
     constexpr double exact = 1e-12; // radii: nothing to be gained
     for (const RbfForm& form : forms) {
         if (least.missed < exact * data.radius) break;
@@ -421,7 +422,7 @@ Result<RbfChoice> choose_form(const HoleData& data, const RbfOptions& options, c
             const auto trial = try_form(trials, form, false, run);
             if (!trial) return trial.error();
             if (!smoothed) least = trial.value();
-            consider(form, trial.value(), worth);
+            consider(form, trial.value(), much);
         }
     }
     best.validated = least.missed;
