@@ -350,7 +350,7 @@ Result<Joined> join_with(const Surface& surface, std::span<const Border> borders
 std::vector<double> widths(const Border& border, const JoinOptions& options) {
     if (options.strip > 0) return {options.strip};
     const double half = border.median_edge / 2;
-    return {half, half / 8, 4 * half};
+    return {half, half / 8, 2 * half, 1.4 * half, 4 * half};
 }
 
 /// Outer borders of other parts whose boxes overlap the loop's, made wider by its longest side: an

@@ -38,7 +38,8 @@ namespace terrane {
 
 struct JoinOptions {
     double strip = 0; ///< d, the half width of S_bound, unit of the surface; 0: half the median
-                      ///< border edge, and where that fails an eighth of it, then twice it
+                      ///< border edge, and where that fails an eighth of it, then wider ones, up
+                      ///< to four times it
     double clearance =
         0.5; ///< a vertex of the filling nearer to a border edge than this share of
              ///< the edge's length (or of the filling's own edges, if less) gives way

@@ -152,8 +152,8 @@ private:
     }
     [[nodiscard]] std::string place(std::uint32_t t) const {
         const Point3 p = corner(t, 0);
-        return "(" + std::to_string(p.x) + ", " + std::to_string(p.y) + ", " + std::to_string(p.z) +
-               ")";
+        return a_.surfaces[a_.surfaces_of[t][0]].name + " (" + std::to_string(p.x) + ", " +
+               std::to_string(p.y) + ", " + std::to_string(p.z) + ")";
     }
 
     std::span<const Layer> order_;
@@ -243,10 +243,16 @@ Result<Set> Stacker::replace(const Set& soft, const Set& hard, Side kept, LayerR
         Set both;
         std::set_intersection(one->begin(), one->end(), other->begin(), other->end(),
                               std::back_inserter(both));
-        if (!both.empty())
-            return Error{ErrorCode::unsupported,
-                         "a layer is above and below another along one vertical: it is no graph",
-                         place(both[0])};
+        if (both.empty()) continue;
+        // One triangle is on both sides of a layer: it is that layer that is overturned.
+        const bool of_soft = one == &dropped;
+        const auto pair =
+            std::find_if(related.value().begin(), related.value().end(), [&](const Relation& r) {
+                return (of_soft ? r.first : r.second) == both[0];
+            });
+        return Error{ErrorCode::unsupported,
+                     "a layer is above and below another along one vertical: it is no graph",
+                     place(of_soft ? pair->second : pair->first)};
     }
     Set result;
     std::set_difference(soft.begin(), soft.end(), dropped.begin(), dropped.end(),

@@ -5,16 +5,15 @@
 #include <cmath>
 #include <limits>
 #include <new>
-#include <numeric>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include <terrane/algorithms/edges.hpp>
-#include <terrane/algorithms/parallel.hpp>
 #include <terrane/algorithms/rbf_data.hpp>
-#include <terrane/algorithms/rbf_patches.hpp>
+#include <terrane/algorithms/rbf_error.hpp>
+#include <terrane/algorithms/rbf_fit.hpp>
 #include <terrane/algorithms/triangle_tree.hpp>
 #include <terrane/algorithms/vectors.hpp>
 #include <terrane/algorithms/zero_level.hpp>
@@ -26,279 +25,6 @@ constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
 double length(const Point3& a) {
     return std::hypot(a.x, a.y, a.z);
-}
-
-Point3 along(const Point3& p, double d, const Point3& direction) {
-    return {p.x + d * direction.x, p.y + d * direction.y, p.z + d * direction.z};
-}
-
-/// The function of steps (1) to (4).
-struct Implicit {
-    RbfFunction smooth;
-    RbfPatches rest;
-
-    [[nodiscard]] double operator()(const Point3& p) const {
-        return rest.size() == 0 ? smooth(p) : smooth(p) + rest(p);
-    }
-};
-
-/// Points of the data, each as far as can be from those before it, the first one given.
-std::vector<std::uint32_t> well_spread(const std::vector<Point3>& points, std::size_t count) {
-    std::vector<std::uint32_t> chosen{0};
-    std::vector<double> distance(points.size(), std::numeric_limits<double>::infinity());
-    while (chosen.size() < std::min(count, points.size())) {
-        std::uint32_t farthest = 0;
-        for (std::uint32_t i = 0; i < points.size(); ++i) {
-            distance[i] = std::min(distance[i], length(minus(points[i], points[chosen.back()])));
-            if (distance[i] > distance[farthest]) farthest = i;
-        }
-        if (!(distance[farthest] > 0)) break;
-        chosen.push_back(farthest);
-    }
-    return chosen;
-}
-
-class Fitter {
-public:
-    Fitter(const HoleData& data, const RbfOptions& options, const RbfPolynomial& polynomial,
-           RbfReport& report, const Run& run) :
-        data_(data),
-        options_(options), polynomial_(polynomial), report_(report), run_(run) {}
-
-    Result<Implicit> operator()() {
-        report_.data = data_.points.size();
-        choose_start();
-        Implicit f;
-        for (;;) {
-            if (run_.stop.stop_requested())
-                return Error{ErrorCode::interrupted, "stopped on request", ""};
-            auto fit = fit_rbf(points_, values_, {polynomial_, 0}, run_);
-            if (!fit) return fit.error();
-            f.smooth = std::move(fit.value().function);
-            if (run_.progress)
-                run_.progress("rbf", 0.5 * static_cast<double>(centres_) /
-                                         static_cast<double>(options_.most_centres));
-            if (!add_missed(errors_of(f))) break;
-        }
-        auto fit = fit_rbf(points_, values_, {polynomial_, refinements_}, run_);
-        if (!fit) return fit.error();
-        f.smooth = std::move(fit.value().function);
-        report_.solution = fit.value().solution;
-        report_.centres = centres_;
-        make_up(f);
-        return f;
-    }
-
-    /// Without refinement and step (4).
-    Result<Implicit> quick() {
-        choose_start();
-        Implicit f;
-        auto fit = fit_rbf(points_, values_, {polynomial_, 0}, run_);
-        if (!fit) return fit.error();
-        f.smooth = std::move(fit.value().function);
-        return f;
-    }
-
-private:
-    /// Step (2): a well-spread quarter of the centres, with constraints off the surface.
-    void choose_start() {
-        constexpr std::size_t share = 4;
-        const auto start =
-            well_spread(data_.points, std::max<std::size_t>(10, options_.most_centres / share));
-        is_centre_.assign(data_.points.size(), false);
-        for (const std::uint32_t i : start) add_centre(i);
-        const TriangleTree tree(data_.points, data_.triangles);
-        const double wanted =
-            options_.offset > 0 ? options_.offset : std::max(data_.radius / 20, data_.edge / 2);
-        report_.offset = wanted;
-        for (const std::uint32_t i : start)
-            for (const double side : {-1.0, 1.0}) add_offset(tree, i, side * wanted);
-        spacing_ = 0;
-        for (const std::uint32_t i : start) {
-            double least = std::numeric_limits<double>::infinity();
-            for (const std::uint32_t j : start)
-                if (j != i)
-                    least = std::min(least, length(minus(data_.points[i], data_.points[j])));
-            spacing_ = std::max(spacing_, least);
-        }
-    }
-
-    void add_centre(std::uint32_t i) {
-        is_centre_[i] = true;
-        points_.push_back(data_.points[i]);
-        values_.push_back(0);
-        ++centres_;
-    }
-
-    /// f = d at a distance d along the normal, if the surface is no nearer there; else less of it.
-    void add_offset(const TriangleTree& tree, std::uint32_t i, double d) {
-        if (data_.normals[i] == Point3{}) return;
-        constexpr double enough = 0.95; // the surface may curve towards the point a little
-        constexpr int halvings = 3;
-        for (int k = 0; k < halvings; ++k, d /= 2) {
-            const Point3 p = along(data_.points[i], d, data_.normals[i]);
-            if (tree.distance(p, std::fabs(d)) < enough * std::fabs(d)) continue;
-            points_.push_back(p);
-            values_.push_back(d);
-            ++report_.offsets;
-            return;
-        }
-    }
-
-    [[nodiscard]] std::vector<double> errors_of(const Implicit& f) const {
-        std::vector<double> errors(data_.points.size());
-        for_ranges(errors.size(), run_, [&](std::size_t a, std::size_t b) {
-            for (std::size_t i = a; i < b; ++i) errors[i] = f(data_.points[i]);
-        });
-        return errors;
-    }
-
-    [[nodiscard]] double tolerance() const {
-        return options_.tolerance > 0 ? options_.tolerance : data_.edge / 1000;
-    }
-
-    /// Step (3): the data missed most become centres, no two of them near each other. False where
-    /// none is missed by too much, or there are centres enough.
-    bool add_missed(const std::vector<double>& errors) {
-        std::vector<std::uint32_t> missed;
-        for (std::uint32_t i = 0; i < errors.size(); ++i)
-            if (!is_centre_[i] && std::fabs(errors[i]) > tolerance()) missed.push_back(i);
-        if (missed.empty() || centres_ >= options_.most_centres) return false;
-        std::sort(missed.begin(), missed.end(), [&](std::uint32_t a, std::uint32_t b) {
-            const double x = std::fabs(errors[a]), y = std::fabs(errors[b]);
-            return x > y || (x == y && a < b);
-        });
-        const std::size_t most = std::min(options_.most_centres, 2 * centres_) - centres_;
-        std::vector<std::uint32_t> taken;
-        for (const std::uint32_t i : missed) {
-            if (taken.size() == most) break;
-            const bool crowded = std::any_of(taken.begin(), taken.end(), [&](std::uint32_t j) {
-                return length(minus(data_.points[i], data_.points[j])) < spacing_ / 2;
-            });
-            if (!crowded) taken.push_back(i);
-        }
-        for (const std::uint32_t i : taken) add_centre(i);
-        spacing_ /= 2;
-        return true;
-    }
-
-    /// Step (4), where step (3) left errors.
-    void make_up(Implicit& f) {
-        auto errors = errors_of(f);
-        const auto largest = [&] {
-            double most = 0;
-            for (const double e : errors) most = std::max(most, std::fabs(e));
-            return most;
-        };
-        report_.missed = largest();
-        if (report_.missed > tolerance()) {
-            for (double& e : errors) e = -e;
-            f.rest = RbfPatches(data_.points, errors);
-            report_.patches = f.rest.size();
-            errors = errors_of(f);
-        }
-        report_.largest_error = largest();
-        double squares = 0;
-        for (const double e : errors) squares += e * e;
-        report_.rms_error = std::sqrt(squares / static_cast<double>(errors.size()));
-    }
-
-    const HoleData& data_;
-    const RbfOptions& options_;
-    const RbfPolynomial& polynomial_;
-    RbfReport& report_;
-    const Run& run_;
-    std::vector<Point3> points_; ///< of the constraints
-    std::vector<double> values_;
-    std::vector<bool> is_centre_; ///< per datum
-    std::size_t centres_ = 0;
-    double spacing_ = 0;
-    unsigned refinements_ = 6;
-};
-
-/// The data without those nearest to the hole, as if it were larger.
-struct LeftOut {
-    HoleData kept;
-    std::vector<std::uint32_t> points; ///< left out
-};
-
-LeftOut leave_out(const HoleData& data) {
-    const double most = *std::max_element(data.distances.begin(), data.distances.end());
-    const double width = std::max(std::min(data.radius / 4, most / 3), 1.5 * data.edge);
-    LeftOut result;
-    HoleData& kept = result.kept;
-    std::vector<std::uint32_t> name(data.points.size(), UINT32_MAX);
-    for (std::uint32_t i = 0; i < data.points.size(); ++i) {
-        if (data.distances[i] < width) {
-            result.points.push_back(i);
-            continue;
-        }
-        name[i] = static_cast<std::uint32_t>(kept.points.size());
-        kept.points.push_back(data.points[i]);
-        kept.normals.push_back(data.normals[i]);
-        kept.distances.push_back(data.distances[i]);
-    }
-    for (const Triangle& t : data.triangles)
-        if (name[t[0]] != UINT32_MAX && name[t[1]] != UINT32_MAX && name[t[2]] != UINT32_MAX)
-            kept.triangles.push_back({name[t[0]], name[t[1]], name[t[2]]});
-    kept.edge = data.edge;
-    kept.radius = data.radius;
-    return result;
-}
-
-/// How far a fit to what was kept is from what was left out, root mean square; NaN for no fit.
-double error_of(const HoleData& data, const LeftOut& left, const RbfOptions& options,
-                const RbfPolynomial& polynomial, const Run& run) {
-    RbfReport unused;
-    RbfOptions fewer = options;
-    fewer.most_centres = std::min<std::size_t>(4 * options.most_centres, 800);
-    Fitter fitter(left.kept, fewer, polynomial, unused, run);
-    const auto f = fitter.quick();
-    if (!f) return no_number;
-    double squares = 0;
-    for (const std::uint32_t i : left.points) {
-        const double slope = length(f.value().smooth.gradient(data.points[i]));
-        const double off = f.value()(data.points[i]) / std::max(slope, 0.1);
-        squares += off * off;
-    }
-    return std::sqrt(squares / static_cast<double>(left.points.size()));
-}
-
-/// Axes along and across the hole: the last along the mean normal of its border.
-std::array<Point3, 3> axes_of(const HoleData& data) {
-    Point3 n;
-    for (std::size_t i = 0; i < data.next.size(); ++i) n = along(n, 1, data.normals[i]);
-    const double size = length(n);
-    if (!(size > 0.1 * static_cast<double>(data.next.size()))) return RbfPolynomial{}.axes;
-    n = {n.x / size, n.y / size, n.z / size};
-    const Point3 other = std::fabs(n.x) < 0.7 ? Point3{1, 0, 0} : Point3{0, 1, 0};
-    Point3 u = cross(other, n);
-    const double length_u = length(u);
-    u = {u.x / length_u, u.y / length_u, u.z / length_u};
-    return {u, cross(n, u), n};
-}
-
-/// The degree whose fit predicts best what was left out: a higher one must be better by a tenth.
-RbfPolynomial choose_polynomial(const HoleData& data, const RbfOptions& options, double& error,
-                                const Run& run) {
-    RbfPolynomial best;
-    best.axes = axes_of(data);
-    best.degree = options.degree > 0 ? options.degree : 1;
-    const LeftOut left = leave_out(data);
-    error = no_number;
-    if (left.kept.points.size() < 10 || left.points.empty()) return best;
-    error = error_of(data, left, options, best, run);
-    constexpr unsigned most = 4;
-    constexpr double worth = 0.9;
-    for (unsigned degree = 2; options.degree == 0 && degree <= most; ++degree) {
-        RbfPolynomial next = best;
-        next.degree = degree;
-        const double other = error_of(data, left, options, next, run);
-        if (!(other < worth * error)) continue;
-        best = next;
-        error = other;
-    }
-    return best;
 }
 
 /// The edge length of the filling: equilateral triangles of that size, as many as are allowed.
@@ -373,13 +99,43 @@ double area_of(const Surface& s) {
     return sum;
 }
 
-std::string describe(const RbfReport& r) {
-    return fmt::format(
-        "degree {}, {} of {} data are centres, {} constraints {:.4g} off the surface; condition "
-        "{:.2g}, residual {:.2g} after {} refinements; data missed by {:.2g} at most, "
-        "{} patches, then by {:.2g}",
-        r.degree, r.centres, r.data, r.offsets, r.offset, r.solution.condition, r.solution.residual,
-        r.solution.refinements, r.missed, r.patches, r.largest_error);
+std::string describe(const RbfReport& r, const RbfForm& form, bool smoothed) {
+    const auto start = fmt::format(
+        "degree {}, {} of {} data are centres, {} constraints {:.4g} off the surface {}; ",
+        form.polynomial.degree, r.centres, r.data, r.offsets, r.offset,
+        form.along_axis ? "across the hole" : "along normals");
+    if (smoothed)
+        return start + fmt::format("smoothed with {:.0f} degrees of freedom; data missed by {:.2g} "
+                                   "at most, {} patches, then by {:.2g}",
+                                   r.freedom, r.missed, r.patches, r.largest_error);
+    return start + fmt::format("condition {:.2g}, residual {:.2g} after {} refinements; data "
+                               "missed by {:.2g} at most, {} patches, then by {:.2g}",
+                               r.solution.condition, r.solution.residual, r.solution.refinements,
+                               r.missed, r.patches, r.largest_error);
+}
+
+/// Per vertex of the filling the expected error; 0 over the surface.
+std::vector<double> deviation_of(const Surface& filling, const HoleData& data,
+                                 const RbfChoice& choice, double nugget, const Run& run) {
+    std::vector<double> deviation(filling.vertices.size(), no_number);
+    if (!std::isfinite(choice.expected)) return deviation;
+    const RbfError error(data, choice.form.polynomial, 0, nugget);
+    deviation = error.at(filling.vertices, false, run);
+    for (double& d : deviation) d *= choice.expected;
+    return deviation;
+}
+
+/// Root mean square over the vertices that are off the surface: over the hole.
+double mean_over_hole(const Filling& filling, const HoleData& data, double size) {
+    const TriangleTree tree(data.points, data.triangles);
+    double squares = 0;
+    std::size_t count = 0;
+    for (std::size_t v = 0; v < filling.deviation.size(); ++v) {
+        if (tree.distance(filling.surface.vertices[v], size / 2) < size / 2) continue;
+        squares += filling.deviation[v] * filling.deviation[v];
+        ++count;
+    }
+    return count == 0 ? no_number : std::sqrt(squares / static_cast<double>(count));
 }
 
 Status validate_options(const RbfOptions& o) {
@@ -389,7 +145,8 @@ Status validate_options(const RbfOptions& o) {
     if (o.most_centres < 10 || o.most_centres > 2000) return bad("centres: 10 to 2000");
     if (!length_or_zero(o.offset) || !length_or_zero(o.tolerance) || !length_or_zero(o.size))
         return bad("offset, tolerance and size are lengths");
-    if (o.degree > 6) return bad("the degree of the polynomial is 1 to 6, or 0 for the best");
+    if (o.degree > 8) return bad("the degree of the polynomial is 1 to 8, or 0 for the best");
+    if (o.smoothing && !length_or_zero(*o.smoothing)) return bad("smoothing is a length");
     if (o.most_vertices < 1) return bad("at least one vertex");
     return Done{};
 }
@@ -398,10 +155,11 @@ Result<Filling> fill_valid(const Surface& surface, const BorderLoop& loop,
                            const RbfOptions& options, RbfReport& report, const Run& run) {
     const auto data = data_round(surface, loop, options.loops, {options.reach, options.rings});
     if (!data) return data.error();
-    double validated = no_number;
-    const auto polynomial = choose_polynomial(data.value(), options, validated, run);
-    report.degree = polynomial.degree;
-    const auto f = Fitter(data.value(), options, polynomial, report, run)();
+    const auto choice = choose_form(data.value(), options, run);
+    if (!choice) return choice.error();
+    const RbfForm& form = choice.value().form;
+    report.degree = form.polynomial.degree;
+    const auto f = fit_hole(data.value(), form, options, report, run);
     if (!f) return f.error();
     report.size = size_for(data.value(), loop, options);
     auto level = mesh_zero_level(f.value(), data.value(), report.size, run);
@@ -410,13 +168,14 @@ Result<Filling> fill_valid(const Surface& surface, const BorderLoop& loop,
     filling.surface = std::move(level).value();
     filling.surface.name = surface.name;
     filling.surface.role = surface.role;
-    filling.deviation.assign(filling.surface.vertices.size(), no_number);
+    filling.deviation =
+        deviation_of(filling.surface, data.value(), choice.value(), f.value().nugget, run);
     filling.report.data = report.data;
     filling.report.invented = filling.surface.vertices.size();
     filling.report.area = area_of(filling.surface);
-    filling.report.expected_error = no_number;
-    filling.report.validated_error = validated;
-    filling.report.model = describe(report);
+    filling.report.expected_error = mean_over_hole(filling, data.value(), report.size);
+    filling.report.validated_error = choice.value().validated;
+    filling.report.model = describe(report, form, form.smoothed || options.smoothing.has_value());
     if (run.stop.stop_requested()) return Error{ErrorCode::interrupted, "stopped on request", ""};
     return filling;
 }

@@ -6,21 +6,29 @@
 //   (1) data: the vertices within `reach` times the hole's radius of its border along the surface,
 //       and the first `rings` rings in any case, with normals (rbf_data.hpp);
 //   (2) constraints: f = 0 at centres; at some of them, spread evenly, also f = +-d at a distance d
-//       along the normal, where no other part of the surface is as near;
+//       off the surface, where no other part of it is as near: along the axis of the hole where the
+//       surface is a graph over its plane, so that f is a height of which the polynomial part takes
+//       much, else along normals;
 //   (3) centres: a well-spread start, then again and again the data that f misses most, until it
-//       misses none by more than `tolerance` or there are `most_centres` (rbf_function.hpp);
+//       misses none by more than `tolerance` or there are `most_centres` (rbf_function.hpp). With
+//       smoothing, and where it is the better by a quarter: the well-spread ones alone, their
+//       weights from all data by penalised least squares (rbf_smooth.cpp);
 //   (4) what f then still misses at the data, be they millions, is made up for by a partition of
 //       unity: small patches with a function |p - q| of their own, blended, and fading away into
-//       the hole (rbf_patches.hpp). So every datum is met, whatever the number of centres;
+//       the hole (rbf_patches.hpp). So every datum is met, whatever the number of centres; not with
+//       options.smoothing;
 //   (5) the zero level over the hole and a margin beyond it as triangles (zero_level.hpp).
-// Guarantees: the same bytes for any number of threads. The filling goes at least two edge lengths
-// beyond the border where the surface does; it is to be joined (join.hpp).
-// Cost: n^3 / 3 for n constraints, at most 2000; n per lattice point of (5).
-// Source: the paper, 4.1, equation (10); Carr et al. (2001) for (2) and (3); Ohtake et al. (2003)
-// for (4).
+// The degree of the polynomial part, the direction of (2) and the way of (3) are those that predict
+// best the data left out when the hole is made wider by a quarter of its radius. What they miss of
+// these, in units of the power function there, times the power function in the hole, is the
+// expected error (rbf_error.hpp). Guarantees: the same bytes for any number of threads. The filling
+// goes at least two edge lengths beyond the border where the surface does; it is to be joined
+// (join.hpp). Cost: n^3 / 3 for n constraints, at most 2000; n per lattice point of (5). Source:
+// the paper, 4.1, equation (10); Carr et al. (2001) for (2) and (3); Ohtake et al. (2003) for (4).
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 
 #include <terrane/algorithms/filling.hpp>
@@ -42,9 +50,12 @@ struct RbfOptions {
     double size = 0;      ///< edge length of the filling; 0: the median border edge, or more where
                           ///< the hole would take more than most_vertices
     std::size_t most_vertices = 50'000;
-    unsigned degree = 0; ///< of the polynomial part along the hole: 1 is the paper's, up to 6; 0:
-                         ///< of 1 to 4 the one that predicts best the data left out when the hole
-                         ///< is made wider by a quarter of its radius
+    unsigned degree = 0; ///< of the polynomial part along the hole: 1 is the paper's, up to 8; 0:
+                         ///< the one of these that predicts best
+    std::optional<double> smoothing{}; ///< none: every datum is met. Else data may be missed by so
+                                       ///< much, root mean square over all constraints, unit of
+                                       ///< the surface; 0: by as much as generalised
+                                       ///< cross-validation says
     std::span<const BorderLoop> loops{}; ///< all of the surface: islands in the hole are data, too
 };
 
@@ -56,6 +67,7 @@ struct RbfReport {
     double missed = 0;                              ///< largest |f| at the data after step (3)
     double largest_error = 0; ///< the same at the end: the interpolation error
     double rms_error = 0;
+    double freedom = 0; ///< degrees of it that smoothing leaves; 0 where every datum is met
     double offset = 0, size = 0; ///< as used
     RbfSolution solution;
 };

@@ -155,6 +155,34 @@ std::array<double, 3> RbfFunction::scaled(const Point3& p) const {
     return {dot(d, basis_.axes[0]), dot(d, basis_.axes[1]), dot(d, basis_.axes[2])};
 }
 
+bool RbfFunction::set_centres(std::span<const Point3> centres, const RbfPolynomial& basis) {
+    basis_ = basis;
+    Point3 low = centres[0], high = centres[0];
+    for (const Point3& p : centres) {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    middle_ = {(low.x + high.x) / 2, (low.y + high.y) / 2, (low.z + high.z) / 2};
+    scale_ = std::max({high.x - low.x, high.y - low.y, high.z - low.z}) / 2;
+    if (!(scale_ > 0)) return false;
+    for (const Point3& p : centres) {
+        const auto [u, v, w] = scaled(p);
+        x_.push_back(u);
+        y_.push_back(v);
+        z_.push_back(w);
+    }
+    return true;
+}
+
+void RbfFunction::terms_at(const std::array<double, 3>& p, double* terms) const {
+    double up = 1;
+    for (unsigned i = 0; i <= basis_.degree; ++i, up *= p[0]) {
+        double both = up;
+        for (unsigned j = 0; i + j <= basis_.degree; ++j, both *= p[1]) *terms++ = both;
+    }
+    *terms = p[2];
+}
+
 double RbfFunction::operator()(const Point3& p) const {
     if (polynomial_.empty()) return 0;
     const auto [u, v, w] = scaled(p);
@@ -176,12 +204,13 @@ double RbfFunction::operator()(const Point3& p) const {
 Point3 RbfFunction::gradient(const Point3& p) const {
     if (polynomial_.empty()) return {};
     const auto [u, v, w] = scaled(p);
-    std::array<double, 3> g{0, 0, polynomial_.back()};
-    for (std::size_t i = 0; i < x_.size(); ++i) {
-        const double du = u - x_[i], dv = v - y_[i], dw = w - z_[i];
-        const double slope = 3 * weights_[i] * std::sqrt(du * du + dv * dv + dw * dw);
-        g = {g[0] + slope * du, g[1] + slope * dv, g[2] + slope * dw};
-    }
+    using Array = Eigen::Map<const Eigen::ArrayXd>;
+    const auto n = static_cast<Eigen::Index>(x_.size());
+    const Array cx(x_.data(), n), cy(y_.data(), n), cz(z_.data(), n), c(weights_.data(), n);
+    const Eigen::ArrayXd slopes =
+        3 * c * ((cx - u).square() + (cy - v).square() + (cz - w).square()).sqrt();
+    std::array<double, 3> g{(slopes * (u - cx)).sum(), (slopes * (v - cy)).sum(),
+                            (slopes * (w - cz)).sum() + polynomial_.back()};
     std::size_t term = 0;
     for (unsigned i = 0; i <= basis_.degree; ++i)
         for (unsigned j = 0; i + j <= basis_.degree; ++j, ++term) {
@@ -199,39 +228,23 @@ Result<RbfFit> fit_rbf(std::span<const Point3> points, std::span<const double> v
                        const RbfSetting& setting, const Run& run) {
     const auto bad = [](const char* what) { return Error{ErrorCode::bad_option, what, ""}; };
     const RbfPolynomial& basis = setting.polynomial;
-    if (basis.degree < 1 || basis.degree > 6) return bad("the degree of the polynomial is 1 to 6");
+    if (basis.degree < 1 || basis.degree > 8) return bad("the degree of the polynomial is 1 to 8");
     const std::size_t m = basis.terms();
     if (points.size() <= m || values.size() != points.size())
         return bad("too few points for radial basis functions");
     RbfFit fit;
     RbfFunction& f = fit.function;
-    f.basis_ = basis;
-    Point3 low = points[0], high = points[0];
-    for (const Point3& p : points) {
-        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
-    f.middle_ = {(low.x + high.x) / 2, (low.y + high.y) / 2, (low.z + high.z) / 2};
-    f.scale_ = std::max({high.x - low.x, high.y - low.y, high.z - low.z}) / 2;
-    if (!(f.scale_ > 0)) return bad("all points are the same");
+    if (!f.set_centres(points, basis)) return bad("all points are the same");
     const auto n = static_cast<Eigen::Index>(points.size());
-    System system{Matrix(n, 3), Vector(n), Matrix(n, static_cast<Eigen::Index>(m))};
+    const auto terms = static_cast<Eigen::Index>(m);
+    System system{Matrix(n, 3), Vector(n), Matrix(n, terms)};
+    Vector row(terms);
     for (Eigen::Index i = 0; i < n; ++i) {
         const auto k = static_cast<std::size_t>(i);
-        const auto [u, v, w] = f.scaled(points[k]);
-        f.x_.push_back(u);
-        f.y_.push_back(v);
-        f.z_.push_back(w);
-        system.points.row(i) << u, v, w;
+        system.points.row(i) << f.x_[k], f.y_[k], f.z_[k];
         system.values[i] = values[k] / f.scale_;
-        Eigen::Index term = 0;
-        double up = 1;
-        for (unsigned a = 0; a <= basis.degree; ++a, up *= u) {
-            double both = up;
-            for (unsigned b = 0; a + b <= basis.degree; ++b, both *= v)
-                system.terms(i, term++) = both;
-        }
-        system.terms(i, term) = w;
+        f.terms_at({f.x_[k], f.y_[k], f.z_[k]}, row.data());
+        system.terms.row(i) = row.transpose();
     }
     const Solver solver(system, kernel_matrix(system.points));
     if (!solver.ok())

@@ -27,7 +27,7 @@ namespace terrane {
 /// along three axes at right angles. Degree 1 is the linear part of the paper, whatever the axes.
 /// Higher ones follow a surface that is near the plane of u and v.
 struct RbfPolynomial {
-    unsigned degree = 1;                                           ///< 1 to 6
+    unsigned degree = 1;                                           ///< 1 to 8
     std::array<Point3, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}; ///< u, v, w: unit vectors
 
     [[nodiscard]] std::size_t terms() const { return (degree + 1) * (degree + 2) / 2 + 1; }
@@ -44,6 +44,7 @@ struct RbfSolution {
 
 struct RbfFit;
 struct RbfSetting;
+struct RbfSmoothFit;
 
 class RbfFunction {
 public:
@@ -56,8 +57,15 @@ public:
 
     friend Result<RbfFit> fit_rbf(std::span<const Point3>, std::span<const double>,
                                   const RbfSetting&, const Run&);
+    friend Result<RbfSmoothFit> smooth_rbf(std::span<const Point3>, std::span<const Point3>,
+                                           std::span<const double>, const RbfPolynomial&, double,
+                                           const Run&);
 
 private:
+    /// Takes the box of the centres, and them. False where they are all the same.
+    bool set_centres(std::span<const Point3> centres, const RbfPolynomial& basis);
+    /// The polynomial's terms at a scaled point.
+    void terms_at(const std::array<double, 3>& p, double* terms) const;
     [[nodiscard]] std::array<double, 3> scaled(const Point3& p) const;
 
     Point3 middle_{};
@@ -84,5 +92,21 @@ struct RbfFit {
 /// be told apart; interrupted.
 Result<RbfFit> fit_rbf(std::span<const Point3> points, std::span<const double> values,
                        const RbfSetting& setting = {}, const Run& run = {});
+
+struct RbfSmoothFit {
+    RbfFunction function;
+    double rms = 0;     ///< root mean square by which values are missed
+    double freedom = 0; ///< degrees of it: terms of the polynomial to centres
+    double nugget = 0;  ///< variance of a value for |h|^3 as generalised covariance; unit cubed
+};
+
+/// A function with these centres that takes the values nearly (rbf_smooth.cpp): of all that miss
+/// them by `rms`, root mean square, the one whose third derivatives are least. rms 0: the one that
+/// predicts each value best from the others, by generalised cross-validation. The polynomial alone
+/// where it misses less than that. Points may be more than centres, and need not be among them.
+/// Cost: n^2 for each point and 10 n^3, n centres. Errors: as fit_rbf. Source: Wahba (1990), 4.
+Result<RbfSmoothFit> smooth_rbf(std::span<const Point3> centres, std::span<const Point3> points,
+                                std::span<const double> values, const RbfPolynomial& polynomial,
+                                double rms, const Run& run = {});
 
 } // namespace terrane

@@ -17,9 +17,9 @@
 namespace terrane {
 namespace {
 
-// With cubes of this share of the size, and edges below `shortest` thinned out, those that stay
-// have the size on average.
-constexpr double step_share = 0.72, shortest = 0.48;
+// With cubes of this share of the size, and neighbours nearer than `shortest` sizes thinned out,
+// edges have the size or a little less on average.
+constexpr double step_share = 0.72, shortest = 0.7;
 
 constexpr std::int64_t most_steps = (1 << 20) - 4; ///< of the lattice along an axis: 20 bits
 
@@ -271,21 +271,53 @@ double length(const Point3& a) {
     return std::hypot(a.x, a.y, a.z);
 }
 
-/// Takes out vertices that are nearer to a neighbour than `least`.
-void thin(DiskMesh& mesh, double least) {
-    const auto n = static_cast<std::uint32_t>(mesh.points().size());
-    for (bool changed = true; changed;) {
-        changed = false;
-        for (std::uint32_t v = 0; v < n; ++v) {
-            if (!mesh.is_alive(v)) continue;
-            const auto near = mesh.neighbours(v);
-            const bool crowded = std::any_of(near.begin(), near.end(), [&](std::uint32_t w) {
-                return length(minus(mesh.points()[v], mesh.points()[w])) < least;
-            });
-            changed = (crowded && !mesh.is_at_border(v) && mesh.remove(v)) || changed;
+/// Takes out vertices that are nearer to a neighbour than `least`: one after the other stays, and
+/// those near it go, so that each that went has one near it that stayed. Those at the border come
+/// first, since they have to stay.
+class Thinning {
+public:
+    Thinning(DiskMesh& mesh, double least) :
+        mesh_(mesh), least_(least), stays_(mesh.points().size(), false) {}
+
+    void operator()() {
+        std::vector<std::uint32_t> inner;
+        for (std::uint32_t v = 0; v < stays_.size(); ++v)
+            if (mesh_.is_at_border(v))
+                stays_[v] = true;
+            else
+                inner.push_back(v);
+        for (std::uint32_t v = 0; v < stays_.size(); ++v)
+            if (stays_[v] && mesh_.is_alive(v)) clear_round(v);
+        for (const std::uint32_t v : inner) {
+            if (!mesh_.is_alive(v) || has_near(v)) continue;
+            stays_[v] = true;
+            clear_round(v);
         }
     }
-}
+
+private:
+    [[nodiscard]] bool is_near(std::uint32_t v, std::uint32_t w) const {
+        return length(minus(mesh_.points()[v], mesh_.points()[w])) < least_;
+    }
+    /// Whether one that stays is near, and v could go for it.
+    bool has_near(std::uint32_t v) {
+        const auto beside = mesh_.neighbours(v);
+        return std::any_of(beside.begin(), beside.end(),
+                           [&](std::uint32_t w) { return stays_[w] && is_near(v, w); }) &&
+               mesh_.remove(v);
+    }
+    void clear_round(std::uint32_t v) {
+        for (bool changed = true; changed;) {
+            changed = false;
+            for (const std::uint32_t w : mesh_.neighbours(v))
+                changed = (!stays_[w] && is_near(v, w) && mesh_.remove(w)) || changed;
+        }
+    }
+
+    DiskMesh& mesh_;
+    double least_;
+    std::vector<bool> stays_; ///< per vertex
+};
 
 /// The point moved along the gradient onto the level, by `most` at most.
 Point3 onto_level(const SpaceFunction& function, Point3 p, double most) {
@@ -345,7 +377,7 @@ Result<Surface> zero_level(const SpaceFunction& function, const ZeroLevelOptions
     auto marched = Marcher(function, options, run)();
     if (!marched) return marched;
     DiskMesh mesh(std::move(marched.value().vertices), std::move(marched.value().triangles));
-    thin(mesh, shortest * options.size);
+    Thinning(mesh, shortest * options.size)();
     std::vector<std::uint32_t> all;
     for (std::uint32_t v = 0; v < mesh.points().size(); ++v)
         if (mesh.is_alive(v)) all.push_back(v);

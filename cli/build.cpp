@@ -11,8 +11,10 @@
 #include <terrane/algorithms/stopwatch.hpp>
 #include <terrane/cli/blocks.hpp>
 #include <terrane/cli/command.hpp>
+#include <terrane/cli/fill_report.hpp>
 #include <terrane/cli/improve_report.hpp>
 #include <terrane/cli/project_inputs.hpp>
+#include <terrane/cli/project_mending.hpp>
 #include <terrane/cli/proof.hpp>
 #include <terrane/cli/roles.hpp>
 #include <terrane/cli/tetrahedra_report.hpp>
@@ -36,7 +38,8 @@ struct BuildCommand {
 };
 
 constexpr auto footer =
-    R"(The whole chain from one file: surfaces are read, cut by the boundary of the volume of interest
+    R"(The whole chain from one file: surfaces are read, on request their holes filled as `terrane fill`
+does and horizons put in order as `terrane layer` does, cut by the boundary of the volume of interest
 where there is one, arranged and rounded as `terrane arrange` does, made better on request as `terrane
 improve` does, their blocks found as `terrane volume` does and filled as `terrane tetrahedralize`
 does. All results go to one new folder:
@@ -44,6 +47,8 @@ does. All results go to one new folder:
   surfaces.vtp, ...      the conforming mesh, in the formats that outputs.surfaces names
   tetrahedra.vtu, ...    likewise, outputs.tetrahedra
   model/                 blocks, interfaces and model.json, with outputs.blocks
+  invented.csv           points that fill made up, with expected errors
+  filled.svg             surfaces before and after it
   certificate.json       for `terrane verify`, with outputs.certificate
   statistics.json        counts, times and memory, as --stats of the other commands
   log.txt                what was said, with times
@@ -97,6 +102,12 @@ public:
     Result<ExitStatus> operator()() {
         journal_.note(fmt::format("terrane {}, {}", TERRANE_VERSION, source_));
         if (auto done = check(); !done) return done.error();
+        if (auto done = read(); !done) return done.error();
+        if (auto done = mend_surfaces(); !done) return done.error();
+        if (!mended_.refused.empty()) {
+            print(stderr, mended_.refused + "terrane: nothing written\n");
+            return ExitStatus::negative;
+        }
         if (auto done = arrange_all(); !done) return done.error();
         if (!arranged_->rounded.report.clean) {
             print(stderr, offending_pairs(inputs_, *arranged_, most_pairs));
@@ -135,7 +146,7 @@ private:
         return check_new_folder(folder_);
     }
 
-    Status arrange_all() {
+    Status read() {
         journal_.note("read");
         auto inputs = read_inputs(project_, source_, session_);
         if (!inputs) return inputs.error();
@@ -144,12 +155,27 @@ private:
         statistics_ = statistics_of(inputs_);
         auto boundary = boundary_of(project_, source_, session_);
         if (!boundary) return boundary.error();
+        boundary_ = std::move(boundary).value();
+        return Done{};
+    }
+
+    Status mend_surfaces() {
+        if (project_.fill.empty() && !project_.layers) return Done{};
+        journal_.note("mend");
+        auto mended = mend(project_, source_, inputs_, session_, statistics_);
+        if (!mended) return mended.error();
+        mended_ = std::move(mended).value();
+        journal_.say(mended_.said);
+        return Done{};
+    }
+
+    Status arrange_all() {
         journal_.note("arrange");
         ArrangeSettings settings;
         settings.seal = project_.seal.value_or(0);
         settings.volume.extend = project_.extend.value_or(0);
         auto arranged =
-            arrange_within(inputs_, std::move(boundary).value(), settings, session_, statistics_);
+            arrange_within(inputs_, std::move(boundary_), settings, session_, statistics_);
         if (!arranged) return arranged.error();
         arranged_ = std::move(arranged).value();
         journal_.say(summary(inputs_, *arranged_));
@@ -235,8 +261,9 @@ private:
         auto folder = NewFolder::create(folder_);
         if (!folder) return folder.error();
         const fs::path& to = folder.value().temporary();
-        for (const auto step : {&Build::write_surfaces, &Build::write_tetrahedra_files,
-                                &Build::write_blocks, &Build::write_certificate}) {
+        for (const auto step :
+             {&Build::write_surfaces, &Build::write_tetrahedra_files, &Build::write_blocks,
+              &Build::write_invented, &Build::write_certificate}) {
             if (auto done = (this->*step)(to); !done) return done;
             if (session_.stopped()) return Error{ErrorCode::interrupted, "", ""};
         }
@@ -310,6 +337,14 @@ private:
                            to / "model", session_);
     }
 
+    Status write_invented(const fs::path& to) {
+        if (!mended_.filled) return Done{};
+        written_.insert(written_.end(), {"invented.csv", "filled.svg"});
+        if (auto done = write_file(to / "invented.csv", csv_of(*mended_.filled)); !done)
+            return done;
+        return write_file(to / "filled.svg", map_of(*mended_.filled));
+    }
+
     Status write_certificate(const fs::path& to) {
         if (!project_.outputs.certificate) return Done{};
         written_.emplace_back("certificate.json");
@@ -333,6 +368,8 @@ private:
     Json statistics_;
     Inputs inputs_;
     std::vector<SurfaceInfo> as_read_; ///< per surface of a file
+    std::vector<Surface> boundary_;    ///< of the volume of interest, until surfaces are arranged
+    Mended mended_;                    ///< where the project asks for it
     std::optional<Arranged> arranged_;
     std::optional<Improved> better_; ///< where the project asks for it
     std::optional<Model> model_;

@@ -8,12 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
-#include <terrane/algorithms/layers.hpp>
 #include <terrane/algorithms/stopwatch.hpp>
 #include <terrane/cli/command.hpp>
 #include <terrane/cli/files.hpp>
+#include <terrane/cli/layer_stage.hpp>
 #include <terrane/cli/statistics.hpp>
 
 namespace terrane::cli {
@@ -99,40 +97,6 @@ Result<std::vector<Layer>> order_of(const LayerCommand& command, const Inputs& i
     return order;
 }
 
-std::string report_text(const Inputs& inputs, const Layered& layered) {
-    std::string text;
-    for (const LayerReport& r : layered.reports) {
-        const std::string& label = inputs.labels[r.surface];
-        if (r.dropped == 0) {
-            text += fmt::format("  {}: nothing to replace\n", label);
-            continue;
-        }
-        text += fmt::format("  {}: {} in {} replaced by {} of harder ones; area {:.6g} by {:.6g}; "
-                            "moved by {:.4g} at most\n",
-                            label, counted(r.dropped, "triangle"), counted(r.parts, "part"),
-                            r.taken, r.dropped_area, r.taken_area, r.largest_move);
-        if (r.step_length > 0)
-            text += fmt::format("  {}: harder ones end over or under it, which leaves steps along "
-                                "{:.4g}\n",
-                                label, r.step_length);
-    }
-    return text;
-}
-
-Json report_json(const Inputs& inputs, const Layered& layered) {
-    Json all = Json::array();
-    for (const LayerReport& r : layered.reports)
-        all.push_back({{"name", inputs.labels[r.surface]},
-                       {"dropped", r.dropped},
-                       {"taken", r.taken},
-                       {"parts", r.parts},
-                       {"dropped_area", r.dropped_area},
-                       {"taken_area", r.taken_area},
-                       {"largest_move", r.largest_move},
-                       {"step_length", r.step_length}});
-    return all;
-}
-
 Status write_all(const Mesh& mesh, const FileOptions& files, const std::vector<Output>& outputs,
                  Session& session) {
     WriteOptions options;
@@ -156,29 +120,16 @@ Result<ExitStatus> layer_files(LayerCommand& command, Session& session) {
     const auto order = order_of(command, inputs.value());
     if (!order) return order.error();
 
-    Stopwatch watch;
-    session.begin("layers", Phase::computing);
-    const auto layered = stack_layers(inputs.value().surfaces, order.value(),
-                                      {.min_thickness = command.min_thickness}, session.run());
-    session.end_stage();
+    const auto layered =
+        layer_inputs(inputs.value(), order.value(), {.min_thickness = command.min_thickness},
+                     session, statistics);
     if (!layered) return layered.error();
     const RoundedMesh& rounded = layered.value().rounded;
-    statistics["layers"] = report_json(inputs.value(), layered.value());
-    statistics["seconds"]["layers"] = watch.lap();
-    print(summary_stream(files),
-          fmt::format("{}, from the top down:\n", counted(order.value().size(), "layer")) +
-              report_text(inputs.value(), layered.value()));
-    if (rounded.report.clean) {
-        print(summary_stream(files),
-              "verified: the doubles are a conforming mesh, by exact check\n");
-        const auto written = write_all(rounded.mesh, files, outputs.value(), session);
-        if (!written) return written.error();
-    } else {
-        print(stderr, fmt::format("terrane: {} of triangles meet improperly in doubles, the first "
-                                  "at {}; nothing written\n",
-                                  counted(rounded.report.contacts.size(), "pair"),
-                                  text_of(rounded.report.contacts.at(0).place)));
-    }
+    print(summary_stream(files), text_of(inputs.value(), layered.value()));
+    print(stderr, contacts_text(layered.value()));
+    if (rounded.report.clean)
+        if (const auto written = write_all(rounded.mesh, files, outputs.value(), session); !written)
+            return written.error();
     const auto status = write_statistics(statistics, files.stats, total.lap());
     if (!status) return status.error();
     return rounded.report.clean ? ExitStatus::done : ExitStatus::negative;

@@ -2,6 +2,7 @@
 #include <terrane/cli/project_inputs.hpp>
 
 #include <algorithm>
+#include <optional>
 #include <type_traits>
 #include <utility>
 
@@ -48,7 +49,9 @@ Result<std::vector<Surface>> chosen(std::vector<Surface> surfaces, const Project
 Result<std::vector<Surface>> surfaces_of(const ProjectSurfaces& entry, const std::string& source,
                                          const std::string& key,
                                          std::vector<SurfaceInfo>& as_read) {
-    auto read = read_surfaces(entry.file);
+    ReadOptions options;
+    options.depth = entry.depth;
+    auto read = read_surfaces(entry.file, std::nullopt, options);
     if (!read) return read.error();
     auto surfaces = chosen(std::move(read).value(), entry, source, key);
     if (!surfaces) return surfaces.error();

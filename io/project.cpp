@@ -26,10 +26,16 @@ using Keys = std::span<const std::string_view>;
 
 // ---- The keys of each object. project.schema.json says the same.
 
-constexpr std::array<std::string_view, 10> project_level{
-    "format", "folder", "threads", "surfaces",   "volume_of_interest",
+constexpr std::array<std::string_view, 12> project_level{
+    "format", "folder", "threads", "surfaces",   "fill",   "layers", "volume_of_interest",
     "extend", "seal",   "improve", "tetrahedra", "outputs"};
-constexpr std::array<std::string_view, 4> surfaces_level{"file", "objects", "name", "role"};
+constexpr std::array<std::string_view, 5> surfaces_level{"file", "objects", "name", "role",
+                                                         "depth"};
+constexpr std::array<std::string_view, 8> fill_level{"surface",       "method",    "model",
+                                                     "max_area",      "mesh_size", "gap_slope",
+                                                     "bridge_faults", "smoothing"};
+constexpr std::array<std::string_view, 2> layers_level{"order", "min_thickness"};
+constexpr std::array<std::string_view, 2> layer_level{"surface", "hardness"};
 constexpr std::array<std::string_view, 4> volume_level{"box", "rotated_box", "polygon", "within"};
 constexpr std::array<std::string_view, 2> box_level{"low", "high"};
 constexpr std::array<std::string_view, 6> rotated_level{"centre",  "corner", "lengths",
@@ -43,6 +49,9 @@ constexpr std::array<std::string_view, 4> outputs_level{"surfaces", "tetrahedra"
                                                         "certificate"};
 
 constexpr std::array<std::string_view, 3> roles{"horizon", "fault", "boundary"};
+constexpr std::array<std::string_view, 2> fill_methods{"kriging", "rbf"};
+constexpr std::array<std::string_view, 5> variogram_models{"auto", "spherical", "exponential",
+                                                           "gaussian", "power"};
 constexpr std::array<std::string_view, 12> surface_formats{
     "vtp", "obj", "ts", "ply", "off", "stl", "msh", "msh22", "inp", "mesh", "poly", "smesh"};
 constexpr std::array<std::string_view, 5> tetrahedra_formats{"vtu", "msh", "msh22", "inp", "mesh"};
@@ -242,6 +251,11 @@ private:
         if (const Json* v = in_.find(json, "folder"))
             project.folder = path_of(in_.text(*v, "folder"));
         if (const Json* v = in_.find(json, "threads")) project.threads = threads(*v);
+        if (const Json* v = in_.find(json, "fill"))
+            in_.array(*v, "fill", 1, SIZE_MAX, [&](const Json& entry, const std::string& at) {
+                project.fill.push_back(fill(entry, at));
+            });
+        if (const Json* v = in_.find(json, "layers")) project.layers = layers(*v);
         if (const Json* v = in_.find(json, "volume_of_interest")) volume(*v, project);
         if (const Json* v = in_.find(json, "extend")) {
             project.extend = in_.positive(*v, "extend");
@@ -251,11 +265,14 @@ private:
         if (const Json* v = in_.find(json, "seal")) project.seal = in_.positive(*v, "seal");
         if (const Json* v = in_.find(json, "improve")) project.improve = improve(*v);
         if (const Json* v = in_.find(json, "tetrahedra")) project.tetrahedra = tetrahedra(*v);
-        const bool changed = project.volume.index() != 0 || project.seal || project.improve;
+        const bool turned = std::any_of(project.surfaces.begin(), project.surfaces.end(),
+                                        [](const ProjectSurfaces& s) { return s.depth; });
+        const bool changed = turned || !project.fill.empty() || project.layers ||
+                             project.volume.index() != 0 || project.seal || project.improve;
         if (project.outputs.certificate && changed)
             in_.fail("outputs.certificate",
-                     "must be false with volume_of_interest, seal or improve: a certificate is "
-                     "about whole surfaces as they are");
+                     "must be false with fill, layers, volume_of_interest, seal, improve or depth: "
+                     "a certificate is about whole surfaces as their files have them");
     }
 
     unsigned threads(const Json& value) {
@@ -275,6 +292,7 @@ private:
             s.objects = in_.texts(*v, path + ".objects", 1);
         if (const Json* v = in_.find(json, "name")) s.name = in_.text(*v, path + ".name");
         if (const Json* v = in_.find(json, "role")) s.role = role(*v, path + ".role");
+        if (const Json* v = in_.find(json, "depth")) s.depth = in_.truth(*v, path + ".depth");
         return s;
     }
 
@@ -283,6 +301,59 @@ private:
         for (std::size_t r = 0; r < detail::role_names.size(); ++r)
             if (detail::role_names[r] == name) return static_cast<Role>(r);
         return std::nullopt;
+    }
+
+    ProjectFill fill(const Json& json, const std::string& path) {
+        ProjectFill f;
+        if (!in_.object(json, path, fill_level)) return f;
+        if (const Json* v = in_.need(json, "surface", path))
+            f.surface = in_.text(*v, path + ".surface");
+        if (const Json* v = in_.find(json, "method"))
+            f.method = in_.one_of(*v, path + ".method", fill_methods);
+        if (const Json* v = in_.find(json, "model"))
+            f.model = in_.one_of(*v, path + ".model", variogram_models);
+        if (const Json* v = in_.find(json, "max_area"))
+            f.max_area = in_.positive(*v, path + ".max_area");
+        if (const Json* v = in_.find(json, "mesh_size"))
+            f.mesh_size = in_.positive(*v, path + ".mesh_size");
+        if (const Json* v = in_.find(json, "gap_slope"))
+            f.gap_slope = in_.positive(*v, path + ".gap_slope");
+        if (const Json* v = in_.find(json, "bridge_faults"))
+            f.bridge_faults = in_.truth(*v, path + ".bridge_faults");
+        if (const Json* v = in_.find(json, "smoothing"))
+            f.smoothing = smoothing(*v, path + ".smoothing");
+        return f;
+    }
+
+    double smoothing(const Json& value, const std::string& path) {
+        if (value == "auto") return 0;
+        if (value.is_number()) return in_.positive(value, path);
+        in_.fail(path, "must be auto or a number larger than 0");
+        return 0;
+    }
+
+    ProjectLayers layers(const Json& json) {
+        ProjectLayers l;
+        const std::string path = "layers";
+        if (!in_.object(json, path, layers_level)) return l;
+        if (const Json* v = in_.need(json, "order", path))
+            in_.array(*v, path + ".order", 1, SIZE_MAX,
+                      [&](const Json& entry, const std::string& at) {
+                          l.order.push_back(layer(entry, at));
+                      });
+        if (const Json* v = in_.find(json, "min_thickness"))
+            l.min_thickness = in_.positive(*v, path + ".min_thickness");
+        return l;
+    }
+
+    ProjectLayer layer(const Json& json, const std::string& path) {
+        ProjectLayer l;
+        if (!in_.object(json, path, layer_level)) return l;
+        if (const Json* v = in_.need(json, "surface", path))
+            l.surface = in_.text(*v, path + ".surface");
+        if (const Json* v = in_.need(json, "hardness", path))
+            l.hardness = in_.number(*v, path + ".hardness");
+        return l;
     }
 
     void volume(const Json& json, Project& project) {
@@ -486,6 +557,9 @@ std::vector<std::string> project_keys() {
     };
     add("", project_level);
     add("surfaces[].", surfaces_level);
+    add("fill[].", fill_level);
+    add("layers.", layers_level);
+    add("layers.order[].", layer_level);
     add("volume_of_interest.", volume_level);
     add("volume_of_interest.box.", box_level);
     add("volume_of_interest.rotated_box.", rotated_level);

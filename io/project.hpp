@@ -25,6 +25,7 @@ struct ProjectSurfaces {
     std::vector<std::string> objects{}; ///< those of the file to take; empty: all
     std::string name{};                 ///< of the only surface; empty: as in the file
     std::optional<Role> role{};         ///< none: as in the file
+    bool depth = false;                 ///< grids and points: heights are positive down
 };
 
 /// Axis-aligned, by two corners.
@@ -41,6 +42,30 @@ struct ProjectPolygon {
 /// What closed surfaces enclose.
 struct ProjectWithin {
     std::vector<std::filesystem::path> files;
+};
+
+/// Holes of a surface that are filled before all else (holes.hpp, fill_kriging.hpp, rbf.hpp).
+struct ProjectFill {
+    std::string surface{};             ///< or "horizon": all with that role
+    std::string method = "kriging";    ///< or "rbf"
+    std::string model = "auto";        ///< of the variogram
+    std::optional<double> max_area{};  ///< larger holes stay open
+    std::optional<double> mesh_size{}; ///< none: as the border's edges
+    std::optional<double> gap_slope{}; ///< none: as GapRule has it
+    bool bridge_faults = false;        ///< gaps that a fault has torn, too
+    std::optional<double> smoothing{}; ///< root mean square by which rbf may miss data; 0: "auto"
+};
+
+/// A horizon of a stack, and how hard it is.
+struct ProjectLayer {
+    std::string surface{};
+    double hardness = 0;
+};
+
+/// Horizons that are put in order, after holes are filled (layers.hpp).
+struct ProjectLayers {
+    std::vector<ProjectLayer> order{}; ///< from the top down, >= 1
+    double min_thickness = 0;          ///< along z
 };
 
 /// An edge length for a name.
@@ -75,6 +100,8 @@ struct Project {
     std::filesystem::path folder{};          ///< for the results; empty: not stated
     std::vector<ProjectSurfaces> surfaces{}; ///< >= 1
     std::variant<std::monostate, ProjectBox, RotatedBox, ProjectPolygon, ProjectWithin> volume{};
+    std::vector<ProjectFill> fill{}; ///< no surface in two of them
+    std::optional<ProjectLayers> layers{};
     std::optional<double> extend{}; ///< limit for horizons that end inside the volume
     std::optional<double> seal{};   ///< distance of gaps that are closed
     std::optional<ProjectImprove> improve{};

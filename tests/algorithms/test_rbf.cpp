@@ -244,7 +244,8 @@ TEST_CASE("rbf: options, loops and requests that can't be served are refused", "
     for (const RbfOptions& wrong :
          {RbfOptions{.reach = -1}, RbfOptions{.most_centres = 3}, RbfOptions{.most_centres = 5000},
           RbfOptions{.offset = -1}, RbfOptions{.tolerance = std::nan("")}, RbfOptions{.size = -2},
-          RbfOptions{.most_vertices = 0}, RbfOptions{.degree = 7}}) {
+          RbfOptions{.most_vertices = 0}, RbfOptions{.degree = 9}, RbfOptions{.smoothing = -1.0},
+          RbfOptions{.smoothing = std::nan("")}}) {
         const auto filling = fill_by_rbf(s, hole, wrong);
         REQUIRE(!filling);
         CHECK(filling.error().code == ErrorCode::bad_option);

@@ -214,6 +214,43 @@ TEST_CASE("zero level: a sphere is a closed manifold of good triangles", "[rbf]"
     CHECK(check(std::span(&half.value(), 1)).value().free_border_edges > 10);
 }
 
+TEST_CASE("zero level: nearly flat ones keep their vertices", "[rbf]") {
+    // Nearly along the lattice vertices come in rows: thinned one after the other, all would go.
+    std::mt19937_64 random(5);
+    std::uniform_real_distribution<double> any(-1, 1);
+    for (int k = 0; k < 30; ++k) {
+        const double a = 0.02 * any(random), b = 0.02 * any(random), c = 0.02 * any(random),
+                     d = 0.2 * any(random);
+        const SpaceFunction slope{[=](const Point3& p) {
+                                      return p.z - d - a * p.x - b * p.y -
+                                             c * (p.x * p.x + p.y * p.y);
+                                  },
+                                  [=](const Point3& p) {
+                                      return Point3{-a - 2 * c * p.x, -b - 2 * c * p.y, 1};
+                                  }};
+        const std::array seeds{Point3{0, 0, 0}};
+        ZeroLevelOptions options;
+        options.size = 0.5;
+        options.seeds = seeds;
+        options.leave = [](const Point3& p) { return std::hypot(p.x, p.y) > 4; };
+        const auto level = zero_level(slope, options);
+        REQUIRE(level);
+        const Surface& s = level.value();
+        double mean = 0, longest = 0;
+        for (const Triangle& t : s.triangles)
+            for (unsigned i = 0; i < 3; ++i) {
+                const Point3 &p = s.vertices[t[i]], &q = s.vertices[t[(i + 1) % 3]];
+                const double edge = std::hypot(p.x - q.x, p.y - q.y, p.z - q.z);
+                mean += edge / static_cast<double>(3 * s.triangles.size());
+                longest = std::max(longest, edge);
+            }
+        CAPTURE(k);
+        CHECK(mean > 0.7 * options.size);
+        CHECK(mean < 1.1 * options.size);
+        CHECK(longest < 2 * options.size);
+    }
+}
+
 TEST_CASE("zero level: what has none, or too much of it, is an error", "[rbf]") {
     const SpaceFunction positive{[](const Point3&) { return 1.0; },
                                  [](const Point3&) { return Point3{}; }};

@@ -317,7 +317,15 @@ TEST_CASE("stacks: what can't be stacked is refused", "[layers]") {
                 return Point3{5 + 2 * std::cos(u), v, 2 * std::sin(u) - 1};
             },
             -1.7, 1, 1.6, 9, 12, 4);
-        CHECK(code({fold, flat}, {{0, 0}, {1, 1}}) == ErrorCode::unsupported);
+        for (const double hardness : {0.0, 2.0}) {
+            Surface named = fold;
+            named.name = "turned";
+            const std::array<Surface, 2> two{named, flat};
+            const auto result = stack_layers(two, std::array{Layer{0, hardness}, Layer{1, 1}});
+            REQUIRE(!result);
+            CHECK(result.error().code == ErrorCode::unsupported);
+            CHECK(result.error().place.starts_with("turned ("));
+        }
     }
     SECTION("a request to stop") {
         std::stop_source source;

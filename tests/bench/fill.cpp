@@ -42,17 +42,26 @@ void print_yardstick(const Model& model, const BorderLoop& loop, const char* way
         std::printf("  %s %10s %10s %6.2fs", way, "-", "-", seconds);
 }
 
-void print_rbf(const Model& model, const BorderLoop& loop) {
+/// Root mean square of the deviations foreseen for what was joined.
+double expected_of(const Filling& filling, const Joined& made) {
+    double squares = 0;
+    for (const auto v : made.filling_vertices) squares += std::pow(filling.deviation[v], 2);
+    return std::sqrt(squares / double(std::max<std::size_t>(made.filling_vertices.size(), 1)));
+}
+
+void print_rbf(const Model& model, const BorderLoop& loop, const char* way,
+               const RbfOptions& options) {
     const auto start = std::chrono::steady_clock::now();
-    const auto filling = fill_by_rbf(model.holed, loop);
+    const auto filling = fill_by_rbf(model.holed, loop, options);
     const auto made = filling ? join_filling(model.holed, loop, filling.value().surface)
                               : Result<Joined>(filling.error());
     const double seconds = seconds_since(start);
-    if (made)
-        print_misfit("rbf", misfit(model, made.value().surface, model.holed.triangles.size()),
-                     seconds);
-    else
-        std::printf("  rbf: %s", made.error().message().c_str());
+    if (!made) {
+        std::printf("  %s: %s", way, made.error().message().c_str());
+        return;
+    }
+    print_misfit(way, misfit(model, made.value().surface, model.holed.triangles.size()), seconds);
+    std::printf(" (predicted %.3g)", expected_of(filling.value(), made.value()));
 }
 
 void run(const Model& model, bool yardsticks) {
@@ -73,7 +82,8 @@ void run(const Model& model, bool yardsticks) {
     } else {
         std::printf("  kriging refuses");
     }
-    print_rbf(model, *hole);
+    print_rbf(model, *hole, "rbf", {});
+    if (!model.smooth) print_rbf(model, *hole, "rbf smoothed", {.smoothing = 0.0});
     if (yardsticks) {
         print_yardstick(model, *hole, "fair", true);
         print_yardstick(model, *hole, "linear", false);
@@ -138,11 +148,27 @@ struct Sum {
     [[nodiscard]] double root() const { return std::sqrt(squares / double(count)); }
 };
 
+/// What one way to fill misses of all holes.
+struct Way {
+    Sum missed;
+    double expected = 0; ///< squares, summed over holes
+    std::size_t holes = 0;
+
+    void add(const Surface& filled, std::size_t first, const std::vector<Point3>& removed,
+             double foreseen) {
+        missed.add(filled, first, removed);
+        expected += foreseen * foreseen;
+        ++holes;
+    }
+    void print(const char* name) const {
+        std::printf("  %s %.3g", name, missed.root());
+        if (expected > 0) std::printf(" (expected %.3g)", std::sqrt(expected / double(holes)));
+    }
+};
+
 /// Nine holes of one size, one after the other, where the data are.
 void punch(const Surface& s, double radius) {
-    Sum kriging, rbf, fair, linear;
-    double expected = 0, left_out = 0;
-    std::size_t holes = 0;
+    Way kriging, rbf, smoothed, fair, linear;
     for (int k = 1; k <= 9; ++k) {
         const Point3& centre = s.vertices[s.vertices.size() * std::size_t(k) / 10];
         const auto p = punched(s, centre, radius);
@@ -157,24 +183,29 @@ void punch(const Surface& s, double radius) {
         const auto first = p.surface.triangles.size();
         const auto filling = fill_by_kriging(p.surface, *hole);
         if (!filling) continue;
-        ++holes;
-        kriging.add(joined(p.surface, filling.value()), first, p.removed);
-        expected += std::pow(filling.value().report.expected_error, 2);
-        left_out += std::pow(filling.value().report.validated_error, 2);
-        if (const auto surface = fill_by_rbf(p.surface, *hole))
+        kriging.add(joined(p.surface, filling.value()), first, p.removed,
+                    filling.value().report.expected_error);
+        for (Way* way : {&rbf, &smoothed}) {
+            RbfOptions options;
+            if (way == &smoothed) options.smoothing = 0;
+            const auto surface = fill_by_rbf(p.surface, *hole, options);
+            if (!surface) continue;
             if (const auto made = join_filling(p.surface, *hole, surface.value().surface))
-                rbf.add(made.value().surface, first, p.removed);
-        if (const auto made = filled_by_cgal(p.surface, hole->vertices, true))
-            fair.add(*made, first, p.removed);
-        if (const auto made = filled_by_cgal(p.surface, hole->vertices, false))
-            linear.add(*made, first, p.removed);
+                way->add(made.value().surface, first, p.removed,
+                         expected_of(surface.value(), made.value()));
+        }
+        for (Way* way : {&fair, &linear})
+            if (const auto made = filled_by_cgal(p.surface, hole->vertices, way == &fair))
+                way->add(*made, first, p.removed, 0);
     }
-    std::printf(
-        "%-22s radius %-7g %zu holes, %zu points: kriging %.3g (expected %.3g, patches left "
-        "out %.3g)  rbf %.3g  fair %.3g  linear %.3g\n",
-        s.name.c_str(), radius, holes, kriging.count, kriging.root(),
-        std::sqrt(expected / double(holes)), std::sqrt(left_out / double(holes)), rbf.root(),
-        fair.root(), linear.root());
+    std::printf("%-22s radius %-7g %zu holes, %zu points:", s.name.c_str(), radius, kriging.holes,
+                kriging.missed.count);
+    kriging.print("kriging");
+    rbf.print("rbf");
+    smoothed.print("rbf smoothed");
+    fair.print("fair");
+    linear.print("linear");
+    std::printf("\n");
 }
 
 int punch_file(const char* file, double step) {

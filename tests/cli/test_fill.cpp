@@ -115,6 +115,39 @@ TEST_CASE("cli: fill by kriging and by RBF, with a map, points and a report", "[
     }
 }
 
+TEST_CASE("cli: fill foresees its errors, and smooths on request", "[cli]") {
+    const Folder folder;
+    const auto rough = [](double x, double y) {
+        return wave(x, y) + 0.8 * std::sin(37 * x + 91 * y);
+    };
+    const auto in = folder.input("top.irap", irap(two_discs, rough));
+    for (const std::string smoothing : {"none", "auto", "0.5"}) {
+        const auto r =
+            folder.run("fill --depth " + in + " -o " + smoothing +
+                       ".obj --method rbf --points p.csv --stats s.json --smoothing " + smoothing);
+        INFO(r.err);
+        REQUIRE(r.status == 0);
+        const auto holes = Json::parse(folder.read("s.json"))["holes"];
+        for (const auto& hole : holes) {
+            CHECK(hole["filled"]["expected_error"].get<double>() > 0);
+            CHECK(contains(hole["filled"]["model"].get<std::string>(), "smoothed") ==
+                  (smoothing != "none"));
+        }
+        std::istringstream csv(folder.read("p.csv"));
+        std::string line;
+        std::getline(csv, line);
+        while (std::getline(csv, line)) CHECK_FALSE(contains(line, ",,"));
+    }
+    CHECK(folder.read("none.obj") != folder.read("auto.obj"));
+    for (const std::string wrong : {"--method rbf --smoothing much", "--method rbf --smoothing 0",
+                                    "--method rbf --smoothing -1", "--smoothing auto"}) {
+        const auto r = folder.run("fill " + in + " -o no.obj " + wrong);
+        CHECK(r.status == 2);
+        CHECK(contains(r.err, "--smoothing: "));
+    }
+    CHECK_FALSE(folder.left().contains("no.obj"));
+}
+
 TEST_CASE("cli: fill leaves what was not asked for: numbers, sizes, fault gaps", "[cli]") {
     const Folder folder;
     const auto in = folder.input("top.irap", irap(two_discs));

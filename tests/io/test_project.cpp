@@ -31,7 +31,13 @@ json full() {
     return json::parse(R"({
         "format": "terrane-project 1", "folder": "run", "threads": 2,
         "surfaces": [{"file": "a.ts", "objects": ["top", "base"], "role": "horizon"},
-                     {"file": "/b.ts", "objects": ["x"], "name": "F1", "role": "fault"}],
+                     {"file": "/b.ts", "objects": ["x"], "name": "F1", "role": "fault", "depth": true}],
+        "fill": [{"surface": "top", "method": "rbf", "model": "power", "max_area": 1000,
+                  "mesh_size": 2.5, "gap_slope": 0.5, "bridge_faults": true,
+                  "smoothing": 0.25},
+                 {"surface": "base", "smoothing": "auto"}, {"surface": "salt"}],
+        "layers": {"order": [{"surface": "top", "hardness": 1.5},
+                             {"surface": "base", "hardness": -2}], "min_thickness": 0.5},
         "volume_of_interest": {"box": {"low": [0, 0, -1.5], "high": [1, 2, 3]}},
         "extend": 100, "seal": 0.25,
         "improve": {"edge_length": 4, "max_deviation": 0.125, "edge_length_of": {"top": 3}},
@@ -57,8 +63,9 @@ std::vector<json> samples() {
     }
     all.push_back(full());
     all.back().erase("volume_of_interest");
-    for (const char* key : {"extend", "seal", "improve"}) all.back().erase(key);
+    for (const char* key : {"extend", "seal", "improve", "fill", "layers"}) all.back().erase(key);
     all.back()["outputs"]["certificate"] = true;
+    all.back()["surfaces"][1]["depth"] = false;
     all.push_back(json::parse(R"({"format": "terrane-project 1", "surfaces": [{"file": "a"}],
                                   "outputs": {"blocks": "obj"}})"));
     return all;
@@ -214,6 +221,30 @@ TEST_CASE("project: all keys are read", "[io][project]") {
     CHECK(p.surfaces[1].file == "/b.ts");
     CHECK(p.surfaces[1].name == "F1");
     CHECK(p.surfaces[1].role == Role::fault);
+    CHECK(p.surfaces[1].depth);
+    CHECK_FALSE(p.surfaces[0].depth);
+    REQUIRE(p.fill.size() == 3);
+    CHECK(p.fill[0].surface == "top");
+    CHECK(p.fill[0].method == "rbf");
+    CHECK(p.fill[0].model == "power");
+    CHECK(p.fill[0].max_area == 1000.0);
+    CHECK(p.fill[0].mesh_size == 2.5);
+    CHECK(p.fill[0].gap_slope == 0.5);
+    CHECK(p.fill[0].bridge_faults);
+    CHECK(p.fill[0].smoothing == 0.25);
+    CHECK(p.fill[1].smoothing == 0.0);
+    CHECK_FALSE(p.fill[2].smoothing.has_value());
+    CHECK(p.fill[1].surface == "base");
+    CHECK(p.fill[1].method == "kriging");
+    CHECK(p.fill[1].model == "auto");
+    CHECK_FALSE(p.fill[1].max_area.has_value());
+    CHECK_FALSE(p.fill[1].bridge_faults);
+    REQUIRE(p.layers.has_value());
+    REQUIRE(p.layers->order.size() == 2);
+    CHECK(p.layers->order[0].surface == "top");
+    CHECK(p.layers->order[0].hardness == 1.5);
+    CHECK(p.layers->order[1].hardness == -2);
+    CHECK(p.layers->min_thickness == 0.5);
     const auto* box = std::get_if<ProjectBox>(&p.volume);
     REQUIRE(box != nullptr);
     CHECK(box->low == Point3{0, 0, -1.5});
@@ -296,7 +327,7 @@ TEST_CASE("project: schema and parser give the same verdict on every change", "[
             const bool accepted = said == "no error";
             (accepted ? good : bad)++;
             // Beyond the schema: a certificate is about whole surfaces as they are.
-            if (said.starts_with("p.json: outputs.certificate: must be false with volume")) return;
+            if (said.starts_with("p.json: outputs.certificate: must be false with fill")) return;
             INFO(where << ": " << said);
             if (accepted != holds(stated, changed)) CHECK(accepted == holds(stated, changed));
         });
@@ -316,7 +347,14 @@ TEST_CASE("project: what is wrong is named by its key", "[io][project]") {
     CHECK(with("/surfaces/1/rolle", "fault") ==
           "p.json: surfaces[1].rolle: unknown key; did you mean role?");
     CHECK(with("/surfaces/0/colour", 1) ==
-          "p.json: surfaces[0].colour: unknown key; there are file, objects, name or role");
+          "p.json: surfaces[0].colour: unknown key; there are file, objects, name, role or depth");
+    CHECK(with("/fill/0/method", "guess") == "p.json: fill[0].method: must be kriging or rbf");
+    CHECK(with("/fill/0/smoothing", "much") ==
+          "p.json: fill[0].smoothing: must be auto or a number larger than 0");
+    CHECK(with("/layers/order/1/hard", 2) ==
+          "p.json: layers.order[1].hard: unknown key; there are surface or hardness");
+    CHECK(with("/layers/order", json::array()) ==
+          "p.json: layers.order: must be a list of at least 1");
     CHECK(with("/tetrahedra/edge-length", 1) ==
           "p.json: tetrahedra.edge-length: unknown key; did you mean edge_length?");
     CHECK(with("/tetrahedra/edge_length", "2") ==
