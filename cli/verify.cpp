@@ -25,14 +25,15 @@ constexpr std::size_t most_violations = 50; ///< named on the terminal
 
 struct VerifyCommand {
     std::string certificate;
-    std::vector<std::string> inputs;
+    FileOptions files; ///< inputs and how they are read
     bool json = false;
 };
 
 constexpr auto footer =
     R"(A certificate says how a mesh follows from its input files. It is judged with rational
 arithmetic, by code that shares nothing with what made it. IN are the input files in the order of
-the certificate; without IN they are looked for beside it, under the names that it gives.
+the certificate; without IN they are looked for beside it, under the names that it gives. What
+changed how they were read (--depth, --max-edge, --input-format) must be given here, too.
 
 Exit status: 0 valid, 1 refuted (which rule, which elements), 2 cannot read, 3 internal.
 
@@ -42,7 +43,7 @@ Examples:
   terrane verify model.json data/horizons.ts data/faults.ts)";
 
 std::vector<std::string> paths_of(const VerifyCommand& command, const Certificate& certificate) {
-    if (!command.inputs.empty()) return command.inputs;
+    if (!command.files.inputs.empty()) return command.files.inputs;
     const fs::path folder =
         command.certificate == "-" ? fs::path() : fs::path(command.certificate).parent_path();
     std::vector<std::string> paths;
@@ -52,14 +53,16 @@ std::vector<std::string> paths_of(const VerifyCommand& command, const Certificat
 }
 
 /// A file that is not the one of the certificate need not be readable: its hash tells.
-Result<InputFile> read_input(const std::string& path, const CertifiedInput& stated) {
+Result<InputFile> read_input(const std::string& path, const CertifiedInput& stated,
+                             const FileOptions& options) {
     const auto contents = read_file(path);
     if (!contents) return contents.error();
-    const auto format = format_of(stated.name);
+    const auto format =
+        options.input_format.empty() ? format_of(stated.name) : format_named(options.input_format);
     if (!format)
         return Error{ErrorCode::unknown_format, "no format that can be read has this extension",
                      stated.name};
-    auto surfaces = parse_surfaces(contents.value(), stated.name, *format);
+    auto surfaces = parse_surfaces(contents.value(), stated.name, *format, options.read);
     InputFile file = input_file(contents.value(), {});
     if (surfaces)
         file.surfaces = std::move(surfaces.value());
@@ -78,7 +81,7 @@ Result<std::vector<InputFile>> read_inputs(const VerifyCommand& command,
                      command.certificate};
     std::vector<InputFile> files;
     for (std::size_t i = 0; i < paths.size(); ++i) {
-        auto file = read_input(paths[i], certificate.inputs[i]);
+        auto file = read_input(paths[i], certificate.inputs[i], command.files);
         if (!file) return file.error();
         files.push_back(std::move(file.value()));
     }
@@ -137,7 +140,8 @@ Command verify_command(CLI::App& program) {
     app->add_option("CERT", options->certificate, "Certificate; - is standard input")
         ->required()
         ->type_name("CERT");
-    app->add_option("IN", options->inputs, "The input files")->type_name("FILE");
+    app->add_option("IN", options->files.inputs, "The input files")->type_name("FILE");
+    add_reading(*app, options->files);
     app->add_flag("--json", options->json, "The verdict as JSON");
     app->footer(footer);
     return {app, [options] {

@@ -73,6 +73,12 @@ TEST_CASE("cli: convert reads a grid with its holes, depth or elevation", "[cli]
     CHECK(out.status == 2);
     CHECK(contains(out.err, "this format is read, not written"));
     CHECK(folder.run("check --depth " + in).status == 0);
+    // A certificate is about files as they were read.
+    REQUIRE(
+        folder.run("arrange --depth " + in + " -o arranged.obj --certificate proof.json").status ==
+        0);
+    CHECK(folder.run("verify --depth proof.json").status == 0);
+    CHECK(folder.run("verify proof.json").status == 1);
 }
 
 TEST_CASE("cli: fill lists holes, by numbers, and writes nothing then", "[cli]") {
