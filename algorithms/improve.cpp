@@ -86,17 +86,16 @@ public:
         input_(mesh), options_(options), run_(run),
         features_(
             find_features(mesh, {options.crease_angle * pi / 180, options.curve_angle * pi / 180})),
-        sizes_(find_sizes(mesh, features_, options)), reference_(mesh.vertices, features_),
-        mesh_(mesh, features_),
-        guard_(mesh_, reference_, sizes_.bound_of), shop_{mesh_,
-                                                          guard_,
-                                                          reference_,
-                                                          mesh.vertices,
-                                                          features_.curves,
-                                                          bounds_of_curves(mesh_,
-                                                                           features_.curves.size(),
-                                                                           sizes_.bound_of),
-                                                          run} {
+        sizes_(find_sizes(mesh, features_, options)),
+        reference_(mesh.vertices, features_, sizes_.bound_of, run), mesh_(mesh, features_),
+        guard_(mesh_, reference_), shop_{mesh_,
+                                         guard_,
+                                         reference_,
+                                         mesh.vertices,
+                                         features_.curves,
+                                         bounds_of_curves(mesh_, features_.curves.size(),
+                                                          sizes_.bound_of),
+                                         run} {
         mesh_.sizes = sizes_.of_vertices;
     }
 

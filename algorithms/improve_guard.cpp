@@ -32,10 +32,25 @@ void Guard::group_again(const Run& run) {
         if (p != no_group && turn_[p] == Sign::Zero)
             turn_[p] = turn_in(axis_[p], mesh_.points, mesh_.triangles[t]);
     }
+    find_whole_sheets();
     fill_grid();
     seen_.assign(mesh_.triangles.size(), 0);
     change_ = 0;
     ungrouped_ = 0;
+}
+
+void Guard::find_whole_sheets() {
+    std::vector<std::uint32_t> patch_of_sheet;
+    is_whole_.clear();
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+        const std::uint32_t s = mesh_.sheet_of[t], p = patch_of_[t];
+        if (s >= is_whole_.size()) {
+            is_whole_.resize(s + 1, 1);
+            patch_of_sheet.resize(s + 1, no_group);
+        }
+        if (patch_of_sheet[s] == no_group) patch_of_sheet[s] = p;
+        if (p == no_group || p != patch_of_sheet[s]) is_whole_[s] = 0;
+    }
 }
 
 void Guard::fill_grid() {
@@ -87,23 +102,27 @@ bool Guard::shapes_hold(const Change& change, std::uint32_t patch) const {
 
 bool Guard::bounds_hold(const Change& change) {
     hints_.clear();
+    all_alone_ = true;
     for (std::size_t i = 0; i < change.added.size(); ++i) {
         const Triangle& t = change.added[i];
         const std::uint32_t source = change.from[i];
-        const auto hint =
-            reference_.follows({mesh_.points[t[0]], mesh_.points[t[1]], mesh_.points[t[2]]},
-                               mesh_.hint_of[source], bound_of_[mesh_.sheet_of[source]]);
+        const auto hint = reference_.follows(
+            {mesh_.points[t[0]], mesh_.points[t[1]], mesh_.points[t[2]]}, mesh_.hint_of[source]);
         if (!hint) return false;
-        hints_.push_back(*hint);
+        hints_.push_back(hint->hint);
+        all_alone_ = all_alone_ && hint->alone;
     }
     return true;
+}
+
+void Guard::box_added(const Change& change) {
+    boxes_.clear();
+    for (const Triangle& t : change.added) boxes_.push_back(box_of(mesh_.points, t));
 }
 
 bool Guard::meets_properly(const Change& change, std::uint32_t patch) {
     ++change_;
     for (const std::uint32_t t : change.removed) seen_[t] = change_;
-    boxes_.clear();
-    for (const Triangle& t : change.added) boxes_.push_back(box_of(mesh_.points, t));
     Box all = boxes_.front();
     for (const Box& b : boxes_)
         for (std::size_t k = 0; k < 3; ++k) {
@@ -135,10 +154,11 @@ Verdict Guard::judge(const Change& change) {
     const std::uint32_t patch =
         !change.on_border && in_one_patch(change.removed) ? patch_of_[change.removed[0]] : no_group;
     if (!shapes_hold(change, patch)) return Verdict::shape;
-    // Cheap where it is proven by the patch, dear where not.
-    if (patch != no_group && !meets_properly(change, patch)) return Verdict::contact;
     if (!bounds_hold(change)) return Verdict::deviation;
-    if (patch == no_group && !meets_properly(change, patch)) return Verdict::contact;
+    box_added(change);
+    const bool is_free =
+        patch != no_group && all_alone_ && is_whole_[mesh_.sheet_of[change.removed[0]]] != 0;
+    if (!is_free && !meets_properly(change, patch)) return Verdict::contact;
     return Verdict::allowed;
 }
 
@@ -159,6 +179,7 @@ Verdict Guard::apply(const Change& change) {
     for (std::size_t i = 0; i < numbers_.size(); ++i) {
         const std::uint32_t t = numbers_[i];
         if (patch == no_group && patch_of_[t] != no_group) ++ungrouped_;
+        if (patch == no_group) is_whole_[mesh_.sheet_of[t]] = 0;
         patch_of_[t] = patch;
         if (change.in_place)
             grid_.move(t, box_of_[t], boxes_[i], patch);

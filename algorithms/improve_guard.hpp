@@ -7,10 +7,12 @@
 // (1) among triangles of one proven patch (patches.hpp), by its reason: a change inside of it keeps
 //     the sum of borders, so it stays one-to-one in its projection if all added triangles are wound
 //     as it is there, by exact predicates;
-// (2) else by exact tests against all triangles whose boxes overlap.
-// Triangles that are added under (2) belong to no patch until they are grouped again: what is left
-// of a patch that was one-to-one is so.
-// Cost: (1) a look at the cells of a grid that the change meets; (2) a pair test per pair of boxes.
+// (2) between triangles that follow what is alone in the input and other sheets;
+// (3) else by exact tests against all triangles whose boxes overlap.
+// Triangles that are not added under (1) belong to no patch until they are grouped again: what is
+// left of a patch that was one-to-one is so. Cost: a look at the cells of a grid that the change
+// meets, and a pair test per pair of boxes; nothing where (1) and (2) hold and the sheet is one
+// patch.
 #pragma once
 
 #include <cstdint>
@@ -36,9 +38,8 @@ enum class Verdict : std::uint8_t { allowed, contact, deviation, shape };
 
 class Guard {
 public:
-    /// bound_of: per sheet. What is named must outlive it.
-    Guard(WorkMesh& mesh, Reference& reference, std::vector<double> bound_of) :
-        mesh_(mesh), reference_(reference), bound_of_(std::move(bound_of)) {}
+    /// What is named must outlive it.
+    Guard(WorkMesh& mesh, Reference& reference) : mesh_(mesh), reference_(reference) {}
 
     /// Proves patches anew. To be called first, and when many triangles have left theirs.
     /// Renumbers triangles.
@@ -50,13 +51,14 @@ public:
     /// Carries the change out, where that is allowed.
     Verdict apply(const Change& change);
 
-    [[nodiscard]] double bound_of(std::uint32_t sheet) const { return bound_of_[sheet]; }
     [[nodiscard]] const Refusals& refusals() const { return refusals_; }
     /// How many triangles have left their patch since they were grouped.
     [[nodiscard]] std::size_t ungrouped() const { return ungrouped_; }
 
 private:
+    void find_whole_sheets();
     void fill_grid();
+    void box_added(const Change& change);
     Verdict judge(const Change& change);
     [[nodiscard]] bool shapes_hold(const Change& change, std::uint32_t patch) const;
     bool bounds_hold(const Change& change);
@@ -64,17 +66,18 @@ private:
 
     WorkMesh& mesh_;
     Reference& reference_;
-    std::vector<double> bound_of_;
 
     std::vector<std::uint32_t> patch_of_; ///< per triangle, or no_group
     std::vector<Axis> axis_;              ///< per patch
     std::vector<Sign> turn_;              ///< per patch: of all its triangles there
+    std::vector<char> is_whole_;          ///< per sheet: all its triangles are in one patch
     std::vector<Box> box_of_;             ///< per triangle
     Grid grid_;
     std::size_t first_entries_ = 0; ///< of the grid when it was filled
     std::size_t ungrouped_ = 0;
 
     std::vector<std::uint32_t> hints_, numbers_; ///< of the change at hand
+    bool all_alone_ = false;                     ///< all that it follows
     std::vector<Box> boxes_;                     ///< of its added triangles
     std::vector<std::uint32_t> seen_;            ///< per triangle: the last change that saw it
     std::uint32_t change_ = 0;

@@ -39,9 +39,11 @@ struct Workshop {
     const Run& run;
     std::size_t splits = 0, collapses = 0, swaps = 0, moves = 0; ///< made so far
     // When sweeps were made last: what has not changed since need not be looked at.
-    std::uint32_t evened_at = 0, swapped_at = 0;
+    std::uint32_t evened_at = 0, swapped_at = 0, collapsed_at = 0;
     std::vector<std::uint32_t> smoothed_at{}; ///< per vertex: when it was tried in vain
     std::vector<std::uint32_t> lifted_at{};   ///< the same
+    Change change{};                          ///< the one at hand
+    std::vector<std::uint32_t> at_edge{};     ///< of it
 };
 
 /// Whether the straight edge between two places of a curve is within its bound of all between them,

@@ -80,9 +80,13 @@ public:
     template <class Better>
     bool move(const Point3& to, const Better& better) {
         WorkMesh& mesh = shop_.mesh;
+        const Point3 old = mesh.points[v_];
+        mesh.points[v_] = to;
+        const bool is_better = better(before_, badness_at(mesh, v_));
+        mesh.points[v_] = old;
+        if (!is_better) return false;
         const auto place = shop_.reference.above(to, facing(), mesh.hint_of[change_.removed[0]]);
         if (!place) return false;
-        const Point3 old = mesh.points[v_];
         mesh.points[v_] = place->point;
         const Badness now = badness_at(mesh, v_);
         if (!better(before_, now) || shop_.guard.apply(change_) != Verdict::allowed) {
@@ -200,7 +204,7 @@ std::size_t smooth(Workshop& shop) {
 std::size_t shake(Workshop& shop) {
     Mover mover(shop);
     const auto is_square = [&](std::uint32_t v) {
-        return std::any_of(shop.mesh.star[v].begin(), shop.mesh.star[v].end(),
+        return std::all_of(shop.mesh.star[v].begin(), shop.mesh.star[v].end(),
                            [&](std::uint32_t t) {
                                return shape_of(shop.mesh, shop.mesh.triangles[t]) < square_shape;
                            });
