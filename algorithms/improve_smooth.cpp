@@ -9,7 +9,7 @@
 namespace terrane::improving {
 namespace {
 
-constexpr double least_gain = 5e-3;   ///< share of the sum of 1 / q that a move must take away
+constexpr double least_gain = 1e-2;   ///< share of the sum of 1 / q that a move must take away
 constexpr double shake_share = 0.2;   ///< of the wanted length
 constexpr double square_shape = 0.86; ///< q of half a square is 0.83
 
@@ -116,9 +116,9 @@ bool smooth_vertex(Workshop& shop, Mover& mover, std::uint32_t v) {
     mover.look_at(v);
     const Point3 from = shop.mesh.points[v];
     const Point3 to = drawn(shop.mesh, v);
-    if (mover.move(to, better)) return true;
-    // Trapezium drawing only slides along; where that does not help, half the way, or the mean.
-    return mover.move(between(from, to, 0.5), better) ||
+    // A triangle slides the vertex along its base only, which is half of a way on the mean.
+    if (mover.move(between(from, to, 2.0), better)) return true;
+    return mover.move(between(from, to, 1.0), better) ||
            mover.move(between(from, centre(shop.mesh, v), 0.5), better);
 }
 
