@@ -120,9 +120,25 @@ void Guard::box_added(const Change& change) {
     for (const Triangle& t : change.added) boxes_.push_back(box_of(mesh_.points, t));
 }
 
+/// Whether the other triangle is strictly on one side of the plane of `t`, but for common corners:
+/// then they share no more than the hull of those.
+bool Guard::is_beside(const QuickPlane& plane, const Triangle& t, const Triangle& other) const {
+    std::optional<Sign> common;
+    for (const std::uint32_t v : other) {
+        if (has(t, v)) continue;
+        const auto side = plane.side(mesh_.points[v]);
+        if (!side || (common && *common != *side)) return false;
+        common = side;
+    }
+    return common.has_value();
+}
+
 bool Guard::meets_properly(const Change& change, std::uint32_t patch) {
     ++change_;
     for (const std::uint32_t t : change.removed) seen_[t] = change_;
+    planes_.clear();
+    for (const auto& [a, b, c] : change.added)
+        planes_.emplace_back(mesh_.points[a], mesh_.points[b], mesh_.points[c]);
     Box all = boxes_.front();
     for (const Box& b : boxes_)
         for (std::size_t k = 0; k < 3; ++k) {
@@ -131,12 +147,14 @@ bool Guard::meets_properly(const Change& change, std::uint32_t patch) {
         }
     const auto proper = [&](std::uint32_t t) {
         if (patch != no_group && patch_of_[t] == patch) return true;
-        const Box& box = box_of_[t];
-        if (!box.overlaps(all) || seen_[t] == change_ || !mesh_.in_use(t)) return true;
+        if (seen_[t] == change_) return true;
         seen_[t] = change_;
+        const Box& box = box_of_[t];
+        if (!box.overlaps(all) || !mesh_.in_use(t)) return true;
         const Triangle& other = mesh_.triangles[t];
         for (std::size_t i = 0; i < change.added.size(); ++i)
-            if (boxes_[i].overlaps(box) && improper_contact(mesh_.points, change.added[i], other))
+            if (boxes_[i].overlaps(box) && !is_beside(planes_[i], change.added[i], other) &&
+                improper_contact(mesh_.points, change.added[i], other))
                 return false;
         return true;
     };

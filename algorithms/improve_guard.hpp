@@ -23,6 +23,7 @@
 #include <terrane/algorithms/improve_mesh.hpp>
 #include <terrane/algorithms/improve_reference.hpp>
 #include <terrane/algorithms/run.hpp>
+#include <terrane/kernel/quick_plane.hpp>
 #include <terrane/kernel/sign.hpp>
 
 namespace terrane::improving {
@@ -62,6 +63,8 @@ private:
     Verdict judge(const Change& change);
     [[nodiscard]] bool shapes_hold(const Change& change, std::uint32_t patch) const;
     bool bounds_hold(const Change& change);
+    [[nodiscard]] bool is_beside(const QuickPlane& plane, const Triangle& t,
+                                 const Triangle& other) const;
     bool meets_properly(const Change& change, std::uint32_t patch);
 
     WorkMesh& mesh_;
@@ -79,6 +82,7 @@ private:
     std::vector<std::uint32_t> hints_, numbers_; ///< of the change at hand
     bool all_alone_ = false;                     ///< all that it follows
     std::vector<Box> boxes_;                     ///< of its added triangles
+    std::vector<QuickPlane> planes_;             ///< of its added triangles
     std::vector<std::uint32_t> seen_;            ///< per triangle: the last change that saw it
     std::uint32_t change_ = 0;
     Refusals refusals_;
