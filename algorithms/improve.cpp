@@ -119,7 +119,7 @@ private:
     [[nodiscard]] bool stopped() const { return run_.stop.stop_requested(); }
 
     void regroup_if_needed() {
-        if (!stopped() && 50 * guard_.ungrouped() > mesh_.triangles.size())
+        if (!stopped() && 100 * guard_.ungrouped() > mesh_.triangles.size())
             guard_.group_again(run_);
     }
 
@@ -147,7 +147,7 @@ private:
         split_curves(shop_);
         collapse_curves(shop_);
         slide_curves(shop_);
-        if (!stopped()) guard_.group_again(run_);
+        regroup_if_needed();
         split_edges(shop_);
         regroup_if_needed();
         collapse_edges(shop_);
@@ -159,14 +159,14 @@ private:
         swap_edges(shop_);
         regroup_if_needed();
         smooth(shop_);
-        return 200 * (changes() - before) > mesh_.triangles.size();
+        return 20 * (changes() - before) > mesh_.triangles.size();
     }
 
     /// Single bad triangles, when most are good.
     void finish() {
         if (run_.progress) run_.progress("improve", options_.passes / (options_.passes + 1.0));
-        for (unsigned round = 0; round < 3 && !stopped(); ++round) {
-            guard_.group_again(run_);
+        for (unsigned round = 0; round < 2 && !stopped(); ++round) {
+            regroup_if_needed();
             const std::size_t before = shop_.collapses + shop_.swaps;
             collapse_bad(shop_, bad_shape);
             swap_edges(shop_);
