@@ -94,6 +94,8 @@ bool slide(Workshop& shop, std::uint32_t v, double at) {
     set_facing(mesh, change);
     const double sum = sum_of_shapes(mesh, change.removed);
     const Point3 old = mesh.points[v];
+    change.moved = v;
+    change.before = old;
     mesh.points[v] = point_on(shop, curve, at);
     if (!(sum_of_shapes(mesh, change.removed) < sum * (1 - least_gain)) ||
         shop.guard.apply(change) != Verdict::allowed) {

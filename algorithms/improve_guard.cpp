@@ -14,6 +14,13 @@ namespace {
 
 constexpr double least_cosine = 0.2; ///< of the angle by which an added triangle may turn away
 
+void widen(Box& box, const Box& by) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        box.low[k] = std::min(box.low[k], by.low[k]);
+        box.high[k] = std::max(box.high[k], by.high[k]);
+    }
+}
+
 Sign turn_in(Axis axis, std::span<const Point3> points, const Triangle& t) {
     return orient2d(axis, points[t[0]], points[t[1]], points[t[2]]);
 }
@@ -35,6 +42,7 @@ void Guard::group_again(const Run& run) {
     find_whole_sheets();
     fill_grid();
     seen_.assign(mesh_.triangles.size(), 0);
+    its_corners_.assign(mesh_.points.size(), 0);
     change_ = 0;
     ungrouped_ = 0;
 }
@@ -133,18 +141,64 @@ bool Guard::is_beside(const QuickPlane& plane, const Triangle& t, const Triangle
     return common.has_value();
 }
 
+/// The cone from a corner of all added triangles over the removed ones, where they were.
+void Guard::sweep(const Change& change) {
+    swept_.clear();
+    its_corners_.resize(mesh_.points.size(), 0);
+    for (const Triangle& t : change.added)
+        for (const std::uint32_t v : t) its_corners_[v] = change_;
+    std::uint32_t apex = change.moved;
+    for (const std::uint32_t v : change.added[0])
+        if (apex == none && std::all_of(change.added.begin(), change.added.end(),
+                                        [v](const Triangle& t) { return has(t, v); }))
+            apex = v;
+    if (apex == none) return; // no operation makes such changes
+    const auto place = [&](std::uint32_t v) {
+        return v == change.moved ? change.before : mesh_.points[v];
+    };
+    top_ = mesh_.points[apex];
+    for (const std::uint32_t r : change.removed) {
+        const Triangle& t = mesh_.triangles[r];
+        for (const std::uint32_t v : t) its_corners_[v] = change_;
+        if (change.moved == none && has(t, apex)) continue;
+        std::array<Point3, 4> c{place(t[0]), place(t[1]), place(t[2]), top_};
+        const Sign side = orient3d(c[0], c[1], c[2], c[3]);
+        if (side == Sign::Zero) continue;
+        if (side == Sign::Negative) std::swap(c[0], c[1]);
+        Box box = box_of(c, Triangle{0, 1, 2});
+        widen(box, box_of(c, Triangle{1, 2, 3}));
+        swept_.push_back({c, box});
+    }
+}
+
+/// Whether a corner that the change does not have is in what it sweeps, or at the place of its top:
+/// pair tests take different vertices to be at different places.
+bool Guard::is_swept(const Triangle& t) const {
+    for (const std::uint32_t v : t) {
+        if (its_corners_[v] == change_) continue;
+        const Point3& p = mesh_.points[v];
+        if (p == top_) return true;
+        for (const auto& [c, box] : swept_)
+            if (box.overlaps({{p.x, p.y, p.z}, {p.x, p.y, p.z}}) &&
+                orient3d(c[0], c[1], c[2], p) != Sign::Negative &&
+                orient3d(c[0], c[3], c[1], p) != Sign::Negative &&
+                orient3d(c[1], c[3], c[2], p) != Sign::Negative &&
+                orient3d(c[2], c[3], c[0], p) != Sign::Negative)
+                return true;
+    }
+    return false;
+}
+
 bool Guard::meets_properly(const Change& change, std::uint32_t patch) {
     ++change_;
     for (const std::uint32_t t : change.removed) seen_[t] = change_;
     planes_.clear();
     for (const auto& [a, b, c] : change.added)
         planes_.emplace_back(mesh_.points[a], mesh_.points[b], mesh_.points[c]);
+    sweep(change);
     Box all = boxes_.front();
-    for (const Box& b : boxes_)
-        for (std::size_t k = 0; k < 3; ++k) {
-            all.low[k] = std::min(all.low[k], b.low[k]);
-            all.high[k] = std::max(all.high[k], b.high[k]);
-        }
+    for (const Box& b : boxes_) widen(all, b);
+    for (const Tetrahedron& t : swept_) widen(all, t.box);
     const auto proper = [&](std::uint32_t t) {
         if (patch != no_group && patch_of_[t] == patch) return true;
         if (seen_[t] == change_) return true;
@@ -152,6 +206,7 @@ bool Guard::meets_properly(const Change& change, std::uint32_t patch) {
         const Box& box = box_of_[t];
         if (!box.overlaps(all) || !mesh_.in_use(t)) return true;
         const Triangle& other = mesh_.triangles[t];
+        if (is_swept(other)) return false;
         for (std::size_t i = 0; i < change.added.size(); ++i)
             if (boxes_[i].overlaps(box) && !is_beside(planes_[i], change.added[i], other) &&
                 improper_contact(mesh_.points, change.added[i], other))

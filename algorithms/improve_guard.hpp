@@ -9,12 +9,16 @@
 //     as it is there, by exact predicates;
 // (2) between triangles that follow what is alone in the input and other sheets;
 // (3) else by exact tests against all triangles whose boxes overlap.
+// A change sweeps the tetrahedra from the corner that all added triangles have to the removed ones.
+// Where a vertex of another triangle is in one of them, by exact predicates, the change is not
+// allowed: no piece comes to lie on the other side of a sheet by it.
 // Triangles that are not added under (1) belong to no patch until they are grouped again: what is
 // left of a patch that was one-to-one is so. Cost: a look at the cells of a grid that the change
 // meets, and a pair test per pair of boxes; nothing where (1) and (2) hold and the sheet is one
 // patch.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -65,6 +69,8 @@ private:
     bool bounds_hold(const Change& change);
     [[nodiscard]] bool is_beside(const QuickPlane& plane, const Triangle& t,
                                  const Triangle& other) const;
+    void sweep(const Change& change);
+    [[nodiscard]] bool is_swept(const Triangle& t) const;
     bool meets_properly(const Change& change, std::uint32_t patch);
 
     WorkMesh& mesh_;
@@ -83,7 +89,14 @@ private:
     bool all_alone_ = false;                     ///< all that it follows
     std::vector<Box> boxes_;                     ///< of its added triangles
     std::vector<QuickPlane> planes_;             ///< of its added triangles
-    std::vector<std::uint32_t> seen_;            ///< per triangle: the last change that saw it
+    struct Tetrahedron {
+        std::array<Point3, 4> corners; ///< positively oriented
+        Box box;
+    };
+    Point3 top_{};                           ///< of what it sweeps
+    std::vector<Tetrahedron> swept_;         ///< by it
+    std::vector<std::uint32_t> its_corners_; ///< per vertex: the last change that had it
+    std::vector<std::uint32_t> seen_;        ///< per triangle: the last change that saw it
     std::uint32_t change_ = 0;
     Refusals refusals_;
 };

@@ -87,6 +87,8 @@ public:
         if (!is_better) return false;
         const auto place = shop_.reference.above(to, facing(), mesh.hint_of[change_.removed[0]]);
         if (!place) return false;
+        change_.moved = v_;
+        change_.before = old;
         mesh.points[v_] = place->point;
         const Badness now = badness_at(mesh, v_);
         if (!better(before_, now) || shop_.guard.apply(change_) != Verdict::allowed) {
