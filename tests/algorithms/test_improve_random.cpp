@@ -101,3 +101,10 @@ TEST_CASE("improve: 200 random models stay conforming, with the same blocks, cor
     CHECK(10 * improved > 9 * models);
     CHECK(means.after > means.before + 0.2 * improved);
 }
+
+TEST_CASE("improve: no vertex comes to the place of another", "[improve]") {
+    Means means; // models in which a vertex of a curve went to that of another sheet
+    int jumped = 0;
+    for (const std::uint64_t seed : {509U, 538U}) CHECK(judge(seed, means, jumped));
+    CHECK(jumped == 0);
+}
