@@ -87,7 +87,7 @@ public:
         features_(
             find_features(mesh, {options.crease_angle * pi / 180, options.curve_angle * pi / 180})),
         sizes_(find_sizes(mesh, features_, options)),
-        reference_(mesh.vertices, features_, sizes_.bound_of, run), mesh_(mesh, features_),
+        reference_(mesh.vertices, features_, sizes_.bound_of), mesh_(mesh, features_),
         guard_(mesh_, reference_), shop_{mesh_,
                                          guard_,
                                          reference_,
@@ -97,6 +97,7 @@ public:
                                                           sizes_.bound_of),
                                          run} {
         mesh_.sizes = sizes_.of_vertices;
+        reference_.find_alone(run);
     }
 
     Result<Improved> operator()() {
@@ -296,6 +297,7 @@ Result<Improved> Improver::assembled() {
     report_.refused_shape = guard_.refusals().shape;
     Improved improved;
     improved.mesh = output();
+    improved.near_of = mesh_.hint_of;
     const std::vector<std::uint32_t> sheets = mesh_.sheet_of;
     report_.after = measure_quality(improved.mesh.vertices, improved.mesh.triangles);
     report_.worst_cause = cause_of_worst(mesh_.triangles[report_.after.worst]);

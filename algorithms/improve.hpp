@@ -21,8 +21,9 @@
 // Cost: some microseconds per triangle and pass, then one exact test of the whole.
 // Source: the paper, section 4; the alternation of the four as in Botsch and Kobbelt (2004).
 // Trapezium drawing is named after Semenova, Savchenko and Hagiwara (2004), whose formula was not
-// at hand: here a node slides parallel to the opposite edge until above its middle, by the mean of
-// all triangles at it, and then back onto the surface.
+// at hand: here a node slides parallel to the opposite edge until above its middle, by twice the
+// mean of all triangles at it (each sees the way along its own edge only), and then back onto the
+// surface.
 #pragma once
 
 #include <cstdint>
@@ -82,6 +83,8 @@ struct Improved {
     /// No parents_of: a triangle is in no input triangle any more. Triangles of a sheet are wound
     /// as its first one was.
     Mesh mesh;
+    std::vector<std::uint32_t> near_of; ///< per triangle: one of the mesh before, near its middle,
+                                        ///< in the same sheet
     ImproveReport report;
 };
 

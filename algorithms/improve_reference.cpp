@@ -38,7 +38,8 @@ double to_segment(const Point3& p, const Point3& a, const Point3& b) {
     return length(minus(p, towards(a, b, share)));
 }
 
-/// No less than the distance of p to the triangle: to a point that is on it, however ill-shaped.
+} // namespace
+
 double to_triangle(const Point3& p, const Point3& a, const Point3& b, const Point3& c) {
     double least = std::min({to_segment(p, a, b), to_segment(p, b, c), to_segment(p, c, a)});
     const Point3 n = cross(minus(b, a), minus(c, a));
@@ -53,13 +54,12 @@ double to_triangle(const Point3& p, const Point3& a, const Point3& b, const Poin
     return std::min(least, length(minus(p, foot)));
 }
 
-} // namespace
-
 Reference::Reference(std::span<const Point3> points, const Features& features,
-                     std::span<const double> bound_of, const Run& run) :
+                     std::span<const double> bound_of) :
     points_(points),
-    features_(features), bound_of_(bound_of), turns_(features.triangles.size()),
-    normals_(features.triangles.size()), seen_(features.triangles.size(), 0) {
+    features_(features), bound_of_(bound_of), alone_(features.triangles.size(), 0),
+    turns_(features.triangles.size()), normals_(features.triangles.size()),
+    seen_(features.triangles.size(), 0) {
     double largest = 0;
     for (std::size_t t = 0; t < features.triangles.size(); ++t) {
         const auto& [a, b, c] = features.triangles[t];
@@ -73,7 +73,6 @@ Reference::Reference(std::span<const Point3> points, const Features& features,
                 {largest, std::fabs(points[v].x), std::fabs(points[v].y), std::fabs(points[v].z)});
     }
     slack_ = 256 * unit * largest;
-    find_alone(bound_of, run);
 }
 
 /// Whether all corners of triangle t are beyond the plane of another one, by more than the gap.
@@ -91,7 +90,7 @@ bool Reference::is_beyond_plane(std::uint32_t t, std::uint32_t of, double gap) c
     return sum == 3 || sum == -3;
 }
 
-void Reference::find_alone(std::span<const double> bound_of, const Run& run) {
+void Reference::find_alone(const Run& run) {
     const auto count = static_cast<std::uint32_t>(features_.triangles.size());
     alone_.assign(count, 1);
     std::vector<Box> boxes;
@@ -99,7 +98,7 @@ void Reference::find_alone(std::span<const double> bound_of, const Run& run) {
     std::iota(all.begin(), all.end(), 0U);
     for (std::uint32_t t = 0; t < count; ++t) {
         Box box = box_of(points_, features_.triangles[t]);
-        const double bound = bound_of[features_.sheet_of[t]] + slack_;
+        const double bound = bound_of_[features_.sheet_of[t]] + slack_;
         for (std::size_t k = 0; k < 3; ++k) {
             box.low[k] -= bound;
             box.high[k] += bound;
@@ -108,8 +107,8 @@ void Reference::find_alone(std::span<const double> bound_of, const Run& run) {
     }
     const auto mark = [&](const CandidatePair& p) {
         if (alone_[p.first] == 0 && alone_[p.second] == 0) return false;
-        const double gap = bound_of[features_.sheet_of[p.first]] +
-                           bound_of[features_.sheet_of[p.second]] + 4 * slack_;
+        const double gap = bound_of_[features_.sheet_of[p.first]] +
+                           bound_of_[features_.sheet_of[p.second]] + 4 * slack_;
         if (!is_beyond_plane(p.first, p.second, gap) && !is_beyond_plane(p.second, p.first, gap))
             alone_[p.first] = alone_[p.second] = 0;
         return false; // none need be kept

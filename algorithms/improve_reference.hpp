@@ -31,11 +31,19 @@ namespace terrane::improving {
 
 using Corners = std::array<Point3, 3>;
 
+/// No less than the distance of p to the triangle, but for rounding: to a point that is on it,
+/// however ill-shaped.
+double to_triangle(const Point3& p, const Point3& a, const Point3& b, const Point3& c);
+
 class Reference {
 public:
-    /// bound_of: per sheet. What is named must outlive it.
+    /// bound_of: per sheet. Of the features, the triangles, sheet_of and across are looked at.
+    /// What is named must outlive it.
     Reference(std::span<const Point3> points, const Features& features,
-              std::span<const double> bound_of, const Run& run);
+              std::span<const double> bound_of);
+
+    /// Finds the triangles that are alone; until then none is.
+    void find_alone(const Run& run);
 
     /// The least bound that is told apart from rounding errors.
     [[nodiscard]] double least_bound() const { return 1e3 * slack_; }
@@ -108,7 +116,6 @@ private:
                                       const std::array<double, 3>& heights);
     [[nodiscard]] bool near_one(const Corners& triangle, std::uint32_t t, double bound) const;
     bool part_follows(const Corners& triangle, Followed& followed, double bound, unsigned& budget);
-    void find_alone(std::span<const double> bound_of, const Run& run);
     [[nodiscard]] bool is_beyond_plane(std::uint32_t t, std::uint32_t of, double gap) const;
 
     std::span<const Point3> points_;
