@@ -20,8 +20,8 @@ namespace {
 using namespace improving;
 
 constexpr double endless = std::numeric_limits<double>::infinity();
-constexpr unsigned most_parts = 4096; ///< of one triangle
-constexpr double most_factor = 8;     ///< of the bound
+constexpr unsigned most_parts = 16384; ///< of one triangle
+constexpr double most_factor = 8;      ///< of the bound
 
 /// The improved mesh in the sheets of the one before: what a Reference looks at.
 Features features_of(const Features& before, const Improved& after, const Run& run) {
@@ -87,9 +87,11 @@ std::vector<double> bounds_of_sheets(const Mesh& before, const Features& feature
 class Nearest {
 public:
     Nearest(const Mesh& after, std::uint32_t surface) :
-        surface_(surface_of_mesh(after, surface)), tree_(surface_.vertices, surface_.triangles) {}
+        surface_(surface_of_mesh(after, surface)), tree_(surface_.vertices, stout(surface_)) {}
 
-    [[nodiscard]] bool is_near(const Corners& whole, double bound) const {
+    /// Also where follows(part) holds: asked for parts that are large against the bound.
+    template <class Follows>
+    [[nodiscard]] bool is_near(const Corners& whole, double bound, const Follows& follows) const {
         std::vector<Corners> parts{whole};
         for (unsigned count = 0; !parts.empty(); ++count) {
             const Corners c = parts.back();
@@ -109,12 +111,26 @@ public:
                 std::max({apart(middle, c[0]), apart(middle, c[1]), apart(middle, c[2])});
             if (there + reach <= bound) continue;
             if (there > bound || count == most_parts) return false;
+            if (reach > 4 * bound && follows(c)) continue;
             divide(c, parts);
         }
         return true;
     }
 
 private:
+    /// Without triangles so thin that what is nearest on them is lost in rounding: a part of the
+    /// surface is no nearer than all of it.
+    static std::vector<Triangle> stout(const Surface& surface) {
+        std::vector<Triangle> kept;
+        for (const Triangle& t : surface.triangles) {
+            const Point3 &a = surface.vertices[t[0]], &b = surface.vertices[t[1]],
+                         &c = surface.vertices[t[2]];
+            const Point3 n = cross(minus(b, a), minus(c, a));
+            const double longest = std::max({apart(a, b), apart(b, c), apart(c, a)});
+            if (std::sqrt(dot(n, n)) > 1e-6 * longest * longest) kept.push_back(t);
+        }
+        return kept;
+    }
     static double apart(const Point3& a, const Point3& b) {
         const Point3 d = minus(b, a);
         return std::sqrt(dot(d, d));
@@ -156,7 +172,9 @@ Result<std::vector<double>> shown(const Mesh& before, const Improved& after,
         const auto surfaces = before.surfaces_of[t];
         return std::all_of(surfaces.begin(), surfaces.end(), [&](std::uint32_t s) {
             if (!nearest[s]) nearest[s].emplace(after.mesh, s);
-            return nearest[s]->is_near(corners, bound);
+            return nearest[s]->is_near(corners, bound, [&](const Corners& part) {
+                return hints[t] != none && reference.follows(part, hints[t]).has_value();
+            });
         });
     };
     for (double factor = 1; factor <= most_factor && !open.empty(); factor *= 2) {
