@@ -86,18 +86,18 @@ public:
         input_(mesh), options_(options), run_(run),
         features_(
             find_features(mesh, {options.crease_angle * pi / 180, options.curve_angle * pi / 180})),
-        sizes_(find_sizes(mesh, features_, options)), reference_(mesh.vertices, features_),
-        mesh_(mesh, features_),
-        guard_(mesh_, reference_, sizes_.bound_of), shop_{mesh_,
-                                                          guard_,
-                                                          reference_,
-                                                          mesh.vertices,
-                                                          features_.curves,
-                                                          bounds_of_curves(mesh_,
-                                                                           features_.curves.size(),
-                                                                           sizes_.bound_of),
-                                                          run} {
+        sizes_(find_sizes(mesh, features_, options)),
+        reference_(mesh.vertices, features_, sizes_.bound_of), mesh_(mesh, features_),
+        guard_(mesh_, reference_), shop_{mesh_,
+                                         guard_,
+                                         reference_,
+                                         mesh.vertices,
+                                         features_.curves,
+                                         bounds_of_curves(mesh_, features_.curves.size(),
+                                                          sizes_.bound_of),
+                                         run} {
         mesh_.sizes = sizes_.of_vertices;
+        reference_.find_alone(run);
     }
 
     Result<Improved> operator()() {
@@ -120,7 +120,7 @@ private:
     [[nodiscard]] bool stopped() const { return run_.stop.stop_requested(); }
 
     void regroup_if_needed() {
-        if (!stopped() && 50 * guard_.ungrouped() > mesh_.triangles.size())
+        if (!stopped() && 100 * guard_.ungrouped() > mesh_.triangles.size())
             guard_.group_again(run_);
     }
 
@@ -148,7 +148,7 @@ private:
         split_curves(shop_);
         collapse_curves(shop_);
         slide_curves(shop_);
-        if (!stopped()) guard_.group_again(run_);
+        regroup_if_needed();
         split_edges(shop_);
         regroup_if_needed();
         collapse_edges(shop_);
@@ -160,14 +160,14 @@ private:
         swap_edges(shop_);
         regroup_if_needed();
         smooth(shop_);
-        return 200 * (changes() - before) > mesh_.triangles.size();
+        return 20 * (changes() - before) > mesh_.triangles.size();
     }
 
     /// Single bad triangles, when most are good.
     void finish() {
         if (run_.progress) run_.progress("improve", options_.passes / (options_.passes + 1.0));
-        for (unsigned round = 0; round < 3 && !stopped(); ++round) {
-            guard_.group_again(run_);
+        for (unsigned round = 0; round < 2 && !stopped(); ++round) {
+            regroup_if_needed();
             const std::size_t before = shop_.collapses + shop_.swaps;
             collapse_bad(shop_, bad_shape);
             swap_edges(shop_);
@@ -297,6 +297,7 @@ Result<Improved> Improver::assembled() {
     report_.refused_shape = guard_.refusals().shape;
     Improved improved;
     improved.mesh = output();
+    improved.near_of = mesh_.hint_of;
     const std::vector<std::uint32_t> sheets = mesh_.sheet_of;
     report_.after = measure_quality(improved.mesh.vertices, improved.mesh.triangles);
     report_.worst_cause = cause_of_worst(mesh_.triangles[report_.after.worst]);

@@ -9,9 +9,10 @@
 //     doubles show that no two triangles meet improperly by it, and all is tested again at the end.
 // (2) Corners stay where they are. Curves (where other than two triangles meet, or two of different
 //     surfaces or regions, and creases) keep their vertices on the curves as they were. Sheets and
-//     curves are only ever re-divided, so surfaces and regions keep their identity. Steps are not
-//     continuous: a piece smaller than max_deviation may come to lie beyond a sheet near it. The
-//     volumes on both sides of each sheet are compared at the end: report.sides_kept says so.
+//     curves are only ever re-divided, so surfaces and regions keep their identity. A change that
+//     sweeps over a vertex of another sheet is not made. The volumes on both sides of each sheet
+//     are compared at the end all the same: report.sides_kept says so. (Where triangles of next to
+//     no height hang on a curve, their order round it may change with the curve.)
 // (3) Each point of the result is within max_deviation of its part of the surface as it was, shown
 //     with rounding errors counted in; each edge of a curve within a third of that.
 // (4) It ends: moves and swaps lower a sum of shapes or the largest angle, splits and collapses are
@@ -20,8 +21,9 @@
 // Cost: some microseconds per triangle and pass, then one exact test of the whole.
 // Source: the paper, section 4; the alternation of the four as in Botsch and Kobbelt (2004).
 // Trapezium drawing is named after Semenova, Savchenko and Hagiwara (2004), whose formula was not
-// at hand: here a node slides parallel to the opposite edge until above its middle, by the mean of
-// all triangles at it, and then back onto the surface.
+// at hand: here a node slides parallel to the opposite edge until above its middle, by twice the
+// mean of all triangles at it (each sees the way along its own edge only), and then back onto the
+// surface.
 #pragma once
 
 #include <cstdint>
@@ -81,6 +83,8 @@ struct Improved {
     /// No parents_of: a triangle is in no input triangle any more. Triangles of a sheet are wound
     /// as its first one was.
     Mesh mesh;
+    std::vector<std::uint32_t> near_of; ///< per triangle: one of the mesh before, near its middle,
+                                        ///< in the same sheet
     ImproveReport report;
 };
 

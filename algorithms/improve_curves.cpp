@@ -9,6 +9,8 @@
 namespace terrane::improving {
 namespace {
 
+constexpr double least_gain = 1e-2; ///< share of the sum of 1 / q that a move must take away
+
 /// An edge of a curve, in its direction.
 struct CurveEdge {
     std::uint32_t curve = 0, from = 0, to = 0;
@@ -92,8 +94,10 @@ bool slide(Workshop& shop, std::uint32_t v, double at) {
     set_facing(mesh, change);
     const double sum = sum_of_shapes(mesh, change.removed);
     const Point3 old = mesh.points[v];
+    change.moved = v;
+    change.before = old;
     mesh.points[v] = point_on(shop, curve, at);
-    if (!(sum_of_shapes(mesh, change.removed) < sum * (1 - 1e-3)) ||
+    if (!(sum_of_shapes(mesh, change.removed) < sum * (1 - least_gain)) ||
         shop.guard.apply(change) != Verdict::allowed) {
         mesh.points[v] = old;
         return false;
@@ -175,7 +179,7 @@ std::size_t slide_curves(Workshop& shop) {
         const double from = mesh.place_at(shop.curves, curve, mesh.along[v][0], v);
         const double to = mesh.place_at(shop.curves, curve, mesh.along[v][1], v);
         const double middle = from + (to - from) / 2, here = mesh.place_on[v];
-        if (std::fabs(middle - here) < 0.02 * (to - from)) continue;
+        if (std::fabs(middle - here) < 0.05 * (to - from)) continue;
         count += slide(shop, v, middle) || slide(shop, v, here + (middle - here) / 2);
     }
     return count;

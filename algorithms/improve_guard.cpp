@@ -14,6 +14,13 @@ namespace {
 
 constexpr double least_cosine = 0.2; ///< of the angle by which an added triangle may turn away
 
+void widen(Box& box, const Box& by) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        box.low[k] = std::min(box.low[k], by.low[k]);
+        box.high[k] = std::max(box.high[k], by.high[k]);
+    }
+}
+
 Sign turn_in(Axis axis, std::span<const Point3> points, const Triangle& t) {
     return orient2d(axis, points[t[0]], points[t[1]], points[t[2]]);
 }
@@ -32,10 +39,26 @@ void Guard::group_again(const Run& run) {
         if (p != no_group && turn_[p] == Sign::Zero)
             turn_[p] = turn_in(axis_[p], mesh_.points, mesh_.triangles[t]);
     }
+    find_whole_sheets();
     fill_grid();
     seen_.assign(mesh_.triangles.size(), 0);
+    its_corners_.assign(mesh_.points.size(), 0);
     change_ = 0;
     ungrouped_ = 0;
+}
+
+void Guard::find_whole_sheets() {
+    std::vector<std::uint32_t> patch_of_sheet;
+    is_whole_.clear();
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+        const std::uint32_t s = mesh_.sheet_of[t], p = patch_of_[t];
+        if (s >= is_whole_.size()) {
+            is_whole_.resize(s + 1, 1);
+            patch_of_sheet.resize(s + 1, no_group);
+        }
+        if (patch_of_sheet[s] == no_group) patch_of_sheet[s] = p;
+        if (p == no_group || p != patch_of_sheet[s]) is_whole_[s] = 0;
+    }
 }
 
 void Guard::fill_grid() {
@@ -87,37 +110,106 @@ bool Guard::shapes_hold(const Change& change, std::uint32_t patch) const {
 
 bool Guard::bounds_hold(const Change& change) {
     hints_.clear();
+    all_alone_ = true;
     for (std::size_t i = 0; i < change.added.size(); ++i) {
         const Triangle& t = change.added[i];
         const std::uint32_t source = change.from[i];
-        const auto hint =
-            reference_.follows({mesh_.points[t[0]], mesh_.points[t[1]], mesh_.points[t[2]]},
-                               mesh_.hint_of[source], bound_of_[mesh_.sheet_of[source]]);
+        const auto hint = reference_.follows(
+            {mesh_.points[t[0]], mesh_.points[t[1]], mesh_.points[t[2]]}, mesh_.hint_of[source]);
         if (!hint) return false;
-        hints_.push_back(*hint);
+        hints_.push_back(hint->hint);
+        all_alone_ = all_alone_ && hint->alone;
     }
     return true;
+}
+
+void Guard::box_added(const Change& change) {
+    boxes_.clear();
+    for (const Triangle& t : change.added) boxes_.push_back(box_of(mesh_.points, t));
+}
+
+/// Whether the other triangle is strictly on one side of the plane of `t`, but for common corners:
+/// then they share no more than the hull of those.
+bool Guard::is_beside(const QuickPlane& plane, const Triangle& t, const Triangle& other) const {
+    std::optional<Sign> common;
+    for (const std::uint32_t v : other) {
+        if (has(t, v)) continue;
+        const auto side = plane.side(mesh_.points[v]);
+        if (!side || (common && *common != *side)) return false;
+        common = side;
+    }
+    return common.has_value();
+}
+
+/// The cone from a corner of all added triangles over the removed ones, where they were.
+void Guard::sweep(const Change& change) {
+    swept_.clear();
+    its_corners_.resize(mesh_.points.size(), 0);
+    for (const Triangle& t : change.added)
+        for (const std::uint32_t v : t) its_corners_[v] = change_;
+    std::uint32_t apex = change.moved;
+    for (const std::uint32_t v : change.added[0])
+        if (apex == none && std::all_of(change.added.begin(), change.added.end(),
+                                        [v](const Triangle& t) { return has(t, v); }))
+            apex = v;
+    if (apex == none) return; // no operation makes such changes
+    const auto place = [&](std::uint32_t v) {
+        return v == change.moved ? change.before : mesh_.points[v];
+    };
+    top_ = mesh_.points[apex];
+    for (const std::uint32_t r : change.removed) {
+        const Triangle& t = mesh_.triangles[r];
+        for (const std::uint32_t v : t) its_corners_[v] = change_;
+        if (change.moved == none && has(t, apex)) continue;
+        std::array<Point3, 4> c{place(t[0]), place(t[1]), place(t[2]), top_};
+        const Sign side = orient3d(c[0], c[1], c[2], c[3]);
+        if (side == Sign::Zero) continue;
+        if (side == Sign::Negative) std::swap(c[0], c[1]);
+        Box box = box_of(c, Triangle{0, 1, 2});
+        widen(box, box_of(c, Triangle{1, 2, 3}));
+        swept_.push_back({c, box});
+    }
+}
+
+/// Whether a corner that the change does not have is in what it sweeps, or at the place of its top:
+/// pair tests take different vertices to be at different places.
+bool Guard::is_swept(const Triangle& t) const {
+    for (const std::uint32_t v : t) {
+        if (its_corners_[v] == change_) continue;
+        const Point3& p = mesh_.points[v];
+        if (p == top_) return true;
+        for (const auto& [c, box] : swept_)
+            if (box.overlaps({{p.x, p.y, p.z}, {p.x, p.y, p.z}}) &&
+                orient3d(c[0], c[1], c[2], p) != Sign::Negative &&
+                orient3d(c[0], c[3], c[1], p) != Sign::Negative &&
+                orient3d(c[1], c[3], c[2], p) != Sign::Negative &&
+                orient3d(c[2], c[3], c[0], p) != Sign::Negative)
+                return true;
+    }
+    return false;
 }
 
 bool Guard::meets_properly(const Change& change, std::uint32_t patch) {
     ++change_;
     for (const std::uint32_t t : change.removed) seen_[t] = change_;
-    boxes_.clear();
-    for (const Triangle& t : change.added) boxes_.push_back(box_of(mesh_.points, t));
+    planes_.clear();
+    for (const auto& [a, b, c] : change.added)
+        planes_.emplace_back(mesh_.points[a], mesh_.points[b], mesh_.points[c]);
+    sweep(change);
     Box all = boxes_.front();
-    for (const Box& b : boxes_)
-        for (std::size_t k = 0; k < 3; ++k) {
-            all.low[k] = std::min(all.low[k], b.low[k]);
-            all.high[k] = std::max(all.high[k], b.high[k]);
-        }
+    for (const Box& b : boxes_) widen(all, b);
+    for (const Tetrahedron& t : swept_) widen(all, t.box);
     const auto proper = [&](std::uint32_t t) {
         if (patch != no_group && patch_of_[t] == patch) return true;
-        const Box& box = box_of_[t];
-        if (!box.overlaps(all) || seen_[t] == change_ || !mesh_.in_use(t)) return true;
+        if (seen_[t] == change_) return true;
         seen_[t] = change_;
+        const Box& box = box_of_[t];
+        if (!box.overlaps(all) || !mesh_.in_use(t)) return true;
         const Triangle& other = mesh_.triangles[t];
+        if (is_swept(other)) return false;
         for (std::size_t i = 0; i < change.added.size(); ++i)
-            if (boxes_[i].overlaps(box) && improper_contact(mesh_.points, change.added[i], other))
+            if (boxes_[i].overlaps(box) && !is_beside(planes_[i], change.added[i], other) &&
+                improper_contact(mesh_.points, change.added[i], other))
                 return false;
         return true;
     };
@@ -135,10 +227,11 @@ Verdict Guard::judge(const Change& change) {
     const std::uint32_t patch =
         !change.on_border && in_one_patch(change.removed) ? patch_of_[change.removed[0]] : no_group;
     if (!shapes_hold(change, patch)) return Verdict::shape;
-    // Cheap where it is proven by the patch, dear where not.
-    if (patch != no_group && !meets_properly(change, patch)) return Verdict::contact;
     if (!bounds_hold(change)) return Verdict::deviation;
-    if (patch == no_group && !meets_properly(change, patch)) return Verdict::contact;
+    box_added(change);
+    const bool is_free =
+        patch != no_group && all_alone_ && is_whole_[mesh_.sheet_of[change.removed[0]]] != 0;
+    if (!is_free && !meets_properly(change, patch)) return Verdict::contact;
     return Verdict::allowed;
 }
 
@@ -159,6 +252,7 @@ Verdict Guard::apply(const Change& change) {
     for (std::size_t i = 0; i < numbers_.size(); ++i) {
         const std::uint32_t t = numbers_[i];
         if (patch == no_group && patch_of_[t] != no_group) ++ungrouped_;
+        if (patch == no_group) is_whole_[mesh_.sheet_of[t]] = 0;
         patch_of_[t] = patch;
         if (change.in_place)
             grid_.move(t, box_of_[t], boxes_[i], patch);

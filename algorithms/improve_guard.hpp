@@ -7,12 +7,18 @@
 // (1) among triangles of one proven patch (patches.hpp), by its reason: a change inside of it keeps
 //     the sum of borders, so it stays one-to-one in its projection if all added triangles are wound
 //     as it is there, by exact predicates;
-// (2) else by exact tests against all triangles whose boxes overlap.
-// Triangles that are added under (2) belong to no patch until they are grouped again: what is left
-// of a patch that was one-to-one is so.
-// Cost: (1) a look at the cells of a grid that the change meets; (2) a pair test per pair of boxes.
+// (2) between triangles that follow what is alone in the input and other sheets;
+// (3) else by exact tests against all triangles whose boxes overlap.
+// A change sweeps the tetrahedra from the corner that all added triangles have to the removed ones.
+// Where a vertex of another triangle is in one of them, by exact predicates, the change is not
+// allowed: no piece comes to lie on the other side of a sheet by it.
+// Triangles that are not added under (1) belong to no patch until they are grouped again: what is
+// left of a patch that was one-to-one is so. Cost: a look at the cells of a grid that the change
+// meets, and a pair test per pair of boxes; nothing where (1) and (2) hold and the sheet is one
+// patch.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -21,6 +27,7 @@
 #include <terrane/algorithms/improve_mesh.hpp>
 #include <terrane/algorithms/improve_reference.hpp>
 #include <terrane/algorithms/run.hpp>
+#include <terrane/kernel/quick_plane.hpp>
 #include <terrane/kernel/sign.hpp>
 
 namespace terrane::improving {
@@ -36,9 +43,8 @@ enum class Verdict : std::uint8_t { allowed, contact, deviation, shape };
 
 class Guard {
 public:
-    /// bound_of: per sheet. What is named must outlive it.
-    Guard(WorkMesh& mesh, Reference& reference, std::vector<double> bound_of) :
-        mesh_(mesh), reference_(reference), bound_of_(std::move(bound_of)) {}
+    /// What is named must outlive it.
+    Guard(WorkMesh& mesh, Reference& reference) : mesh_(mesh), reference_(reference) {}
 
     /// Proves patches anew. To be called first, and when many triangles have left theirs.
     /// Renumbers triangles.
@@ -50,33 +56,47 @@ public:
     /// Carries the change out, where that is allowed.
     Verdict apply(const Change& change);
 
-    [[nodiscard]] double bound_of(std::uint32_t sheet) const { return bound_of_[sheet]; }
     [[nodiscard]] const Refusals& refusals() const { return refusals_; }
     /// How many triangles have left their patch since they were grouped.
     [[nodiscard]] std::size_t ungrouped() const { return ungrouped_; }
 
 private:
+    void find_whole_sheets();
     void fill_grid();
+    void box_added(const Change& change);
     Verdict judge(const Change& change);
     [[nodiscard]] bool shapes_hold(const Change& change, std::uint32_t patch) const;
     bool bounds_hold(const Change& change);
+    [[nodiscard]] bool is_beside(const QuickPlane& plane, const Triangle& t,
+                                 const Triangle& other) const;
+    void sweep(const Change& change);
+    [[nodiscard]] bool is_swept(const Triangle& t) const;
     bool meets_properly(const Change& change, std::uint32_t patch);
 
     WorkMesh& mesh_;
     Reference& reference_;
-    std::vector<double> bound_of_;
 
     std::vector<std::uint32_t> patch_of_; ///< per triangle, or no_group
     std::vector<Axis> axis_;              ///< per patch
     std::vector<Sign> turn_;              ///< per patch: of all its triangles there
+    std::vector<char> is_whole_;          ///< per sheet: all its triangles are in one patch
     std::vector<Box> box_of_;             ///< per triangle
     Grid grid_;
     std::size_t first_entries_ = 0; ///< of the grid when it was filled
     std::size_t ungrouped_ = 0;
 
     std::vector<std::uint32_t> hints_, numbers_; ///< of the change at hand
+    bool all_alone_ = false;                     ///< all that it follows
     std::vector<Box> boxes_;                     ///< of its added triangles
-    std::vector<std::uint32_t> seen_;            ///< per triangle: the last change that saw it
+    std::vector<QuickPlane> planes_;             ///< of its added triangles
+    struct Tetrahedron {
+        std::array<Point3, 4> corners; ///< positively oriented
+        Box box;
+    };
+    Point3 top_{};                           ///< of what it sweeps
+    std::vector<Tetrahedron> swept_;         ///< by it
+    std::vector<std::uint32_t> its_corners_; ///< per vertex: the last change that had it
+    std::vector<std::uint32_t> seen_;        ///< per triangle: the last change that saw it
     std::uint32_t change_ = 0;
     Refusals refusals_;
 };

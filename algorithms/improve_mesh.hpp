@@ -23,9 +23,11 @@ struct Change {
     std::vector<Triangle> added;        ///< their corners
     std::vector<std::uint32_t> from;    ///< per added: the removed one it takes its sheet from
     std::vector<std::pair<std::uint32_t, Point3>>
-        facing;             ///< per sheet that is removed from: the sum of its normals there
-    bool in_place = false;  ///< the corners are the same: a vertex moved
-    bool on_border = false; ///< a curve is changed
+        facing;                 ///< per sheet that is removed from: the sum of its normals there
+    bool in_place = false;      ///< the corners are the same: a vertex moved
+    bool on_border = false;     ///< a curve is changed
+    std::uint32_t moved = none; ///< in place: the vertex that moved
+    Point3 before{};            ///< in place: where it was
 
     void clear() {
         removed.clear();
@@ -33,6 +35,7 @@ struct Change {
         from.clear();
         facing.clear();
         in_place = on_border = false;
+        moved = none;
     }
     void add(const Triangle& corners, std::uint32_t source) {
         added.push_back(corners);

@@ -2,16 +2,19 @@
 //
 // The four operations, each in a pass over the whole mesh. Private to improve.
 //
-// - Splitting: edges longer than 4/3 of what is wanted, the longest first, in the middle.
+// - Splitting: edges longer than 4/3 of what is wanted, the longest first, in the middle; in rounds
+//   that divide a triangle once and swap what that makes, so that slivers are not halved again and
+//   again.
 // - Collapsing: edges shorter than 4/5 of it; an inner vertex into any neighbour, one of a curve
 //   into a neighbour on it. The two ends may have no common neighbours but those in the triangles
 //   at the edge (the link condition: Dey et al. 1999), so that nothing changes but the division.
 // - Swapping: of inner edges, where that lessens the largest angle of the two triangles.
 // - Smoothing by trapezium drawing: on each triangle at a vertex, the vertex slides parallel to the
 //   opposite edge until it is above its middle: the trapezium of the old and the new place on that
-//   edge lies in the triangle's plane, so the surface keeps its shape. The vertex goes to the mean
-//   of these places, and straight up or down to the surface as it was. Vertices of curves go along
-//   them, halfway between their neighbours. A vertex moves only where that lowers the sum of 1 / q.
+//   edge lies in the triangle's plane, so the surface keeps its shape. The vertex goes twice the
+//   way to the mean of these places, and straight up or down to the surface as it was. Vertices of
+//   curves go along them, halfway between their neighbours. A vertex moves only where that lowers
+//   the sum of 1 / q.
 // Every pass visits first what is in one proven patch, then the rest, see improve_guard.hpp.
 #pragma once
 
@@ -39,9 +42,11 @@ struct Workshop {
     const Run& run;
     std::size_t splits = 0, collapses = 0, swaps = 0, moves = 0; ///< made so far
     // When sweeps were made last: what has not changed since need not be looked at.
-    std::uint32_t evened_at = 0, swapped_at = 0;
+    std::uint32_t evened_at = 0, swapped_at = 0, collapsed_at = 0;
     std::vector<std::uint32_t> smoothed_at{}; ///< per vertex: when it was tried in vain
     std::vector<std::uint32_t> lifted_at{};   ///< the same
+    Change change{};                          ///< the one at hand
+    std::vector<std::uint32_t> at_edge{};     ///< of it
 };
 
 /// Whether the straight edge between two places of a curve is within its bound of all between them,
@@ -68,8 +73,9 @@ std::size_t swap_edges(Workshop& shop);
 /// smoothing then makes better than what was.
 std::size_t even_out(Workshop& shop);
 std::size_t smooth(Workshop& shop);
-/// Moves inner vertices at triangles like halves of squares a little, by their number: a regular
-/// grid of those is a balance that smoothing alone does not leave, though not the best one.
+/// Moves inner vertices a little, by their number, where all triangles are like halves of squares
+/// or worse: a regular grid of those is a balance that smoothing alone does not leave, though not
+/// the best one.
 std::size_t shake(Workshop& shop);
 /// Moves inner vertices of triangles worse than `below` so that the worst of them gets better.
 std::size_t lift_worst(Workshop& shop, double below);

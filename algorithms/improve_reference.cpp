@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
+#include <terrane/algorithms/search/search.hpp>
 #include <terrane/algorithms/vectors.hpp>
 #include <terrane/kernel/predicates.hpp>
 
@@ -36,7 +38,8 @@ double to_segment(const Point3& p, const Point3& a, const Point3& b) {
     return length(minus(p, towards(a, b, share)));
 }
 
-/// No less than the distance of p to the triangle: to a point that is on it, however ill-shaped.
+} // namespace
+
 double to_triangle(const Point3& p, const Point3& a, const Point3& b, const Point3& c) {
     double least = std::min({to_segment(p, a, b), to_segment(p, b, c), to_segment(p, c, a)});
     const Point3 n = cross(minus(b, a), minus(c, a));
@@ -51,11 +54,12 @@ double to_triangle(const Point3& p, const Point3& a, const Point3& b, const Poin
     return std::min(least, length(minus(p, foot)));
 }
 
-} // namespace
-
-Reference::Reference(std::span<const Point3> points, const Features& features) :
-    points_(points), features_(features), turns_(features.triangles.size()),
-    normals_(features.triangles.size()), seen_(features.triangles.size(), 0) {
+Reference::Reference(std::span<const Point3> points, const Features& features,
+                     std::span<const double> bound_of) :
+    points_(points),
+    features_(features), bound_of_(bound_of), alone_(features.triangles.size(), 0),
+    turns_(features.triangles.size()), normals_(features.triangles.size()),
+    seen_(features.triangles.size(), 0) {
     double largest = 0;
     for (std::size_t t = 0; t < features.triangles.size(); ++t) {
         const auto& [a, b, c] = features.triangles[t];
@@ -69,6 +73,49 @@ Reference::Reference(std::span<const Point3> points, const Features& features) :
                 {largest, std::fabs(points[v].x), std::fabs(points[v].y), std::fabs(points[v].z)});
     }
     slack_ = 256 * unit * largest;
+}
+
+/// Whether all corners of triangle t are beyond the plane of another one, by more than the gap.
+bool Reference::is_beyond_plane(std::uint32_t t, std::uint32_t of, double gap) const {
+    const Normal& normal = normals_[of];
+    const double size = length(normal.n);
+    const Point3& origin = points_[features_.triangles[of][0]];
+    int sum = 0;
+    for (const std::uint32_t v : features_.triangles[t]) {
+        const Point3 d = minus(points_[v], origin);
+        const double off = dot(normal.n, d);
+        const double least = size * gap + (3 * normal.error + 16 * unit * size) * length(d);
+        sum += off > least ? 1 : off < -least ? -1 : 0;
+    }
+    return sum == 3 || sum == -3;
+}
+
+void Reference::find_alone(const Run& run) {
+    const auto count = static_cast<std::uint32_t>(features_.triangles.size());
+    alone_.assign(count, 1);
+    std::vector<Box> boxes;
+    std::vector<std::uint32_t> all(count);
+    std::iota(all.begin(), all.end(), 0U);
+    for (std::uint32_t t = 0; t < count; ++t) {
+        Box box = box_of(points_, features_.triangles[t]);
+        const double bound = bound_of_[features_.sheet_of[t]] + slack_;
+        for (std::size_t k = 0; k < 3; ++k) {
+            box.low[k] -= bound;
+            box.high[k] += bound;
+        }
+        boxes.push_back(box);
+    }
+    const auto mark = [&](const CandidatePair& p) {
+        if (alone_[p.first] == 0 && alone_[p.second] == 0) return false;
+        const double gap = bound_of_[features_.sheet_of[p.first]] +
+                           bound_of_[features_.sheet_of[p.second]] + 4 * slack_;
+        if (!is_beyond_plane(p.first, p.second, gap) && !is_beyond_plane(p.second, p.first, gap))
+            alone_[p.first] = alone_[p.second] = 0;
+        return false; // none need be kept
+    };
+    Run one = run; // marks are not shared between threads
+    one.threads = 1;
+    candidate_pairs_of(boxes, all, features_.sheet_of, mark, one);
 }
 
 Reference::Frame Reference::frame_of(Axis axis) {
@@ -253,6 +300,7 @@ Reference::Cover Reference::covered(const Target& target, std::uint32_t start) {
         if (count == most_covered) return Cover::open;
         const std::uint32_t t = front_.back();
         front_.pop_back();
+        all_alone_ = all_alone_ && alone_[t] != 0;
         const Cover cover = visit(target, t);
         if (cover != Cover::near) return cover;
     }
@@ -266,21 +314,29 @@ bool Reference::near_one(const Corners& triangle, std::uint32_t t, double bound)
     });
 }
 
-bool Reference::part_follows(const Corners& triangle, std::uint32_t& hint, double bound,
+bool Reference::part_follows(const Corners& triangle, Followed& followed, double bound,
                              unsigned& budget) {
     if (budget == 0) return false;
     --budget;
     for (const bool along_axis : {false, true}) {
         const auto target = target_of(triangle, bound, along_axis);
         if (!target) break;
-        const Walk way = walk(target->frame, target->origin, target->middle, target->turn, hint);
-        hint = way.end;
+        const Walk way =
+            walk(target->frame, target->origin, target->middle, target->turn, followed.hint);
+        followed.hint = way.end;
         if (!way.arrived) continue;
+        all_alone_ = true;
         const Cover cover = covered(*target, way.end);
-        if (cover == Cover::near) return true;
+        if (cover == Cover::near) {
+            followed.alone = followed.alone && all_alone_;
+            return true;
+        }
         if (cover == Cover::far) return false;
     }
-    if (near_one(triangle, hint, bound)) return true;
+    if (near_one(triangle, followed.hint, bound)) {
+        followed.alone = followed.alone && alone_[followed.hint] != 0;
+        return true;
+    }
     const std::array<double, 3> lengths{length(minus(triangle[1], triangle[0])),
                                         length(minus(triangle[2], triangle[1])),
                                         length(minus(triangle[0], triangle[2]))};
@@ -289,16 +345,20 @@ bool Reference::part_follows(const Corners& triangle, std::uint32_t& hint, doubl
     if (lengths[i] < bound / 4) return false;
     const Point3 &a = triangle[i], &b = triangle[(i + 1) % 3], &c = triangle[(i + 2) % 3];
     const Point3 middle = towards(a, b, 0.5);
-    std::uint32_t other = hint;
-    return part_follows({a, middle, c}, hint, bound, budget) &&
-           part_follows({middle, b, c}, other, bound, budget);
+    const std::uint32_t hint = followed.hint;
+    if (!part_follows({a, middle, c}, followed, bound, budget)) return false;
+    Followed other{hint, followed.alone};
+    const bool follows = part_follows({middle, b, c}, other, bound, budget);
+    followed.alone = other.alone;
+    return follows;
 }
 
-std::optional<std::uint32_t> Reference::follows(const Corners& triangle, std::uint32_t hint,
-                                                double bound) {
+std::optional<Reference::Followed> Reference::follows(const Corners& triangle, std::uint32_t hint) {
     unsigned budget = most_parts;
-    if (!part_follows(triangle, hint, bound - slack_, budget)) return std::nullopt;
-    return hint;
+    Followed followed{hint, true};
+    const double bound = bound_of_[features_.sheet_of[hint]] - slack_;
+    if (!part_follows(triangle, followed, bound, budget)) return std::nullopt;
+    return followed;
 }
 
 std::optional<Reference::Place> Reference::above(const Point3& p, const Point3& normal,

@@ -12,6 +12,9 @@
 // (2) All its corners are within the bound of one triangle of the sheet: the distance to a convex
 //     set is a convex function.
 // Rounding errors are counted in. Cost: about the number of triangles that it covers.
+//
+// A triangle of the input is alone where it is farther from all other sheets than both bounds
+// together: what follows such triangles only can't meet another sheet that follows itself.
 #pragma once
 
 #include <array>
@@ -21,26 +24,38 @@
 #include <vector>
 
 #include <terrane/algorithms/improve_features.hpp>
+#include <terrane/algorithms/run.hpp>
 #include <terrane/kernel/construction.hpp>
 
 namespace terrane::improving {
 
 using Corners = std::array<Point3, 3>;
 
+/// No less than the distance of p to the triangle, but for rounding: to a point that is on it,
+/// however ill-shaped.
+double to_triangle(const Point3& p, const Point3& a, const Point3& b, const Point3& c);
+
 class Reference {
 public:
+    /// bound_of: per sheet. Of the features, the triangles, sheet_of and across are looked at.
     /// What is named must outlive it.
-    Reference(std::span<const Point3> points, const Features& features);
+    Reference(std::span<const Point3> points, const Features& features,
+              std::span<const double> bound_of);
+
+    /// Finds the triangles that are alone; until then none is.
+    void find_alone(const Run& run);
 
     /// The least bound that is told apart from rounding errors.
     [[nodiscard]] double least_bound() const { return 1e3 * slack_; }
     /// More than rounding puts into a distance.
     [[nodiscard]] double rounding() const { return slack_; }
 
-    /// Whether the triangle is shown to be within `bound` of the sheet of the triangle `hint`; then
-    /// a triangle of this sheet near its middle.
-    [[nodiscard]] std::optional<std::uint32_t> follows(const Corners& triangle, std::uint32_t hint,
-                                                       double bound);
+    struct Followed {
+        std::uint32_t hint = 0; ///< a triangle of the sheet near the middle
+        bool alone = true;      ///< all that is followed is alone
+    };
+    /// Whether the triangle is shown to be within the bound of the sheet of the triangle `hint`.
+    [[nodiscard]] std::optional<Followed> follows(const Corners& triangle, std::uint32_t hint);
 
     struct Place {
         Point3 point;           ///< on the surface, but for rounding
@@ -100,10 +115,13 @@ private:
     [[nodiscard]] static bool is_near(const Target& target, const std::array<Flat, 3>& corners,
                                       const std::array<double, 3>& heights);
     [[nodiscard]] bool near_one(const Corners& triangle, std::uint32_t t, double bound) const;
-    bool part_follows(const Corners& triangle, std::uint32_t& hint, double bound, unsigned& budget);
+    bool part_follows(const Corners& triangle, Followed& followed, double bound, unsigned& budget);
+    [[nodiscard]] bool is_beyond_plane(std::uint32_t t, std::uint32_t of, double gap) const;
 
     std::span<const Point3> points_;
     const Features& features_;
+    std::span<const double> bound_of_;
+    std::vector<char> alone_;                       ///< per triangle
     std::vector<std::array<std::int8_t, 3>> turns_; ///< per triangle and axis, exactly
     struct Normal {
         Point3 n;
@@ -114,6 +132,7 @@ private:
     std::vector<std::uint32_t> seen_; ///< per triangle: the last search that saw it
     std::uint32_t search_ = 0;
     std::vector<std::uint32_t> front_;
+    bool all_alone_ = true; ///< of the triangles that the search has visited
 };
 
 } // namespace terrane::improving

@@ -9,7 +9,7 @@
 namespace terrane::improving {
 namespace {
 
-constexpr double least_gain = 5e-3;   ///< share of the sum of 1 / q that a move must take away
+constexpr double least_gain = 1e-2;   ///< share of the sum of 1 / q that a move must take away
 constexpr double shake_share = 0.2;   ///< of the wanted length
 constexpr double square_shape = 0.86; ///< q of half a square is 0.83
 
@@ -80,9 +80,15 @@ public:
     template <class Better>
     bool move(const Point3& to, const Better& better) {
         WorkMesh& mesh = shop_.mesh;
+        const Point3 old = mesh.points[v_];
+        mesh.points[v_] = to;
+        const bool is_better = better(before_, badness_at(mesh, v_));
+        mesh.points[v_] = old;
+        if (!is_better) return false;
         const auto place = shop_.reference.above(to, facing(), mesh.hint_of[change_.removed[0]]);
         if (!place) return false;
-        const Point3 old = mesh.points[v_];
+        change_.moved = v_;
+        change_.before = old;
         mesh.points[v_] = place->point;
         const Badness now = badness_at(mesh, v_);
         if (!better(before_, now) || shop_.guard.apply(change_) != Verdict::allowed) {
@@ -112,9 +118,9 @@ bool smooth_vertex(Workshop& shop, Mover& mover, std::uint32_t v) {
     mover.look_at(v);
     const Point3 from = shop.mesh.points[v];
     const Point3 to = drawn(shop.mesh, v);
-    if (mover.move(to, better)) return true;
-    // Trapezium drawing only slides along; where that does not help, half the way, or the mean.
-    return mover.move(between(from, to, 0.5), better) ||
+    // A triangle slides the vertex along its base only, which is half of a way on the mean.
+    if (mover.move(between(from, to, 2.0), better)) return true;
+    return mover.move(between(from, to, 1.0), better) ||
            mover.move(between(from, centre(shop.mesh, v), 0.5), better);
 }
 
@@ -200,7 +206,7 @@ std::size_t smooth(Workshop& shop) {
 std::size_t shake(Workshop& shop) {
     Mover mover(shop);
     const auto is_square = [&](std::uint32_t v) {
-        return std::any_of(shop.mesh.star[v].begin(), shop.mesh.star[v].end(),
+        return std::all_of(shop.mesh.star[v].begin(), shop.mesh.star[v].end(),
                            [&](std::uint32_t t) {
                                return shape_of(shop.mesh, shop.mesh.triangles[t]) < square_shape;
                            });

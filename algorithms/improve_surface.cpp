@@ -50,12 +50,15 @@ std::vector<Edge> edges_changed_since(const WorkMesh& mesh, std::uint32_t time) 
     return edges;
 }
 
-bool split(Workshop& shop, const Edge& e) {
+bool split(Workshop& shop, const Edge& e, std::uint32_t since) {
     WorkMesh& mesh = shop.mesh;
     const auto [a, b] = e;
-    Change change;
+    Change& change = shop.change;
+    change.clear();
     mesh.triangles_at(a, b, change.removed);
     if (change.removed.size() != 2) return false;
+    if (mesh.changed_at[change.removed[0]] >= since || mesh.changed_at[change.removed[1]] >= since)
+        return false;
     set_facing(mesh, change);
     const Point3 &p = mesh.points[a], &q = mesh.points[b];
     const Point3 middle{p.x + (q.x - p.x) / 2, p.y + (q.y - p.y) / 2, p.z + (q.z - p.z) / 2};
@@ -109,25 +112,23 @@ int unevenness(const WorkMesh& mesh, std::array<std::uint32_t, 4> v, int change)
 bool swap(Workshop& shop, const Edge& e, bool even) {
     WorkMesh& mesh = shop.mesh;
     const auto [a, b] = e;
-    Change change;
+    Change& change = shop.change;
+    change.clear();
     mesh.triangles_at(a, b, change.removed);
     if (change.removed.size() != 2) return false;
-    std::uint32_t t = change.removed[0], u = change.removed[1];
+    const std::uint32_t t = change.removed[0], u = change.removed[1];
     const Triangle &first = mesh.triangles[t], &second = mesh.triangles[u];
+    std::uint32_t c = opposite(first, a, b), d = opposite(second, a, b);
+    if (even && unevenness(mesh, {a, b, c, d}, 1) >= unevenness(mesh, {a, b, c, d}, 0))
+        return false;
     const bool forward = (first[0] == a && first[1] == b) || (first[1] == a && first[2] == b) ||
                          (first[2] == a && first[0] == b);
-    std::uint32_t c = opposite(first, a, b), d = opposite(second, a, b);
     if (!forward) std::swap(c, d); // now a, b, c and b, a, d run round alike
     const Triangle left{c, a, d}, right{d, b, c};
-    const double before = std::min(least_cosine(mesh, first), least_cosine(mesh, second));
-    const double after = std::min(least_cosine(mesh, left), least_cosine(mesh, right));
-    if (even) {
-        if (!(after > least_even_cosine) ||
-            unevenness(mesh, {a, b, c, d}, 1) >= unevenness(mesh, {a, b, c, d}, 0))
-            return false;
-    } else if (!(after > before + 1e-6)) {
-        return false;
-    }
+    const double least =
+        even ? least_even_cosine
+             : 1e-6 + std::min(least_cosine(mesh, first), least_cosine(mesh, second));
+    if (!(least_cosine(mesh, left) > least) || !(least_cosine(mesh, right) > least)) return false;
     if (mesh.are_neighbours(c, d)) return false;
     set_facing(mesh, change);
     change.add(left, t);
@@ -190,10 +191,12 @@ bool collapse(Workshop& shop, std::uint32_t gone, std::uint32_t kept, double lon
     const bool on_curve = mesh.kinds[gone] == VertexKind::curve;
     std::uint32_t other = none;
     if (on_curve && !curve_allows(shop, gone, kept, other)) return false;
-    Change change;
+    Change& change = shop.change;
+    change.clear();
     change.on_border = on_curve;
     change.removed = mesh.star[gone];
-    std::vector<std::uint32_t> at_edge;
+    std::vector<std::uint32_t>& at_edge = shop.at_edge;
+    at_edge.clear();
     double worst = 1, worst_before = 1, longest_added = 0;
     for (const std::uint32_t t : change.removed) {
         const Triangle& corners = mesh.triangles[t];
@@ -256,9 +259,10 @@ std::size_t split_edges(Workshop& shop) {
             return std::tuple(-e.first, e.second) < std::tuple(-f.first, f.second);
         });
         std::size_t more = 0;
+        const std::uint32_t since = ++shop.mesh.now;
         for (const auto& [ratio, e] : edges) {
             if (shop.run.stop.stop_requested()) return count;
-            more += split(shop, e);
+            more += split(shop, e, since);
         }
         if (more == 0) break;
         count += more;
@@ -281,11 +285,14 @@ std::size_t collapse_edges(Workshop& shop) {
     std::sort(edges.begin(), edges.end(), [](const auto& e, const auto& f) {
         return std::tuple(-e.first, e.second) < std::tuple(-f.first, f.second);
     });
+    const std::uint32_t since = shop.collapsed_at; // what was tried then in vain is no better now
+    shop.collapsed_at = ++shop.mesh.now;
     for (const auto& [inverse, e] : edges) {
         if (shop.run.stop.stop_requested()) return count;
         const auto [a, b] = e;
         if (mesh.kinds[a] == VertexKind::unused || mesh.kinds[b] == VertexKind::unused) continue;
         const double wanted = mesh.wanted_length(a, b);
+        if (!mesh.changed_since(a, since) && !mesh.changed_since(b, since)) continue;
         if (!(mesh.edge_length(a, b) < short_share * wanted) || !mesh.are_neighbours(a, b) ||
             mesh.curve_at(a, b) != none)
             continue;

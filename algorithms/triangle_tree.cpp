@@ -156,7 +156,7 @@ std::optional<TriangleTree::Near> TriangleTree::nearest(const Point3& p, double 
         const double d = length(minus(q, p));
         if (d >= bound) return;
         bound = d;
-        best = Near{q, d};
+        best = Near{q, d, t};
     });
     return best;
 }

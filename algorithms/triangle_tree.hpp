@@ -23,6 +23,7 @@ public:
     struct Near {
         Point3 place{};
         double distance = 0;
+        Triangle triangle{}; ///< on which it lies
     };
     /// The nearest point on the triangles if it is nearer than `bound`. Cost: the same.
     [[nodiscard]] std::optional<Near> nearest(const Point3& p, double bound) const;

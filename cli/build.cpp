@@ -203,8 +203,8 @@ private:
         }
         auto measured = improve_and_measure(mesh(), options, session_, statistics_);
         if (!measured) return measured.error();
-        add_statistics(statistics_, measured.value().improved, measured.value().deviations);
-        journal_.say(improve_text(measured.value().improved, measured.value().deviations, inputs_));
+        add_statistics(statistics_, measured.value());
+        journal_.say(improve_text(measured.value(), inputs_));
         better_ = std::move(measured.value().improved);
         return Done{};
     }

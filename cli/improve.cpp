@@ -34,8 +34,9 @@ constexpr auto footer =
 better: smoothed, swapped, collapsed, split, all surfaces together. The mesh stays conforming: each
 step is allowed only where exact predicates show that no triangles meet improperly by it, and the
 whole is checked exactly at the end. Corners stay; curves (intersections, borders, creases) keep their vertices
-on the curves as they were. No point moves farther than D from its surface: shown for all of each
-triangle, and measured again by other code before anything is written.
+on the curves as they were. No point moves farther than D from its surface, and no point of a surface as it was is farther than
+D from it as it is: shown for all of each triangle, and measured again by other code before anything
+is written.
 
 q is 2 r / R, radius of the inscribed by that of the circumscribed circle, 1 for an equilateral
 triangle.
@@ -129,16 +130,20 @@ Result<ExitStatus> improve_files(const ImproveCommand& command, Session& session
         const auto measured =
             improve_and_measure(arranged.value().rounded.mesh, options, session, statistics);
         if (!measured) return measured.error();
-        add_statistics(statistics, measured.value().improved, measured.value().deviations);
-        print(summary_stream(files),
-              improve_text(measured.value().improved, measured.value().deviations, inputs.value()));
+        add_statistics(statistics, measured.value());
+        print(summary_stream(files), improve_text(measured.value(), inputs.value()));
         const Mesh& mesh = measured.value().improved.mesh;
         const auto narrow = stl_is_conforming(mesh, files, outputs.value(), session);
         if (!narrow) return narrow.error();
-        clean = narrow.value() && measured.value().improved.report.sides_kept;
+        clean = narrow.value() && measured.value().improved.report.sides_kept &&
+                measured.value().is_near_back();
         if (!measured.value().improved.report.sides_kept)
             warn("a small piece came to lie beyond a surface near it, so the blocks would not be "
                  "the same; try a smaller --max-deviation");
+        if (!measured.value().is_near_back())
+            warn(
+                "not all of each surface as it was is shown to be near enough to the improved one; "
+                "try another --max-deviation");
         Stopwatch writing;
         if (clean) {
             const auto written = write_all(command, measured.value(), outputs.value(), session);

@@ -12,6 +12,7 @@
 #include <catch2/catch.hpp>
 
 #include <terrane/algorithms/deviation.hpp>
+#include <terrane/algorithms/improve_back.hpp>
 #include <terrane/algorithms/rounding.hpp>
 
 #include "../support/points.hpp"
@@ -105,7 +106,7 @@ TEST_CASE("improve: a horizon cut into nine regions, as in the paper's Figure 18
     CHECK(regions.size() == 9);
     CHECK(horizon.triangles.size() == 1134);
     ImproveOptions options;
-    options.edge_length = 0.176; // about 8700 triangles, as there
+    options.edge_length = 0.18; // about 8700 triangles, as there
     const Improved better = improved(mesh, options);
     const Surface after = surface_of_mesh(better.mesh, 0);
     const QualityReport q = measure_quality(after.vertices, after.triangles);
@@ -131,6 +132,38 @@ TEST_CASE("improve: the bound holds for all points, by another method", "[improv
         const double most =
             distance_bound(surface_of_mesh(better.mesh, s), surface_of_mesh(mesh, s), 0.02);
         CHECK(most <= 0.2 + 0.02);
+    }
+}
+
+TEST_CASE("improve: what it was is near what it is now, and a hole is seen", "[improve]") {
+    const Mesh mesh = rounded(nine_regions());
+    ImproveOptions options;
+    options.edge_length = 0.5;
+    Improved better = improved(mesh, options);
+    const auto back = bounds_back(mesh, better, options);
+    REQUIRE(back);
+    for (std::uint32_t s = 0; s < mesh.surfaces.size(); ++s) {
+        CHECK(back.value()[s] <= better.report.bound_of[s]);
+        const Surface before = surface_of_mesh(mesh, s), after = surface_of_mesh(better.mesh, s);
+        CHECK(back.value()[s] >= sampled_distance(before, after));
+    }
+    // Without any one triangle it is far, as its circle is larger than the bound.
+    for (const std::size_t gone : {std::size_t{0}, better.mesh.triangles.size() / 2}) {
+        Improved holed = better;
+        const std::uint32_t surface = better.mesh.surfaces_of[gone][0];
+        const auto keep = [&](auto& list) {
+            list.erase(list.begin() + static_cast<std::ptrdiff_t>(gone));
+        };
+        keep(holed.mesh.triangles);
+        keep(holed.near_of);
+        holed.mesh.surfaces_of = {};
+        for (std::size_t t = 0; t < better.mesh.triangles.size(); ++t)
+            if (t != gone) holed.mesh.surfaces_of.push_back(better.mesh.surfaces_of[t]);
+        const auto far = bounds_back(mesh, holed, options);
+        REQUIRE(far);
+        CHECK(far.value()[surface] > better.report.bound_of[surface]);
+        CHECK(far.value()[surface] >= sampled_distance(surface_of_mesh(mesh, surface),
+                                                       surface_of_mesh(holed.mesh, surface)));
     }
 }
 
@@ -171,6 +204,32 @@ TEST_CASE("improve: sheets closer than the bound never meet", "[improve]") {
     options.max_deviation = 0.1;
     const Improved better = improved(mesh, options); // tested exactly at its end
     CHECK(better.report.refused_contact > 0);        // or it was too easy
+}
+
+TEST_CASE("improve: no sheet jumps over a piece that is smaller than the bound", "[improve]") {
+    const auto hill = [](double height, double narrow) {
+        return [=](double u, double v) {
+            const double r = (u - 0.5) * (u - 0.5) + (v - 0.5) * (v - 0.5);
+            const double fade = 16 * u * (1 - u) * v * (1 - v); // the borders are the same
+            return Point3{10 * u, 10 * v, height * fade * std::exp(-narrow * r)};
+        };
+    };
+    for (const double size : {0.1, 0.02})
+        for (const double narrow : {120.0, 300.0})
+            for (const double length : {2.0, 4.0}) {
+                Surface piece = cube(0, size); // below the top of the hill
+                for (Point3& p : piece.vertices) p = {4.99 + p.x, 4.99 + p.y, 0.3 + p.z};
+                const Mesh mesh = rounded({grid(20, 20, hill(0.6, narrow), "top"),
+                                           grid(9, 9, hill(-3, 0), "bottom"), piece});
+                ImproveOptions options;
+                options.edge_length = length;
+                options.max_deviation = 0.8;
+                const Improved better = improved(mesh, options);
+                INFO(size << ' ' << narrow << ' ' << length);
+                CHECK(better.mesh.triangles.size() < mesh.triangles.size() / 4);
+                CHECK(better.report.refused_contact > 0);
+                CHECK(better.report.sides_kept);
+            }
 }
 
 TEST_CASE("improve: the same for any number of threads", "[improve]") {

@@ -3,7 +3,8 @@
 // Improving a mesh of several surfaces, beside CGAL's isotropic remeshing of each of them alone
 // with the curves protected: quality, contacts, deviation, processor time.
 //   terrane_bench_improve [--edge-length L] [--iterations N] NAME|FILE...
-// A NAME is a model of models.hpp. Several FILEs are one model.
+// A NAME is a model of models.hpp. Several FILEs are one model. To be built with NDEBUG, as by the
+// preset `bench`: with its assertions CGAL takes up to three times as long.
 #include <algorithm>
 #include <array>
 #include <cmath>

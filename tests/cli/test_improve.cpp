@@ -27,6 +27,12 @@ TEST_CASE("cli: improve writes a conforming mesh, its statistics and histograms"
     CHECK(counted == after.at("triangles"));
     CHECK(stats.at("deviation").at("measured_of_surfaces").at(0) <=
           stats.at("deviation").at("bound_of_surfaces").at(0));
+    for (std::size_t s = 0; s < 2; ++s) {
+        const auto& deviation = stats.at("deviation");
+        CHECK(deviation.at("bound_back_of_surfaces").at(s) <=
+              deviation.at("bound_of_surfaces").at(s));
+        CHECK(deviation.at("measured_back").at(s) <= deviation.at("bound_back_of_surfaces").at(s));
+    }
     const std::string svg = folder.read("q.svg");
     CHECK(svg.starts_with("<svg "));
     CHECK(svg.ends_with("</svg>\n"));
