@@ -12,8 +12,8 @@ namespace terrane {
 template <class T>
 struct UnfilledAllocator : std::allocator<T> {
     template <class U>
-    struct rebind { // NOLINT(readability-identifier-naming): the name is the standard's
-        using other = UnfilledAllocator<U>;
+    struct rebind {                         // the names are the standard's
+        using other = UnfilledAllocator<U>; // NOLINT(readability-identifier-naming)
     };
     template <class U, class... Arguments>
     void construct(U* at, Arguments&&... arguments) {
