@@ -9,6 +9,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include "../support/holed_surfaces.hpp"
 #include "program.hpp"
 
 using namespace program_test;
@@ -29,26 +30,6 @@ std::string holed_grid() {
             text += hole ? "9999900 " : std::to_string(-sheet_at(10.0 * i, 10.0 * j)) + "\n";
         }
     return text;
-}
-
-/// A hole in it that only part of the surface's own limb lies over: no graph.
-std::string holed_fold() {
-    std::string fold;
-    const int n = 40;
-    for (int j = 0; j <= n; ++j)
-        for (int i = 0; i <= n; ++i) {
-            const double t = 2 * M_PI * i / n;
-            fold += "v " + std::to_string(6.0 * i - 40 * std::sin(2 * t)) + " " +
-                    std::to_string(6.0 * j) + " " + std::to_string(60 * std::sin(t)) + "\n";
-        }
-    for (int j = 0; j < n; ++j)
-        for (int i = 0; i < n; ++i) {
-            if (std::hypot(i + 0.5 - 18, j + 0.5 - 20) < 4) continue;
-            const int a = j * (n + 1) + i + 1, d = a + n + 1;
-            fold += "f " + std::to_string(a) + " " + std::to_string(a + 1) + " " +
-                    std::to_string(d + 1) + " " + std::to_string(d) + "\n";
-        }
-    return fold;
 }
 
 Json grid_project(const std::string& method) {
@@ -95,7 +76,7 @@ struct Case {
 
     Case() {
         folder.input("top.irap", holed_grid());
-        folder.input("fold.obj", holed_fold());
+        folder.input("fold.obj", test_support::holed_fold_as_obj());
         folder.input("stack.obj", crossing);
     }
     [[nodiscard]] Outcome build(const Json& json, const std::string& arguments) const {

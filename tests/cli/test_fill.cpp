@@ -11,6 +11,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include "../support/holed_surfaces.hpp"
 #include "program.hpp"
 
 using namespace program_test;
@@ -179,23 +180,8 @@ TEST_CASE("cli: fill leaves what was not asked for: numbers, sizes, fault gaps",
 
 TEST_CASE("cli: fill names holes that kriging can't fill, leaves them open, and status is 1",
           "[cli]") {
-    std::string fold;
-    const int n = 40;
-    for (int j = 0; j <= n; ++j)
-        for (int i = 0; i <= n; ++i) {
-            const double t = 2 * M_PI * i / n;
-            fold += "v " + std::to_string(6.0 * i - 40 * std::sin(2 * t)) + " " +
-                    std::to_string(6.0 * j) + " " + std::to_string(60 * std::sin(t)) + "\n";
-        }
-    for (int j = 0; j < n; ++j)
-        for (int i = 0; i < n; ++i) {
-            if (std::hypot(i + 0.5 - 18, j + 0.5 - 20) < 4) continue;
-            const int a = j * (n + 1) + i + 1, d = a + n + 1;
-            fold += "f " + std::to_string(a) + " " + std::to_string(a + 1) + " " +
-                    std::to_string(d + 1) + " " + std::to_string(d) + "\n";
-        }
     const Folder folder;
-    const auto in = folder.input("fold.obj", fold);
+    const auto in = folder.input("fold.obj", test_support::holed_fold_as_obj());
     const auto refused = folder.run("fill " + in + " -o out.obj");
     CHECK(refused.status == 1);
     CHECK(contains(refused.err, "hole 1 of fold is left open"));
