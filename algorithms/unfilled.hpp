@@ -11,10 +11,13 @@ namespace terrane {
 /// element is written anyway.
 template <class T>
 struct UnfilledAllocator : std::allocator<T> {
+    // NOLINTBEGIN(readability-identifier-naming): the names are the standard's
     template <class U>
-    struct rebind {                         // the names are the standard's
-        using other = UnfilledAllocator<U>; // NOLINT(readability-identifier-naming)
+    struct rebind {
+        using other = UnfilledAllocator<U>;
     };
+    // NOLINTEND(readability-identifier-naming)
+
     template <class U, class... Arguments>
     void construct(U* at, Arguments&&... arguments) {
         if constexpr (sizeof...(Arguments) == 0)
