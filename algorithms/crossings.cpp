@@ -170,7 +170,7 @@ void find_crossings(const TriangleSoup& soup, Contacts& contacts, const Run& run
     starts.push_back(static_cast<std::uint32_t>(contacts.pieces.size()));
 
     const auto blocks =
-        for_blocks<CrossingBlock>(faces, 256, run, [&](std::size_t first, std::size_t last) {
+        for_blocks<CrossingBlock>(faces, 64, run, [&](std::size_t first, std::size_t last) {
             CrossingBlock block;
             const PredicateCounts before = predicate_counts();
             FaceSweep sweep(soup, contacts, block.crossings);

@@ -120,7 +120,7 @@ std::vector<Part> divide_faces(const TriangleSoup& soup, const Contacts& contact
     const std::span pieces(contacts.pieces);
     const std::span crossings(contacts.crossings);
     const auto blocks =
-        for_blocks<PartBlock>(faces.size(), 256, run, [&](std::size_t first, std::size_t last) {
+        for_blocks<PartBlock>(faces.size(), 64, run, [&](std::size_t first, std::size_t last) {
             PartBlock block;
             const PredicateCounts before = predicate_counts();
             Divider divide(soup, contacts, order);

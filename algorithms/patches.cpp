@@ -166,7 +166,10 @@ public:
         patch_of_.assign(surface_of_.begin(), surface_of_.end());
         const auto last = std::max_element(surface_of_.begin(), surface_of_.end());
         proven_.assign(last == surface_of_.end() ? 0 : *last + std::size_t{1}, std::nullopt);
+        size_of_.assign(proven_.size(), 0);
+        for (const std::uint32_t p : patch_of_) ++size_of_[p];
         prove();
+        size_of_.clear();
         if (is_done()) return {std::move(group_), std::move(axis_)};
         find_components();
         prove();
@@ -311,13 +314,20 @@ private:
         if (std::abs(sum) > 1) part.unusable.push_back(patch);
     }
 
+    /// Most sides of its triangles are border: not worth a try as a whole, each piece is soon
+    /// proven.
+    [[nodiscard]] bool is_scattered(std::uint32_t patch, std::size_t border) const {
+        constexpr std::size_t few = 64; // triangles
+        return !size_of_.empty() && size_of_[patch] > few && 2 * border > 3 * size_of_[patch];
+    }
+
     void try_axis(Axis axis) {
         std::stable_sort(border_.begin(), border_.end(),
                          [](const auto& a, const auto& b) { return a.patch < b.patch; });
         for (std::size_t i = 0, end = 0; i < border_.size(); i = end) {
             const std::uint32_t patch = border_[i].patch;
             while (end < border_.size() && border_[end].patch == patch) ++end;
-            if (!usable_[patch]) continue;
+            if (!usable_[patch] || is_scattered(patch, end - i)) continue;
             const std::span edges(border_.data() + i, end - i);
             if (Border(points_, axis, edges).encloses_once()) proven_[patch] = axis;
         }
@@ -334,6 +344,7 @@ private:
     std::vector<Sign> turns_;                 ///< per triangle, in the projection being tried
     std::vector<std::uint32_t> patch_of_;     ///< per triangle without a group
     std::vector<std::optional<Axis>> proven_; ///< per patch
+    std::vector<std::size_t> size_of_;        ///< per surface, while they are tried as a whole
     std::vector<bool> usable_;                ///< per patch, in the projection being tried
     std::vector<BorderEdge> border_;          ///< of all patches, in the projection being tried
 };

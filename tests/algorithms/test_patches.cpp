@@ -124,3 +124,20 @@ TEST_CASE("patches: no two triangles of a patch meet improperly") {
         if (shape == Shape::smooth) CHECK(all.unproven == 0);
     }
 }
+
+TEST_CASE("patches: scattered triangles are proven one by one") {
+    Random random(92);
+    Sheet m;
+    for (std::uint32_t k = 0; k < 100; ++k) { // all over each other in every projection
+        const auto family = [&] { return point_of([&] { return random_real(random, 0, 1); }); };
+        for (int i = 0; i < 3; ++i) m.points.push_back(family());
+        m.triangles.push_back({3 * k, 3 * k + 1, 3 * k + 2});
+    }
+    std::vector<std::uint32_t> surface_of(m.triangles.size(), 0);
+    const EdgeSides edges = group_edges(m.triangles, m.points.size());
+    const Patches patches = prove_patches(m.points, m.triangles, surface_of, edges);
+    std::vector<std::uint32_t> groups = patches.of;
+    std::sort(groups.begin(), groups.end());
+    CHECK(std::adjacent_find(groups.begin(), groups.end()) == groups.end());
+    CHECK(groups.back() != no_group);
+}
