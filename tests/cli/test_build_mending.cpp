@@ -9,7 +9,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "../support/holed_surfaces.hpp"
+#include "holed_fold.hpp"
 #include "program.hpp"
 
 using namespace program_test;

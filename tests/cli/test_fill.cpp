@@ -11,7 +11,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "../support/holed_surfaces.hpp"
+#include "holed_fold.hpp"
 #include "program.hpp"
 
 using namespace program_test;
