@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <stdexcept>
-#include <tuple>
 #include <utility>
 
 namespace terrane {
@@ -56,11 +54,11 @@ FaceTriangulation::operator()(const PointStore& points, std::span<const std::uin
     return result_;
 }
 
-FaceTriangulation::Local FaceTriangulation::add_point(PointIndex p, const ApproximatePoint& at) {
+FaceTriangulation::Local FaceTriangulation::add_point(PointIndex p) {
     const auto line = std::lower_bound(lines_of_.begin(), lines_of_.end(), std::array{p, 0u});
     points_.push_back(p);
     first_line_.push_back(static_cast<std::uint32_t>(line - lines_of_.begin()));
-    flat_.push_back(at);
+    flat_.push_back(store_->approximate(axis_, p));
     cell_of_.push_back(0);
     return static_cast<Local>(points_.size() - 1);
 }
@@ -106,24 +104,19 @@ FaceTriangulation::Side FaceTriangulation::border_side(Local a, Local b) const {
         }
 }
 
-// Levels by hash, coarse ones first, each level in strips, up one and down the next: short walks,
-// few flips. The result does not depend on the order.
+// Levels by hash, coarse ones first, each level in lexicographic order: short walks, few flips.
 void FaceTriangulation::insert_inner_points(const FaceInput& face) {
     order_.clear();
-    for (const PointIndex p : face.inner_points) {
+    for (const PointIndex p : face.inner_points) order_.push_back(p);
+    const auto key = [&](PointIndex p) {
         const std::uint64_t h = (rank_[p] + 1) * 0x9e3779b97f4a7c15u;
-        order_.push_back({-std::countl_zero(h | 1) / 2, store_->approximate(axis_, p), p});
-    }
-    std::sort(order_.begin(), order_.end(), [](const Inner& a, const Inner& b) {
-        return std::tie(a.level, a.at.u, a.point) < std::tie(b.level, b.at.u, b.point);
-    });
-    for (std::size_t first = 0, last = 0; first < order_.size(); first = last) {
-        while (last < order_.size() && order_[last].level == order_[first].level) ++last;
-        sort_into_strips(std::span(order_).subspan(first, last - first));
-    }
+        return std::pair{-std::countl_zero(h | 1) / 2, rank_[p]};
+    };
+    std::sort(order_.begin(), order_.end(),
+              [&](PointIndex a, PointIndex b) { return key(a) < key(b); });
     Local near = 0;
-    for (const Inner& next : order_) {
-        const Local p = add_point(next.point, next.at);
+    for (const PointIndex q : order_) {
+        const Local p = add_point(q);
         const Side s = locate(p, near);
         if (s.i == 3)
             split_cell(s.cell, p);
@@ -131,22 +124,6 @@ void FaceTriangulation::insert_inner_points(const FaceInput& face) {
             split_edge(s, p);
         legalise();
         near = cell_of_[p];
-    }
-}
-
-void FaceTriangulation::sort_into_strips(std::span<Inner> level) {
-    constexpr std::size_t few = 16; // of which one is near enough to the next
-    if (level.size() < few) return;
-    const auto strips = static_cast<std::size_t>(std::sqrt(static_cast<double>(level.size())));
-    for (std::size_t k = 0; k < strips; ++k) {
-        const std::size_t first = level.size() * k / strips, last = level.size() * (k + 1) / strips;
-        const bool up = k % 2 == 0;
-        std::sort(level.begin() + static_cast<std::ptrdiff_t>(first),
-                  level.begin() + static_cast<std::ptrdiff_t>(last),
-                  [up](const Inner& a, const Inner& b) {
-                      return up ? std::tie(a.at.v, a.point) < std::tie(b.at.v, b.point)
-                                : std::tie(b.at.v, b.point) < std::tie(a.at.v, a.point);
-                  });
     }
 }
 

@@ -56,24 +56,17 @@ private:
         std::array<Local, 3> n{};    ///< neighbour across the edge opposite to v[i], or none
         std::array<bool, 3> fixed{}; ///< that edge is a constraint
     };
-    struct Inner { ///< a point still to be inserted
-        int level;
-        ApproximatePoint at;
-        PointIndex point;
-    };
     struct Side { ///< the edge of a cell opposite to v[i]
         Local cell;
         unsigned i;
     };
 
     void start(const FaceInput& face);
-    Local add_point(PointIndex p) { return add_point(p, store_->approximate(axis_, p)); }
-    Local add_point(PointIndex p, const ApproximatePoint& at);
+    Local add_point(PointIndex p);
     void find_lines(const FaceInput& face);
     [[nodiscard]] bool on_one_line(Local a, Local b, Local c) const;
     void insert_edge_points(const FaceInput& face);
     void insert_inner_points(const FaceInput& face);
-    static void sort_into_strips(std::span<Inner> level);
     void insert_segment(Local u, Local v);
     bool advance(Local u, Local v, Local& reached);
     void collect_crossed(Local u, Local v, Side first, Local& reached);
@@ -109,7 +102,7 @@ private:
     std::vector<Side> todo_;
     std::vector<std::array<Local, 2>> crossed_;
     std::vector<std::pair<PointIndex, Local>> index_; ///< sorted: stored index to local one
-    std::vector<Inner> order_;
+    std::vector<Local> order_;
     std::vector<std::array<PointIndex, 3>> result_;
 };
 
