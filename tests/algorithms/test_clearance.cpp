@@ -125,16 +125,16 @@ void examine(Random& random, const Surface& surface, double size, Found& found) 
 Surface much_cut(Random& random) {
     const auto near = [&](double x) { return x + random_real(random, -0.02, 0.02); };
     Surface s;
-    const auto add = [&](const Point3& a, const Point3& b, const Point3& c) {
+    const auto add = [&](const std::array<Point3, 3>& corners) { // made in order, unlike arguments
         const auto first = static_cast<std::uint32_t>(s.vertices.size());
-        s.vertices.insert(s.vertices.end(), {a, b, c});
+        s.vertices.insert(s.vertices.end(), corners.begin(), corners.end());
         s.triangles.push_back({first, first + 1, first + 2});
     };
-    add({-2, -2, near(0)}, {6, -2, near(0)}, {-2, 6, near(0)});
+    add({Point3{-2, -2, near(0)}, Point3{6, -2, near(0)}, Point3{-2, 6, near(0)}});
     for (int k = 0; k < 12; ++k) {
         const double at = k / 12.0;
-        add({near(at), -1.5, -1}, {near(at), 2.5, -1}, {near(at), 0.5, 1});
-        add({-1.5, near(at), -1}, {2.5, near(at), -1}, {0.5, near(at), 1});
+        add({Point3{near(at), -1.5, -1}, Point3{near(at), 2.5, -1}, Point3{near(at), 0.5, 1}});
+        add({Point3{-1.5, near(at), -1}, Point3{2.5, near(at), -1}, Point3{0.5, near(at), 1}});
     }
     return s;
 }
@@ -150,8 +150,7 @@ TEST_CASE("clearance: the same of a face with so many parts that far ones are le
         const auto of_first = std::count_if(a.parents_of.values.begin(), a.parents_of.values.end(),
                                             [](auto p) { return p == 0; });
         REQUIRE(of_first > 256);
-        // Wide moves make some triangles flat, small ones nothing improper.
-        const Moved m = moved(random, a, std::pow(10, random_real(random, -6, -3)));
+        const Moved m = moved(random, a, std::pow(10, random_real(random, -4, -1)));
         const Unclear unclear = find_unclear(
             {a.points.inputs(), a.inputs.corners, m.points, m.moves, a.triangles, a.parents_of},
             all_pairs(a.inputs.first.back()), {});
@@ -168,7 +167,7 @@ TEST_CASE("clearance: the same of a face with so many parts that far ones are le
         }
         CHECK(unclear.parts.size() < a.triangles.size());
     }
-    CHECK(improper > 0);
+    CHECK(improper > 20);
 }
 
 TEST_CASE("clearance: what is not listed as unclear is proper") {
