@@ -127,7 +127,7 @@ private:
                          &c = surface.vertices[t[2]];
             const Point3 n = cross(minus(b, a), minus(c, a));
             const double longest = std::max({apart(a, b), apart(b, c), apart(c, a)});
-            if (std::sqrt(dot(n, n)) > 1e-6 * longest * longest) kept.push_back(t);
+            if (std::sqrt(dot(n, n)) > thinnest * longest * longest) kept.push_back(t);
         }
         return kept;
     }

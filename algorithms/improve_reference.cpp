@@ -151,7 +151,7 @@ std::optional<Reference::Target> Reference::target_of(const Corners& triangle, d
     const double longest =
         std::sqrt(std::max({dot(ab, ab), dot(ac, ac), dot(minus(ac, ab), minus(ac, ab))}));
     const double along = std::max({x, y, z});
-    if (!(along > 1e-6 * longest * longest)) return std::nullopt;
+    if (!(along > thinnest * longest * longest)) return std::nullopt;
     const Axis axis = z >= x && z >= y ? Axis::z : x >= y ? Axis::x : Axis::y;
     Target target;
     target.frame = along_axis ? frame_of(axis) : frame_along(n, ab);

@@ -29,6 +29,11 @@
 
 namespace terrane::improving {
 
+/// Triangles whose area is a smaller share of the square of their longest edge (times two) are so
+/// thin that rounding may take their normal: nothing is looked for along it. Leaving them out can
+/// only make a bound larger.
+constexpr double thinnest = 1e-6;
+
 using Corners = std::array<Point3, 3>;
 
 /// No less than the distance of p to the triangle, but for rounding: to a point that is on it,
