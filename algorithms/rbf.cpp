@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <new>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -27,13 +28,11 @@ double length(const Point3& a) {
     return std::hypot(a.x, a.y, a.z);
 }
 
-/// The edge length of the filling: equilateral triangles of that size, as many as are allowed.
-double size_for(const HoleData& data, const BorderLoop& loop, const RbfOptions& options) {
-    if (options.size > 0) return options.size;
+/// The least edge length of a filling of equilateral triangles with as many vertices as are
+/// allowed.
+double least_size(const BorderLoop& loop, const RbfOptions& options) {
     const double per_vertex = std::sqrt(3.0) / 2; // area, in squares of the edge
-    const double least =
-        std::sqrt(loop.area / (per_vertex * static_cast<double>(options.most_vertices)));
-    return std::max(data.edge, least);
+    return std::sqrt(loop.area / (per_vertex * static_cast<double>(options.most_vertices)));
 }
 
 /// The edges at which the data end, but for the border of the hole, as triangles without area.
@@ -52,17 +51,21 @@ std::vector<Triangle> rim_of(const HoleData& data) {
 class Outside {
 public:
     Outside(const HoleData& data, double size) :
-        size_(size), surface_(data.points, data.triangles), rim_(data.points, rim_of(data)),
-        border_(data.points, border_edges(data)) {}
+        points_(data.points), size_(size), surface_(data.points, data.triangles),
+        rim_(data.points, rim_of(data)), border_(data.points, border_edges(data)) {}
 
-    [[nodiscard]] bool operator()(const Point3& p) const {
+    /// `ahead`: the direction to which the level at p faces.
+    template <class Ahead>
+    [[nodiscard]] bool operator()(const Point3& p, const Ahead& ahead) const {
         const double margin = 3 * size_, under = 1.5 * size_;
         const double border = border_.distance(p, std::numeric_limits<double>::infinity());
         if (border < margin) return false;
-        const double surface = surface_.distance(p, border);
-        if (surface < under) return true;
-        // Beyond the data the nearest of them is on their rim, as it is on no other limb of a fold.
-        return surface < border && rim_.distance(p, border) <= surface;
+        const auto surface = surface_.nearest(p, border);
+        if (!surface) return false;
+        // Another limb of a fold may be as near, but it faces the other way.
+        if (!(dot(normal_of(surface->triangle), ahead(p)) > 0)) return false;
+        // Beyond the data the nearest of them is on their rim.
+        return surface->distance < under || rim_.distance(p, border) <= surface->distance;
     }
 
 private:
@@ -73,6 +76,11 @@ private:
         return edges;
     }
 
+    [[nodiscard]] Point3 normal_of(const Triangle& t) const {
+        return cross(minus(points_[t[1]], points_[t[0]]), minus(points_[t[2]], points_[t[0]]));
+    }
+
+    std::span<const Point3> points_;
     double size_;
     TriangleTree surface_, rim_, border_;
 };
@@ -84,10 +92,39 @@ Result<Surface> mesh_zero_level(const Implicit& f, const HoleData& data, double 
     ZeroLevelOptions options;
     options.size = size;
     options.seeds = std::span(data.points).first(data.next.size());
-    options.leave = [&](const Point3& p) { return outside(p); };
     const SpaceFunction function{[&](const Point3& p) { return f(p); },
                                  [&](const Point3& p) { return f.smooth.gradient(p); }};
+    options.leave = [&](const Point3& p) { return outside(p, function.gradient); };
     return zero_level(function, options, run);
+}
+
+/// Whether the triangles cut corners at the border: the level there is farther from them than a
+/// quarter of their size.
+bool too_coarse(const Surface& level, const Implicit& f, const HoleData& data, double size) {
+    const TriangleTree tree(level.vertices, level.triangles);
+    const auto border = std::span(data.points).first(data.next.size());
+    return std::any_of(border.begin(), border.end(), [&](const Point3& p) {
+        const Point3 g = f.smooth.gradient(p);
+        const double step = -f(p) / dot(g, g);
+        const Point3 on{p.x + step * g.x, p.y + step * g.y, p.z + step * g.z};
+        return tree.distance(on, size) > size / 4;
+    });
+}
+
+/// The same, with edges as long as those of the border, or half or a quarter of that where the
+/// surface turns too sharply for them; and no more vertices than are allowed.
+Result<Surface> mesh_to_size(const Implicit& f, const HoleData& data, const BorderLoop& loop,
+                             const RbfOptions& options, double& size, const Run& run) {
+    const double least = least_size(loop, options);
+    size = options.size > 0 ? options.size : std::max(data.edge, least);
+    auto level = mesh_zero_level(f, data, size, run);
+    if (options.size > 0) return level;
+    for (int halvings = 0; halvings < 2 && size / 2 >= least; ++halvings) {
+        if (!level || !too_coarse(level.value(), f, data, size)) break;
+        size /= 2;
+        level = mesh_zero_level(f, data, size, run);
+    }
+    return level;
 }
 
 double area_of(const Surface& s) {
@@ -101,9 +138,9 @@ double area_of(const Surface& s) {
 
 std::string describe(const RbfReport& r, const RbfForm& form, bool smoothed) {
     const auto start = fmt::format(
-        "degree {}, {} of {} data are centres, {} constraints {:.4g} off the surface {}; ",
-        form.polynomial.degree, r.centres, r.data, r.offsets, r.offset,
-        form.along_axis ? "across the hole" : "along normals");
+        "degree {}{}, {} of {} data are centres, {} constraints {:.4g} off the surface {}; ",
+        form.polynomial.degree, form.polynomial.in_space ? " in space" : "", r.centres, r.data,
+        r.offsets, r.offset, form.along_axis ? "across the hole" : "along normals");
     if (smoothed)
         return start + fmt::format("smoothed with {:.0f} degrees of freedom; data missed by {:.2g} "
                                    "at most, {} patches, then by {:.2g}",
@@ -161,8 +198,7 @@ Result<Filling> fill_valid(const Surface& surface, const BorderLoop& loop,
     report.degree = form.polynomial.degree;
     const auto f = fit_hole(data.value(), form, options, report, run);
     if (!f) return f.error();
-    report.size = size_for(data.value(), loop, options);
-    auto level = mesh_zero_level(f.value(), data.value(), report.size, run);
+    auto level = mesh_to_size(f.value(), data.value(), loop, options, report.size, run);
     if (!level) return level.error();
     Filling filling;
     filling.surface = std::move(level).value();

@@ -18,10 +18,11 @@
 //       the hole (rbf_patches.hpp). So every datum is met, whatever the number of centres; not with
 //       options.smoothing;
 //   (5) the zero level over the hole and a margin beyond it as triangles (zero_level.hpp).
-// The degree of the polynomial part, the direction of (2) and the way of (3) are those that predict
-// best the data left out when the hole is made wider by a quarter of its radius. What they miss of
-// these, in units of the power function there, times the power function in the hole, is the
-// expected error (rbf_error.hpp). Guarantees: the same bytes for any number of threads. The filling
+// The polynomial part (along the hole's plane, or in space for what turns away from any plane), its
+// degree, the direction of (2) and the way of (3) are those that predict best the data left out
+// when the hole is made wider by a quarter of its radius. What they miss of these, in units of the
+// power function there, times the power function in the hole, is the expected error
+// (rbf_error.hpp). Guarantees: the same bytes for any number of threads. The filling
 // goes at least two edge lengths beyond the border where the surface does; it is to be joined
 // (join.hpp). Cost: n^3 / 3 for n constraints, at most 2000; n per lattice point of (5). Source:
 // the paper, 4.1, equation (10); Carr et al. (2001) for (2) and (3); Ohtake et al. (2003) for (4).
@@ -47,8 +48,9 @@ struct RbfOptions {
     double offset = 0; ///< d, unit of the surface; 0: a 20th of the radius or half a border edge,
                        ///< the larger; less where the surface comes near to itself
     double tolerance = 0; ///< unit of the surface; 0: a thousandth of the median border edge
-    double size = 0;      ///< edge length of the filling; 0: the median border edge, or more where
-                          ///< the hole would take more than most_vertices
+    double size = 0;      ///< edge length of the filling; 0: the median border edge, more where
+                          ///< the hole would take more than most_vertices, down to a quarter
+                          ///< where triangles of that size would cut corners at the border
     std::size_t most_vertices = 50'000;
     unsigned degree = 0; ///< of the polynomial part along the hole: 1 is the paper's, up to 8; 0:
                          ///< the one of these that predicts best

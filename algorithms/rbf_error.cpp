@@ -38,6 +38,7 @@ std::vector<std::uint32_t> chosen(const HoleData& data, double margin) {
 RbfError::RbfError(const HoleData& data, const RbfPolynomial& polynomial, double margin,
                    double nugget) :
     basis_(polynomial) {
+    basis_.in_space = false; // along the surface is what counts
     const auto indices = chosen(data, margin);
     for (const std::uint32_t i : indices) {
         const Point3& p = data.points[i];

@@ -344,7 +344,7 @@ double steepest_slope(const HoleData& data, const Point3& axis) {
 }
 
 /// Those worth a trial, by rising degree. Along the axis only where the data are a graph over its
-/// plane, along normals only where they are steep.
+/// plane, along normals only where they are steep, and then with polynomials in space last.
 std::vector<RbfForm> forms_for(const HoleData& data, const RbfOptions& options) {
     RbfForm form;
     form.polynomial.axes = axes_of(data);
@@ -361,7 +361,21 @@ std::vector<RbfForm> forms_for(const HoleData& data, const RbfOptions& options) 
         if (steepest < steep) forms.push_back(form);
         if (options.degree > 0) break;
     }
+    if (!(steepest < steep) || options.degree > 0) return forms;
+    form.along_axis = false;
+    form.polynomial.in_space = true;
+    for (const unsigned degree : {2U, 3U, 4U, 5U, 6U}) {
+        form.polynomial.degree = degree;
+        if (form.polynomial.terms() < centres) forms.push_back(form);
+    }
     return forms;
+}
+
+/// The share of the other's misses that a form may have to be preferred to it: what is less plain
+/// must be the better.
+double needed(const RbfPolynomial& form, const RbfPolynomial& other) {
+    if (form.in_space && !other.in_space) return 0.75;
+    return form.degree == other.degree ? 1 : 0.9;
 }
 
 } // namespace
@@ -398,21 +412,19 @@ Result<RbfChoice> choose_form(const HoleData& data, const RbfOptions& options, c
     const HoleData& kept = trials.left.kept;
     if (kept.points.size() < 10 || trials.left.points.empty()) return best;
     Trial least;
-    const auto consider = [&](const RbfForm& form, const Trial& trial, double needed) {
+    const auto consider = [&](const RbfForm& form, const Trial& trial, double share) {
         if (!std::isfinite(trial.missed)) return;
-        if (std::isfinite(least.missed) && !(trial.missed < needed * least.missed)) return;
+        if (std::isfinite(least.missed) && !(trial.missed < share * least.missed)) return;
         best.form = form;
         least = trial;
     };
-    constexpr double worth = 0.9;   // what is less plain must be better by so much
-    constexpr double much = 0.75;   // likewise, for what takes roughness for noise
+    constexpr double much = 0.75;   // for what takes roughness for noise, see needed()
     constexpr double exact = 1e-12; // radii: nothing to be gained
     for (const RbfForm& form : forms) {
         if (least.missed < exact * data.radius) break;
         const auto trial = try_form(trials, form, true, run);
         if (!trial) return trial.error();
-        const bool plain = form.polynomial.degree == best.form.polynomial.degree;
-        consider(form, trial.value(), plain ? 1 : worth);
+        consider(form, trial.value(), needed(form.polynomial, best.form.polynomial));
     }
     if (!options.smoothing &&
         !(least.missed < exact * data.radius)) { // in earnest, and with noise kept out of the hole

@@ -147,6 +147,27 @@ void solve(const System& system, const Solver& solver, Vector& weights, Vector& 
     }
 }
 
+/// Calls use(i, j, k) for each term u^i v^j w^k.
+template <class Use>
+void for_each_term(const RbfPolynomial& basis, const Use& use) {
+    const unsigned most = basis.in_space ? basis.degree : 0;
+    for (unsigned k = 0; k <= most; ++k)
+        for (unsigned i = 0; i + k <= basis.degree; ++i)
+            for (unsigned j = 0; i + j + k <= basis.degree; ++j) use(i, j, k);
+    if (!basis.in_space) use(0U, 0U, 1U);
+}
+
+/// The powers 0 to 8 of each coordinate.
+struct Powers {
+    explicit Powers(const std::array<double, 3>& p) {
+        for (unsigned c = 0; c < 3; ++c) {
+            of[c][0] = 1;
+            for (unsigned e = 1; e < 9; ++e) of[c][e] = of[c][e - 1] * p[c];
+        }
+    }
+    std::array<std::array<double, 9>, 3> of;
+};
+
 } // namespace
 
 std::array<double, 3> RbfFunction::scaled(const Point3& p) const {
@@ -175,12 +196,10 @@ bool RbfFunction::set_centres(std::span<const Point3> centres, const RbfPolynomi
 }
 
 void RbfFunction::terms_at(const std::array<double, 3>& p, double* terms) const {
-    double up = 1;
-    for (unsigned i = 0; i <= basis_.degree; ++i, up *= p[0]) {
-        double both = up;
-        for (unsigned j = 0; i + j <= basis_.degree; ++j, both *= p[1]) *terms++ = both;
-    }
-    *terms = p[2];
+    const auto powers = Powers(p).of;
+    for_each_term(basis_, [&](unsigned i, unsigned j, unsigned k) {
+        *terms++ = powers[0][i] * powers[1][j] * powers[2][k];
+    });
 }
 
 double RbfFunction::operator()(const Point3& p) const {
@@ -191,14 +210,12 @@ double RbfFunction::operator()(const Point3& p) const {
     const Array cx(x_.data(), n), cy(y_.data(), n), cz(z_.data(), n), c(weights_.data(), n);
     const auto square = (cx - u).square() + (cy - v).square() + (cz - w).square();
     double sum = (c * square * square.sqrt()).sum();
-    std::size_t term = 0;
-    double up = 1;
-    for (unsigned i = 0; i <= basis_.degree; ++i, up *= u) {
-        double both = up;
-        for (unsigned j = 0; i + j <= basis_.degree; ++j, both *= v)
-            sum += polynomial_[term++] * both;
-    }
-    return scale_ * (sum + polynomial_[term] * w);
+    const auto powers = Powers({u, v, w}).of;
+    auto factor = polynomial_.begin();
+    for_each_term(basis_, [&](unsigned i, unsigned j, unsigned k) {
+        sum += *factor++ * (powers[0][i] * powers[1][j] * powers[2][k]);
+    });
+    return scale_ * sum;
 }
 
 Point3 RbfFunction::gradient(const Point3& p) const {
@@ -210,14 +227,15 @@ Point3 RbfFunction::gradient(const Point3& p) const {
     const Eigen::ArrayXd slopes =
         3 * c * ((cx - u).square() + (cy - v).square() + (cz - w).square()).sqrt();
     std::array<double, 3> g{(slopes * (u - cx)).sum(), (slopes * (v - cy)).sum(),
-                            (slopes * (w - cz)).sum() + polynomial_.back()};
-    std::size_t term = 0;
-    for (unsigned i = 0; i <= basis_.degree; ++i)
-        for (unsigned j = 0; i + j <= basis_.degree; ++j, ++term) {
-            const double a = polynomial_[term];
-            if (i > 0) g[0] += a * i * std::pow(u, i - 1) * std::pow(v, j);
-            if (j > 0) g[1] += a * j * std::pow(u, i) * std::pow(v, j - 1);
-        }
+                            (slopes * (w - cz)).sum()};
+    const auto powers = Powers({u, v, w}).of;
+    auto factor = polynomial_.begin();
+    for_each_term(basis_, [&](unsigned i, unsigned j, unsigned k) {
+        const double a = *factor++;
+        if (i > 0) g[0] += a * i * (powers[0][i - 1] * powers[1][j] * powers[2][k]);
+        if (j > 0) g[1] += a * j * (powers[0][i] * powers[1][j - 1] * powers[2][k]);
+        if (k > 0) g[2] += a * k * (powers[0][i] * powers[1][j] * powers[2][k - 1]);
+    });
     const auto& axes = basis_.axes;
     return {g[0] * axes[0].x + g[1] * axes[1].x + g[2] * axes[2].x,
             g[0] * axes[0].y + g[1] * axes[1].y + g[2] * axes[2].y,

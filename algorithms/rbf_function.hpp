@@ -23,14 +23,19 @@
 
 namespace terrane {
 
-/// The polynomial part: all monomials in u and v up to a degree, and w alone, for the coordinates
-/// along three axes at right angles. Degree 1 is the linear part of the paper, whatever the axes.
-/// Higher ones follow a surface that is near the plane of u and v.
+/// The polynomial part, for the coordinates u, v, w along three axes at right angles: all monomials
+/// in u and v up to a degree, and w alone; these follow a surface that is near the plane of u and
+/// v. Or, `in_space`, all monomials in u, v and w up to it, for one that turns away from any plane.
+/// Degree 1 is the linear part of the paper, whatever the axes.
 struct RbfPolynomial {
     unsigned degree = 1;                                           ///< 1 to 8
     std::array<Point3, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}; ///< u, v, w: unit vectors
+    bool in_space = false;
 
-    [[nodiscard]] std::size_t terms() const { return (degree + 1) * (degree + 2) / 2 + 1; }
+    [[nodiscard]] std::size_t terms() const {
+        const std::size_t flat = (degree + 1) * (degree + 2) / 2;
+        return in_space ? flat * (degree + 3) / 3 : flat + 1;
+    }
 };
 
 /// How well the system was solved.
@@ -74,7 +79,7 @@ private:
     std::vector<double> weights_;   ///< per centre
     RbfPolynomial basis_;
     std::vector<double> polynomial_; ///< per term: by rising power of v within rising power of
-                                     ///< u, then w
+                                     ///< u within rising power of w
 };
 
 struct RbfSetting {

@@ -158,6 +158,58 @@ TEST_CASE("rbf: a fold that is no graph", "[rbf]") {
     CHECK(again.value().surface.vertices.size() > 50);
 }
 
+/// Overturned: seen along z three limbs lie above one another. Punched round (u, v).
+Surface fold_with_hole(double lean, double height, double u0, double v0, double radius) {
+    const double phase = std::acos(1000 / (4 * M_PI * lean));
+    Surface s = punched(sheet(graph([](double, double) { return 0.0; }), 0, 0, 1, 1, 60, 60),
+                        disk(u0, v0, radius));
+    for (Point3& p : s.vertices) {
+        const double t = 2 * M_PI * (p.x - 0.5);
+        p = {1000 * p.x - lean * std::sin(2 * t + phase), 1000 * p.y, height * std::sin(t)};
+    }
+    return s;
+}
+
+/// How far from the limb in the middle, in x.
+auto from_fold(double lean, double height) {
+    return [=](const Point3& p) {
+        const double t = std::asin(std::clamp(p.z / height, -1.0, 1.0));
+        const double phase = std::acos(1000 / (4 * M_PI * lean));
+        return p.x - (500 + 1000 * t / (2 * M_PI) - lean * std::sin(2 * t + phase));
+    };
+}
+
+TEST_CASE("rbf: polynomials in space follow a fold better", "[rbf]") {
+    const Surface s = fold_with_hole(200, 150, 0.53, 0.5, 0.126);
+    const auto hole = holes_of(s).at(0);
+    const auto filling = fill_by_rbf(s, hole, {.most_centres = 400});
+    REQUIRE(filling);
+    CHECK(filling.value().report.model.find("in space") != std::string::npos);
+    const double missed = rms(s, fill(s, hole, {.most_centres = 400}).surface, from_fold(200, 150));
+    CHECK(missed < 1.2);
+    CHECK(2 * missed <
+          rms(s, fill(s, hole, {.most_centres = 400, .degree = 1}).surface, from_fold(200, 150)));
+}
+
+TEST_CASE("rbf: the level goes on over the rim of another limb of the fold", "[rbf]") {
+    const Surface s = fold_with_hole(200, 220, 0.47, 0.5, 0.126);
+    const auto joined = fill(s, holes_of(s).at(0), {.most_centres = 400});
+    CHECK(rms(s, joined.surface, from_fold(200, 220)) < 5);
+}
+
+TEST_CASE("rbf: a hinge sharper than the border's edges takes smaller triangles", "[rbf]") {
+    const Surface s = fold_with_hole(220, 150, 0.47, 0.5, 0.126);
+    const auto hole = holes_of(s).at(0);
+    RbfReport report;
+    const auto filling = fill_by_rbf(s, hole, {.most_centres = 400}, report, {});
+    REQUIRE(filling);
+    CHECK(report.size == Approx(12.97).epsilon(0.01)); // half the border's median edge
+    CHECK(join_filling(s, hole, filling.value().surface));
+    // As many vertices as are allowed are a limit for them, too.
+    REQUIRE(fill_by_rbf(s, hole, {.most_centres = 400, .most_vertices = 300}, report, {}));
+    CHECK(report.size == Approx(25.9).epsilon(0.01));
+}
+
 TEST_CASE("rbf: four holes on one horizon (the paper's Figure 22)", "[rbf]") {
     const auto wavy = [](double x, double y) { return 0.3 * std::sin(x) * std::cos(0.7 * y); };
     Surface s = sheet(graph(wavy), 0, 0, 20, 20, 60, 60, 0.2);

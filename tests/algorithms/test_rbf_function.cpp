@@ -80,9 +80,28 @@ TEST_CASE("rbf: a higher degree reproduces polynomials along two axes", "[rbf]")
         CHECK(fit.value().function(p) == Approx(f(p)).margin(1e-9));
 }
 
+TEST_CASE("rbf: a polynomial in space is reproduced, a sphere or a fold among others", "[rbf]") {
+    const auto points = random_points(200, 13);
+    RbfPolynomial basis;
+    basis.in_space = true;
+    for (const unsigned degree : {1U, 2U, 3U, 4U}) {
+        basis.degree = degree;
+        CHECK(basis.terms() == std::size_t{degree + 1} * (degree + 2) * (degree + 3) / 6);
+        const auto f = [&](const Point3& p) {
+            return 1 - p.z + 2 * std::pow(p.x + 0.5 * p.y - 0.3 * p.z, degree) +
+                   std::pow(p.z, degree);
+        };
+        const auto fit = fit_rbf(points, values_at(points, f), {basis});
+        REQUIRE(fit);
+        for (const Point3& p : random_points(50, 14, 2))
+            CHECK(fit.value().function(p) == Approx(f(p)).margin(1e-8));
+    }
+}
+
 TEST_CASE("rbf: the gradient is that of the values", "[rbf]") {
     const auto points = random_points(120, 5, 10);
-    const RbfPolynomial turned{2, {{{0.6, 0.8, 0}, {-0.8, 0.6, 0}, {0, 0, 1}}}};
+    const bool in_space = GENERATE(false, true);
+    const RbfPolynomial turned{2, {{{0.6, 0.8, 0}, {-0.8, 0.6, 0}, {0, 0, 1}}}, in_space};
     const auto fit = fit_rbf(points, values_at(points, smooth), {turned});
     REQUIRE(fit);
     const auto& f = fit.value().function;

@@ -221,11 +221,14 @@ int punch_file(const char* file, double step) {
 
 } // namespace
 
-// terrane_bench_fill [--alone]: known surfaces, without CGAL's ways. terrane_bench_fill FILE STEP:
-// holes of 3, 6 and 12 steps of a grid punched into a real horizon.
+// terrane_bench_fill [--alone | --folds]: known surfaces; without CGAL's ways; folds in plenty.
+// terrane_bench_fill FILE STEP: holes of 3, 6 and 12 steps of a grid punched into a real horizon.
 int main(int argc, char** argv) {
     if (argc == 3) return punch_file(argv[1], std::atof(argv[2]));
-    const bool yardsticks = argc < 2 || std::strcmp(argv[1], "--alone") != 0;
+    const auto asked = [&](const char* what) {
+        return argc > 1 && std::strcmp(argv[1], what) == 0;
+    };
     std::printf("root mean square and largest error / root mean square at new vertices, seconds\n");
-    for (const Model& model : models()) run(model, yardsticks);
+    for (const Model& model : asked("--folds") ? fold_models() : models())
+        run(model, !asked("--alone"));
 }

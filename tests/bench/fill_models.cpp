@@ -73,24 +73,37 @@ Shape fold(double lean, double height) {
     };
 }
 
+/// With another share of its area gone than the one before it in a list, and a hole of another
+/// shape.
+Model model(std::string name, const Shape& shape, bool smooth, bool is_graph, std::size_t number) {
+    constexpr std::array shares{0.01, 0.02, 0.05, 0.1, 0.2};
+    Model m;
+    m.share = shares[number % shares.size()];
+    m.name = std::move(name);
+    m.smooth = smooth;
+    m.graph = is_graph;
+    if (is_graph && smooth)
+        m.height = [=](double x, double y) { return shape(x / 1000, y / 1000).z; };
+    m.holed = sheet(cells, shape, hole(m.share, int(number)));
+    m.whole = sheet(4 * cells, shape, [](double, double) { return false; });
+    return m;
+}
+
 } // namespace
+
+std::vector<Model> fold_models() {
+    std::vector<Model> list;
+    for (const double lean : {100.0, 120.0, 150.0, 180.0, 200.0, 220.0, 240.0})
+        for (int k = 0; k < 6; ++k)
+            list.push_back(model("fold " + std::to_string(int(lean)),
+                                 fold(lean, k % 2 == 0 ? 220 : 150), true, false, list.size()));
+    return list;
+}
 
 std::vector<Model> models() {
     std::vector<Model> list;
-    constexpr std::array shares{0.01, 0.02, 0.05, 0.1, 0.2};
-    int number = 0;
     const auto add = [&](std::string name, const Shape& shape, bool smooth, bool is_graph) {
-        Model m;
-        m.share = shares[std::size_t(number) % shares.size()];
-        m.name = std::move(name);
-        m.smooth = smooth;
-        m.graph = is_graph;
-        if (is_graph && smooth)
-            m.height = [=](double x, double y) { return shape(x / 1000, y / 1000).z; };
-        m.holed = sheet(cells, shape, hole(m.share, number));
-        m.whole = sheet(4 * cells, shape, [](double, double) { return false; });
-        list.push_back(std::move(m));
-        ++number;
+        list.push_back(model(std::move(name), shape, smooth, is_graph, list.size()));
     };
     for (const double slope : {0.0, 0.2, 1.5})
         add("plane " + std::to_string(slope).substr(0, 3),

@@ -25,6 +25,9 @@ struct Model {
 /// the area.
 std::vector<Model> models();
 
+/// 42 folds, from a steep one to limbs that all but touch, with holes in the same sizes.
+std::vector<Model> fold_models();
+
 /// Area-weighted root mean square and maximum of the distance between points of the triangles from
 /// `first` on and the truth; the same of their vertices after those of the holed surface alone,
 /// which leaves out that triangles are flat.
