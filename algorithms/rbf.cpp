@@ -190,7 +190,8 @@ Status validate_options(const RbfOptions& o) {
 
 Result<Filling> fill_valid(const Surface& surface, const BorderLoop& loop,
                            const RbfOptions& options, RbfReport& report, const Run& run) {
-    const auto data = data_round(surface, loop, options.loops, {options.reach, options.rings});
+    const auto data = data_round(surface, loop, options.loops,
+                                 {options.reach, options.rings, options.long_edges});
     if (!data) return data.error();
     const auto choice = choose_form(data.value(), options, run);
     if (!choice) return choice.error();
@@ -212,6 +213,7 @@ Result<Filling> fill_valid(const Surface& surface, const BorderLoop& loop,
     filling.report.expected_error = mean_over_hole(filling, data.value(), report.size);
     filling.report.validated_error = choice.value().validated;
     filling.report.model = describe(report, form, form.smoothed || options.smoothing.has_value());
+    if (options.long_edges) filling.report.model += "; with points on long edges";
     if (run.stop.stop_requested()) return Error{ErrorCode::interrupted, "stopped on request", ""};
     return filling;
 }

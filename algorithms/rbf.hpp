@@ -59,6 +59,9 @@ struct RbfOptions {
                                        ///< the surface; 0: by as much as generalised
                                        ///< cross-validation says
     std::span<const BorderLoop> loops{}; ///< all of the surface: islands in the hole are data, too
+    bool long_edges = false; ///< points on edges near the border that are longer than one and a
+                             ///< half of its median edges are data, too: a function that meets
+                             ///< vertices alone may swing far from a cliff's triangles
 };
 
 /// What happened, for people. Lengths in the unit of the surface.

@@ -10,6 +10,7 @@
 #include <terrane/algorithms/check.hpp>
 #include <terrane/algorithms/edges.hpp>
 #include <terrane/algorithms/lists.hpp>
+#include <terrane/algorithms/long_edges.hpp>
 #include <terrane/algorithms/soup.hpp>
 #include <terrane/algorithms/vectors.hpp>
 
@@ -231,8 +232,10 @@ Result<HoleData> data_round(const Surface& surface, const BorderLoop& loop,
         if (distance[t[0]] < never && distance[t[1]] < never && distance[t[2]] < never)
             data.triangles.push_back({name[t[0]], name[t[1]], name[t[2]]});
     wind_by_loops(data);
-    find_normals(data);
     data.edge = median_edge(data);
+    constexpr double is_long = 1.5; // edges
+    if (range.long_edges) divide_long_edges(data, is_long * data.edge, 3 * data.edge);
+    find_normals(data);
     return data;
 }
 

@@ -15,8 +15,9 @@
 
 namespace terrane {
 
-/// Vertices near a border, along the surface. Those of the hole's border come first, in its order,
-/// then those of islands in it.
+/// Vertices near a border, along the surface, and where asked for points on edges that are long
+/// (long_edges.hpp). Those of the hole's border come first, in its order, then those of islands in
+/// it.
 struct HoleData {
     std::vector<Point3> points;      ///< distinct
     std::vector<Point3> normals;     ///< per point: unit, the surface on the loop's left
@@ -29,8 +30,9 @@ struct HoleData {
 };
 
 struct DataRange {
-    double reach = 1;   ///< in radii of the hole
-    unsigned rings = 4; ///< of vertices, at least
+    double reach = 1;        ///< in radii of the hole
+    unsigned rings = 4;      ///< of vertices, at least
+    bool long_edges = false; ///< points on them are data, too
 };
 
 /// All vertices not farther from the border along edges than `reach` times the radius, and those of

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include <terrane/algorithms/check.hpp>
-#include <terrane/algorithms/join.hpp>
+#include <terrane/algorithms/rbf_join.hpp>
 #include <terrane/cli/console.hpp>
 
 namespace terrane::cli {
@@ -54,23 +54,22 @@ Result<OneFilled> by_rbf(const FillSettings& settings, const Surface& surface,
     options.size = settings.mesh_size;
     options.loops = loops;
     options.smoothing = settings.smoothing;
-    const auto filling = fill_by_rbf(surface, loop, options, run);
-    if (!filling) return filling.error();
-    auto made = join_filling(surface, loop, filling.value().surface, {.loops = loops}, run);
+    auto made = fill_and_join_by_rbf(surface, loop, options, {.loops = loops}, run);
     if (!made) return made.error();
+    auto& [filling, joined, report] = made.value();
     OneFilled filled;
-    filled.report = filling.value().report;
-    filled.report.invented = made.value().report.new_vertices;
-    filled.report.area = made.value().report.area;
+    filled.report = filling.report;
+    filled.report.invented = joined.report.new_vertices;
+    filled.report.area = joined.report.area;
     double squares = 0;
-    for (const auto v : made.value().filling_vertices) {
-        filled.deviation.push_back(filling.value().deviation[v]);
+    for (const auto v : joined.filling_vertices) {
+        filled.deviation.push_back(filling.deviation[v]);
         squares += filled.deviation.back() * filled.deviation.back();
     }
     // Of what was joined, without the margin beyond the border.
     filled.report.expected_error =
         std::sqrt(squares / std::max(1.0, static_cast<double>(filled.deviation.size())));
-    filled.surface = std::move(made.value().surface);
+    filled.surface = std::move(joined.surface);
     return filled;
 }
 

@@ -12,8 +12,7 @@
 
 #include <terrane/algorithms/fill_kriging.hpp>
 #include <terrane/algorithms/holes.hpp>
-#include <terrane/algorithms/join.hpp>
-#include <terrane/algorithms/rbf.hpp>
+#include <terrane/algorithms/rbf_join.hpp>
 #include <terrane/io/files.hpp>
 
 #include "fill_models.hpp"
@@ -52,16 +51,15 @@ double expected_of(const Filling& filling, const Joined& made) {
 void print_rbf(const Model& model, const BorderLoop& loop, const char* way,
                const RbfOptions& options) {
     const auto start = std::chrono::steady_clock::now();
-    const auto filling = fill_by_rbf(model.holed, loop, options);
-    const auto made = filling ? join_filling(model.holed, loop, filling.value().surface)
-                              : Result<Joined>(filling.error());
+    const auto made = fill_and_join_by_rbf(model.holed, loop, options);
     const double seconds = seconds_since(start);
     if (!made) {
         std::printf("  %s: %s", way, made.error().message().c_str());
         return;
     }
-    print_misfit(way, misfit(model, made.value().surface, model.holed.triangles.size()), seconds);
-    std::printf(" (predicted %.3g)", expected_of(filling.value(), made.value()));
+    const auto& [filling, joined, report] = made.value();
+    print_misfit(way, misfit(model, joined.surface, model.holed.triangles.size()), seconds);
+    std::printf(" (predicted %.3g)", expected_of(filling, joined));
 }
 
 void run(const Model& model, bool yardsticks) {
@@ -188,11 +186,9 @@ void punch(const Surface& s, double radius) {
         for (Way* way : {&rbf, &smoothed}) {
             RbfOptions options;
             if (way == &smoothed) options.smoothing = 0;
-            const auto surface = fill_by_rbf(p.surface, *hole, options);
-            if (!surface) continue;
-            if (const auto made = join_filling(p.surface, *hole, surface.value().surface))
-                way->add(made.value().surface, first, p.removed,
-                         expected_of(surface.value(), made.value()));
+            if (const auto made = fill_and_join_by_rbf(p.surface, *hole, options))
+                way->add(made.value().joined.surface, first, p.removed,
+                         expected_of(made.value().filling, made.value().joined));
         }
         for (Way* way : {&fair, &linear})
             if (const auto made = filled_by_cgal(p.surface, hole->vertices, way == &fair))
