@@ -12,6 +12,7 @@
 namespace terrane::improving {
 namespace {
 
+constexpr double cell_share = 1.5;   ///< of the mean edge: the smallest cells
 constexpr double least_cosine = 0.2; ///< of the angle by which an added triangle may turn away
 
 void widen(Box& box, const Box& by) {
@@ -64,22 +65,17 @@ void Guard::find_whole_sheets() {
 void Guard::fill_grid() {
     // Long slivers are in the coarser cells; what comes is as long as is wanted.
     double edges = 0, wanted = 0;
-    std::size_t count = 0;
+    const auto count = static_cast<double>(mesh_.triangles.size());
+    for (const Triangle& t : mesh_.triangles) {
+        edges += mesh_.edge_length(t[0], t[1]);
+        wanted += mesh_.wanted_length(t[0], t[1]);
+    }
+    grid_.reset(mesh_.points[mesh_.triangles[0][0]], cell_share * std::min(edges, wanted) / count);
     box_of_.resize(mesh_.triangles.size());
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-        if (!mesh_.in_use(t)) continue;
-        const std::uint32_t a = mesh_.triangles[t][0], b = mesh_.triangles[t][1];
-        edges += mesh_.edge_length(a, b);
-        wanted += mesh_.wanted_length(a, b);
-        ++count;
-    }
-    grid_.reset(count > 0 ? 3 * std::min(edges, wanted) / static_cast<double>(count) : 1);
-    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-        if (!mesh_.in_use(t)) continue;
-        box_of_[t] = box_of(mesh_.points, mesh_.triangles[t]);
+        box_of_[t] = grid_.scaled(box_of(mesh_.points, mesh_.triangles[t]));
         grid_.enter(t, box_of_[t], patch_of_[t]);
     }
-    first_entries_ = grid_.entries();
 }
 
 bool Guard::in_one_patch(std::span<const std::uint32_t> triangles) const {
@@ -125,7 +121,8 @@ bool Guard::bounds_hold(const Change& change) {
 
 void Guard::box_added(const Change& change) {
     boxes_.clear();
-    for (const Triangle& t : change.added) boxes_.push_back(box_of(mesh_.points, t));
+    for (const Triangle& t : change.added)
+        boxes_.push_back(grid_.scaled(box_of(mesh_.points, t)));
 }
 
 /// Whether the other triangle is strictly on one side of the plane of `t`, but for common corners:
@@ -196,15 +193,12 @@ bool Guard::meets_properly(const Change& change, std::uint32_t patch) {
     for (const auto& [a, b, c] : change.added)
         planes_.emplace_back(mesh_.points[a], mesh_.points[b], mesh_.points[c]);
     sweep(change);
-    Box all = boxes_.front();
-    for (const Box& b : boxes_) widen(all, b);
-    for (const Tetrahedron& t : swept_) widen(all, t.box);
-    const auto proper = [&](std::uint32_t t) {
-        if (patch != no_group && patch_of_[t] == patch) return true;
+    GridBox all = boxes_.front();
+    for (const GridBox& b : boxes_) all.widen(b);
+    for (const Tetrahedron& t : swept_) all.widen(grid_.scaled(t.box));
+    const auto proper = [&](std::uint32_t t, const GridBox& box) {
         if (seen_[t] == change_) return true;
         seen_[t] = change_;
-        const Box& box = box_of_[t];
-        if (!box.overlaps(all) || !mesh_.in_use(t)) return true;
         const Triangle& other = mesh_.triangles[t];
         if (is_swept(other)) return false;
         for (std::size_t i = 0; i < change.added.size(); ++i)
@@ -243,6 +237,8 @@ Verdict Guard::apply(const Change& change) {
     if (verdict != Verdict::allowed) return verdict;
     const std::uint32_t patch =
         !change.on_border && in_one_patch(change.removed) ? patch_of_[change.removed[0]] : no_group;
+    if (!change.in_place)
+        for (const std::uint32_t t : change.removed) grid_.leave(t, box_of_[t]);
     mesh_.apply(change, hints_, numbers_);
     if (mesh_.triangles.size() > patch_of_.size()) {
         patch_of_.resize(mesh_.triangles.size(), no_group);
@@ -253,14 +249,17 @@ Verdict Guard::apply(const Change& change) {
         const std::uint32_t t = numbers_[i];
         if (patch == no_group && patch_of_[t] != no_group) ++ungrouped_;
         if (patch == no_group) is_whole_[mesh_.sheet_of[t]] = 0;
-        patch_of_[t] = patch;
-        if (change.in_place)
-            grid_.move(t, box_of_[t], boxes_[i], patch);
-        else
+        if (!change.in_place) {
             grid_.enter(t, boxes_[i], patch);
+        } else if (patch_of_[t] == patch) {
+            grid_.move(t, box_of_[t], boxes_[i], patch);
+        } else {
+            grid_.leave(t, box_of_[t]);
+            grid_.enter(t, boxes_[i], patch);
+        }
+        patch_of_[t] = patch;
         box_of_[t] = boxes_[i];
     }
-    if (grid_.entries() > 2 * first_entries_ + 1000) fill_grid(); // most are of what has gone
     return verdict;
 }
 

@@ -80,14 +80,13 @@ private:
     std::vector<Axis> axis_;              ///< per patch
     std::vector<Sign> turn_;              ///< per patch: of all its triangles there
     std::vector<char> is_whole_;          ///< per sheet: all its triangles are in one patch
-    std::vector<Box> box_of_;             ///< per triangle
+    std::vector<GridBox> box_of_;         ///< per triangle
     Grid grid_;
-    std::size_t first_entries_ = 0; ///< of the grid when it was filled
     std::size_t ungrouped_ = 0;
 
     std::vector<std::uint32_t> hints_, numbers_; ///< of the change at hand
     bool all_alone_ = false;                     ///< all that it follows
-    std::vector<Box> boxes_;                     ///< of its added triangles
+    std::vector<GridBox> boxes_;                 ///< of its added triangles
     std::vector<QuickPlane> planes_;             ///< of its added triangles
     struct Tetrahedron {
         std::array<Point3, 4> corners; ///< positively oriented
