@@ -40,6 +40,7 @@ void Guard::group_again(const Run& run) {
         if (p != no_group && turn_[p] == Sign::Zero)
             turn_[p] = turn_in(axis_[p], mesh_.points, mesh_.triangles[t]);
     }
+    borders_.find(patch_of_, axis_.size());
     find_whole_sheets();
     fill_grid();
     seen_.assign(mesh_.triangles.size(), 0);
@@ -186,7 +187,7 @@ bool Guard::is_swept(const Triangle& t) const {
     return false;
 }
 
-bool Guard::meets_properly(const Change& change, std::uint32_t patch) {
+bool Guard::meets_properly(const Change& change) {
     ++change_;
     for (const std::uint32_t t : change.removed) seen_[t] = change_;
     planes_.clear();
@@ -196,37 +197,95 @@ bool Guard::meets_properly(const Change& change, std::uint32_t patch) {
     GridBox all = boxes_.front();
     for (const GridBox& b : boxes_) all.widen(b);
     for (const Tetrahedron& t : swept_) all.widen(grid_.scaled(t.box));
+    const auto are_shown = [&](std::size_t i, std::uint32_t patch) {
+        return patches_[i] != no_group && patches_[i] == patch;
+    };
     const auto proper = [&](std::uint32_t t, const GridBox& box) {
         if (seen_[t] == change_) return true;
         seen_[t] = change_;
         const Triangle& other = mesh_.triangles[t];
         if (is_swept(other)) return false;
         for (std::size_t i = 0; i < change.added.size(); ++i)
-            if (boxes_[i].overlaps(box) && !is_beside(planes_[i], change.added[i], other) &&
+            if (boxes_[i].overlaps(box) && !are_shown(i, patch_of_[t]) &&
+                !is_beside(planes_[i], change.added[i], other) &&
                 improper_contact(mesh_.points, change.added[i], other))
                 return false;
         return true;
     };
-    if (!grid_.visit(all, patch, proper)) return false;
-    if (patch != no_group) return true;
+    const bool is_one = std::all_of(patches_.begin(), patches_.end(),
+                                    [&](std::uint32_t p) { return p == patches_[0]; });
+    if (!grid_.visit(all, is_one ? patches_[0] : no_group, proper)) return false;
     for (std::size_t i = 0; i < change.added.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)
-            if (boxes_[i].overlaps(boxes_[j]) &&
+            if (boxes_[i].overlaps(boxes_[j]) && !are_shown(i, patches_[j]) &&
                 improper_contact(mesh_.points, change.added[i], change.added[j]))
                 return false;
     return true;
 }
 
+/// All triangles are wound in the patch as it is.
+bool Guard::are_wound(const Change& change, std::uint32_t patch) const {
+    for (std::size_t i = 0; i < change.added.size(); ++i)
+        if (patch_of_[change.from[i]] == patch &&
+            turn_in(axis_[patch], mesh_.points, change.added[i]) != turn_[patch])
+            return false;
+    return true;
+}
+
+/// The patches of what is added: of the only one of what is removed; where a curve changes, of
+/// those that are shown to stay what they are.
+void Guard::find_patches(const Change& change) {
+    patches_.assign(change.added.size(), no_group);
+    if (!change.on_border) {
+        if (in_one_patch(change.removed))
+            std::fill(patches_.begin(), patches_.end(), patch_of_[change.removed[0]]);
+        return;
+    }
+    for (std::size_t i = 0; i < patches_.size(); ++i) {
+        const std::uint32_t p = patch_of_[change.from[i]];
+        const auto is_his = [&](std::uint32_t t) { return patch_of_[t] == p; };
+        const auto first = static_cast<std::size_t>(
+            std::find_if(change.from.begin(), change.from.end(), is_his) - change.from.begin());
+        if (p == no_group) continue;
+        if (first < i)
+            patches_[i] = patches_[first];
+        else if (are_wound(change, p) && borders_.keeps(change, patch_of_, p, axis_[p]))
+            patches_[i] = p;
+    }
+}
+
+/// Nothing that is added can meet anything else, by its patch and by what it follows.
+bool Guard::is_free(const Change& change) const {
+    if (!all_alone_) return false;
+    for (std::size_t i = 0; i < patches_.size(); ++i)
+        if (patches_[i] == no_group || is_whole_[mesh_.sheet_of[change.from[i]]] == 0) return false;
+    return true;
+}
+
 Verdict Guard::judge(const Change& change) {
-    const std::uint32_t patch =
-        !change.on_border && in_one_patch(change.removed) ? patch_of_[change.removed[0]] : no_group;
-    if (!shapes_hold(change, patch)) return Verdict::shape;
+    const bool in_one = !change.on_border && in_one_patch(change.removed);
+    if (!shapes_hold(change, in_one ? patch_of_[change.removed[0]] : no_group))
+        return Verdict::shape;
     if (!bounds_hold(change)) return Verdict::deviation;
     box_added(change);
-    const bool is_free =
-        patch != no_group && all_alone_ && is_whole_[mesh_.sheet_of[change.removed[0]]] != 0;
-    if (!is_free && !meets_properly(change, patch)) return Verdict::contact;
+    find_patches(change);
+    if (!is_free(change) && !meets_properly(change)) return Verdict::contact;
     return Verdict::allowed;
+}
+
+/// Before the mesh is changed.
+void Guard::leave_patches(const Change& change) {
+    if (!change.in_place)
+        for (const std::uint32_t t : change.removed) grid_.leave(t, box_of_[t]);
+    if (!change.on_border && patches_[0] != no_group) return; // the border stays
+    std::vector<std::uint32_t> done;
+    for (const std::uint32_t t : change.removed) {
+        const std::uint32_t p = patch_of_[t];
+        if (p == no_group || std::find(done.begin(), done.end(), p) != done.end()) continue;
+        done.push_back(p);
+        const bool is_kept = std::find(patches_.begin(), patches_.end(), p) != patches_.end();
+        borders_.update(change, patch_of_, p, is_kept);
+    }
 }
 
 Verdict Guard::apply(const Change& change) {
@@ -235,10 +294,7 @@ Verdict Guard::apply(const Change& change) {
     refusals_.deviation += verdict == Verdict::deviation;
     refusals_.contact += verdict == Verdict::contact;
     if (verdict != Verdict::allowed) return verdict;
-    const std::uint32_t patch =
-        !change.on_border && in_one_patch(change.removed) ? patch_of_[change.removed[0]] : no_group;
-    if (!change.in_place)
-        for (const std::uint32_t t : change.removed) grid_.leave(t, box_of_[t]);
+    leave_patches(change);
     mesh_.apply(change, hints_, numbers_);
     if (mesh_.triangles.size() > patch_of_.size()) {
         patch_of_.resize(mesh_.triangles.size(), no_group);
@@ -246,9 +302,11 @@ Verdict Guard::apply(const Change& change) {
         box_of_.resize(mesh_.triangles.size());
     }
     for (std::size_t i = 0; i < numbers_.size(); ++i) {
-        const std::uint32_t t = numbers_[i];
-        if (patch == no_group && patch_of_[t] != no_group) ++ungrouped_;
-        if (patch == no_group) is_whole_[mesh_.sheet_of[t]] = 0;
+        const std::uint32_t t = numbers_[i], patch = patches_[i];
+        if (patch == no_group) {
+            ungrouped_ += patch_of_[t] != no_group;
+            is_whole_[mesh_.sheet_of[t]] = 0;
+        }
         if (!change.in_place) {
             grid_.enter(t, boxes_[i], patch);
         } else if (patch_of_[t] == patch) {

@@ -23,6 +23,7 @@
 #include <span>
 #include <vector>
 
+#include <terrane/algorithms/improve_borders.hpp>
 #include <terrane/algorithms/improve_grid.hpp>
 #include <terrane/algorithms/improve_mesh.hpp>
 #include <terrane/algorithms/improve_reference.hpp>
@@ -44,7 +45,7 @@ enum class Verdict : std::uint8_t { allowed, contact, deviation, shape };
 class Guard {
 public:
     /// What is named must outlive it.
-    Guard(WorkMesh& mesh, Reference& reference) : mesh_(mesh), reference_(reference) {}
+    Guard(WorkMesh& mesh, Reference& reference) : mesh_(mesh), reference_(reference), borders_(mesh) {}
 
     /// Proves patches anew. To be called first, and when many triangles have left theirs.
     /// Renumbers triangles.
@@ -71,7 +72,11 @@ private:
                                  const Triangle& other) const;
     void sweep(const Change& change);
     [[nodiscard]] bool is_swept(const Triangle& t) const;
-    bool meets_properly(const Change& change, std::uint32_t patch);
+    bool meets_properly(const Change& change);
+    [[nodiscard]] bool are_wound(const Change& change, std::uint32_t patch) const;
+    void find_patches(const Change& change);
+    [[nodiscard]] bool is_free(const Change& change) const;
+    void leave_patches(const Change& change);
 
     WorkMesh& mesh_;
     Reference& reference_;
@@ -81,10 +86,12 @@ private:
     std::vector<Sign> turn_;              ///< per patch: of all its triangles there
     std::vector<char> is_whole_;          ///< per sheet: all its triangles are in one patch
     std::vector<GridBox> box_of_;         ///< per triangle
+    Borders borders_;
     Grid grid_;
     std::size_t ungrouped_ = 0;
 
     std::vector<std::uint32_t> hints_, numbers_; ///< of the change at hand
+    std::vector<std::uint32_t> patches_;         ///< of its added triangles, or no_group
     bool all_alone_ = false;                     ///< all that it follows
     std::vector<GridBox> boxes_;                 ///< of its added triangles
     std::vector<QuickPlane> planes_;             ///< of its added triangles

@@ -98,6 +98,11 @@ private:
         Flat middle;
         double slope_u = 0, slope_v = 0; ///< height of its plane: slope_u u + slope_v v
         double error = 0;                ///< of a height, per unit of distance
+        /// Of each edge: how far (u, v) lies inside, times its length, is along_u v - along_v u -
+        /// off.
+        std::array<double, 3> along_u{}, along_v{}, off{};
+        double spread = 0; ///< of the largest edge: what errors of that are a share of
+        double reach = 0;  ///< of the corner farthest from the origin
         double bound = 0;                ///< of heights
     };
     struct Walk {
@@ -126,15 +131,18 @@ private:
     std::span<const Point3> points_;
     const Features& features_;
     std::span<const double> bound_of_;
-    std::vector<char> alone_;                       ///< per triangle
-    std::vector<std::array<std::int8_t, 3>> turns_; ///< per triangle and axis, exactly
-    struct Normal {
-        Point3 n;
-        double error; ///< of each coordinate, at most
+    /// All that searches look at, in one place: what they cost is mostly to get it.
+    struct alignas(64) Facet {
+        Corners corners;
+        Point3 normal;
+        double error = 0;                     ///< of each coordinate of the normal, at most
+        std::array<std::uint32_t, 3> across{}; ///< as in the features
+        std::array<std::int8_t, 3> turns{};   ///< per axis, exactly
+        bool alone = false;
+        std::uint32_t seen = 0; ///< the last search that saw it
     };
-    std::vector<Normal> normals_; ///< per triangle
-    double slack_ = 0;            ///< more than the errors of distances from rounded coordinates
-    std::vector<std::uint32_t> seen_; ///< per triangle: the last search that saw it
+    std::vector<Facet> facets_; ///< per triangle
+    double slack_ = 0;          ///< more than the errors of distances from rounded coordinates
     std::uint32_t search_ = 0;
     std::vector<std::uint32_t> front_;
     bool all_alone_ = true; ///< of the triangles that the search has visited
