@@ -146,27 +146,41 @@ bool Borders::keeps(const Change& change, std::span<const std::uint32_t> patch_o
     find_chain(change, patch_of, patch, true, old_place);
     if (!find_swept(change, axis)) return false;
     if (swept_.empty()) return true;
-    for (const Edge& e : edges_[patch]) {
-        const bool moves = change.moved != none && (e[0] == change.moved || e[1] == change.moved);
-        if (moves || is_changed(e)) continue; // all at a vertex that moves are part of the change
-        const Point3 &a = mesh_.points[e[0]], &b = mesh_.points[e[1]];
-        for (const Swept& t : swept_) {
-            const std::array<Point3, 3> c{t[0].point, t[1].point, t[2].point};
-            const auto find = [&](std::uint32_t v) {
-                std::size_t i = 0;
-                while (i < 3 && t[i].name != v) ++i;
-                return i;
-            };
-            const std::size_t i = find(e[0]), j = find(e[1]);
-            if (i < 3 && j < 3) return false;
-            const bool is_apart =
-                i < 3   ? apart_but_for(axis, a, b, c[(i + 1) % 3], c[(i + 2) % 3])
-                : j < 3 ? apart_but_for(axis, b, a, c[(j + 1) % 3], c[(j + 2) % 3])
-                        : apart(axis, a, b, c);
-            if (!is_apart) return false;
+    Flat low = flat(axis, swept_[0][0].point), high = low;
+    for (const Swept& t : swept_)
+        for (const Corner& c : t) {
+            const Flat p = flat(axis, c.point);
+            for (std::size_t k = 0; k < 2; ++k) {
+                low[k] = std::min(low[k], p[k]);
+                high[k] = std::max(high[k], p[k]);
+            }
         }
-    }
-    return true;
+    return std::all_of(edges_[patch].begin(), edges_[patch].end(), [&](const Edge& e) {
+        const Flat p = flat(axis, mesh_.points[e[0]]), q = flat(axis, mesh_.points[e[1]]);
+        for (std::size_t k = 0; k < 2; ++k) // most are far
+            if (std::max(p[k], q[k]) < low[k] || std::min(p[k], q[k]) > high[k]) return true;
+        const bool moves = change.moved != none && (e[0] == change.moved || e[1] == change.moved);
+        // All edges at a vertex that moves are part of the change.
+        return moves || is_changed(e) || stays_apart(e, axis);
+    });
+}
+
+/// Whether an edge of the border touches what lies between at the ends of the chain only.
+bool Borders::stays_apart(const Edge& e, Axis axis) const {
+    const Point3 &a = mesh_.points[e[0]], &b = mesh_.points[e[1]];
+    return std::all_of(swept_.begin(), swept_.end(), [&](const Swept& t) {
+        const std::array<Point3, 3> c{t[0].point, t[1].point, t[2].point};
+        const auto find = [&](std::uint32_t v) {
+            std::size_t i = 0;
+            while (i < 3 && t[i].name != v) ++i;
+            return i;
+        };
+        const std::size_t i = find(e[0]), j = find(e[1]);
+        if (i < 3 && j < 3) return false;
+        if (i < 3) return apart_but_for(axis, a, b, c[(i + 1) % 3], c[(i + 2) % 3]);
+        if (j < 3) return apart_but_for(axis, b, a, c[(j + 1) % 3], c[(j + 2) % 3]);
+        return apart(axis, a, b, c);
+    });
 }
 
 void Borders::update(const Change& change, std::span<const std::uint32_t> patch_of,

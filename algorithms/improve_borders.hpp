@@ -52,6 +52,7 @@ private:
                     std::uint32_t patch, bool with_added, std::uint32_t name_of_old);
     [[nodiscard]] bool find_swept(const Change& change, Axis axis);
     [[nodiscard]] bool is_changed(const Edge& e) const;
+    [[nodiscard]] bool stays_apart(const Edge& e, Axis axis) const;
 
     const WorkMesh& mesh_;
     std::vector<std::vector<Edge>> edges_; ///< per patch: of its border, as its triangles run

@@ -67,6 +67,8 @@ Reference::Reference(std::span<const Point3> points, const Features& features,
         facet.corners = {a, b, c};
         facet.normal = cross(ab, ac);
         facet.error = 8 * unit * length(ab) * length(ac);
+        // The sides of a frame are a few units off from being upright.
+        facet.lean = 4 * facet.error + 64 * unit * length(facet.normal);
         facet.across = features.across[t];
         for (const Axis axis : {Axis::x, Axis::y, Axis::z})
             facet.turns[static_cast<std::size_t>(axis)] =
@@ -131,9 +133,7 @@ int Reference::turn_of(std::uint32_t t, const Frame& frame) const {
     const Facet& facet = facets_[t];
     if (frame.axis) return facet.turns[static_cast<std::size_t>(*frame.axis)];
     const double along = dot(facet.normal, frame.w);
-    // The sides of the frame are a few units off from being upright.
-    const double error = 4 * facet.error + 64 * unit * length(facet.normal);
-    return along > error ? 1 : along < -error ? -1 : 0;
+    return along > facet.lean ? 1 : along < -facet.lean ? -1 : 0;
 }
 
 Reference::Frame Reference::frame_along(const Point3& normal, const Point3& side) {
@@ -275,7 +275,8 @@ Reference::Cover Reference::visit(const Target& target, std::uint32_t t) {
         const std::size_t k = (i + 1) % 3;
         if ((beyond_edges[i] & beyond_edges[k]) != 0) continue;
         double low = 0, high = 1;
-        if ((beyond_edges[i] | beyond_edges[k]) != 0)
+        const bool ends_inside = beyond_edges[i] == 0 || beyond_edges[k] == 0;
+        if (!(all_near && ends_inside) && (beyond_edges[i] | beyond_edges[k]) != 0)
             for (std::size_t j = 0; j < 3; ++j) {
                 const double from = inside[j][i], to = inside[j][k];
                 if (from < 0 && to >= 0) low = std::max(low, from / (from - to));

@@ -135,7 +135,8 @@ private:
     struct alignas(64) Facet {
         Corners corners;
         Point3 normal;
-        double error = 0;                     ///< of each coordinate of the normal, at most
+        double error = 0;                      ///< of each coordinate of the normal, at most
+        double lean = 0; ///< its height in a frame tells how it is wound only beyond that
         std::array<std::uint32_t, 3> across{}; ///< as in the features
         std::array<std::int8_t, 3> turns{};   ///< per axis, exactly
         bool alone = false;

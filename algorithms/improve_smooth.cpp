@@ -70,11 +70,13 @@ public:
         change_.in_place = true;
         change_.removed = mesh.star[v];
         for (const std::uint32_t t : change_.removed) change_.add(mesh.triangles[t], t);
-        set_facing(mesh, change_);
         before_ = badness_at(mesh, v);
     }
-    [[nodiscard]] const Badness& before() const { return before_; }
-    [[nodiscard]] const Point3& facing() const { return change_.facing[0].second; }
+    /// Before any move.
+    [[nodiscard]] const Point3& facing() {
+        if (change_.facing.empty()) set_facing(shop_.mesh, change_);
+        return change_.facing[0].second;
+    }
 
     /// On the surface above or below `to`.
     template <class Better>
@@ -84,7 +86,7 @@ public:
         mesh.points[v_] = to;
         const bool is_better = better(before_, badness_at(mesh, v_));
         mesh.points[v_] = old;
-        if (!is_better) return false;
+        if (!is_better) return false; // mostly
         const auto place = shop_.reference.above(to, facing(), mesh.hint_of[change_.removed[0]]);
         if (!place) return false;
         change_.moved = v_;

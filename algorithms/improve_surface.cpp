@@ -15,10 +15,10 @@ namespace {
 constexpr double least_even_cosine = -0.35; ///< of angles that evening out may make
 constexpr double least_shape = 0.3;         ///< that collapses may leave where there was better
 
-/// 1, 2, ... for ratios from 1, from the root of 2, from 2 and so on: edges of a class are taken in
-/// the order of their vertices, as what lies together costs less to get.
+/// 1, 2, ... for ratios from 1, each of four classes up to 2, and so on: edges of a class are taken
+/// in the order of their vertices, as what lies together costs less to get.
 double length_class(double ratio) {
-    return 1.0 + std::ilogb(ratio * ratio);
+    return 1.0 + std::ilogb(ratio * ratio * (ratio * ratio));
 }
 
 /// Inner edges with the lower vertex first, each once, from the triangles in their order.
@@ -286,7 +286,7 @@ std::size_t collapse_edges(Workshop& shop) {
     std::size_t count = 0;
     auto edges = inner_edges(mesh, [&](std::uint32_t a, std::uint32_t b) {
         const double ratio = mesh.edge_length(a, b) / mesh.wanted_length(a, b);
-        return ratio < short_share ? length_class(1 / std::max(ratio, 1e-150)) : 0;
+        return ratio < short_share ? length_class(1 / std::max(ratio, 1e-70)) : 0;
     });
     std::sort(edges.begin(), edges.end(), [](const auto& e, const auto& f) {
         return std::tuple(-e.first, e.second) < std::tuple(-f.first, f.second);
