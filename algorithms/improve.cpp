@@ -160,7 +160,7 @@ private:
         swap_edges(shop_);
         regroup_if_needed();
         smooth(shop_);
-        return 20 * (changes() - before) > mesh_.triangles.size();
+        return 10 * (changes() - before) > mesh_.triangles.size();
     }
 
     /// Single bad triangles, when most are good.

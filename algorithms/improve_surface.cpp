@@ -203,10 +203,9 @@ bool collapse(Workshop& shop, std::uint32_t gone, std::uint32_t kept, double lon
     change.removed = mesh.star[gone];
     std::vector<std::uint32_t>& at_edge = shop.at_edge;
     at_edge.clear();
-    double worst = 1, worst_before = 1, longest_added = 0;
+    double longest_added = 0;
     for (const std::uint32_t t : change.removed) {
         const Triangle& corners = mesh.triangles[t];
-        worst_before = std::min(worst_before, shape_of(mesh, corners));
         if (has(corners, kept)) {
             // All that a sheet has between the two edges of the curve must not vanish.
             if (on_curve && opposite(corners, gone, kept) == other) return false;
@@ -214,15 +213,21 @@ bool collapse(Workshop& shop, std::uint32_t gone, std::uint32_t kept, double lon
             continue;
         }
         change.add(with(corners, gone, kept), t);
-        worst = std::min(worst, shape_of(mesh, change.added.back()));
         for (const std::uint32_t v : corners) {
             if (v == gone) continue;
             longest = std::max(longest, mesh.edge_length(v, gone)); // no longer than it was
             longest_added = std::max(longest_added, mesh.edge_length(v, kept));
         }
     }
-    if (longest_added > longest) return false;
-    if (change.added.empty() || !(worst > std::min(least, worst_before))) return false;
+    if (change.added.empty() || longest_added > longest) return false;
+    double worst = 1;
+    for (const Triangle& t : change.added) worst = std::min(worst, shape_of(mesh, t));
+    if (!(worst > least)) {
+        double worst_before = 1;
+        for (const std::uint32_t t : change.removed)
+            worst_before = std::min(worst_before, shape_of(mesh, mesh.triangles[t]));
+        if (!(worst > worst_before)) return false;
+    }
     if (!keeps_topology(mesh, gone, kept, change, at_edge)) return false;
     set_facing(mesh, change);
     if (shop.guard.apply(change) != Verdict::allowed) return false;
