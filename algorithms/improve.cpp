@@ -98,6 +98,8 @@ public:
                                          run} {
         mesh_.sizes = sizes_.of_vertices;
         reference_.find_alone(run);
+        for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t)
+            mesh_.alone[t] = static_cast<char>(reference_.is_alone(t));
     }
 
     Result<Improved> operator()() {

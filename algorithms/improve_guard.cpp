@@ -75,7 +75,7 @@ void Guard::fill_grid() {
     box_of_.resize(mesh_.triangles.size());
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
         box_of_[t] = grid_.scaled(box_of(mesh_.points, mesh_.triangles[t]));
-        grid_.enter(t, box_of_[t], patch_of_[t]);
+        if (!is_quiet(t)) grid_.enter(t, box_of_[t], patch_of_[t]);
     }
 }
 
@@ -107,7 +107,7 @@ bool Guard::shapes_hold(const Change& change, std::uint32_t patch) const {
 
 bool Guard::bounds_hold(const Change& change) {
     hints_.clear();
-    all_alone_ = true;
+    alone_.clear();
     for (std::size_t i = 0; i < change.added.size(); ++i) {
         const Triangle& t = change.added[i];
         const std::uint32_t source = change.from[i];
@@ -115,7 +115,7 @@ bool Guard::bounds_hold(const Change& change) {
             {mesh_.points[t[0]], mesh_.points[t[1]], mesh_.points[t[2]]}, mesh_.hint_of[source]);
         if (!hint) return false;
         hints_.push_back(hint->hint);
-        all_alone_ = all_alone_ && hint->alone;
+        alone_.push_back(static_cast<char>(hint->alone));
     }
     return true;
 }
@@ -233,13 +233,13 @@ bool Guard::are_wound(const Change& change, std::uint32_t patch) const {
 }
 
 /// The patches of what is added: of the only one of what is removed; where a curve changes, of
-/// those that are shown to stay what they are.
-void Guard::find_patches(const Change& change) {
+/// those that are shown to stay what they are. False where a whole sheet would not stay one patch.
+bool Guard::find_patches(const Change& change) {
     patches_.assign(change.added.size(), no_group);
     if (!change.on_border) {
         if (in_one_patch(change.removed))
             std::fill(patches_.begin(), patches_.end(), patch_of_[change.removed[0]]);
-        return;
+        return true;
     }
     for (std::size_t i = 0; i < patches_.size(); ++i) {
         const std::uint32_t p = patch_of_[change.from[i]];
@@ -251,14 +251,16 @@ void Guard::find_patches(const Change& change) {
             patches_[i] = patches_[first];
         else if (are_wound(change, p) && borders_.keeps(change, patch_of_, p, axis_[p]))
             patches_[i] = p;
+        else if (is_whole_[mesh_.sheet_of[change.from[i]]] != 0)
+            return false;
     }
+    return true;
 }
 
 /// Nothing that is added can meet anything else, by its patch and by what it follows.
 bool Guard::is_free(const Change& change) const {
-    if (!all_alone_) return false;
-    for (std::size_t i = 0; i < patches_.size(); ++i)
-        if (patches_[i] == no_group || is_whole_[mesh_.sheet_of[change.from[i]]] == 0) return false;
+    for (std::size_t i = 0; i < change.added.size(); ++i)
+        if (alone_[i] == 0 || is_whole_[mesh_.sheet_of[change.from[i]]] == 0) return false;
     return true;
 }
 
@@ -268,7 +270,7 @@ Verdict Guard::judge(const Change& change) {
         return Verdict::shape;
     if (!bounds_hold(change)) return Verdict::deviation;
     box_added(change);
-    find_patches(change);
+    if (!find_patches(change)) return Verdict::contact;
     if (!is_free(change) && !meets_properly(change)) return Verdict::contact;
     return Verdict::allowed;
 }
@@ -276,7 +278,8 @@ Verdict Guard::judge(const Change& change) {
 /// Before the mesh is changed.
 void Guard::leave_patches(const Change& change) {
     if (!change.in_place)
-        for (const std::uint32_t t : change.removed) grid_.leave(t, box_of_[t]);
+        for (const std::uint32_t t : change.removed)
+            if (!is_quiet(t)) grid_.leave(t, box_of_[t]);
     if (!change.on_border && patches_[0] != no_group) return; // the border stays
     std::vector<std::uint32_t> done;
     for (const std::uint32_t t : change.removed) {
@@ -303,17 +306,15 @@ Verdict Guard::apply(const Change& change) {
     }
     for (std::size_t i = 0; i < numbers_.size(); ++i) {
         const std::uint32_t t = numbers_[i], patch = patches_[i];
-        if (patch == no_group) {
-            ungrouped_ += patch_of_[t] != no_group;
-            is_whole_[mesh_.sheet_of[t]] = 0;
-        }
-        if (!change.in_place) {
-            grid_.enter(t, boxes_[i], patch);
-        } else if (patch_of_[t] == patch) {
+        ungrouped_ += patch == no_group && patch_of_[t] != no_group;
+        const bool was_there = change.in_place && !is_quiet(t);
+        mesh_.alone[t] = alone_[i];
+        const bool is_there = !is_quiet(t);
+        if (was_there && is_there && patch_of_[t] == patch) {
             grid_.move(t, box_of_[t], boxes_[i], patch);
         } else {
-            grid_.leave(t, box_of_[t]);
-            grid_.enter(t, boxes_[i], patch);
+            if (was_there) grid_.leave(t, box_of_[t]);
+            if (is_there) grid_.enter(t, boxes_[i], patch);
         }
         patch_of_[t] = patch;
         box_of_[t] = boxes_[i];

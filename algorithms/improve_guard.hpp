@@ -74,7 +74,11 @@ private:
     [[nodiscard]] bool is_swept(const Triangle& t) const;
     bool meets_properly(const Change& change);
     [[nodiscard]] bool are_wound(const Change& change, std::uint32_t patch) const;
-    void find_patches(const Change& change);
+    bool find_patches(const Change& change);
+    /// Nothing can meet it, by its patch and by what it follows: it is not in the grid.
+    [[nodiscard]] bool is_quiet(std::uint32_t t) const {
+        return mesh_.alone[t] != 0 && is_whole_[mesh_.sheet_of[t]] != 0;
+    }
     [[nodiscard]] bool is_free(const Change& change) const;
     void leave_patches(const Change& change);
 
@@ -84,7 +88,7 @@ private:
     std::vector<std::uint32_t> patch_of_; ///< per triangle, or no_group
     std::vector<Axis> axis_;              ///< per patch
     std::vector<Sign> turn_;              ///< per patch: of all its triangles there
-    std::vector<char> is_whole_;          ///< per sheet: all its triangles are in one patch
+    std::vector<char> is_whole_; ///< per sheet: all its triangles are in one patch, and stay there
     std::vector<GridBox> box_of_;         ///< per triangle
     Borders borders_;
     Grid grid_;
@@ -92,7 +96,7 @@ private:
 
     std::vector<std::uint32_t> hints_, numbers_; ///< of the change at hand
     std::vector<std::uint32_t> patches_;         ///< of its added triangles, or no_group
-    bool all_alone_ = false;                     ///< all that it follows
+    std::vector<char> alone_;                    ///< per added: all that it follows is
     std::vector<GridBox> boxes_;                 ///< of its added triangles
     std::vector<QuickPlane> planes_;             ///< of its added triangles
     struct Tetrahedron {

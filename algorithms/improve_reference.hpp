@@ -50,6 +50,8 @@ public:
     /// Finds the triangles that are alone; until then none is.
     void find_alone(const Run& run);
 
+    [[nodiscard]] bool is_alone(std::uint32_t t) const { return facets_[t].alone; }
+
     /// The least bound that is told apart from rounding errors.
     [[nodiscard]] double least_bound() const { return 1e3 * slack_; }
     /// More than rounding puts into a distance.
