@@ -145,6 +145,25 @@ Reference::Frame Reference::frame_along(const Point3& normal, const Point3& side
     return frame;
 }
 
+void Reference::set_measures(Target& target) {
+    const Frame& frame = target.frame;
+    Target::Measures& m = target.measures;
+    for (std::size_t j = 0; j < 3; ++j) {
+        const Flat &p = target.corners[j], &q = target.corners[(j + 1) % 3];
+        const double u = (q.u - p.u) * target.turn, v = (q.v - p.v) * target.turn;
+        m.x[j] = u * frame.v.x - v * frame.u.x;
+        m.y[j] = u * frame.v.y - v * frame.u.y;
+        m.z[j] = u * frame.v.z - v * frame.u.z;
+        m.off[j] = u * p.v - v * p.u;
+        target.spread =
+            std::max(target.spread, std::fabs(m.x[j]) + std::fabs(m.y[j]) + std::fabs(m.z[j]));
+        target.reach = std::max(target.reach, std::fabs(p.u) + std::fabs(p.v));
+    }
+    m.x[3] = frame.w.x - target.slope_u * frame.u.x - target.slope_v * frame.v.x;
+    m.y[3] = frame.w.y - target.slope_u * frame.u.y - target.slope_v * frame.v.y;
+    m.z[3] = frame.w.z - target.slope_u * frame.u.z - target.slope_v * frame.v.z;
+}
+
 std::optional<Reference::Target> Reference::target_of(const Corners& triangle, double bound,
                                                       bool along_axis) {
     const Point3& a = triangle[0];
@@ -171,15 +190,7 @@ std::optional<Reference::Target> Reference::target_of(const Corners& triangle, d
         target.corners[i] = {whole[i].u + share * (target.middle.u - whole[i].u),
                              whole[i].v + share * (target.middle.v - whole[i].v),
                              whole[i].w + share * (target.middle.w - whole[i].w)};
-    for (std::size_t j = 0; j < 3; ++j) {
-        const Flat &p = target.corners[j], &q = target.corners[(j + 1) % 3];
-        const double u = (q.u - p.u) * target.turn, v = (q.v - p.v) * target.turn;
-        target.along_u[j] = u;
-        target.along_v[j] = v;
-        target.off[j] = u * p.v - v * p.u;
-        target.spread = std::max(target.spread, std::fabs(u) + std::fabs(v));
-        target.reach = std::max(target.reach, std::fabs(p.u) + std::fabs(p.v));
-    }
+    set_measures(target);
     target.error = 64 * unit * longest * longest / along;
     target.bound = bound - share * reach;
     return target;
@@ -215,8 +226,11 @@ Reference::Walk Reference::walk(const Frame& frame, const Point3& origin, const 
 
 /// Of the heights of a triangle over the target's plane, given at its corners: whether all over the
 /// target are within its bound.
-bool Reference::is_near(const Target& target, const std::array<Flat, 3>& corners,
+bool Reference::is_near(const Target& target, const Corners& facet,
                         const std::array<double, 3>& heights) {
+    std::array<Flat, 3> corners;
+    for (std::size_t i = 0; i < 3; ++i)
+        corners[i] = target.frame.flat(minus(facet[i], target.origin));
     const Flat &a = corners[0], &b = corners[1], &c = corners[2];
     const double area = (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);
     const double size =
@@ -250,26 +264,27 @@ bool Reference::is_near(const Target& target, const std::array<Flat, 3>& corners
 Reference::Cover Reference::visit(const Target& target, std::uint32_t t) {
     if (turn_of(t, target.frame) != target.turn) return Cover::open;
     const Facet& facet = facets_[t];
-    std::array<Flat, 3> p;
-    std::array<double, 3> heights{}, sizes{};
+    const Target::Measures& m = target.measures;
+    std::array<std::array<double, 4>, 3> measured{}; // per corner: how far inside, and the height
+    std::array<double, 3> heights{};
+    double size = 0;
     bool all_near = true;
     for (std::size_t i = 0; i < 3; ++i) {
-        p[i] = target.frame.flat(minus(facet.corners[i], target.origin));
-        sizes[i] = std::fabs(p[i].u) + std::fabs(p[i].v) + std::fabs(p[i].w);
-        heights[i] = p[i].w - (target.slope_u * p[i].u + target.slope_v * p[i].v);
-        heights[i] += std::copysign(target.error * sizes[i], heights[i]);
+        const Point3 d = minus(facet.corners[i], target.origin);
+        for (std::size_t k = 0; k < 4; ++k)
+            measured[i][k] = m.x[k] * d.x + m.y[k] * d.y + m.z[k] * d.z - m.off[k];
+        const double away = std::fabs(d.x) + std::fabs(d.y) + std::fabs(d.z);
+        heights[i] = measured[i][3] + std::copysign(target.error * away, measured[i][3]);
         all_near = all_near && std::fabs(heights[i]) <= target.bound;
+        size = std::max(size, away);
     }
-    // inside[j][i]: how far corner i lies inside of edge j of the target, at least
-    const double error = 64 * unit * target.spread *
-                         (std::max({sizes[0], sizes[1], sizes[2]}) + target.reach);
-    std::array<std::array<double, 3>, 3> inside{};
+    // Now how far inside at least.
+    const double error = 64 * unit * target.spread * (size + target.reach);
     std::array<unsigned, 3> beyond_edges{}; // per corner: a bit for each edge that it is outside of
-    for (std::size_t j = 0; j < 3; ++j)
-        for (std::size_t i = 0; i < 3; ++i) {
-            inside[j][i] =
-                target.along_u[j] * p[i].v - target.along_v[j] * p[i].u - target.off[j] + error;
-            beyond_edges[i] |= static_cast<unsigned>(inside[j][i] < 0) << j;
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j) {
+            measured[i][j] += error;
+            beyond_edges[i] |= static_cast<unsigned>(measured[i][j] < 0) << j;
         }
     for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t k = (i + 1) % 3;
@@ -278,7 +293,7 @@ Reference::Cover Reference::visit(const Target& target, std::uint32_t t) {
         const bool ends_inside = beyond_edges[i] == 0 || beyond_edges[k] == 0;
         if (!(all_near && ends_inside) && (beyond_edges[i] | beyond_edges[k]) != 0)
             for (std::size_t j = 0; j < 3; ++j) {
-                const double from = inside[j][i], to = inside[j][k];
+                const double from = measured[i][j], to = measured[k][j];
                 if (from < 0 && to >= 0) low = std::max(low, from / (from - to));
                 if (to < 0 && from >= 0) high = std::min(high, from / (from - to));
             }
@@ -296,7 +311,7 @@ Reference::Cover Reference::visit(const Target& target, std::uint32_t t) {
             !(std::fabs(heights[i] + high * rise) <= most))
             return Cover::far;
     }
-    return all_near || is_near(target, p, heights) ? Cover::near : Cover::far;
+    return all_near || is_near(target, facet.corners, heights) ? Cover::near : Cover::far;
 }
 
 Reference::Cover Reference::covered(const Target& target, std::uint32_t start) {

@@ -100,10 +100,14 @@ private:
         Flat middle;
         double slope_u = 0, slope_v = 0; ///< height of its plane: slope_u u + slope_v v
         double error = 0;                ///< of a height, per unit of distance
-        /// Of each edge: how far (u, v) lies inside, times its length, is along_u v - along_v u -
-        /// off.
-        std::array<double, 3> along_u{}, along_v{}, off{};
-        double spread = 0; ///< of the largest edge: what errors of that are a share of
+        /// A point at d from the origin has measures x dx + y dy + z dz - off: three times how far
+        /// it lies inside of an edge, times its length; and the height over the plane. Side by
+        /// side, so that one instruction does several.
+        struct Measures {
+            std::array<double, 4> x, y, z, off;
+        };
+        Measures measures{};
+        double spread = 0; ///< sum of the sizes in a measure, the largest: errors are a share of it
         double reach = 0;  ///< of the corner farthest from the origin
         double bound = 0;                ///< of heights
     };
@@ -116,6 +120,7 @@ private:
     static Frame frame_of(Axis axis);
     static Frame frame_along(const Point3& normal, const Point3& side);
     /// None for a triangle so thin that the heights of its plane mean nothing.
+    static void set_measures(Target& target);
     [[nodiscard]] static std::optional<Target> target_of(const Corners& triangle, double bound,
                                                          bool along_axis);
     /// How the triangle is wound in the projection; 0 where that is not sure.
@@ -124,7 +129,7 @@ private:
                             std::uint32_t from) const;
     Cover covered(const Target& target, std::uint32_t start);
     Cover visit(const Target& target, std::uint32_t t);
-    [[nodiscard]] static bool is_near(const Target& target, const std::array<Flat, 3>& corners,
+    [[nodiscard]] static bool is_near(const Target& target, const Corners& facet,
                                       const std::array<double, 3>& heights);
     [[nodiscard]] bool near_one(const Corners& triangle, std::uint32_t t, double bound) const;
     bool part_follows(const Corners& triangle, Followed& followed, double bound, unsigned& budget);
