@@ -108,9 +108,9 @@ bool Borders::find_swept(const Change& change, Axis axis) {
     if (chain_.empty()) return true;
     if (chain_.size() < 3 || chain_.size() > 4) return false;
     for (std::size_t i = 0; i + 1 < chain_.size(); ++i) {
-        const auto next = std::find_if(chain_.begin() + static_cast<std::ptrdiff_t>(i) + 1,
-                                       chain_.end(),
-                                       [&](const Edge& e) { return e[0] == chain_[i][1]; });
+        const auto next =
+            std::find_if(chain_.begin() + static_cast<std::ptrdiff_t>(i) + 1, chain_.end(),
+                         [&](const Edge& e) { return e[0] == chain_[i][1]; });
         if (next == chain_.end()) return false;
         std::swap(*next, chain_[i + 1]);
     }

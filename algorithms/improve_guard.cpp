@@ -122,8 +122,7 @@ bool Guard::bounds_hold(const Change& change) {
 
 void Guard::box_added(const Change& change) {
     boxes_.clear();
-    for (const Triangle& t : change.added)
-        boxes_.push_back(grid_.scaled(box_of(mesh_.points, t)));
+    for (const Triangle& t : change.added) boxes_.push_back(grid_.scaled(box_of(mesh_.points, t)));
 }
 
 /// Whether the other triangle is strictly on one side of the plane of `t`, but for common corners:

@@ -45,7 +45,8 @@ enum class Verdict : std::uint8_t { allowed, contact, deviation, shape };
 class Guard {
 public:
     /// What is named must outlive it.
-    Guard(WorkMesh& mesh, Reference& reference) : mesh_(mesh), reference_(reference), borders_(mesh) {}
+    Guard(WorkMesh& mesh, Reference& reference) :
+        mesh_(mesh), reference_(reference), borders_(mesh) {}
 
     /// Proves patches anew. To be called first, and when many triangles have left theirs.
     /// Renumbers triangles.
@@ -88,8 +89,8 @@ private:
     std::vector<std::uint32_t> patch_of_; ///< per triangle, or no_group
     std::vector<Axis> axis_;              ///< per patch
     std::vector<Sign> turn_;              ///< per patch: of all its triangles there
-    std::vector<char> is_whole_; ///< per sheet: all its triangles are in one patch, and stay there
-    std::vector<GridBox> box_of_;         ///< per triangle
+    std::vector<char> is_whole_;  ///< per sheet: all its triangles are in one patch, and stay there
+    std::vector<GridBox> box_of_; ///< per triangle
     Borders borders_;
     Grid grid_;
     std::size_t ungrouped_ = 0;

@@ -13,8 +13,8 @@ WorkMesh::WorkMesh(const Mesh& mesh, const Features& features) :
     curve_of(features.curve_of), place_on(mesh.vertices.size(), 0),
     along(mesh.vertices.size(), {none, none}), triangles(features.triangles),
     sheet_of(features.sheet_of), hint_of(features.triangles.size()),
-    alone(features.triangles.size(), 0),
-    changed_at(features.triangles.size(), 1), star(mesh.vertices.size()) {
+    alone(features.triangles.size(), 0), changed_at(features.triangles.size(), 1),
+    star(mesh.vertices.size()) {
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {
         hint_of[t] = t;
         for (const std::uint32_t v : triangles[t]) star[v].push_back(t);

@@ -109,7 +109,7 @@ private:
         Measures measures{};
         double spread = 0; ///< sum of the sizes in a measure, the largest: errors are a share of it
         double reach = 0;  ///< of the corner farthest from the origin
-        double bound = 0;                ///< of heights
+        double bound = 0;  ///< of heights
     };
     struct Walk {
         std::uint32_t end = 0;
@@ -142,10 +142,10 @@ private:
     struct alignas(64) Facet {
         Corners corners;
         Point3 normal;
-        double error = 0;                      ///< of each coordinate of the normal, at most
-        double lean = 0; ///< its height in a frame tells how it is wound only beyond that
+        double error = 0; ///< of each coordinate of the normal, at most
+        double lean = 0;  ///< its height in a frame tells how it is wound only beyond that
         std::array<std::uint32_t, 3> across{}; ///< as in the features
-        std::array<std::int8_t, 3> turns{};   ///< per axis, exactly
+        std::array<std::int8_t, 3> turns{};    ///< per axis, exactly
         bool alone = false;
         std::uint32_t seen = 0; ///< the last search that saw it
     };
