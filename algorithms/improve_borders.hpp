@@ -5,10 +5,11 @@
 // Guarantee of keeps(): a patch that was one-to-one in its projection is so after the change, if
 // all triangles that it gets are wound there as all of it. Reason: as many of its triangles lie
 // over a point as its border winds round it (patches.hpp). The border changes along one chain, from
-// a corner to another one, and what lies between the old chain and the new one is free of all
-// other border, touched at the two ends only. So the border still consists of loops that meet
-// neither each other nor themselves; outside of what lies between, it winds as it did; and the loop
-// with the chain has its inside on the same side, as beside its other edges nothing has changed.
+// one corner to another, and no other border meets what lies between the old chain and the new one
+// but in these two. Outside of that as many triangles lie over a point as did before: one or none.
+// From inside one gets outside over an edge of the old chain without meeting border, as that edge
+// is none any more: so it is one or none there as well, and where two triangles touched beyond
+// common vertices, the new chain would meet other border.
 // Cost: a look at each edge of the patch's border.
 #pragma once
 

@@ -6,16 +6,18 @@
 // triangles are within the bound of their sheet as it was. Improper contacts are excluded
 // (1) among triangles of one proven patch (patches.hpp), by its reason: a change inside of it keeps
 //     the sum of borders, so it stays one-to-one in its projection if all added triangles are wound
-//     as it is there, by exact predicates;
+//     as it is there, by exact predicates; a change of a curve moves borders, see
+//     improve_borders.hpp;
 // (2) between triangles that follow what is alone in the input and other sheets;
 // (3) else by exact tests against all triangles whose boxes overlap.
 // A change sweeps the tetrahedra from the corner that all added triangles have to the removed ones.
 // Where a vertex of another triangle is in one of them, by exact predicates, the change is not
 // allowed: no piece comes to lie on the other side of a sheet by it.
 // Triangles that are not added under (1) belong to no patch until they are grouped again: what is
-// left of a patch that was one-to-one is so. Cost: a look at the cells of a grid that the change
-// meets, and a pair test per pair of boxes; nothing where (1) and (2) hold and the sheet is one
-// patch.
+// left of a patch that was one-to-one is so. A sheet that is one patch as a whole stays so: changes
+// of its curves by which that is not shown are not made. Cost: a look at the cells of a grid that
+// the change meets, and a pair test per pair of boxes; nothing where (1) and (2) hold and the sheet
+// is one patch: such triangles are not in the grid.
 #pragma once
 
 #include <array>
