@@ -334,9 +334,10 @@ Reference::Cover Reference::covered(const Target& target, std::uint32_t start) {
 }
 
 bool Reference::near_one(const Corners& triangle, std::uint32_t t, double bound) const {
-    const auto& [a, b, c] = facets_[t].corners;
-    return std::all_of(triangle.begin(), triangle.end(),
-                       [&](const Point3& p) { return to_triangle(p, a, b, c) <= bound; });
+    const Corners& of = facets_[t].corners;
+    return std::all_of(triangle.begin(), triangle.end(), [&](const Point3& p) {
+        return to_triangle(p, of[0], of[1], of[2]) <= bound;
+    });
 }
 
 bool Reference::part_follows(const Corners& triangle, Followed& followed, double bound,
