@@ -98,6 +98,8 @@ public:
                                          run} {
         mesh_.sizes = sizes_.of_vertices;
         reference_.find_alone(run);
+        for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t)
+            mesh_.alone[t] = static_cast<char>(reference_.is_alone(t));
     }
 
     Result<Improved> operator()() {
@@ -127,7 +129,7 @@ private:
     /// Slivers would only be split into more of them.
     void clean_first() {
         collapse_curves(shop_);
-        if (!stopped()) guard_.group_again(run_);
+        regroup_if_needed();
         collapse_edges(shop_);
         regroup_if_needed();
         swap_edges(shop_);
@@ -160,7 +162,7 @@ private:
         swap_edges(shop_);
         regroup_if_needed();
         smooth(shop_);
-        return 20 * (changes() - before) > mesh_.triangles.size();
+        return 10 * (changes() - before) > mesh_.triangles.size();
     }
 
     /// Single bad triangles, when most are good.
@@ -181,8 +183,9 @@ private:
     Result<Improved> assembled();
     [[nodiscard]] Result<bool> sides_kept(const Mesh& after,
                                           std::span<const std::uint32_t> sheets) const;
-    [[nodiscard]] Mesh output() const;
-    void add_intersection_edges(std::span<const std::uint32_t> name_of, Mesh& out) const;
+    [[nodiscard]] Mesh output(std::span<const std::uint32_t> used) const;
+    void add_intersection_edges(std::span<const std::uint32_t> used,
+                                std::span<const std::uint32_t> name_of, Mesh& out) const;
     WorstCause cause_of_worst(Triangle t);
 
     const Mesh& input_;
@@ -197,10 +200,11 @@ private:
     ImproveReport report_;
 };
 
-void Improver::add_intersection_edges(std::span<const std::uint32_t> name_of, Mesh& out) const {
-    for (const Triangle& t : mesh_.triangles)
+void Improver::add_intersection_edges(std::span<const std::uint32_t> used,
+                                      std::span<const std::uint32_t> name_of, Mesh& out) const {
+    for (const std::uint32_t t : used)
         for (std::size_t i = 0; i < 3; ++i) {
-            const std::uint32_t a = t[i], b = t[(i + 1) % 3];
+            const std::uint32_t a = mesh_.triangles[t][i], b = mesh_.triangles[t][(i + 1) % 3];
             const std::uint32_t c = mesh_.curve_at(a, b);
             if (c == none || !features_.curves[c].intersection) continue;
             out.intersection_edges.push_back(
@@ -212,7 +216,7 @@ void Improver::add_intersection_edges(std::span<const std::uint32_t> name_of, Me
         out.intersection_edges.end());
 }
 
-Mesh Improver::output() const {
+Mesh Improver::output(std::span<const std::uint32_t> used) const {
     Mesh out;
     out.surfaces = input_.surfaces;
     std::vector<std::uint32_t> name_of(mesh_.points.size(), none);
@@ -221,14 +225,14 @@ Mesh Improver::output() const {
         name_of[v] = static_cast<std::uint32_t>(out.vertices.size());
         out.vertices.push_back(mesh_.points[v]);
     }
-    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+    for (const std::uint32_t t : used) {
         const Triangle& c = mesh_.triangles[t];
         out.triangles.push_back({name_of[c[0]], name_of[c[1]], name_of[c[2]]});
         const std::uint32_t first = features_.first_of[mesh_.sheet_of[t]];
         out.surfaces_of.push_back(input_.surfaces_of[first]);
         if (input_.regions_of.size() > 0) out.regions_of.push_back(input_.regions_of[first]);
     }
-    add_intersection_edges(name_of, out);
+    add_intersection_edges(used, name_of, out);
     return out;
 }
 
@@ -287,7 +291,14 @@ Result<bool> Improver::sides_kept(const Mesh& after, std::span<const std::uint32
 }
 
 Result<Improved> Improver::assembled() {
-    guard_.group_again(run_); // numbers without gaps
+    std::vector<std::uint32_t> used, sheets;
+    Improved improved;
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+        if (!mesh_.in_use(t)) continue;
+        used.push_back(t);
+        sheets.push_back(mesh_.sheet_of[t]);
+        improved.near_of.push_back(mesh_.hint_of[t]);
+    }
     report_.splits = shop_.splits;
     report_.collapses = shop_.collapses;
     report_.swaps = shop_.swaps;
@@ -295,12 +306,9 @@ Result<Improved> Improver::assembled() {
     report_.refused_contact = guard_.refusals().contact;
     report_.refused_deviation = guard_.refusals().deviation;
     report_.refused_shape = guard_.refusals().shape;
-    Improved improved;
-    improved.mesh = output();
-    improved.near_of = mesh_.hint_of;
-    const std::vector<std::uint32_t> sheets = mesh_.sheet_of;
+    improved.mesh = output(used);
     report_.after = measure_quality(improved.mesh.vertices, improved.mesh.triangles);
-    report_.worst_cause = cause_of_worst(mesh_.triangles[report_.after.worst]);
+    report_.worst_cause = cause_of_worst(mesh_.triangles[used[report_.after.worst]]);
     report_.sheets = features_.first_of.size();
     report_.curves = features_.curves.size();
     report_.corners = static_cast<std::size_t>(

@@ -12,6 +12,7 @@
 namespace terrane::improving {
 namespace {
 
+constexpr double cell_share = 1.5;   ///< of the mean edge: the smallest cells
 constexpr double least_cosine = 0.2; ///< of the angle by which an added triangle may turn away
 
 void widen(Box& box, const Box& by) {
@@ -39,6 +40,7 @@ void Guard::group_again(const Run& run) {
         if (p != no_group && turn_[p] == Sign::Zero)
             turn_[p] = turn_in(axis_[p], mesh_.points, mesh_.triangles[t]);
     }
+    borders_.find(patch_of_, axis_.size());
     find_whole_sheets();
     fill_grid();
     seen_.assign(mesh_.triangles.size(), 0);
@@ -64,22 +66,17 @@ void Guard::find_whole_sheets() {
 void Guard::fill_grid() {
     // Long slivers are in the coarser cells; what comes is as long as is wanted.
     double edges = 0, wanted = 0;
-    std::size_t count = 0;
+    const auto count = static_cast<double>(mesh_.triangles.size());
+    for (const Triangle& t : mesh_.triangles) {
+        edges += mesh_.edge_length(t[0], t[1]);
+        wanted += mesh_.wanted_length(t[0], t[1]);
+    }
+    grid_.reset(mesh_.points[mesh_.triangles[0][0]], cell_share * std::min(edges, wanted) / count);
     box_of_.resize(mesh_.triangles.size());
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-        if (!mesh_.in_use(t)) continue;
-        const std::uint32_t a = mesh_.triangles[t][0], b = mesh_.triangles[t][1];
-        edges += mesh_.edge_length(a, b);
-        wanted += mesh_.wanted_length(a, b);
-        ++count;
+        box_of_[t] = grid_.scaled(box_of(mesh_.points, mesh_.triangles[t]));
+        if (!is_quiet(t)) grid_.enter(t, box_of_[t], patch_of_[t]);
     }
-    grid_.reset(count > 0 ? 3 * std::min(edges, wanted) / static_cast<double>(count) : 1);
-    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-        if (!mesh_.in_use(t)) continue;
-        box_of_[t] = box_of(mesh_.points, mesh_.triangles[t]);
-        grid_.enter(t, box_of_[t], patch_of_[t]);
-    }
-    first_entries_ = grid_.entries();
 }
 
 bool Guard::in_one_patch(std::span<const std::uint32_t> triangles) const {
@@ -110,7 +107,7 @@ bool Guard::shapes_hold(const Change& change, std::uint32_t patch) const {
 
 bool Guard::bounds_hold(const Change& change) {
     hints_.clear();
-    all_alone_ = true;
+    alone_.clear();
     for (std::size_t i = 0; i < change.added.size(); ++i) {
         const Triangle& t = change.added[i];
         const std::uint32_t source = change.from[i];
@@ -118,14 +115,14 @@ bool Guard::bounds_hold(const Change& change) {
             {mesh_.points[t[0]], mesh_.points[t[1]], mesh_.points[t[2]]}, mesh_.hint_of[source]);
         if (!hint) return false;
         hints_.push_back(hint->hint);
-        all_alone_ = all_alone_ && hint->alone;
+        alone_.push_back(static_cast<char>(hint->alone));
     }
     return true;
 }
 
 void Guard::box_added(const Change& change) {
     boxes_.clear();
-    for (const Triangle& t : change.added) boxes_.push_back(box_of(mesh_.points, t));
+    for (const Triangle& t : change.added) boxes_.push_back(grid_.scaled(box_of(mesh_.points, t)));
 }
 
 /// Whether the other triangle is strictly on one side of the plane of `t`, but for common corners:
@@ -189,50 +186,108 @@ bool Guard::is_swept(const Triangle& t) const {
     return false;
 }
 
-bool Guard::meets_properly(const Change& change, std::uint32_t patch) {
+bool Guard::meets_properly(const Change& change) {
     ++change_;
     for (const std::uint32_t t : change.removed) seen_[t] = change_;
     planes_.clear();
     for (const auto& [a, b, c] : change.added)
         planes_.emplace_back(mesh_.points[a], mesh_.points[b], mesh_.points[c]);
     sweep(change);
-    Box all = boxes_.front();
-    for (const Box& b : boxes_) widen(all, b);
-    for (const Tetrahedron& t : swept_) widen(all, t.box);
-    const auto proper = [&](std::uint32_t t) {
-        if (patch != no_group && patch_of_[t] == patch) return true;
+    GridBox all = boxes_.front();
+    for (const GridBox& b : boxes_) all.widen(b);
+    for (const Tetrahedron& t : swept_) all.widen(grid_.scaled(t.box));
+    const auto are_shown = [&](std::size_t i, std::uint32_t patch) {
+        return patches_[i] != no_group && patches_[i] == patch;
+    };
+    const auto proper = [&](std::uint32_t t, const GridBox& box) {
         if (seen_[t] == change_) return true;
         seen_[t] = change_;
-        const Box& box = box_of_[t];
-        if (!box.overlaps(all) || !mesh_.in_use(t)) return true;
         const Triangle& other = mesh_.triangles[t];
         if (is_swept(other)) return false;
         for (std::size_t i = 0; i < change.added.size(); ++i)
-            if (boxes_[i].overlaps(box) && !is_beside(planes_[i], change.added[i], other) &&
+            if (boxes_[i].overlaps(box) && !are_shown(i, patch_of_[t]) &&
+                !is_beside(planes_[i], change.added[i], other) &&
                 improper_contact(mesh_.points, change.added[i], other))
                 return false;
         return true;
     };
-    if (!grid_.visit(all, patch, proper)) return false;
-    if (patch != no_group) return true;
+    const bool is_one = std::all_of(patches_.begin(), patches_.end(),
+                                    [&](std::uint32_t p) { return p == patches_[0]; });
+    if (!grid_.visit(all, is_one ? patches_[0] : no_group, proper)) return false;
     for (std::size_t i = 0; i < change.added.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)
-            if (boxes_[i].overlaps(boxes_[j]) &&
+            if (boxes_[i].overlaps(boxes_[j]) && !are_shown(i, patches_[j]) &&
                 improper_contact(mesh_.points, change.added[i], change.added[j]))
                 return false;
     return true;
 }
 
+/// All triangles are wound in the patch as it is.
+bool Guard::are_wound(const Change& change, std::uint32_t patch) const {
+    for (std::size_t i = 0; i < change.added.size(); ++i)
+        if (patch_of_[change.from[i]] == patch &&
+            turn_in(axis_[patch], mesh_.points, change.added[i]) != turn_[patch])
+            return false;
+    return true;
+}
+
+/// The patches of what is added: of the only one of what is removed; where a curve changes, of
+/// those that are shown to stay what they are. False where a whole sheet would not stay one patch.
+bool Guard::find_patches(const Change& change) {
+    patches_.assign(change.added.size(), no_group);
+    if (!change.on_border) {
+        if (in_one_patch(change.removed))
+            std::fill(patches_.begin(), patches_.end(), patch_of_[change.removed[0]]);
+        return true;
+    }
+    for (std::size_t i = 0; i < patches_.size(); ++i) {
+        const std::uint32_t p = patch_of_[change.from[i]];
+        const auto is_his = [&](std::uint32_t t) { return patch_of_[t] == p; };
+        const auto first = static_cast<std::size_t>(
+            std::find_if(change.from.begin(), change.from.end(), is_his) - change.from.begin());
+        if (p == no_group) continue;
+        if (first < i)
+            patches_[i] = patches_[first];
+        else if (are_wound(change, p) && borders_.keeps(change, patch_of_, p, axis_[p]))
+            patches_[i] = p;
+        else if (is_whole_[mesh_.sheet_of[change.from[i]]] != 0)
+            return false;
+    }
+    return true;
+}
+
+/// Nothing that is added can meet anything else, by its patch and by what it follows.
+bool Guard::is_free(const Change& change) const {
+    for (std::size_t i = 0; i < change.added.size(); ++i)
+        if (alone_[i] == 0 || is_whole_[mesh_.sheet_of[change.from[i]]] == 0) return false;
+    return true;
+}
+
 Verdict Guard::judge(const Change& change) {
-    const std::uint32_t patch =
-        !change.on_border && in_one_patch(change.removed) ? patch_of_[change.removed[0]] : no_group;
-    if (!shapes_hold(change, patch)) return Verdict::shape;
+    const bool in_one = !change.on_border && in_one_patch(change.removed);
+    if (!shapes_hold(change, in_one ? patch_of_[change.removed[0]] : no_group))
+        return Verdict::shape;
     if (!bounds_hold(change)) return Verdict::deviation;
     box_added(change);
-    const bool is_free =
-        patch != no_group && all_alone_ && is_whole_[mesh_.sheet_of[change.removed[0]]] != 0;
-    if (!is_free && !meets_properly(change, patch)) return Verdict::contact;
+    if (!find_patches(change)) return Verdict::contact;
+    if (!is_free(change) && !meets_properly(change)) return Verdict::contact;
     return Verdict::allowed;
+}
+
+/// Before the mesh is changed.
+void Guard::leave_patches(const Change& change) {
+    if (!change.in_place)
+        for (const std::uint32_t t : change.removed)
+            if (!is_quiet(t)) grid_.leave(t, box_of_[t]);
+    if (!change.on_border && patches_[0] != no_group) return; // the border stays
+    std::vector<std::uint32_t> done;
+    for (const std::uint32_t t : change.removed) {
+        const std::uint32_t p = patch_of_[t];
+        if (p == no_group || std::find(done.begin(), done.end(), p) != done.end()) continue;
+        done.push_back(p);
+        const bool is_kept = std::find(patches_.begin(), patches_.end(), p) != patches_.end();
+        borders_.update(change, patch_of_, p, is_kept);
+    }
 }
 
 Verdict Guard::apply(const Change& change) {
@@ -241,8 +296,7 @@ Verdict Guard::apply(const Change& change) {
     refusals_.deviation += verdict == Verdict::deviation;
     refusals_.contact += verdict == Verdict::contact;
     if (verdict != Verdict::allowed) return verdict;
-    const std::uint32_t patch =
-        !change.on_border && in_one_patch(change.removed) ? patch_of_[change.removed[0]] : no_group;
+    leave_patches(change);
     mesh_.apply(change, hints_, numbers_);
     if (mesh_.triangles.size() > patch_of_.size()) {
         patch_of_.resize(mesh_.triangles.size(), no_group);
@@ -250,17 +304,20 @@ Verdict Guard::apply(const Change& change) {
         box_of_.resize(mesh_.triangles.size());
     }
     for (std::size_t i = 0; i < numbers_.size(); ++i) {
-        const std::uint32_t t = numbers_[i];
-        if (patch == no_group && patch_of_[t] != no_group) ++ungrouped_;
-        if (patch == no_group) is_whole_[mesh_.sheet_of[t]] = 0;
-        patch_of_[t] = patch;
-        if (change.in_place)
+        const std::uint32_t t = numbers_[i], patch = patches_[i];
+        ungrouped_ += patch == no_group && patch_of_[t] != no_group;
+        const bool was_there = change.in_place && !is_quiet(t);
+        mesh_.alone[t] = alone_[i];
+        const bool is_there = !is_quiet(t);
+        if (was_there && is_there && patch_of_[t] == patch) {
             grid_.move(t, box_of_[t], boxes_[i], patch);
-        else
-            grid_.enter(t, boxes_[i], patch);
+        } else {
+            if (was_there) grid_.leave(t, box_of_[t]);
+            if (is_there) grid_.enter(t, boxes_[i], patch);
+        }
+        patch_of_[t] = patch;
         box_of_[t] = boxes_[i];
     }
-    if (grid_.entries() > 2 * first_entries_ + 1000) fill_grid(); // most are of what has gone
     return verdict;
 }
 

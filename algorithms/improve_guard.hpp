@@ -6,16 +6,18 @@
 // triangles are within the bound of their sheet as it was. Improper contacts are excluded
 // (1) among triangles of one proven patch (patches.hpp), by its reason: a change inside of it keeps
 //     the sum of borders, so it stays one-to-one in its projection if all added triangles are wound
-//     as it is there, by exact predicates;
+//     as it is there, by exact predicates; a change of a curve moves borders, see
+//     improve_borders.hpp;
 // (2) between triangles that follow what is alone in the input and other sheets;
 // (3) else by exact tests against all triangles whose boxes overlap.
 // A change sweeps the tetrahedra from the corner that all added triangles have to the removed ones.
 // Where a vertex of another triangle is in one of them, by exact predicates, the change is not
 // allowed: no piece comes to lie on the other side of a sheet by it.
 // Triangles that are not added under (1) belong to no patch until they are grouped again: what is
-// left of a patch that was one-to-one is so. Cost: a look at the cells of a grid that the change
-// meets, and a pair test per pair of boxes; nothing where (1) and (2) hold and the sheet is one
-// patch.
+// left of a patch that was one-to-one is so. A sheet that is one patch as a whole stays so: changes
+// of its curves by which that is not shown are not made. Cost: a look at the cells of a grid that
+// the change meets, and a pair test per pair of boxes; nothing where (1) and (2) hold and the sheet
+// is one patch: such triangles are not in the grid.
 #pragma once
 
 #include <array>
@@ -23,6 +25,7 @@
 #include <span>
 #include <vector>
 
+#include <terrane/algorithms/improve_borders.hpp>
 #include <terrane/algorithms/improve_grid.hpp>
 #include <terrane/algorithms/improve_mesh.hpp>
 #include <terrane/algorithms/improve_reference.hpp>
@@ -44,7 +47,8 @@ enum class Verdict : std::uint8_t { allowed, contact, deviation, shape };
 class Guard {
 public:
     /// What is named must outlive it.
-    Guard(WorkMesh& mesh, Reference& reference) : mesh_(mesh), reference_(reference) {}
+    Guard(WorkMesh& mesh, Reference& reference) :
+        mesh_(mesh), reference_(reference), borders_(mesh) {}
 
     /// Proves patches anew. To be called first, and when many triangles have left theirs.
     /// Renumbers triangles.
@@ -71,7 +75,15 @@ private:
                                  const Triangle& other) const;
     void sweep(const Change& change);
     [[nodiscard]] bool is_swept(const Triangle& t) const;
-    bool meets_properly(const Change& change, std::uint32_t patch);
+    bool meets_properly(const Change& change);
+    [[nodiscard]] bool are_wound(const Change& change, std::uint32_t patch) const;
+    bool find_patches(const Change& change);
+    /// Nothing can meet it, by its patch and by what it follows: it is not in the grid.
+    [[nodiscard]] bool is_quiet(std::uint32_t t) const {
+        return mesh_.alone[t] != 0 && is_whole_[mesh_.sheet_of[t]] != 0;
+    }
+    [[nodiscard]] bool is_free(const Change& change) const;
+    void leave_patches(const Change& change);
 
     WorkMesh& mesh_;
     Reference& reference_;
@@ -79,15 +91,16 @@ private:
     std::vector<std::uint32_t> patch_of_; ///< per triangle, or no_group
     std::vector<Axis> axis_;              ///< per patch
     std::vector<Sign> turn_;              ///< per patch: of all its triangles there
-    std::vector<char> is_whole_;          ///< per sheet: all its triangles are in one patch
-    std::vector<Box> box_of_;             ///< per triangle
+    std::vector<char> is_whole_;  ///< per sheet: all its triangles are in one patch, and stay there
+    std::vector<GridBox> box_of_; ///< per triangle
+    Borders borders_;
     Grid grid_;
-    std::size_t first_entries_ = 0; ///< of the grid when it was filled
     std::size_t ungrouped_ = 0;
 
     std::vector<std::uint32_t> hints_, numbers_; ///< of the change at hand
-    bool all_alone_ = false;                     ///< all that it follows
-    std::vector<Box> boxes_;                     ///< of its added triangles
+    std::vector<std::uint32_t> patches_;         ///< of its added triangles, or no_group
+    std::vector<char> alone_;                    ///< per added: all that it follows is
+    std::vector<GridBox> boxes_;                 ///< of its added triangles
     std::vector<QuickPlane> planes_;             ///< of its added triangles
     struct Tetrahedron {
         std::array<Point3, 4> corners; ///< positively oriented

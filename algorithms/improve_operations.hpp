@@ -2,9 +2,9 @@
 //
 // The four operations, each in a pass over the whole mesh. Private to improve.
 //
-// - Splitting: edges longer than 4/3 of what is wanted, the longest first, in the middle; in rounds
-//   that divide a triangle once and swap what that makes, so that slivers are not halved again and
-//   again.
+// - Splitting: edges longer than 4/3 of what is wanted, the longest class first, in the middle; in
+//   rounds that divide a triangle once and swap what that makes, so that slivers are not halved
+//   again and again.
 // - Collapsing: edges shorter than 4/5 of it; an inner vertex into any neighbour, one of a curve
 //   into a neighbour on it. The two ends may have no common neighbours but those in the triangles
 //   at the edge (the link condition: Dey et al. 1999), so that nothing changes but the division.

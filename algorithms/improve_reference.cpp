@@ -57,17 +57,22 @@ double to_triangle(const Point3& p, const Point3& a, const Point3& b, const Poin
 Reference::Reference(std::span<const Point3> points, const Features& features,
                      std::span<const double> bound_of) :
     points_(points),
-    features_(features), bound_of_(bound_of), alone_(features.triangles.size(), 0),
-    turns_(features.triangles.size()), normals_(features.triangles.size()),
-    seen_(features.triangles.size(), 0) {
+    features_(features), bound_of_(bound_of), facets_(features.triangles.size()) {
     double largest = 0;
     for (std::size_t t = 0; t < features.triangles.size(); ++t) {
-        const auto& [a, b, c] = features.triangles[t];
-        const Point3 ab = minus(points[b], points[a]), ac = minus(points[c], points[a]);
-        normals_[t] = {cross(ab, ac), 8 * unit * length(ab) * length(ac)};
+        Facet& facet = facets_[t];
+        const auto& [i, j, k] = features.triangles[t];
+        const Point3 &a = points[i], &b = points[j], &c = points[k];
+        const Point3 ab = minus(b, a), ac = minus(c, a);
+        facet.corners = {a, b, c};
+        facet.normal = cross(ab, ac);
+        facet.error = 8 * unit * length(ab) * length(ac);
+        // The sides of a frame are a few units off from being upright.
+        facet.lean = 4 * facet.error + 64 * unit * length(facet.normal);
+        facet.across = features.across[t];
         for (const Axis axis : {Axis::x, Axis::y, Axis::z})
-            turns_[t][static_cast<std::size_t>(axis)] =
-                static_cast<std::int8_t>(orient2d(axis, points[a], points[b], points[c]));
+            facet.turns[static_cast<std::size_t>(axis)] =
+                static_cast<std::int8_t>(orient2d(axis, a, b, c));
         for (const std::uint32_t v : features.triangles[t])
             largest = std::max(
                 {largest, std::fabs(points[v].x), std::fabs(points[v].y), std::fabs(points[v].z)});
@@ -77,14 +82,13 @@ Reference::Reference(std::span<const Point3> points, const Features& features,
 
 /// Whether all corners of triangle t are beyond the plane of another one, by more than the gap.
 bool Reference::is_beyond_plane(std::uint32_t t, std::uint32_t of, double gap) const {
-    const Normal& normal = normals_[of];
-    const double size = length(normal.n);
-    const Point3& origin = points_[features_.triangles[of][0]];
+    const Facet& plane = facets_[of];
+    const double size = length(plane.normal);
     int sum = 0;
-    for (const std::uint32_t v : features_.triangles[t]) {
-        const Point3 d = minus(points_[v], origin);
-        const double off = dot(normal.n, d);
-        const double least = size * gap + (3 * normal.error + 16 * unit * size) * length(d);
+    for (const Point3& p : facets_[t].corners) {
+        const Point3 d = minus(p, plane.corners[0]);
+        const double off = dot(plane.normal, d);
+        const double least = size * gap + (3 * plane.error + 16 * unit * size) * length(d);
         sum += off > least ? 1 : off < -least ? -1 : 0;
     }
     return sum == 3 || sum == -3;
@@ -92,7 +96,7 @@ bool Reference::is_beyond_plane(std::uint32_t t, std::uint32_t of, double gap) c
 
 void Reference::find_alone(const Run& run) {
     const auto count = static_cast<std::uint32_t>(features_.triangles.size());
-    alone_.assign(count, 1);
+    for (Facet& f : facets_) f.alone = true;
     std::vector<Box> boxes;
     std::vector<std::uint32_t> all(count);
     std::iota(all.begin(), all.end(), 0U);
@@ -106,11 +110,11 @@ void Reference::find_alone(const Run& run) {
         boxes.push_back(box);
     }
     const auto mark = [&](const CandidatePair& p) {
-        if (alone_[p.first] == 0 && alone_[p.second] == 0) return false;
+        if (!facets_[p.first].alone && !facets_[p.second].alone) return false;
         const double gap = bound_of_[features_.sheet_of[p.first]] +
                            bound_of_[features_.sheet_of[p.second]] + 4 * slack_;
         if (!is_beyond_plane(p.first, p.second, gap) && !is_beyond_plane(p.second, p.first, gap))
-            alone_[p.first] = alone_[p.second] = 0;
+            facets_[p.first].alone = facets_[p.second].alone = false;
         return false; // none need be kept
     };
     Run one = run; // marks are not shared between threads
@@ -126,12 +130,10 @@ Reference::Frame Reference::frame_of(Axis axis) {
 }
 
 int Reference::turn_of(std::uint32_t t, const Frame& frame) const {
-    if (frame.axis) return turns_[t][static_cast<std::size_t>(*frame.axis)];
-    const Normal& n = normals_[t];
-    const double along = dot(n.n, frame.w);
-    // The sides of the frame are a few units off from being upright.
-    const double error = 4 * n.error + 64 * unit * length(n.n);
-    return along > error ? 1 : along < -error ? -1 : 0;
+    const Facet& facet = facets_[t];
+    if (frame.axis) return facet.turns[static_cast<std::size_t>(*frame.axis)];
+    const double along = dot(facet.normal, frame.w);
+    return along > facet.lean ? 1 : along < -facet.lean ? -1 : 0;
 }
 
 Reference::Frame Reference::frame_along(const Point3& normal, const Point3& side) {
@@ -141,6 +143,25 @@ Reference::Frame Reference::frame_along(const Point3& normal, const Point3& side
     frame.u = {side.x / base, side.y / base, side.z / base};
     frame.v = cross(frame.w, frame.u);
     return frame;
+}
+
+void Reference::set_measures(Target& target) {
+    const Frame& frame = target.frame;
+    Target::Measures& m = target.measures;
+    for (std::size_t j = 0; j < 3; ++j) {
+        const Flat &p = target.corners[j], &q = target.corners[(j + 1) % 3];
+        const double u = (q.u - p.u) * target.turn, v = (q.v - p.v) * target.turn;
+        m.x[j] = u * frame.v.x - v * frame.u.x;
+        m.y[j] = u * frame.v.y - v * frame.u.y;
+        m.z[j] = u * frame.v.z - v * frame.u.z;
+        m.off[j] = u * p.v - v * p.u;
+        target.spread =
+            std::max(target.spread, std::fabs(m.x[j]) + std::fabs(m.y[j]) + std::fabs(m.z[j]));
+        target.reach = std::max(target.reach, std::fabs(p.u) + std::fabs(p.v));
+    }
+    m.x[3] = frame.w.x - target.slope_u * frame.u.x - target.slope_v * frame.v.x;
+    m.y[3] = frame.w.y - target.slope_u * frame.u.y - target.slope_v * frame.v.y;
+    m.z[3] = frame.w.z - target.slope_u * frame.u.z - target.slope_v * frame.v.z;
 }
 
 std::optional<Reference::Target> Reference::target_of(const Corners& triangle, double bound,
@@ -169,6 +190,7 @@ std::optional<Reference::Target> Reference::target_of(const Corners& triangle, d
         target.corners[i] = {whole[i].u + share * (target.middle.u - whole[i].u),
                              whole[i].v + share * (target.middle.v - whole[i].v),
                              whole[i].w + share * (target.middle.w - whole[i].w)};
+    set_measures(target);
     target.error = 64 * unit * longest * longest / along;
     target.bound = bound - share * reach;
     return target;
@@ -180,16 +202,16 @@ Reference::Walk Reference::walk(const Frame& frame, const Point3& origin, const 
     std::uint32_t t = from, before = none;
     for (unsigned step = 0; step < most_steps; ++step) {
         if (turn_of(t, frame) != turn) return {t, false};
-        const Triangle& c = features_.triangles[t];
+        const Facet& facet = facets_[t];
         std::array<Flat, 3> p;
-        for (std::size_t i = 0; i < 3; ++i) p[i] = frame.flat(minus(points_[c[i]], origin));
+        for (std::size_t i = 0; i < 3; ++i) p[i] = frame.flat(minus(facet.corners[i], origin));
         std::uint32_t next = t;
         bool blocked = false;
         for (std::size_t i = 0; i < 3; ++i) {
             const Flat &a = p[i], &b = p[(i + 1) % 3];
             const double side = (b.u - a.u) * (to.v - a.v) - (b.v - a.v) * (to.u - a.u);
             if (!(side * turn < 0)) continue;
-            const std::uint32_t beyond = features_.across[t][i];
+            const std::uint32_t beyond = facet.across[i];
             if (beyond == none || beyond == before)
                 blocked = true;
             else
@@ -204,8 +226,11 @@ Reference::Walk Reference::walk(const Frame& frame, const Point3& origin, const 
 
 /// Of the heights of a triangle over the target's plane, given at its corners: whether all over the
 /// target are within its bound.
-bool Reference::is_near(const Target& target, const std::array<Flat, 3>& corners,
+bool Reference::is_near(const Target& target, const Corners& facet,
                         const std::array<double, 3>& heights) {
+    std::array<Flat, 3> corners;
+    for (std::size_t i = 0; i < 3; ++i)
+        corners[i] = target.frame.flat(minus(facet[i], target.origin));
     const Flat &a = corners[0], &b = corners[1], &c = corners[2];
     const double area = (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);
     const double size =
@@ -238,44 +263,45 @@ bool Reference::is_near(const Target& target, const std::array<Flat, 3>& corners
 /// Looks at one triangle under the target.
 Reference::Cover Reference::visit(const Target& target, std::uint32_t t) {
     if (turn_of(t, target.frame) != target.turn) return Cover::open;
-    const Triangle& c = features_.triangles[t];
-    std::array<Flat, 3> p;
+    const Facet& facet = facets_[t];
+    const Target::Measures& m = target.measures;
+    std::array<std::array<double, 4>, 3> measured{}; // per corner: how far inside, and the height
     std::array<double, 3> heights{};
+    double size = 0;
     bool all_near = true;
     for (std::size_t i = 0; i < 3; ++i) {
-        p[i] = target.frame.flat(minus(points_[c[i]], target.origin));
-        heights[i] = p[i].w - (target.slope_u * p[i].u + target.slope_v * p[i].v);
-        heights[i] += std::copysign(
-            target.error * (std::fabs(p[i].u) + std::fabs(p[i].v) + std::fabs(p[i].w)), heights[i]);
+        const Point3 d = minus(facet.corners[i], target.origin);
+        for (std::size_t k = 0; k < 4; ++k)
+            measured[i][k] = m.x[k] * d.x + m.y[k] * d.y + m.z[k] * d.z - m.off[k];
+        const double away = std::fabs(d.x) + std::fabs(d.y) + std::fabs(d.z);
+        heights[i] = measured[i][3] + std::copysign(target.error * away, measured[i][3]);
         all_near = all_near && std::fabs(heights[i]) <= target.bound;
+        size = std::max(size, away);
     }
-    // inside[j][i]: how far corner i lies inside of edge j of the target, at least
-    std::array<std::array<double, 3>, 3> inside{};
-    for (std::size_t j = 0; j < 3; ++j) {
-        const Flat &a = target.corners[j], &b = target.corners[(j + 1) % 3];
-        const double eu = (b.u - a.u) * target.turn, ev = (b.v - a.v) * target.turn;
-        for (std::size_t i = 0; i < 3; ++i) {
-            const double du = p[i].u - a.u, dv = p[i].v - a.v;
-            inside[j][i] = eu * dv - ev * du +
-                           64 * unit * (std::fabs(eu) + std::fabs(ev)) *
-                               (std::fabs(du) + std::fabs(dv) + std::fabs(p[i].w));
+    // Now how far inside at least.
+    const double error = 64 * unit * target.spread * (size + target.reach);
+    std::array<unsigned, 3> beyond_edges{}; // per corner: a bit for each edge that it is outside of
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j) {
+            measured[i][j] += error;
+            beyond_edges[i] |= static_cast<unsigned>(measured[i][j] < 0) << j;
         }
-    }
     for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t k = (i + 1) % 3;
+        if ((beyond_edges[i] & beyond_edges[k]) != 0) continue;
         double low = 0, high = 1;
-        bool misses = false;
-        for (std::size_t j = 0; j < 3; ++j) {
-            const double from = inside[j][i], to = inside[j][k];
-            if (from < 0 && to < 0) misses = true;
-            if (from < 0 && to >= 0) low = std::max(low, from / (from - to));
-            if (to < 0 && from >= 0) high = std::min(high, from / (from - to));
-        }
-        if (misses || low > high + share_error) continue;
-        const std::uint32_t beyond = features_.across[t][i];
+        const bool ends_inside = beyond_edges[i] == 0 || beyond_edges[k] == 0;
+        if (!(all_near && ends_inside) && (beyond_edges[i] | beyond_edges[k]) != 0)
+            for (std::size_t j = 0; j < 3; ++j) {
+                const double from = measured[i][j], to = measured[k][j];
+                if (from < 0 && to >= 0) low = std::max(low, from / (from - to));
+                if (to < 0 && from >= 0) high = std::min(high, from / (from - to));
+            }
+        if (low > high + share_error) continue;
+        const std::uint32_t beyond = facet.across[i];
         if (beyond == none) return Cover::open;
-        if (seen_[beyond] != search_) {
-            seen_[beyond] = search_;
+        if (facets_[beyond].seen != search_) {
+            facets_[beyond].seen = search_;
             front_.push_back(beyond);
         }
         if (all_near) continue;
@@ -285,22 +311,22 @@ Reference::Cover Reference::visit(const Target& target, std::uint32_t t) {
             !(std::fabs(heights[i] + high * rise) <= most))
             return Cover::far;
     }
-    return all_near || is_near(target, p, heights) ? Cover::near : Cover::far;
+    return all_near || is_near(target, facet.corners, heights) ? Cover::near : Cover::far;
 }
 
 Reference::Cover Reference::covered(const Target& target, std::uint32_t start) {
     ++search_;
     if (search_ == 0) { // counted round
-        std::fill(seen_.begin(), seen_.end(), 0U);
+        for (Facet& f : facets_) f.seen = 0;
         ++search_;
     }
     front_.assign(1, start);
-    seen_[start] = search_;
+    facets_[start].seen = search_;
     for (unsigned count = 0; !front_.empty(); ++count) {
         if (count == most_covered) return Cover::open;
         const std::uint32_t t = front_.back();
         front_.pop_back();
-        all_alone_ = all_alone_ && alone_[t] != 0;
+        all_alone_ = all_alone_ && facets_[t].alone;
         const Cover cover = visit(target, t);
         if (cover != Cover::near) return cover;
     }
@@ -308,9 +334,9 @@ Reference::Cover Reference::covered(const Target& target, std::uint32_t start) {
 }
 
 bool Reference::near_one(const Corners& triangle, std::uint32_t t, double bound) const {
-    const Triangle& c = features_.triangles[t];
+    const Corners& of = facets_[t].corners;
     return std::all_of(triangle.begin(), triangle.end(), [&](const Point3& p) {
-        return to_triangle(p, points_[c[0]], points_[c[1]], points_[c[2]]) <= bound;
+        return to_triangle(p, of[0], of[1], of[2]) <= bound;
     });
 }
 
@@ -334,7 +360,7 @@ bool Reference::part_follows(const Corners& triangle, Followed& followed, double
         if (cover == Cover::far) return false;
     }
     if (near_one(triangle, followed.hint, bound)) {
-        followed.alone = followed.alone && alone_[followed.hint] != 0;
+        followed.alone = followed.alone && facets_[followed.hint].alone;
         return true;
     }
     const std::array<double, 3> lengths{length(minus(triangle[1], triangle[0])),
@@ -370,9 +396,9 @@ std::optional<Reference::Place> Reference::above(const Point3& p, const Point3& 
     if (turn == 0) return std::nullopt;
     const Walk way = walk(frame, p, {}, turn, hint);
     if (!way.arrived) return std::nullopt;
-    const auto& [i, j, k] = features_.triangles[way.end];
-    const std::array<Flat, 3> c{frame.flat(minus(points_[i], p)), frame.flat(minus(points_[j], p)),
-                                frame.flat(minus(points_[k], p))};
+    const Corners& corners = facets_[way.end].corners;
+    const std::array<Flat, 3> c{frame.flat(minus(corners[0], p)), frame.flat(minus(corners[1], p)),
+                                frame.flat(minus(corners[2], p))};
     std::array<double, 3> shares{};
     double sum = 0;
     for (std::size_t e = 0; e < 3; ++e) {

@@ -50,6 +50,8 @@ public:
     /// Finds the triangles that are alone; until then none is.
     void find_alone(const Run& run);
 
+    [[nodiscard]] bool is_alone(std::uint32_t t) const { return facets_[t].alone; }
+
     /// The least bound that is told apart from rounding errors.
     [[nodiscard]] double least_bound() const { return 1e3 * slack_; }
     /// More than rounding puts into a distance.
@@ -98,7 +100,16 @@ private:
         Flat middle;
         double slope_u = 0, slope_v = 0; ///< height of its plane: slope_u u + slope_v v
         double error = 0;                ///< of a height, per unit of distance
-        double bound = 0;                ///< of heights
+        /// A point at d from the origin has measures x dx + y dy + z dz - off: three times how far
+        /// it lies inside of an edge, times its length; and the height over the plane. Side by
+        /// side, so that one instruction does several.
+        struct Measures {
+            std::array<double, 4> x, y, z, off;
+        };
+        Measures measures{};
+        double spread = 0; ///< sum of the sizes in a measure, the largest: errors are a share of it
+        double reach = 0;  ///< of the corner farthest from the origin
+        double bound = 0;  ///< of heights
     };
     struct Walk {
         std::uint32_t end = 0;
@@ -109,6 +120,7 @@ private:
     static Frame frame_of(Axis axis);
     static Frame frame_along(const Point3& normal, const Point3& side);
     /// None for a triangle so thin that the heights of its plane mean nothing.
+    static void set_measures(Target& target);
     [[nodiscard]] static std::optional<Target> target_of(const Corners& triangle, double bound,
                                                          bool along_axis);
     /// How the triangle is wound in the projection; 0 where that is not sure.
@@ -117,7 +129,7 @@ private:
                             std::uint32_t from) const;
     Cover covered(const Target& target, std::uint32_t start);
     Cover visit(const Target& target, std::uint32_t t);
-    [[nodiscard]] static bool is_near(const Target& target, const std::array<Flat, 3>& corners,
+    [[nodiscard]] static bool is_near(const Target& target, const Corners& facet,
                                       const std::array<double, 3>& heights);
     [[nodiscard]] bool near_one(const Corners& triangle, std::uint32_t t, double bound) const;
     bool part_follows(const Corners& triangle, Followed& followed, double bound, unsigned& budget);
@@ -126,15 +138,19 @@ private:
     std::span<const Point3> points_;
     const Features& features_;
     std::span<const double> bound_of_;
-    std::vector<char> alone_;                       ///< per triangle
-    std::vector<std::array<std::int8_t, 3>> turns_; ///< per triangle and axis, exactly
-    struct Normal {
-        Point3 n;
-        double error; ///< of each coordinate, at most
+    /// All that searches look at, in one place: what they cost is mostly to get it.
+    struct alignas(64) Facet {
+        Corners corners;
+        Point3 normal;
+        double error = 0; ///< of each coordinate of the normal, at most
+        double lean = 0;  ///< its height in a frame tells how it is wound only beyond that
+        std::array<std::uint32_t, 3> across{}; ///< as in the features
+        std::array<std::int8_t, 3> turns{};    ///< per axis, exactly
+        bool alone = false;
+        std::uint32_t seen = 0; ///< the last search that saw it
     };
-    std::vector<Normal> normals_; ///< per triangle
-    double slack_ = 0;            ///< more than the errors of distances from rounded coordinates
-    std::vector<std::uint32_t> seen_; ///< per triangle: the last search that saw it
+    std::vector<Facet> facets_; ///< per triangle
+    double slack_ = 0;          ///< more than the errors of distances from rounded coordinates
     std::uint32_t search_ = 0;
     std::vector<std::uint32_t> front_;
     bool all_alone_ = true; ///< of the triangles that the search has visited

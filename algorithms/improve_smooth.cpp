@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace terrane::improving {
 namespace {
@@ -58,7 +59,27 @@ Badness badness_at(const WorkMesh& mesh, std::uint32_t v) {
     return badness;
 }
 
-/// Moves one inner vertex after another, where `better` says so of what was and what is.
+constexpr double endless = std::numeric_limits<double>::infinity();
+
+/// Whether both would be less than the limits with the vertex at p; none of 1 / q is less than 1.
+bool is_below(WorkMesh& mesh, std::uint32_t v, const Point3& p, const Badness& limits) {
+    const Point3 old = mesh.points[v];
+    mesh.points[v] = p;
+    auto left = static_cast<double>(mesh.star[v].size());
+    double sum = 0;
+    bool is = true;
+    for (const std::uint32_t t : mesh.star[v]) {
+        const double one = 1 / shape_of(mesh, mesh.triangles[t]);
+        sum += one;
+        left -= 1;
+        is = sum + left < limits.sum && one < limits.largest;
+        if (!is) break;
+    }
+    mesh.points[v] = old;
+    return is;
+}
+
+/// Moves one inner vertex after another, where that brings it below limits.
 class Mover {
 public:
     explicit Mover(Workshop& shop) : shop_(shop) {}
@@ -70,32 +91,31 @@ public:
         change_.in_place = true;
         change_.removed = mesh.star[v];
         for (const std::uint32_t t : change_.removed) change_.add(mesh.triangles[t], t);
-        set_facing(mesh, change_);
         before_ = badness_at(mesh, v);
     }
+    /// Before any move.
+    [[nodiscard]] const Point3& facing() {
+        if (change_.facing.empty()) set_facing(shop_.mesh, change_);
+        return change_.facing[0].second;
+    }
+
     [[nodiscard]] const Badness& before() const { return before_; }
-    [[nodiscard]] const Point3& facing() const { return change_.facing[0].second; }
 
     /// On the surface above or below `to`.
-    template <class Better>
-    bool move(const Point3& to, const Better& better) {
+    bool move(const Point3& to, const Badness& limits) {
         WorkMesh& mesh = shop_.mesh;
         const Point3 old = mesh.points[v_];
-        mesh.points[v_] = to;
-        const bool is_better = better(before_, badness_at(mesh, v_));
-        mesh.points[v_] = old;
-        if (!is_better) return false;
+        if (!is_below(mesh, v_, to, limits)) return false; // mostly
         const auto place = shop_.reference.above(to, facing(), mesh.hint_of[change_.removed[0]]);
-        if (!place) return false;
+        if (!place || !is_below(mesh, v_, place->point, limits)) return false;
         change_.moved = v_;
         change_.before = old;
         mesh.points[v_] = place->point;
-        const Badness now = badness_at(mesh, v_);
-        if (!better(before_, now) || shop_.guard.apply(change_) != Verdict::allowed) {
+        if (shop_.guard.apply(change_) != Verdict::allowed) {
             mesh.points[v_] = old;
             return false;
         }
-        before_ = now;
+        before_ = badness_at(mesh, v_);
         ++shop_.moves;
         return true;
     }
@@ -112,10 +132,8 @@ Point3 between(const Point3& a, const Point3& b, double share) {
 }
 
 bool smooth_vertex(Workshop& shop, Mover& mover, std::uint32_t v) {
-    const auto better = [](const Badness& before, const Badness& now) {
-        return now.sum < before.sum * (1 - least_gain);
-    };
     mover.look_at(v);
+    const Badness better{mover.before().sum * (1 - least_gain), endless};
     const Point3 from = shop.mesh.points[v];
     const Point3 to = drawn(shop.mesh, v);
     // A triangle slides the vertex along its base only, which is half of a way on the mean.
@@ -126,9 +144,6 @@ bool smooth_vertex(Workshop& shop, Mover& mover, std::uint32_t v) {
 
 /// Eight directions in the plane across the normal; steps that are halved.
 bool lift_vertex(Workshop& shop, Mover& mover, std::uint32_t v) {
-    const auto better = [](const Badness& before, const Badness& now) {
-        return now.largest < before.largest * (1 - least_gain);
-    };
     mover.look_at(v);
     Point3 n = mover.facing();
     const double size = std::sqrt(dot(n, n));
@@ -145,6 +160,7 @@ bool lift_vertex(Workshop& shop, Mover& mover, std::uint32_t v) {
             const double angle = k * std::acos(-1.0) / 4;
             const double c = step * std::cos(angle), s = step * std::sin(angle);
             const Point3& p = shop.mesh.points[v];
+            const Badness better{endless, mover.before().largest * (1 - least_gain)};
             moved = mover.move(
                         {p.x + c * u.x + s * w.x, p.y + c * u.y + s * w.y, p.z + c * u.z + s * w.z},
                         better) ||
@@ -217,7 +233,7 @@ std::size_t shake(Workshop& shop) {
         const Point3& p = shop.mesh.points[v];
         const auto off = scattered(v);
         return mover.move({p.x + size * off.x, p.y + size * off.y, p.z + size * off.z},
-                          [](const Badness&, const Badness& now) { return now.largest < 2; });
+                          {endless, 2});
     });
 }
 

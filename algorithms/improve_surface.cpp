@@ -15,6 +15,12 @@ namespace {
 constexpr double least_even_cosine = -0.35; ///< of angles that evening out may make
 constexpr double least_shape = 0.3;         ///< that collapses may leave where there was better
 
+/// 1, 2, ... for ratios from 1, each of four classes up to 2, and so on: edges of a class are taken
+/// in the order of their vertices, as what lies together costs less to get.
+double length_class(double ratio) {
+    return 1.0 + std::ilogb(ratio * ratio * (ratio * ratio));
+}
+
 /// Inner edges with the lower vertex first, each once, from the triangles in their order.
 template <class Wanted>
 std::vector<std::pair<double, Edge>> inner_edges(const WorkMesh& mesh, const Wanted& wanted) {
@@ -197,10 +203,9 @@ bool collapse(Workshop& shop, std::uint32_t gone, std::uint32_t kept, double lon
     change.removed = mesh.star[gone];
     std::vector<std::uint32_t>& at_edge = shop.at_edge;
     at_edge.clear();
-    double worst = 1, worst_before = 1, longest_added = 0;
+    double longest_added = 0;
     for (const std::uint32_t t : change.removed) {
         const Triangle& corners = mesh.triangles[t];
-        worst_before = std::min(worst_before, shape_of(mesh, corners));
         if (has(corners, kept)) {
             // All that a sheet has between the two edges of the curve must not vanish.
             if (on_curve && opposite(corners, gone, kept) == other) return false;
@@ -208,15 +213,21 @@ bool collapse(Workshop& shop, std::uint32_t gone, std::uint32_t kept, double lon
             continue;
         }
         change.add(with(corners, gone, kept), t);
-        worst = std::min(worst, shape_of(mesh, change.added.back()));
         for (const std::uint32_t v : corners) {
             if (v == gone) continue;
             longest = std::max(longest, mesh.edge_length(v, gone)); // no longer than it was
             longest_added = std::max(longest_added, mesh.edge_length(v, kept));
         }
     }
-    if (longest_added > longest) return false;
-    if (change.added.empty() || !(worst > std::min(least, worst_before))) return false;
+    if (change.added.empty() || longest_added > longest) return false;
+    double worst = 1;
+    for (const Triangle& t : change.added) worst = std::min(worst, shape_of(mesh, t));
+    if (!(worst > least)) {
+        double worst_before = 1;
+        for (const std::uint32_t t : change.removed)
+            worst_before = std::min(worst_before, shape_of(mesh, mesh.triangles[t]));
+        if (!(worst > worst_before)) return false;
+    }
     if (!keeps_topology(mesh, gone, kept, change, at_edge)) return false;
     set_facing(mesh, change);
     if (shop.guard.apply(change) != Verdict::allowed) return false;
@@ -253,14 +264,14 @@ std::size_t split_edges(Workshop& shop) {
     for (unsigned round = 0; round < 32; ++round) {
         auto edges = inner_edges(mesh, [&](std::uint32_t a, std::uint32_t b) {
             const double ratio = mesh.edge_length(a, b) / mesh.wanted_length(a, b);
-            return ratio > long_share ? ratio : 0;
+            return ratio > long_share ? length_class(ratio) : 0;
         });
         std::sort(edges.begin(), edges.end(), [](const auto& e, const auto& f) {
             return std::tuple(-e.first, e.second) < std::tuple(-f.first, f.second);
         });
         std::size_t more = 0;
         const std::uint32_t since = ++shop.mesh.now;
-        for (const auto& [ratio, e] : edges) {
+        for (const auto& [length, e] : edges) {
             if (shop.run.stop.stop_requested()) return count;
             more += split(shop, e, since);
         }
@@ -280,14 +291,14 @@ std::size_t collapse_edges(Workshop& shop) {
     std::size_t count = 0;
     auto edges = inner_edges(mesh, [&](std::uint32_t a, std::uint32_t b) {
         const double ratio = mesh.edge_length(a, b) / mesh.wanted_length(a, b);
-        return ratio < short_share ? 1 / std::max(ratio, 1e-300) : 0;
+        return ratio < short_share ? length_class(1 / std::max(ratio, 1e-70)) : 0;
     });
     std::sort(edges.begin(), edges.end(), [](const auto& e, const auto& f) {
         return std::tuple(-e.first, e.second) < std::tuple(-f.first, f.second);
     });
     const std::uint32_t since = shop.collapsed_at; // what was tried then in vain is no better now
     shop.collapsed_at = ++shop.mesh.now;
-    for (const auto& [inverse, e] : edges) {
+    for (const auto& [length, e] : edges) {
         if (shop.run.stop.stop_requested()) return count;
         const auto [a, b] = e;
         if (mesh.kinds[a] == VertexKind::unused || mesh.kinds[b] == VertexKind::unused) continue;
