@@ -43,6 +43,8 @@ struct Scratch {
     std::array<std::vector<Stamp>, 2> stamps;
     std::vector<std::uint8_t> sides;            ///< per corner of a cell
     std::vector<std::uint8_t> beyond;           ///< per corner: see edges_before, or unknown
+    std::vector<std::uint32_t> low;             ///< corners that are not clearly above or below
+    std::vector<std::uint32_t> doubtful;        ///< entries of Faces::parts
     std::vector<std::uint32_t> left, left_back; ///< entries of Faces::parts without proof
 };
 
@@ -64,12 +66,13 @@ public:
     [[nodiscard]] Unclear operator()(const Run& run);
 
 private:
-    /// What parts of another face are to be told clear of.
+    /// Parts of f are to be told clear of g.
     struct Pair {
+        std::uint32_t f_name, g_name;
         const Face& g;
-        std::uint32_t g_name;
-        std::span<const Stamp> stamps; ///< of g
         double d;                      ///< the margin
+        std::span<const Stamp> stamps; ///< of g
+        std::span<Stamp> stamps_back;  ///< of f, for the other direction; or none
     };
 
     [[nodiscard]] std::array<Point3, 3> corners_of(std::uint32_t f) const {
@@ -92,12 +95,10 @@ private:
     void stamp(std::uint32_t f, std::vector<Stamp>& stamps) const;
     [[nodiscard]] bool is_apart(const std::array<Point3, 3>& f, double extent, const Face& g) const;
     [[nodiscard]] bool is_clear(const Pair& pair, const Cell& cell, std::uint32_t entry) const;
-    [[nodiscard]] bool find_sides(const Pair& pair, const Cell& cell,
-                                  std::vector<std::uint8_t>& sides) const;
+    bool find_sides(const Pair& pair, const Cell& cell, Scratch& scratch) const;
     void find_left(const Pair& pair, const Cell& cell, Scratch& scratch,
                    std::vector<std::uint32_t>& left) const;
-    void find_left(std::uint32_t f, std::uint32_t g, std::span<const Stamp> stamps,
-                   Scratch& scratch, std::vector<std::uint32_t>& left) const;
+    void find_left(const Pair& pair, Scratch& scratch, std::vector<std::uint32_t>& left) const;
     void add_pairs(const Scratch& scratch, Found& found) const;
 
     const MovedParts& moved_;
@@ -248,38 +249,37 @@ bool Prover::is_clear(const Pair& pair, const Cell& cell, std::uint32_t entry) c
 }
 
 /// Where the corners of a cell are: above the plane of g, below it, resting on a vertex of g in it,
-/// or neither. True if what rises at all rises enough for whatever rests.
-bool Prover::find_sides(const Pair& pair, const Cell& cell,
-                        std::vector<std::uint8_t>& sides) const {
-    sides.resize(cell.corner_end - cell.corner);
+/// or neither. True if what rises at all rises enough for whatever rests. Those that rest are
+/// entered in stamps_back as vertices of f: no others matter to parts of g.
+bool Prover::find_sides(const Pair& pair, const Cell& cell, Scratch& scratch) const {
+    const std::uint32_t count = cell.corner_end - cell.corner;
+    auto& sides = scratch.sides;
+    auto& low = scratch.low;
+    sides.resize(count);
+    low.resize(count);
     const Point3* place = faces_.places.data() + cell.corner;
     const Functional height = pair.g.height;
     const double d = pair.d;
     double least_lift = std::numeric_limits<double>::infinity(), most_rise = 0;
-    for (std::size_t k = 0; k < sides.size(); ++k) {
+    std::uint32_t lows = 0; // no branches: they would be foretold badly
+    for (std::uint32_t k = 0; k < count; ++k) {
         const double u = height(place[k]), lift = std::fabs(u);
         sides[k] = static_cast<std::uint8_t>(neither - (u > d ? below : 0) - (u < -d ? above : 0));
-        if (lift > d) {
-            least_lift = std::min(least_lift, lift);
-            continue;
-        }
-        const std::uint32_t v = faces_.vertex_at[cell.corner + k];
+        least_lift = std::min(least_lift, lift > d ? lift : least_lift);
+        low[lows] = k;
+        lows += lift > d ? 0 : 1;
+    }
+    for (std::uint32_t n = 0; n < lows; ++n) {
+        const std::uint32_t k = low[n], v = faces_.vertex_at[cell.corner + k];
         const Stamp& s = pair.stamps[faces_.vertices[v]];
-        if (s.face != pair.g_name || !(lift <= d / 2)) continue;
+        if (s.face != pair.g_name) continue;
+        if (!pair.stamps_back.empty()) pair.stamps_back[faces_.vertices[v]] = {pair.f_name, v};
+        if (!(std::fabs(height(place[k])) <= d / 2)) continue;
         sides[k] = rests;
         const double rise = least_rise(faces_.sizes[s.vertex], faces_.sizes[v].longest, d);
         most_rise = std::max(most_rise, rise);
     }
     return least_lift > most_rise;
-}
-
-/// All of the cell is farther than d from the plane, on one side. Its centre is a point of the face
-/// but for rounding, or not far from one: twice the margin is room for that.
-bool is_far(const Cell& cell, const Functional& height, double d) {
-    const Point3 &n = height.normal, &h = cell.half;
-    const double spread =
-        (std::fabs(n.x) * h.x + std::fabs(n.y) * h.y + std::fabs(n.z) * h.z) * (1 + 0x1p-40);
-    return std::fabs(height(cell.centre)) - spread > 2 * d;
 }
 
 /// The edges of g beyond which p lies by more than d: a bit for each.
@@ -294,8 +294,22 @@ std::uint8_t edges_before(const Face& g, const Point3& p, double d) {
 /// leave it at vertices of both.
 void Prover::find_left(const Pair& pair, const Cell& cell, Scratch& scratch,
                        std::vector<std::uint32_t>& left) const {
-    auto& sides = scratch.sides;
-    const bool all_leave = find_sides(pair, cell, sides);
+    const bool all_leave = find_sides(pair, cell, scratch);
+    const auto& sides = scratch.sides;
+    const auto is_doubtful = [&](const std::array<std::uint16_t, 3>& c) {
+        const unsigned i = sides[c[0]], j = sides[c[1]], k = sides[c[2]], together = i | j | k;
+        const bool both_sides = together == neither || together == rests;
+        const bool any_rests = i == rests || j == rests || k == rests;
+        return both_sides | (any_rests & !all_leave);
+    };
+    auto& doubtful = scratch.doubtful;
+    doubtful.resize(cell.part_end - cell.part);
+    std::size_t doubts = 0;
+    for (std::uint32_t e = cell.part; e < cell.part_end; ++e) {
+        doubtful[doubts] = e;
+        doubts += is_doubtful(faces_.corners[e]) ? 1 : 0;
+    }
+    if (doubts == 0) return;
     scratch.beyond.assign(sides.size(), unknown);
     const auto beyond = [&](std::uint32_t corner) {
         std::uint8_t& edges = scratch.beyond[corner];
@@ -303,26 +317,52 @@ void Prover::find_left(const Pair& pair, const Cell& cell, Scratch& scratch,
             edges = edges_before(pair.g, faces_.places[cell.corner + corner], pair.d);
         return edges;
     };
-    for (std::uint32_t e = cell.part; e < cell.part_end; ++e) {
-        const auto& [i, j, k] = faces_.corners[e];
-        const int together = sides[i] | sides[j] | sides[k];
-        if (together == above || together == below) {
-            const bool any_rests = sides[i] == rests || sides[j] == rests || sides[k] == rests;
-            if (all_leave || !any_rests) continue;
-        }
+    for (std::size_t n = 0; n < doubts; ++n) {
+        const auto& [i, j, k] = faces_.corners[doubtful[n]];
         if ((beyond(i) & beyond(j) & beyond(k)) != 0) continue;
-        if (!is_clear(pair, cell, e)) left.push_back(e);
+        if (!is_clear(pair, cell, doubtful[n])) left.push_back(doubtful[n]);
     }
 }
 
-/// The same of all f; where it has many parts, most cells are far from the plane.
-void Prover::find_left(std::uint32_t f_name, std::uint32_t g_name, std::span<const Stamp> stamps,
-                       Scratch& scratch, std::vector<std::uint32_t>& left) const {
-    const Face &f = face(f_name), &g = face(g_name);
-    const Pair pair{g, g_name, stamps, margin(f.extent, g)};
+/// Tells cells of f that lie on one side of the plane of g, or beyond one of its edges, as a whole.
+class FarCells {
+public:
+    FarCells(const Face& f, const Face& g, double d) :
+        functionals_{FramedFunctional(g.height, f.frame),
+                     {g.beyond[0], f.frame},
+                     {g.beyond[1], f.frame},
+                     {g.beyond[2], f.frame}},
+        twice_(2 * d) {}
+
+    // A box is as near to the corners in it as rounding permits, which takes the points a few units
+    // of the size of both faces off their places in the frame: twice the margin is room for that.
+    [[nodiscard]] bool operator()(const Cell& cell) const {
+        const double height = functionals_[0](cell.centre);
+        if (std::fabs(height) - spread(functionals_[0], cell) > twice_) return true;
+        for (unsigned j = 1; j < 4; ++j)
+            if (functionals_[j](cell.centre) - spread(functionals_[j], cell) > twice_) return true;
+        return false;
+    }
+
+private:
+    static double spread(const FramedFunctional& u, const Cell& cell) {
+        const Point3 &n = u.factor, &h = cell.half;
+        return (std::fabs(n.x) * h.x + std::fabs(n.y) * h.y + std::fabs(n.z) * h.z) * (1 + 0x1p-40);
+    }
+
+    std::array<FramedFunctional, 4> functionals_;
+    double twice_;
+};
+
+/// The same of all f; where it has many parts, most cells are far from g.
+void Prover::find_left(const Pair& pair, Scratch& scratch, std::vector<std::uint32_t>& left) const {
+    const Face& f = face(pair.f_name);
     left.clear();
-    for (const Cell& cell : cells_of(f))
-        if (!is_far(cell, g.height, pair.d)) find_left(pair, cell, scratch, left);
+    const auto cells = cells_of(f);
+    if (cells.size() == 1) return find_left(pair, cells.front(), scratch, left);
+    const FarCells is_far(f, pair.g, pair.d);
+    for (const Cell& cell : cells)
+        if (!is_far(cell)) find_left(pair, cell, scratch, left);
 }
 
 /// Few pairs are listed where their boxes overlap; where they are many, the parts of the smaller
@@ -351,13 +391,16 @@ void Prover::add_pairs(const Scratch& scratch, Found& found) const {
 /// Pairs with the same first face.
 void Prover::test_group(std::size_t first, std::size_t last, Scratch& scratch, Found& found) const {
     const std::uint32_t g = meeting_[first].first;
-    stamp(g, scratch.stamps[0]);
+    auto& [of_g, of_f] = scratch.stamps;
+    of_f.resize(moved_.points.size());
+    stamp(g, of_g);
     for (std::size_t i = first; i < last; ++i) {
         const std::uint32_t f = meeting_[i].second;
-        find_left(f, g, scratch.stamps[0], scratch, scratch.left);
+        find_left({f, g, face(g), margin(face(f).extent, face(g)), of_g, of_f}, scratch,
+                  scratch.left);
         if (scratch.left.empty()) continue;
-        stamp(f, scratch.stamps[1]);
-        find_left(g, f, scratch.stamps[1], scratch, scratch.left_back);
+        find_left({g, f, face(f), margin(face(g).extent, face(f)), of_f, {}}, scratch,
+                  scratch.left_back);
         add_pairs(scratch, found);
     }
 }
