@@ -20,14 +20,6 @@ namespace {
 
 using namespace clearance;
 
-/// No two corners are farther apart.
-double extent_bound(const std::array<Point3, 3>& c) {
-    const auto [low_x, high_x] = std::minmax({c[0].x, c[1].x, c[2].x});
-    const auto [low_y, high_y] = std::minmax({c[0].y, c[1].y, c[2].y});
-    const auto [low_z, high_z] = std::minmax({c[0].z, c[1].z, c[2].z});
-    return ((high_x - low_x) + (high_y - low_y) + (high_z - low_z)) * (1 + 0x1p-40);
-}
-
 /// Which vertices are a face's: per point.
 struct Stamp {
     std::uint32_t face = none;
@@ -46,6 +38,7 @@ struct Scratch {
     std::vector<std::uint32_t> low;             ///< corners that are not clearly above or below
     std::vector<std::uint32_t> doubtful;        ///< entries of Faces::parts
     std::vector<std::uint32_t> left, left_back; ///< entries of Faces::parts without proof
+    std::vector<Box> boxes;                     ///< of left_back
 };
 
 struct Found {
@@ -60,12 +53,17 @@ double most_of(std::span<const double> moves) {
 class Prover {
 public:
     Prover(const MovedParts& moved, std::span<const CandidatePair> meeting, const Run& run) :
-        moved_(moved), move_(most_of(moved.moves)), meeting_(close_pairs(meeting, run)),
-        faces_(moved, meeting_, move_, run) {}
+        Prover(moved, meeting, Measured(moved, meeting, run), run) {}
 
     [[nodiscard]] Unclear operator()(const Run& run);
 
 private:
+    Prover(const MovedParts& moved, std::span<const CandidatePair> meeting, Measured measured,
+           const Run& run) :
+        moved_(moved),
+        move_(most_of(moved.moves)), meeting_(close_pairs(meeting, measured, run)),
+        faces_(moved, std::move(measured), meeting_, move_, run) {}
+
     /// Parts of f are to be told clear of g.
     struct Pair {
         std::uint32_t f_name, g_name;
@@ -75,14 +73,9 @@ private:
         std::span<Stamp> stamps_back;  ///< of f, for the other direction; or none
     };
 
-    [[nodiscard]] std::array<Point3, 3> corners_of(std::uint32_t f) const {
-        const Triangle& c = moved_.faces[f];
-        return {moved_.face_points[c[0]], moved_.face_points[c[1]], moved_.face_points[c[2]]};
-    }
     [[nodiscard]] std::vector<CandidatePair> close_pairs(std::span<const CandidatePair> meeting,
+                                                         const Measured& measured,
                                                          const Run& run) const;
-    [[nodiscard]] std::vector<CandidatePair>
-    close_pairs(std::span<const CandidatePair> meeting) const;
     [[nodiscard]] double margin(double extent, const Face& g) const;
     [[nodiscard]] const Face& face(std::uint32_t f) const {
         return faces_.faces[faces_.slot_of[f]];
@@ -93,13 +86,13 @@ private:
     void add_restless(const Face& f, std::vector<std::uint32_t>& parts) const;
     void test_group(std::size_t first, std::size_t last, Scratch& scratch, Found& found) const;
     void stamp(std::uint32_t f, std::vector<Stamp>& stamps) const;
-    [[nodiscard]] bool is_apart(const std::array<Point3, 3>& f, double extent, const Face& g) const;
+    [[nodiscard]] bool is_apart(const Face& f, const Face& g) const;
     [[nodiscard]] bool is_clear(const Pair& pair, const Cell& cell, std::uint32_t entry) const;
     bool find_sides(const Pair& pair, const Cell& cell, Scratch& scratch) const;
     void find_left(const Pair& pair, const Cell& cell, Scratch& scratch,
                    std::vector<std::uint32_t>& left) const;
     void find_left(const Pair& pair, Scratch& scratch, std::vector<std::uint32_t>& left) const;
-    void add_pairs(const Scratch& scratch, Found& found) const;
+    void add_pairs(Scratch& scratch, Found& found) const;
 
     const MovedParts& moved_;
     double move_;                        ///< d: the most
@@ -108,27 +101,16 @@ private:
 };
 
 /// The pairs that are not apart as a whole.
-std::vector<CandidatePair> Prover::close_pairs(std::span<const CandidatePair> meeting) const {
-    std::vector<CandidatePair> close;
-    Face g;
-    std::uint32_t measured = none;
-    for (const CandidatePair& p : meeting) {
-        if (p.first != measured) {
-            measured = p.first;
-            g = measure(corners_of(p.first));
-        }
-        const auto f = corners_of(p.second);
-        if (is_apart(f, extent_bound(f), g)) continue;
-        if (!is_apart(g.corners, g.extent, measure(f))) close.push_back(p);
-    }
-    return close;
-}
-
 std::vector<CandidatePair> Prover::close_pairs(std::span<const CandidatePair> meeting,
-                                               const Run& run) const {
+                                               const Measured& measured, const Run& run) const {
     const auto blocks = for_blocks<std::vector<CandidatePair>>(
         meeting.size(), 1024, run, [&](std::size_t first, std::size_t last) {
-            return close_pairs(meeting.subspan(first, last - first));
+            std::vector<CandidatePair> close;
+            for (const CandidatePair& p : meeting.subspan(first, last - first)) {
+                const Face &f = measured[p.second], &g = measured[p.first];
+                if (!is_apart(f, g) && !is_apart(g, f)) close.push_back(p);
+            }
+            return close;
         });
     std::vector<CandidatePair> close;
     for (const auto& block : blocks) close.insert(close.end(), block.begin(), block.end());
@@ -167,13 +149,13 @@ double Prover::margin(double extent, const Face& g) const {
 }
 
 /// The whole of f lies beyond g.
-bool Prover::is_apart(const std::array<Point3, 3>& f, double extent, const Face& g) const {
-    const double d = margin(extent, g);
-    const double a = g.height(f[0]), b = g.height(f[1]), c = g.height(f[2]);
+bool Prover::is_apart(const Face& f, const Face& g) const {
+    const double d = margin(f.extent, g);
+    const auto& [p, q, r] = f.corners;
+    const double a = g.height(p), b = g.height(q), c = g.height(r);
     if ((a > d && b > d && c > d) || (a < -d && b < -d && c < -d)) return true;
-    return std::any_of(g.beyond.begin(), g.beyond.end(), [&](const Functional& u) {
-        return u(f[0]) > d && u(f[1]) > d && u(f[2]) > d;
-    });
+    return std::any_of(g.beyond.begin(), g.beyond.end(),
+                       [&](const Functional& u) { return u(p) > d && u(q) > d && u(r) > d; });
 }
 
 /// What the other corners must rise to when a part leaves g at a vertex; infinite where g is not
@@ -367,7 +349,7 @@ void Prover::find_left(const Pair& pair, Scratch& scratch, std::vector<std::uint
 
 /// Few pairs are listed where their boxes overlap; where they are many, the parts of the smaller
 /// side.
-void Prover::add_pairs(const Scratch& scratch, Found& found) const {
+void Prover::add_pairs(Scratch& scratch, Found& found) const {
     const auto &f = scratch.left, &g = scratch.left_back;
     if (f.empty() || g.empty()) return;
     constexpr std::size_t few = 4096;
@@ -377,12 +359,14 @@ void Prover::add_pairs(const Scratch& scratch, Found& found) const {
         return;
     }
     const BoxSource boxes(moved_.points, moved_.parts);
+    scratch.boxes.clear();
+    for (const std::uint32_t h : g) scratch.boxes.push_back(boxes[faces_.parts[h]]);
     for (const std::uint32_t e : f) {
         const std::uint32_t a = faces_.parts[e];
         const Box box = boxes[a];
-        for (const std::uint32_t h : g) {
-            const std::uint32_t b = faces_.parts[h];
-            if (a != b && box.overlaps(boxes[b]))
+        for (std::size_t k = 0; k < g.size(); ++k) {
+            const std::uint32_t b = faces_.parts[g[k]];
+            if (box.overlaps(scratch.boxes[k]) && a != b)
                 found.pairs.push_back({std::min(a, b), std::max(a, b)});
         }
     }

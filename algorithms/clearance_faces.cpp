@@ -7,6 +7,9 @@
 #include <utility>
 
 #include <terrane/algorithms/parallel.hpp>
+#include <terrane/kernel/numbers.hpp>
+#include <terrane/kernel/polynomials.hpp>
+#include <terrane/kernel/twofold.hpp>
 
 namespace terrane::clearance {
 namespace {
@@ -93,30 +96,66 @@ Functional beyond_edge(const Face& f, unsigned j) {
     return {f.corners[j], {m.x * factor, m.y * factor, m.z * factor}};
 }
 
-} // namespace
+/// The unit normal where a face is so thin that hardly anything is left of it in differences of
+/// doubles.
+void refine(Face& f) {
+    const ToNearest mode;
+    using namespace polynomial;
+    const auto at = [&](unsigned i) { return cartesian<Twofold>(f.corners[i]); };
+    const auto n = polynomial::cross(difference(at(1), at(0)), difference(at(2), at(0)));
+    const Point3 normal{n.x.value(), n.y.value(), n.z.value()};
+    const double size = length(normal), factor = 1 / size;
+    const double error = 4 * (n.x.error() + n.y.error() + n.z.error()) * factor + 64 * unit;
+    if (!(size > smallest_area && error < f.functional_error)) return;
+    f.height.normal = {normal.x * factor, normal.y * factor, normal.z * factor};
+    f.functional_error = error;
+}
 
 // Relative to an edge of length e between points whose differences err by a unit, the altitude and
 // the direction of the normal err by a few: the bounds are several times larger.
 Face measure(const std::array<Point3, 3>& corners) {
+    constexpr double thin = 0x1p+20; // longest edge to altitude
     Face f;
     f.corners = corners;
     const Point3 u = minus(corners[1], corners[0]), v = minus(corners[2], corners[0]),
                  w = minus(corners[2], corners[1]), n = cross(u, v);
     const double size = length(n), factor = 1 / size;
     f.height = {corners[0], {n.x * factor, n.y * factor, n.z * factor}};
-    f.frame = frame_of(corners[0], n);
     const double squared = std::max({dot(u, u), dot(v, v), dot(w, w)});
     f.extent = std::sqrt(squared);
     const bool usable = size > smallest_area && f.extent < longest_length;
     f.functional_error =
         usable ? 64 * unit * squared * factor : std::numeric_limits<double>::infinity();
+    if (usable && squared > thin * size) refine(f);
+    f.frame = frame_of(corners[0], f.height.normal);
     for (unsigned j = 0; j < 3; ++j) f.beyond[j] = beyond_edge(f, j);
     return f;
 }
 
-Faces::Faces(const MovedParts& moved, std::span<const CandidatePair> pairs, double move,
-             const Run& run) {
-    choose(moved, pairs, run);
+} // namespace
+
+Measured::Measured(const MovedParts& moved, std::span<const CandidatePair> pairs, const Run& run) :
+    slot_of(moved.faces.size(), none) {
+    for (const CandidatePair& p : pairs)
+        for (const std::uint32_t f : {p.first, p.second}) {
+            if (slot_of[f] != none) continue;
+            slot_of[f] = static_cast<std::uint32_t>(names.size());
+            names.push_back(f);
+        }
+    faces.resize(names.size());
+    constexpr std::size_t least = 256; // for a thread
+    for_ranges(
+        faces.size(), run,
+        [&](std::size_t first, std::size_t last) {
+            for (std::size_t k = first; k < last; ++k)
+                faces[k] = measure(corners_of(moved, names[k]));
+        },
+        4, least);
+}
+
+Faces::Faces(const MovedParts& moved, Measured measured, std::span<const CandidatePair> pairs,
+             double move, const Run& run) {
+    choose(std::move(measured), pairs);
     collect_parts(moved, run);
     sort_into_cells(moved, run);
     number_vertices(moved);
@@ -140,19 +179,17 @@ void Faces::for_faces(const Run& run, const Visit& visit) {
         4, least);
 }
 
-void Faces::choose(const MovedParts& moved, std::span<const CandidatePair> pairs, const Run& run) {
-    slot_of.assign(moved.faces.size(), none);
-    std::vector<std::uint32_t> names;
+void Faces::choose(Measured measured, std::span<const CandidatePair> pairs) {
+    std::vector<std::uint32_t> slots(measured.faces.size(), none); // per measured face
     for (const CandidatePair& p : pairs)
         for (const std::uint32_t f : {p.first, p.second}) {
-            if (slot_of[f] != none) continue;
-            slot_of[f] = static_cast<std::uint32_t>(names.size());
-            names.push_back(f);
+            std::uint32_t& slot = slots[measured.slot_of[f]];
+            if (slot != none) continue;
+            slot = static_cast<std::uint32_t>(faces.size());
+            faces.push_back(measured[f]);
         }
-    faces.resize(names.size());
-    for_faces(run, [&](Face& f) {
-        f = measure(corners_of(moved, names[static_cast<std::size_t>(&f - faces.data())]));
-    });
+    for (std::size_t k = 0; k < slots.size(); ++k) measured.slot_of[measured.names[k]] = slots[k];
+    slot_of = std::move(measured.slot_of);
 }
 
 void Faces::collect_parts(const MovedParts& moved, const Run& run) {

@@ -77,8 +77,16 @@ struct Face {
     std::uint32_t vertex = 0, vertex_end = 0; ///< range in Faces::vertices
 };
 
-/// Without the ranges.
-Face measure(const std::array<Point3, 3>& corners);
+/// Faces without the ranges.
+struct Measured {
+    Measured(const MovedParts& moved, std::span<const CandidatePair> pairs, const Run& run);
+
+    [[nodiscard]] const Face& operator[](std::uint32_t f) const { return faces[slot_of[f]]; }
+
+    std::vector<std::uint32_t> slot_of; ///< per face of the mesh: index into faces, or none
+    std::vector<std::uint32_t> names;   ///< of the faces in pairs, each once
+    std::vector<Face> faces;            ///< per name
+};
 
 /// Of the parts of a face at one vertex.
 struct Sizes {
@@ -96,8 +104,8 @@ struct Cell {
 
 /// The faces in pairs and their parts. Cost: linear in all parts of the mesh and of the faces.
 struct Faces {
-    Faces(const MovedParts& moved, std::span<const CandidatePair> pairs, double move,
-          const Run& run);
+    Faces(const MovedParts& moved, Measured measured, std::span<const CandidatePair> pairs,
+          double move, const Run& run);
 
     std::vector<std::uint32_t> slot_of; ///< per face of the mesh: index into faces, or none
     std::vector<Face> faces;
@@ -113,7 +121,7 @@ struct Faces {
 private:
     template <class Visit>
     void for_faces(const Run& run, const Visit& visit);
-    void choose(const MovedParts& moved, std::span<const CandidatePair> pairs, const Run& run);
+    void choose(Measured measured, std::span<const CandidatePair> pairs);
     void collect_parts(const MovedParts& moved, const Run& run);
     void sort_into_cells(const MovedParts& moved, const Run& run);
     void number_vertices(const MovedParts& moved);

@@ -74,18 +74,6 @@ void PointStore::keep_constructed(std::span<const PointIndex> kept) {
 
 namespace {
 
-/// The default rounding mode for as long as it lives, inside an UpwardRounding or not.
-class ToNearest {
-public:
-    ToNearest() : before_(CGAL::FPU_get_and_set_cw(CGAL_FE_TONEAREST)) {}
-    ~ToNearest() { CGAL::FPU_set_cw(before_); }
-    ToNearest(const ToNearest&) = delete;
-    ToNearest& operator=(const ToNearest&) = delete;
-
-private:
-    CGAL::FPU_CW_t before_;
-};
-
 // Wide enough to make predicates fail that a correctly rounded point would let succeed; without an
 // end where the intervals overflowed.
 bool is_wide(const Enclosure& e) {
