@@ -275,7 +275,8 @@ private:
                 BorderPart part;
                 edges_.for_each(first, last,
                                 [&](std::uint32_t low, std::uint32_t high, auto sides) {
-                                    sum_sides(low, high, sides, part);
+                                    if (!cancel(low, high, sides))
+                                        sum_sides(low, high, sides, part);
                                 });
                 return part;
             });
@@ -284,6 +285,17 @@ private:
             border_.insert(border_.end(), part.edges.begin(), part.edges.end());
             for (const std::uint32_t patch : part.unusable) usable_[patch] = false;
         }
+    }
+
+    /// The sides of most edges: two of one patch that run against each other.
+    [[nodiscard]] bool cancel(std::uint32_t low, std::uint32_t high,
+                              std::span<const EdgeSides::Side> sides) const {
+        if (sides.size() != 2) return false;
+        const std::uint32_t t = sides[0].triangle, u = sides[1].triangle;
+        if (!is_open(sides[0]) || !is_open(sides[1]) || patch_of_[t] != patch_of_[u]) return false;
+        const bool along =
+            runs_along(triangles_[t], low, high) == runs_along(triangles_[u], low, high);
+        return along ? turns_[t] == -turns_[u] : turns_[t] == turns_[u];
     }
 
     void sum_sides(std::uint32_t low, std::uint32_t high, std::span<const EdgeSides::Side> sides,
