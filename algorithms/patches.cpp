@@ -156,10 +156,11 @@ private:
 class Prover {
 public:
     Prover(std::span<const Point3> points, std::span<const Triangle> triangles,
-           std::span<const std::uint32_t> surface_of, const EdgeSides& edges, const Run& run) :
+           std::span<const std::uint32_t> surface_of, const EdgeSides& edges, const Run& run,
+           std::span<const Sign> turns) :
         points_(points),
         triangles_(triangles), surface_of_(surface_of), edges_(edges), run_(run),
-        label_(surface_of.begin(), surface_of.end()), group_(triangles.size(), no_group) {}
+        known_turns_(turns), group_(triangles.size(), no_group) {}
 
     Patches operator()() {
         // Whole surfaces first: nothing in the proof needs them to be connected.
@@ -171,6 +172,7 @@ public:
         prove();
         size_of_.clear();
         if (is_done()) return {std::move(group_), std::move(axis_)};
+        label_.assign(surface_of_.begin(), surface_of_.end());
         find_components();
         prove();
         // What is left is split where the orientation changes.
@@ -203,6 +205,8 @@ private:
     }
 
     [[nodiscard]] bool is_done() const {
+        if (std::all_of(proven_.begin(), proven_.end(), [](const auto& p) { return !!p; }))
+            return true;
         return std::find(group_.begin(), group_.end(), no_group) == group_.end();
     }
 
@@ -227,15 +231,18 @@ private:
 
     /// The sign of each open triangle in the projection; a patch with a degenerate one is unusable.
     void find_turns(Axis axis) {
-        turns_.resize(triangles_.size());
+        turns_.resize(triangles_.size()); // those of patches that are not tried are not looked at
         usable_.assign(proven_.size(), true);
+        const bool is_known = axis == Axis::z && !known_turns_.empty();
         const auto flat = parts_of_ranges<std::vector<std::uint32_t>>(
             triangles_.size(), run_, [&](std::size_t first, std::size_t last) {
                 std::vector<std::uint32_t> unusable;
                 for (std::size_t t = first; t < last; ++t) {
                     if (group_[t] != no_group || proven_[patch_of_[t]]) continue;
                     const Triangle& c = triangles_[t];
-                    turns_[t] = orient2d(axis, points_[c[0]], points_[c[1]], points_[c[2]]);
+                    turns_[t] = is_known
+                                    ? known_turns_[t]
+                                    : orient2d(axis, points_[c[0]], points_[c[1]], points_[c[2]]);
                     if (turns_[t] == Sign::Zero) unusable.push_back(patch_of_[t]);
                 }
                 return unusable;
@@ -350,10 +357,11 @@ private:
     std::span<const std::uint32_t> surface_of_;
     const EdgeSides& edges_;
     const Run& run_;
+    std::span<const Sign> known_turns_;       ///< per triangle, along z; or none
     std::vector<std::uint32_t> label_;        ///< triangles of one patch have the same
     std::vector<std::uint32_t> group_;        ///< the result
     std::vector<Axis> axis_;                  ///< per group
-    std::vector<Sign> turns_;                 ///< per triangle, in the projection being tried
+    Unfilled<Sign> turns_;                    ///< per triangle, in the projection being tried
     std::vector<std::uint32_t> patch_of_;     ///< per triangle without a group
     std::vector<std::optional<Axis>> proven_; ///< per patch
     std::vector<std::size_t> size_of_;        ///< per surface, while they are tried as a whole
@@ -365,8 +373,8 @@ private:
 
 Patches prove_patches(std::span<const Point3> points, std::span<const Triangle> triangles,
                       std::span<const std::uint32_t> surface_of, const EdgeSides& edges,
-                      const Run& run) {
-    return Prover(points, triangles, surface_of, edges, run)();
+                      const Run& run, std::span<const Sign> turns) {
+    return Prover(points, triangles, surface_of, edges, run, turns)();
 }
 
 void confirm_patches(std::span<const Point3> points, std::span<const Triangle> triangles,

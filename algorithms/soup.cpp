@@ -100,7 +100,13 @@ private:
     std::vector<std::uint64_t> shared_; ///< a bit per class: it has several points
 };
 
-bool has_area(const std::vector<Point3>& points, const Triangle& t) {
+Sign turn_of(const std::vector<Point3>& points, const Triangle& t) {
+    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return Sign::Zero;
+    return orient2d(Axis::z, points[t[0]], points[t[1]], points[t[2]]);
+}
+
+bool has_area(const std::vector<Point3>& points, const Triangle& t, Sign turn) {
+    if (turn != Sign::Zero) return true;
     if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return false;
     return !collinear(points[t[0]], points[t[1]], points[t[2]]);
 }
@@ -182,11 +188,13 @@ void set_duplicates_aside(Soup& soup, const Run& run) {
         }
         soup.triangles[kept] = soup.triangles[t];
         soup.input_of[kept] = soup.input_of[t];
+        soup.turns[kept] = soup.turns[t];
         soup.surface_of[kept++] = soup.surface_of[t];
     }
     soup.triangles.resize(kept);
     soup.input_of.resize(kept);
     soup.surface_of.resize(kept);
+    soup.turns.resize(kept);
     soup.edges = group_edges(soup.triangles, soup.points.size(), run);
 }
 
@@ -208,17 +216,22 @@ void name_corners(Soup& soup, std::span<const Surface> surfaces,
 
 // Those with an area.
 void take_triangles(Soup& soup, const Run& run) {
+    Unfilled<Sign> turns; // per input triangle
+    turns.resize(soup.input_corners.size());
     soup.degenerate = concatenated(parts_of_ranges<std::vector<std::uint32_t>>(
         soup.input_corners.size(), run, [&](std::size_t begin, std::size_t end) {
             std::vector<std::uint32_t> part;
-            for (auto t = static_cast<std::uint32_t>(begin); t < end; ++t)
-                if (!has_area(soup.points, soup.input_corners[t])) part.push_back(t);
+            for (auto t = static_cast<std::uint32_t>(begin); t < end; ++t) {
+                turns[t] = turn_of(soup.points, soup.input_corners[t]);
+                if (!has_area(soup.points, soup.input_corners[t], turns[t])) part.push_back(t);
+            }
             return part;
         }));
     const std::size_t inputs = soup.input_corners.size();
     soup.triangles.resize(inputs - soup.degenerate.size());
     soup.input_of.resize(soup.triangles.size());
     soup.surface_of.resize(soup.triangles.size());
+    soup.turns.resize(soup.triangles.size());
     for_ranges(inputs, run, [&](std::size_t begin, std::size_t end) {
         auto next = std::lower_bound(soup.degenerate.begin(), soup.degenerate.end(), begin);
         const auto& starts = soup.first_input_triangle;
@@ -232,6 +245,7 @@ void take_triangles(Soup& soup, const Run& run) {
                 continue;
             }
             soup.triangles[to] = soup.input_corners[t];
+            soup.turns[to] = turns[t];
             soup.input_of[to] = t;
             soup.surface_of[to++] = s;
         }
