@@ -196,7 +196,7 @@ void find_crossings(const TriangleSoup& soup, Contacts& contacts, const Run& run
         for (const NewCrossing& c : block.crossings)
             contacts.crossings.push_back({c.face, c.pieces, table.enter(c.how)});
     }
-    contacts.points.append(table.constructions().subspan(known));
+    contacts.points.append(table.constructions().subspan(known), sharing(run));
 }
 
 } // namespace terrane

@@ -285,7 +285,7 @@ Division divide(std::vector<Point3> points, std::span<const Triangle> triangles,
     Contacts contacts = find_contacts(soup, std::move(points), candidates, run);
     find_crossings(soup, contacts, run);
     if (run.stop.stop_requested()) return out;
-    PointOrder order = order_points(soup, contacts);
+    PointOrder order = order_points(soup, contacts, run);
     out.statistics.improper_contacts = contacts.improper;
     out.statistics.predicates += contacts.predicates;
     out.statistics.seconds_intersect = watch.lap();
