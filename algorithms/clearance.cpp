@@ -151,7 +151,7 @@ double Prover::margin(double extent, const Face& g) const {
 /// The whole of f lies beyond g.
 bool Prover::is_apart(const Face& f, const Face& g) const {
     const double d = margin(f.extent, g);
-    const auto& [p, q, r] = f.corners;
+    const Point3 &p = f.corners[0], &q = f.corners[1], &r = f.corners[2];
     const double a = g.height(p), b = g.height(q), c = g.height(r);
     if ((a > d && b > d && c > d) || (a < -d && b < -d && c < -d)) return true;
     return std::any_of(g.beyond.begin(), g.beyond.end(),
