@@ -216,13 +216,14 @@ private:
         }
         const auto before = [](const Part& p, std::size_t face) { return p.face < face; };
         auto p = std::lower_bound(parts_.begin(), parts_.end(), first, before);
-        for (std::size_t f = first; f < last; ++f) {
+        for (std::size_t f = first; f < last;) {
             const std::size_t divided =
                 p == parts_.end() ? last : std::min<std::size_t>(last, p->face);
             add_whole(f, divided, block);
-            f = divided;
-            if (f < last) out_.kept_as[f] = none;
-            for (; p != parts_.end() && p->face == f; ++p) add_part(*p, block);
+            if (divided == last) break; // its parts, if any, are of the next range
+            out_.kept_as[divided] = none;
+            for (; p != parts_.end() && p->face == divided; ++p) add_part(*p, block);
+            f = divided + 1;
         }
         return block;
     }
