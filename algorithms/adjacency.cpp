@@ -145,9 +145,9 @@ Adjacency adjacency_after(const EdgeSides& old, const Labels& old_labels, const 
         inner.reserve((old.starts[last] - old.starts[first]) / 2);
         std::vector<std::uint32_t> triangles;
         old.for_each(first, last, [&](std::uint32_t low, std::uint32_t high, auto sides) {
-            const Edge edge{divided.named_as[low], divided.named_as[high]};
+            const std::uint32_t named = divided.named_as[low];
             // All triangles at an edge between two vertices of new ones are near.
-            if (is_new[edge[0]] != 0 && is_new[edge[1]] != 0) return;
+            if (is_new[named] != 0 && is_new[divided.named_as[high]] != 0) return;
             const auto kept = [&](std::size_t i) { return divided.kept_as[sides[i].triangle]; };
             if (sides.size() == 2 &&
                 is_inner(old_labels[sides[0].triangle], old_labels[sides[1].triangle])) {
@@ -156,7 +156,7 @@ Adjacency adjacency_after(const EdgeSides& old, const Labels& old_labels, const 
             }
             triangles.clear();
             for (std::size_t i = 0; i < sides.size(); ++i) triangles.push_back(kept(i));
-            add_edge(a, edge, triangles);
+            add_edge(a, {named, divided.named_as[high]}, triangles);
         });
         return a;
     };

@@ -137,7 +137,8 @@ Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
 
     // (a) one soup of distinct points and triangles
     Soup soup = merge_surfaces(surfaces, run);
-    Patches patches = prove_patches(soup.points, soup.triangles, soup.surface_of, soup.edges, run);
+    Patches patches =
+        prove_patches(soup.points, soup.triangles, soup.surface_of, soup.edges, run, soup.turns);
     a.statistics.seconds_prepare = watch.lap();
     report(0.1);
 

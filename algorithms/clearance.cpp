@@ -20,14 +20,6 @@ namespace {
 
 using namespace clearance;
 
-/// No two corners are farther apart.
-double extent_bound(const std::array<Point3, 3>& c) {
-    const auto [low_x, high_x] = std::minmax({c[0].x, c[1].x, c[2].x});
-    const auto [low_y, high_y] = std::minmax({c[0].y, c[1].y, c[2].y});
-    const auto [low_z, high_z] = std::minmax({c[0].z, c[1].z, c[2].z});
-    return ((high_x - low_x) + (high_y - low_y) + (high_z - low_z)) * (1 + 0x1p-40);
-}
-
 /// Which vertices are a face's: per point.
 struct Stamp {
     std::uint32_t face = none;
@@ -43,7 +35,10 @@ struct Scratch {
     std::array<std::vector<Stamp>, 2> stamps;
     std::vector<std::uint8_t> sides;            ///< per corner of a cell
     std::vector<std::uint8_t> beyond;           ///< per corner: see edges_before, or unknown
+    std::vector<std::uint32_t> low;             ///< corners that are not clearly above or below
+    std::vector<std::uint32_t> doubtful;        ///< entries of Faces::parts
     std::vector<std::uint32_t> left, left_back; ///< entries of Faces::parts without proof
+    std::vector<Box> boxes;                     ///< of left_back
 };
 
 struct Found {
@@ -58,28 +53,29 @@ double most_of(std::span<const double> moves) {
 class Prover {
 public:
     Prover(const MovedParts& moved, std::span<const CandidatePair> meeting, const Run& run) :
-        moved_(moved), move_(most_of(moved.moves)), meeting_(close_pairs(meeting, run)),
-        faces_(moved, meeting_, move_, run) {}
+        Prover(moved, meeting, Measured(moved, meeting, run), run) {}
 
     [[nodiscard]] Unclear operator()(const Run& run);
 
 private:
-    /// What parts of another face are to be told clear of.
+    Prover(const MovedParts& moved, std::span<const CandidatePair> meeting, Measured measured,
+           const Run& run) :
+        moved_(moved),
+        move_(most_of(moved.moves)), meeting_(close_pairs(meeting, measured, run)),
+        faces_(moved, std::move(measured), meeting_, move_, run) {}
+
+    /// Parts of f are to be told clear of g.
     struct Pair {
+        std::uint32_t f_name, g_name;
         const Face& g;
-        std::uint32_t g_name;
-        std::span<const Stamp> stamps; ///< of g
         double d;                      ///< the margin
+        std::span<const Stamp> stamps; ///< of g
+        std::span<Stamp> stamps_back;  ///< of f, for the other direction; or none
     };
 
-    [[nodiscard]] std::array<Point3, 3> corners_of(std::uint32_t f) const {
-        const Triangle& c = moved_.faces[f];
-        return {moved_.face_points[c[0]], moved_.face_points[c[1]], moved_.face_points[c[2]]};
-    }
     [[nodiscard]] std::vector<CandidatePair> close_pairs(std::span<const CandidatePair> meeting,
+                                                         const Measured& measured,
                                                          const Run& run) const;
-    [[nodiscard]] std::vector<CandidatePair>
-    close_pairs(std::span<const CandidatePair> meeting) const;
     [[nodiscard]] double margin(double extent, const Face& g) const;
     [[nodiscard]] const Face& face(std::uint32_t f) const {
         return faces_.faces[faces_.slot_of[f]];
@@ -90,15 +86,13 @@ private:
     void add_restless(const Face& f, std::vector<std::uint32_t>& parts) const;
     void test_group(std::size_t first, std::size_t last, Scratch& scratch, Found& found) const;
     void stamp(std::uint32_t f, std::vector<Stamp>& stamps) const;
-    [[nodiscard]] bool is_apart(const std::array<Point3, 3>& f, double extent, const Face& g) const;
+    [[nodiscard]] bool is_apart(const Face& f, const Face& g) const;
     [[nodiscard]] bool is_clear(const Pair& pair, const Cell& cell, std::uint32_t entry) const;
-    [[nodiscard]] bool find_sides(const Pair& pair, const Cell& cell,
-                                  std::vector<std::uint8_t>& sides) const;
+    bool find_sides(const Pair& pair, const Cell& cell, Scratch& scratch) const;
     void find_left(const Pair& pair, const Cell& cell, Scratch& scratch,
                    std::vector<std::uint32_t>& left) const;
-    void find_left(std::uint32_t f, std::uint32_t g, std::span<const Stamp> stamps,
-                   Scratch& scratch, std::vector<std::uint32_t>& left) const;
-    void add_pairs(const Scratch& scratch, Found& found) const;
+    void find_left(const Pair& pair, Scratch& scratch, std::vector<std::uint32_t>& left) const;
+    void add_pairs(Scratch& scratch, Found& found) const;
 
     const MovedParts& moved_;
     double move_;                        ///< d: the most
@@ -107,27 +101,16 @@ private:
 };
 
 /// The pairs that are not apart as a whole.
-std::vector<CandidatePair> Prover::close_pairs(std::span<const CandidatePair> meeting) const {
-    std::vector<CandidatePair> close;
-    Face g;
-    std::uint32_t measured = none;
-    for (const CandidatePair& p : meeting) {
-        if (p.first != measured) {
-            measured = p.first;
-            g = measure(corners_of(p.first));
-        }
-        const auto f = corners_of(p.second);
-        if (is_apart(f, extent_bound(f), g)) continue;
-        if (!is_apart(g.corners, g.extent, measure(f))) close.push_back(p);
-    }
-    return close;
-}
-
 std::vector<CandidatePair> Prover::close_pairs(std::span<const CandidatePair> meeting,
-                                               const Run& run) const {
+                                               const Measured& measured, const Run& run) const {
     const auto blocks = for_blocks<std::vector<CandidatePair>>(
         meeting.size(), 1024, run, [&](std::size_t first, std::size_t last) {
-            return close_pairs(meeting.subspan(first, last - first));
+            std::vector<CandidatePair> close;
+            for (const CandidatePair& p : meeting.subspan(first, last - first)) {
+                const Face &f = measured[p.second], &g = measured[p.first];
+                if (!is_apart(f, g) && !is_apart(g, f)) close.push_back(p);
+            }
+            return close;
         });
     std::vector<CandidatePair> close;
     for (const auto& block : blocks) close.insert(close.end(), block.begin(), block.end());
@@ -166,13 +149,13 @@ double Prover::margin(double extent, const Face& g) const {
 }
 
 /// The whole of f lies beyond g.
-bool Prover::is_apart(const std::array<Point3, 3>& f, double extent, const Face& g) const {
-    const double d = margin(extent, g);
-    const double a = g.height(f[0]), b = g.height(f[1]), c = g.height(f[2]);
+bool Prover::is_apart(const Face& f, const Face& g) const {
+    const double d = margin(f.extent, g);
+    const Point3 &p = f.corners[0], &q = f.corners[1], &r = f.corners[2];
+    const double a = g.height(p), b = g.height(q), c = g.height(r);
     if ((a > d && b > d && c > d) || (a < -d && b < -d && c < -d)) return true;
-    return std::any_of(g.beyond.begin(), g.beyond.end(), [&](const Functional& u) {
-        return u(f[0]) > d && u(f[1]) > d && u(f[2]) > d;
-    });
+    return std::any_of(g.beyond.begin(), g.beyond.end(),
+                       [&](const Functional& u) { return u(p) > d && u(q) > d && u(r) > d; });
 }
 
 /// What the other corners must rise to when a part leaves g at a vertex; infinite where g is not
@@ -248,38 +231,37 @@ bool Prover::is_clear(const Pair& pair, const Cell& cell, std::uint32_t entry) c
 }
 
 /// Where the corners of a cell are: above the plane of g, below it, resting on a vertex of g in it,
-/// or neither. True if what rises at all rises enough for whatever rests.
-bool Prover::find_sides(const Pair& pair, const Cell& cell,
-                        std::vector<std::uint8_t>& sides) const {
-    sides.resize(cell.corner_end - cell.corner);
+/// or neither. True if what rises at all rises enough for whatever rests. Those that rest are
+/// entered in stamps_back as vertices of f: no others matter to parts of g.
+bool Prover::find_sides(const Pair& pair, const Cell& cell, Scratch& scratch) const {
+    const std::uint32_t count = cell.corner_end - cell.corner;
+    auto& sides = scratch.sides;
+    auto& low = scratch.low;
+    sides.resize(count);
+    low.resize(count);
     const Point3* place = faces_.places.data() + cell.corner;
     const Functional height = pair.g.height;
     const double d = pair.d;
     double least_lift = std::numeric_limits<double>::infinity(), most_rise = 0;
-    for (std::size_t k = 0; k < sides.size(); ++k) {
+    std::uint32_t lows = 0; // no branches: they would be foretold badly
+    for (std::uint32_t k = 0; k < count; ++k) {
         const double u = height(place[k]), lift = std::fabs(u);
         sides[k] = static_cast<std::uint8_t>(neither - (u > d ? below : 0) - (u < -d ? above : 0));
-        if (lift > d) {
-            least_lift = std::min(least_lift, lift);
-            continue;
-        }
-        const std::uint32_t v = faces_.vertex_at[cell.corner + k];
+        least_lift = std::min(least_lift, lift > d ? lift : least_lift);
+        low[lows] = k;
+        lows += lift > d ? 0 : 1;
+    }
+    for (std::uint32_t n = 0; n < lows; ++n) {
+        const std::uint32_t k = low[n], v = faces_.vertex_at[cell.corner + k];
         const Stamp& s = pair.stamps[faces_.vertices[v]];
-        if (s.face != pair.g_name || !(lift <= d / 2)) continue;
+        if (s.face != pair.g_name) continue;
+        if (!pair.stamps_back.empty()) pair.stamps_back[faces_.vertices[v]] = {pair.f_name, v};
+        if (!(std::fabs(height(place[k])) <= d / 2)) continue;
         sides[k] = rests;
         const double rise = least_rise(faces_.sizes[s.vertex], faces_.sizes[v].longest, d);
         most_rise = std::max(most_rise, rise);
     }
     return least_lift > most_rise;
-}
-
-/// All of the cell is farther than d from the plane, on one side. Its centre is a point of the face
-/// but for rounding, or not far from one: twice the margin is room for that.
-bool is_far(const Cell& cell, const Functional& height, double d) {
-    const Point3 &n = height.normal, &h = cell.half;
-    const double spread =
-        (std::fabs(n.x) * h.x + std::fabs(n.y) * h.y + std::fabs(n.z) * h.z) * (1 + 0x1p-40);
-    return std::fabs(height(cell.centre)) - spread > 2 * d;
 }
 
 /// The edges of g beyond which p lies by more than d: a bit for each.
@@ -294,8 +276,22 @@ std::uint8_t edges_before(const Face& g, const Point3& p, double d) {
 /// leave it at vertices of both.
 void Prover::find_left(const Pair& pair, const Cell& cell, Scratch& scratch,
                        std::vector<std::uint32_t>& left) const {
-    auto& sides = scratch.sides;
-    const bool all_leave = find_sides(pair, cell, sides);
+    const bool all_leave = find_sides(pair, cell, scratch);
+    const auto& sides = scratch.sides;
+    const auto is_doubtful = [&](const std::array<std::uint16_t, 3>& c) {
+        const unsigned i = sides[c[0]], j = sides[c[1]], k = sides[c[2]], together = i | j | k;
+        const bool both_sides = together == neither || together == rests;
+        const bool any_rests = i == rests || j == rests || k == rests;
+        return both_sides | (any_rests & !all_leave);
+    };
+    auto& doubtful = scratch.doubtful;
+    doubtful.resize(cell.part_end - cell.part);
+    std::size_t doubts = 0;
+    for (std::uint32_t e = cell.part; e < cell.part_end; ++e) {
+        doubtful[doubts] = e;
+        doubts += is_doubtful(faces_.corners[e]) ? 1 : 0;
+    }
+    if (doubts == 0) return;
     scratch.beyond.assign(sides.size(), unknown);
     const auto beyond = [&](std::uint32_t corner) {
         std::uint8_t& edges = scratch.beyond[corner];
@@ -303,31 +299,57 @@ void Prover::find_left(const Pair& pair, const Cell& cell, Scratch& scratch,
             edges = edges_before(pair.g, faces_.places[cell.corner + corner], pair.d);
         return edges;
     };
-    for (std::uint32_t e = cell.part; e < cell.part_end; ++e) {
-        const auto& [i, j, k] = faces_.corners[e];
-        const int together = sides[i] | sides[j] | sides[k];
-        if (together == above || together == below) {
-            const bool any_rests = sides[i] == rests || sides[j] == rests || sides[k] == rests;
-            if (all_leave || !any_rests) continue;
-        }
+    for (std::size_t n = 0; n < doubts; ++n) {
+        const auto& [i, j, k] = faces_.corners[doubtful[n]];
         if ((beyond(i) & beyond(j) & beyond(k)) != 0) continue;
-        if (!is_clear(pair, cell, e)) left.push_back(e);
+        if (!is_clear(pair, cell, doubtful[n])) left.push_back(doubtful[n]);
     }
 }
 
-/// The same of all f; where it has many parts, most cells are far from the plane.
-void Prover::find_left(std::uint32_t f_name, std::uint32_t g_name, std::span<const Stamp> stamps,
-                       Scratch& scratch, std::vector<std::uint32_t>& left) const {
-    const Face &f = face(f_name), &g = face(g_name);
-    const Pair pair{g, g_name, stamps, margin(f.extent, g)};
+/// Tells cells of f that lie on one side of the plane of g, or beyond one of its edges, as a whole.
+class FarCells {
+public:
+    FarCells(const Face& f, const Face& g, double d) :
+        functionals_{FramedFunctional(g.height, f.frame),
+                     {g.beyond[0], f.frame},
+                     {g.beyond[1], f.frame},
+                     {g.beyond[2], f.frame}},
+        twice_(2 * d) {}
+
+    // A box is as near to the corners in it as rounding permits, which takes the points a few units
+    // of the size of both faces off their places in the frame: twice the margin is room for that.
+    [[nodiscard]] bool operator()(const Cell& cell) const {
+        const double height = functionals_[0](cell.centre);
+        if (std::fabs(height) - spread(functionals_[0], cell) > twice_) return true;
+        for (unsigned j = 1; j < 4; ++j)
+            if (functionals_[j](cell.centre) - spread(functionals_[j], cell) > twice_) return true;
+        return false;
+    }
+
+private:
+    static double spread(const FramedFunctional& u, const Cell& cell) {
+        const Point3 &n = u.factor, &h = cell.half;
+        return (std::fabs(n.x) * h.x + std::fabs(n.y) * h.y + std::fabs(n.z) * h.z) * (1 + 0x1p-40);
+    }
+
+    std::array<FramedFunctional, 4> functionals_;
+    double twice_;
+};
+
+/// The same of all f; where it has many parts, most cells are far from g.
+void Prover::find_left(const Pair& pair, Scratch& scratch, std::vector<std::uint32_t>& left) const {
+    const Face& f = face(pair.f_name);
     left.clear();
-    for (const Cell& cell : cells_of(f))
-        if (!is_far(cell, g.height, pair.d)) find_left(pair, cell, scratch, left);
+    const auto cells = cells_of(f);
+    if (cells.size() == 1) return find_left(pair, cells.front(), scratch, left);
+    const FarCells is_far(f, pair.g, pair.d);
+    for (const Cell& cell : cells)
+        if (!is_far(cell)) find_left(pair, cell, scratch, left);
 }
 
 /// Few pairs are listed where their boxes overlap; where they are many, the parts of the smaller
 /// side.
-void Prover::add_pairs(const Scratch& scratch, Found& found) const {
+void Prover::add_pairs(Scratch& scratch, Found& found) const {
     const auto &f = scratch.left, &g = scratch.left_back;
     if (f.empty() || g.empty()) return;
     constexpr std::size_t few = 4096;
@@ -337,12 +359,14 @@ void Prover::add_pairs(const Scratch& scratch, Found& found) const {
         return;
     }
     const BoxSource boxes(moved_.points, moved_.parts);
+    scratch.boxes.clear();
+    for (const std::uint32_t h : g) scratch.boxes.push_back(boxes[faces_.parts[h]]);
     for (const std::uint32_t e : f) {
         const std::uint32_t a = faces_.parts[e];
         const Box box = boxes[a];
-        for (const std::uint32_t h : g) {
-            const std::uint32_t b = faces_.parts[h];
-            if (a != b && box.overlaps(boxes[b]))
+        for (std::size_t k = 0; k < g.size(); ++k) {
+            const std::uint32_t b = faces_.parts[g[k]];
+            if (box.overlaps(scratch.boxes[k]) && a != b)
                 found.pairs.push_back({std::min(a, b), std::max(a, b)});
         }
     }
@@ -351,13 +375,16 @@ void Prover::add_pairs(const Scratch& scratch, Found& found) const {
 /// Pairs with the same first face.
 void Prover::test_group(std::size_t first, std::size_t last, Scratch& scratch, Found& found) const {
     const std::uint32_t g = meeting_[first].first;
-    stamp(g, scratch.stamps[0]);
+    auto& [of_g, of_f] = scratch.stamps;
+    of_f.resize(moved_.points.size());
+    stamp(g, of_g);
     for (std::size_t i = first; i < last; ++i) {
         const std::uint32_t f = meeting_[i].second;
-        find_left(f, g, scratch.stamps[0], scratch, scratch.left);
+        find_left({f, g, face(g), margin(face(f).extent, face(g)), of_g, of_f}, scratch,
+                  scratch.left);
         if (scratch.left.empty()) continue;
-        stamp(f, scratch.stamps[1]);
-        find_left(g, f, scratch.stamps[1], scratch, scratch.left_back);
+        find_left({g, f, face(f), margin(face(g).extent, face(f)), of_f, {}}, scratch,
+                  scratch.left_back);
         add_pairs(scratch, found);
     }
 }

@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
+#include <numeric>
 #include <utility>
 
 #include <terrane/algorithms/parallel.hpp>
+#include <terrane/kernel/numbers.hpp>
+#include <terrane/kernel/polynomials.hpp>
+#include <terrane/kernel/twofold.hpp>
 
 namespace terrane::clearance {
 namespace {
@@ -29,20 +32,62 @@ std::uint32_t strips_of(const Face& f) {
     return static_cast<std::uint32_t>(std::sqrt(static_cast<double>(parts) / parts_per_cell));
 }
 
-/// A part by its centre (times three), seen along the axis in which the face is steepest.
+Frame frame_of(const Point3& origin, const Point3& normal) {
+    const double x = std::fabs(normal.x), y = std::fabs(normal.y), z = std::fabs(normal.z);
+    Frame f{origin, z >= x && z >= y ? 2U : x >= y ? 0U : 1U, 0, 0};
+    const Point3 n = f.turned(normal);
+    f.slope_u = -n.x / n.z;
+    f.slope_v = -n.y / n.z;
+    return f;
+}
+
+/// A part by its centre (times three), in two coordinates of the frame.
 struct Centre {
     double u, v;
     std::uint32_t part;
 };
 
-Centre centre_of(const MovedParts& moved, std::uint32_t part, const Point3& normal) {
+Centre centre_of(const MovedParts& moved, std::uint32_t part, const Frame& frame) {
     const Triangle& t = moved.parts[part];
-    const Point3 &a = moved.points[t[0]], &b = moved.points[t[1]], &c = moved.points[t[2]];
-    const double x = std::fabs(normal.x), y = std::fabs(normal.y), z = std::fabs(normal.z);
-    const auto sum = [&](double Point3::*k) { return a.*k + b.*k + c.*k; };
-    return {sum(x >= y && x >= z ? &Point3::y : &Point3::x),
-            sum(z >= x && z >= y ? &Point3::y : &Point3::z), part};
+    const Point3 a = frame.turned(moved.points[t[0]]), b = frame.turned(moved.points[t[1]]),
+                 c = frame.turned(moved.points[t[2]]);
+    return {a.x + b.x + c.x, a.y + b.y + c.y, part};
 }
+
+/// Sorts by a coordinate: into as many bins as there are, and then within these.
+class CentreSort {
+public:
+    void operator()(std::span<Centre> all, double Centre::*key) {
+        if (all.empty()) return;
+        const auto before = [&](const Centre& a, const Centre& b) { return a.*key < b.*key; };
+        const auto [low, high] = std::minmax_element(all.begin(), all.end(), before);
+        const double least = (*low).*key, bins = static_cast<double>(all.size());
+        const double factor = bins / ((*high).*key - least);
+        const auto bin_of = [&](const Centre& c) {
+            const double bin = (c.*key - least) * factor;
+            return bin < bins ? static_cast<std::size_t>(std::max(bin, 0.0)) : all.size() - 1;
+        };
+        starts_.assign(all.size() + 1, 0);
+        for (const Centre& c : all) ++starts_[bin_of(c) + 1];
+        if (*std::max_element(starts_.begin(), starts_.end()) > crowd)
+            return std::stable_sort(all.begin(), all.end(), before);
+        std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
+        copy_.assign(all.begin(), all.end());
+        for (const Centre& c : copy_) all[starts_[bin_of(c)]++] = c;
+        for (std::size_t k = 1; k < all.size(); ++k) {
+            const Centre c = all[k];
+            std::size_t to = k;
+            for (; to > 0 && before(c, all[to - 1]); --to) all[to] = all[to - 1];
+            all[to] = c;
+        }
+    }
+
+private:
+    static constexpr std::uint32_t crowd = 64; ///< in one bin: these are sorted otherwise
+
+    std::vector<std::uint32_t> starts_; ///< per bin
+    std::vector<Centre> copy_;
+};
 
 /// The distance beyond edge j of f.
 Functional beyond_edge(const Face& f, unsigned j) {
@@ -51,11 +96,25 @@ Functional beyond_edge(const Face& f, unsigned j) {
     return {f.corners[j], {m.x * factor, m.y * factor, m.z * factor}};
 }
 
-} // namespace
+/// The unit normal where a face is so thin that hardly anything is left of it in differences of
+/// doubles.
+void refine(Face& f) {
+    const ToNearest mode;
+    using namespace polynomial;
+    const auto at = [&](unsigned i) { return cartesian<Twofold>(f.corners[i]); };
+    const auto n = polynomial::cross(difference(at(1), at(0)), difference(at(2), at(0)));
+    const Point3 normal{n.x.value(), n.y.value(), n.z.value()};
+    const double size = length(normal), factor = 1 / size;
+    const double error = 4 * (n.x.error() + n.y.error() + n.z.error()) * factor + 64 * unit;
+    if (!(size > smallest_area && error < f.functional_error)) return;
+    f.height.normal = {normal.x * factor, normal.y * factor, normal.z * factor};
+    f.functional_error = error;
+}
 
 // Relative to an edge of length e between points whose differences err by a unit, the altitude and
 // the direction of the normal err by a few: the bounds are several times larger.
 Face measure(const std::array<Point3, 3>& corners) {
+    constexpr double thin = 0x1p+20; // longest edge to altitude
     Face f;
     f.corners = corners;
     const Point3 u = minus(corners[1], corners[0]), v = minus(corners[2], corners[0]),
@@ -67,20 +126,43 @@ Face measure(const std::array<Point3, 3>& corners) {
     const bool usable = size > smallest_area && f.extent < longest_length;
     f.functional_error =
         usable ? 64 * unit * squared * factor : std::numeric_limits<double>::infinity();
+    if (usable && squared > thin * size) refine(f);
+    f.frame = frame_of(corners[0], f.height.normal);
     for (unsigned j = 0; j < 3; ++j) f.beyond[j] = beyond_edge(f, j);
     return f;
 }
 
-Faces::Faces(const MovedParts& moved, std::span<const CandidatePair> pairs, double move,
-             const Run& run) {
-    choose(moved, pairs, run);
+} // namespace
+
+Measured::Measured(const MovedParts& moved, std::span<const CandidatePair> pairs, const Run& run) :
+    slot_of(moved.faces.size(), none) {
+    for (const CandidatePair& p : pairs)
+        for (const std::uint32_t f : {p.first, p.second}) {
+            if (slot_of[f] != none) continue;
+            slot_of[f] = static_cast<std::uint32_t>(names.size());
+            names.push_back(f);
+        }
+    faces.resize(names.size());
+    constexpr std::size_t least = 256; // for a thread
+    for_ranges(
+        faces.size(), run,
+        [&](std::size_t first, std::size_t last) {
+            for (std::size_t k = first; k < last; ++k)
+                faces[k] = measure(corners_of(moved, names[k]));
+        },
+        4, least);
+}
+
+Faces::Faces(const MovedParts& moved, Measured measured, std::span<const CandidatePair> pairs,
+             double move, const Run& run) {
+    choose(std::move(measured), pairs);
     collect_parts(moved, run);
     sort_into_cells(moved, run);
     number_vertices(moved);
     for_faces(run, [&](Face& f) {
         for (std::uint32_t c = f.cell; c < f.cell_end; ++c) {
             measure_parts(cells[c], move);
-            enclose(cells[c]);
+            if (f.cell_end - f.cell > 1) enclose(cells[c], f.frame);
         }
     });
 }
@@ -97,19 +179,17 @@ void Faces::for_faces(const Run& run, const Visit& visit) {
         4, least);
 }
 
-void Faces::choose(const MovedParts& moved, std::span<const CandidatePair> pairs, const Run& run) {
-    slot_of.assign(moved.faces.size(), none);
-    std::vector<std::uint32_t> names;
+void Faces::choose(Measured measured, std::span<const CandidatePair> pairs) {
+    std::vector<std::uint32_t> slots(measured.faces.size(), none); // per measured face
     for (const CandidatePair& p : pairs)
         for (const std::uint32_t f : {p.first, p.second}) {
-            if (slot_of[f] != none) continue;
-            slot_of[f] = static_cast<std::uint32_t>(names.size());
-            names.push_back(f);
+            std::uint32_t& slot = slots[measured.slot_of[f]];
+            if (slot != none) continue;
+            slot = static_cast<std::uint32_t>(faces.size());
+            faces.push_back(measured[f]);
         }
-    faces.resize(names.size());
-    for_faces(run, [&](Face& f) {
-        f = measure(corners_of(moved, names[static_cast<std::size_t>(&f - faces.data())]));
-    });
+    for (std::size_t k = 0; k < slots.size(); ++k) measured.slot_of[measured.names[k]] = slots[k];
+    slot_of = std::move(measured.slot_of);
 }
 
 void Faces::collect_parts(const MovedParts& moved, const Run& run) {
@@ -154,19 +234,15 @@ void Faces::sort_into_cells(const MovedParts& moved, const Run& run) {
         }
         if (along == 1) return;
         std::vector<Centre> centres;
+        centres.reserve(count);
         for (std::uint32_t e = f.part; e < f.part_end; ++e)
-            centres.push_back(centre_of(moved, parts[e], f.height.normal));
-        std::sort(centres.begin(), centres.end(), [](const Centre& a, const Centre& b) {
-            return std::tie(a.u, a.part) < std::tie(b.u, b.part);
-        });
+            centres.push_back(centre_of(moved, parts[e], f.frame));
+        CentreSort sort;
+        sort(centres, &Centre::u);
         for (std::uint32_t strip = 0; strip < along; ++strip) {
-            const auto at = [&](std::uint32_t part) {
-                return centres.begin() + static_cast<std::ptrdiff_t>(part - f.part);
-            };
             const Cell *first = &cells[f.cell + strip * along], *last = first + along - 1;
-            std::sort(at(first->part), at(last->part_end), [](const Centre& a, const Centre& b) {
-                return std::tie(a.v, a.part) < std::tie(b.v, b.part);
-            });
+            sort(std::span(centres).subspan(first->part - f.part, last->part_end - first->part),
+                 &Centre::v);
         }
         for (std::uint32_t k = 0; k < count; ++k) parts[f.part + k] = centres[k].part;
     });
@@ -175,7 +251,8 @@ void Faces::sort_into_cells(const MovedParts& moved, const Run& run) {
 void Faces::number_vertices(const MovedParts& moved) {
     struct Number {
         std::uint32_t face = none, vertex = 0; ///< the last face that has the point
-        std::uint32_t cell = none, corner = 0; ///< the last cell
+        std::uint32_t cell = none;             ///< the last cell
+        std::uint16_t corner = 0;
     };
     std::vector<Number> numbers(moved.points.size());
     corners.resize(parts.size());
@@ -188,7 +265,7 @@ void Faces::number_vertices(const MovedParts& moved) {
             vertices.push_back(v);
         }
         n.cell = c;
-        n.corner = static_cast<std::uint32_t>(places.size()) - cells[c].corner;
+        n.corner = static_cast<std::uint16_t>(places.size() - cells[c].corner);
         places.push_back(moved.points[v]);
         vertex_at.push_back(n.vertex);
         return n.corner;
@@ -226,11 +303,11 @@ void Faces::measure_parts(const Cell& cell, double move) {
 }
 
 // The centre is rounded, so half the width is measured from it, with room for its own rounding.
-void Faces::enclose(Cell& cell) const {
+void Faces::enclose(Cell& cell, const Frame& frame) const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     Point3 low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
     for (std::uint32_t k = cell.corner; k < cell.corner_end; ++k) {
-        const Point3& p = places[k];
+        const Point3 p = frame(places[k]);
         low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
         high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
     }

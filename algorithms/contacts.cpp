@@ -49,9 +49,18 @@ PairBlock test_pairs(const TriangleSoup& soup, std::span<const CandidatePair> pa
     return block;
 }
 
-void sort_by_face(std::vector<FacePiece>& pieces) {
-    std::stable_sort(pieces.begin(), pieces.end(),
-                     [](const FacePiece& a, const FacePiece& b) { return a.face < b.face; });
+bool has_lower_face(const FacePiece& a, const FacePiece& b) {
+    return a.face < b.face;
+}
+
+/// By face, those of equal faces in the order of pairs: where a face is the second of a pair before
+/// those where it is the first. These are sorted as they come.
+std::vector<FacePiece> by_face(std::vector<FacePiece> of_first, std::vector<FacePiece> of_second) {
+    std::stable_sort(of_second.begin(), of_second.end(), has_lower_face);
+    std::vector<FacePiece> all(of_first.size() + of_second.size());
+    std::merge(of_second.begin(), of_second.end(), of_first.begin(), of_first.end(), all.begin(),
+               has_lower_face);
+    return all;
 }
 
 class Collector {
@@ -71,19 +80,23 @@ public:
     }
 
     std::span<const Construction> constructions() const { return table_.constructions(); }
+    std::vector<FacePiece> pieces() && {
+        return by_face(std::move(pieces_[0]), std::move(pieces_[1]));
+    }
 
 private:
     void add_piece(const Contact& c, unsigned k, const ContactPiece& piece, std::uint32_t face,
                    std::uint32_t other) {
         const auto place = [&](unsigned e) { return c.points[piece.ends[e]].place[k]; };
-        contacts_.pieces.push_back({face,
-                                    {other, piece.support},
-                                    {place(0), place(1)},
-                                    {index_[piece.ends[0]], index_[piece.ends[1]]}});
+        pieces_[k].push_back({face,
+                              {other, piece.support},
+                              {place(0), place(1)},
+                              {index_[piece.ends[0]], index_[piece.ends[1]]}});
     }
 
     ConstructionTable table_;
     Contacts& contacts_;
+    std::array<std::vector<FacePiece>, 2> pieces_; ///< of first and of second faces of pairs
     std::array<PointIndex, 9> index_{};
 };
 
@@ -104,7 +117,7 @@ bool FacePiece::is_inner_segment() const {
 Contacts find_contacts(const TriangleSoup& soup, std::vector<Point3> points,
                        std::span<const CandidatePair> candidates, const Run& run) {
     const auto blocks =
-        for_blocks<PairBlock>(candidates.size(), 16384, run, [&](std::size_t a, std::size_t b) {
+        for_blocks<PairBlock>(candidates.size(), 1024, run, [&](std::size_t a, std::size_t b) {
             return test_pairs(soup, candidates.subspan(a, b - a));
         });
     Contacts contacts;
@@ -116,13 +129,48 @@ Contacts find_contacts(const TriangleSoup& soup, std::vector<Point3> points,
         contacts.improper += block.contacts.size();
         for (const PairContact& c : block.contacts) collector.add(c);
     }
-    sort_by_face(contacts.pieces);
     contacts.points = PointStore(std::move(points));
-    contacts.points.append(collector.constructions());
+    contacts.points.append(collector.constructions(), sharing(run));
+    contacts.pieces = std::move(collector).pieces();
     return contacts;
 }
 
-PointOrder order_points(const TriangleSoup& soup, const Contacts& contacts) {
+PointStore::Share sharing(const Run& run) {
+    return [&run](std::size_t count, const auto& work) { for_ranges(count, run, work, 4, 256); };
+}
+
+namespace {
+
+struct Key {
+    double low, high; // around x
+    PointIndex point;
+};
+
+/// Sorts lexicographically: each share for itself, then all together.
+void sort_keys(const PointStore& store, std::vector<Key>& keys, const Run& run) {
+    const auto before = [&](const Key& a, const Key& b) {
+        if (a.high < b.low || b.high < a.low) return a.high < b.low;
+        return store.compare(a.point, b.point) < 0;
+    };
+    constexpr std::size_t least = 4096; // for a thread
+    const std::size_t shares =
+        std::clamp<std::size_t>(keys.size() / least, 1, std::max(run.threads, 1U));
+    const auto end_of = [&](std::size_t s) {
+        return keys.begin() + static_cast<std::ptrdiff_t>(keys.size() * s / shares);
+    };
+    const auto sort = [&](std::size_t first, std::size_t last) {
+        const UpwardRounding guard;
+        for (std::size_t s = first; s < last; ++s) std::sort(end_of(s), end_of(s + 1), before);
+    };
+    for_ranges(shares, run, sort, 1, 1);
+    const UpwardRounding guard;
+    for (std::size_t s = 1; s < shares; ++s)
+        std::inplace_merge(keys.begin(), end_of(s), end_of(s + 1), before);
+}
+
+} // namespace
+
+PointOrder order_points(const TriangleSoup& soup, const Contacts& contacts, const Run& run) {
     const PointStore& store = contacts.points;
     const auto inputs = static_cast<PointIndex>(store.input_count());
     std::vector<PointIndex> used;
@@ -138,21 +186,14 @@ PointOrder order_points(const TriangleSoup& soup, const Contacts& contacts) {
     }
     for (PointIndex p = inputs; p < store.size(); ++p) used.push_back(p);
 
-    const UpwardRounding guard;
-    struct Key {
-        double low, high; // around x
-        PointIndex point;
-    };
     std::vector<Key> keys;
     keys.reserve(used.size());
     for (const PointIndex p : used) {
         const Enclosure e = store.enclosure(p);
         keys.push_back({e.low[0], e.high[0], p});
     }
-    std::sort(keys.begin(), keys.end(), [&](const Key& a, const Key& b) {
-        if (a.high < b.low || b.high < a.low) return a.high < b.low;
-        return store.compare(a.point, b.point) < 0;
-    });
+    sort_keys(store, keys, run);
+    const UpwardRounding guard;
     for (std::size_t i = 0; i < keys.size(); ++i) used[i] = keys[i].point;
     PointOrder order;
     order.same_as.resize(store.size());

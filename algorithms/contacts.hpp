@@ -59,6 +59,9 @@ struct Contacts {
     PredicateCounts predicates;
 };
 
+/// Has the work of PointStore::append done by the threads of the run.
+PointStore::Share sharing(const Run& run);
+
 /// Step (b), (c): the pieces. The store takes `points`: those of the soup.
 Contacts find_contacts(const TriangleSoup& soup, std::vector<Point3> points,
                        std::span<const CandidatePair> candidates, const Run& run);
@@ -76,6 +79,6 @@ struct PointOrder {
 };
 
 /// Step (d): orders all constructed points and the corners of all faces with pieces, exactly.
-PointOrder order_points(const TriangleSoup& soup, const Contacts& contacts);
+PointOrder order_points(const TriangleSoup& soup, const Contacts& contacts, const Run& run);
 
 } // namespace terrane

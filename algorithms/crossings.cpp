@@ -62,6 +62,11 @@ bool is_on_by_name(const Construction& how, const InnerSegment& s) {
     }
 }
 
+bool have_common_end(const FacePiece& a, const FacePiece& b) {
+    return a.ends[0] == b.ends[0] || a.ends[0] == b.ends[1] || a.ends[1] == b.ends[0] ||
+           a.ends[1] == b.ends[1];
+}
+
 /// All crossings in one face.
 class FaceSweep {
 public:
@@ -140,6 +145,7 @@ private:
 
     void test(const InnerSegment& a, const InnerSegment& b) {
         if (a.high[1] < b.low[1] || b.high[1] < a.low[1]) return;
+        if (have_common_end(piece(a), piece(b))) return; // two of one curve, mostly nearly in line
         if (!separates(a, b) || !separates(b, a)) return;
         out_.push_back(
             {face_, {std::min(a.piece, b.piece), std::max(a.piece, b.piece)}, crossing(a, b)});
@@ -190,7 +196,7 @@ void find_crossings(const TriangleSoup& soup, Contacts& contacts, const Run& run
         for (const NewCrossing& c : block.crossings)
             contacts.crossings.push_back({c.face, c.pieces, table.enter(c.how)});
     }
-    contacts.points.append(table.constructions().subspan(known));
+    contacts.points.append(table.constructions().subspan(known), sharing(run));
 }
 
 } // namespace terrane

@@ -193,9 +193,9 @@ private:
 
     // Only triangles that some coplanar one overlaps can have a part in common with another.
     void collect_repeated() {
-        if (std::find(contacts_.overlapped.begin(), contacts_.overlapped.end(), true) ==
-            contacts_.overlapped.end())
-            return;
+        any_overlapped_ = std::find(contacts_.overlapped.begin(), contacts_.overlapped.end(),
+                                    true) != contacts_.overlapped.end();
+        if (!any_overlapped_) return;
         for_each_part(0, soup_.triangles.size(), [&](const Part& p) {
             if (contacts_.overlapped[p.face]) faces_of_[sorted(p.corners)].push_back(p.face);
         });
@@ -208,10 +208,36 @@ private:
         block.triangles.reserve(expected);
         block.faces_of.values.reserve(expected);
         block.faces_of.offsets.reserve(expected + 1);
-        std::fill(out_.kept_as.begin() + static_cast<std::ptrdiff_t>(first),
-                  out_.kept_as.begin() + static_cast<std::ptrdiff_t>(last), none);
-        for_each_part(first, last, [&](const Part& part) { add_part(part, block); });
+        if (any_overlapped_) {
+            std::fill(out_.kept_as.begin() + static_cast<std::ptrdiff_t>(first),
+                      out_.kept_as.begin() + static_cast<std::ptrdiff_t>(last), none);
+            for_each_part(first, last, [&](const Part& part) { add_part(part, block); });
+            return block;
+        }
+        const auto before = [](const Part& p, std::size_t face) { return p.face < face; };
+        auto p = std::lower_bound(parts_.begin(), parts_.end(), first, before);
+        for (std::size_t f = first; f < last;) {
+            const std::size_t divided =
+                p == parts_.end() ? last : std::min<std::size_t>(last, p->face);
+            add_whole(f, divided, block);
+            if (divided == last) break; // its parts, if any, are of the next range
+            out_.kept_as[divided] = none;
+            for (; p != parts_.end() && p->face == divided; ++p) add_part(*p, block);
+            f = divided + 1;
+        }
         return block;
+    }
+
+    /// Undivided triangles, none of which is overlapped.
+    void add_whole(std::size_t first, std::size_t last, Block& block) {
+        const auto whole = soup_.triangles.subspan(first, last - first);
+        const auto start = static_cast<std::uint32_t>(block.triangles.size());
+        block.triangles.insert(block.triangles.end(), whole.begin(), whole.end());
+        for (std::size_t f = first; f < last; ++f) {
+            out_.kept_as[f] = start + static_cast<std::uint32_t>(f - first);
+            block.faces_of.values.push_back(static_cast<std::uint32_t>(f));
+            block.faces_of.close();
+        }
     }
 
     void add_part(const Part& part, Block& block) {
@@ -247,6 +273,7 @@ private:
     const Run& run_;
     Division& out_;
     std::unordered_map<Triangle, std::vector<std::uint32_t>, Hash> faces_of_;
+    bool any_overlapped_ = false;
 };
 
 } // namespace
@@ -259,7 +286,7 @@ Division divide(std::vector<Point3> points, std::span<const Triangle> triangles,
     Contacts contacts = find_contacts(soup, std::move(points), candidates, run);
     find_crossings(soup, contacts, run);
     if (run.stop.stop_requested()) return out;
-    PointOrder order = order_points(soup, contacts);
+    PointOrder order = order_points(soup, contacts, run);
     out.statistics.improper_contacts = contacts.improper;
     out.statistics.predicates += contacts.predicates;
     out.statistics.seconds_intersect = watch.lap();

@@ -22,6 +22,18 @@ void for_sides(std::span<const Triangle> triangles, std::size_t first, std::size
     }
 }
 
+/// They come by triangle.
+void sort_by_high(std::span<EdgeSides::Side> sides) {
+    constexpr std::size_t few = 24;
+    if (sides.size() > few) return std::sort(sides.begin(), sides.end());
+    for (std::size_t k = 1; k < sides.size(); ++k) {
+        const EdgeSides::Side s = sides[k];
+        std::size_t to = k;
+        for (; to > 0 && s.high < sides[to - 1].high; --to) sides[to] = sides[to - 1];
+        sides[to] = s;
+    }
+}
+
 } // namespace
 
 EdgeSides group_edges(std::span<const Triangle> triangles, std::size_t vertex_count,
@@ -64,7 +76,7 @@ EdgeSides group_edges(std::span<const Triangle> triangles, std::size_t vertex_co
     });
     for_ranges(vertex_count, run, [&](std::size_t first, std::size_t last) {
         for (std::size_t v = first; v < last; ++v)
-            std::sort(e.sides.begin() + e.starts[v], e.sides.begin() + e.starts[v + 1]);
+            sort_by_high(std::span(e.sides).subspan(e.starts[v], e.starts[v + 1] - e.starts[v]));
     });
     return e;
 }

@@ -19,6 +19,17 @@ std::uint32_t InputTriangles::first_same(std::uint32_t triangle) const {
 Lists<std::uint32_t> surfaces_of_parents(const InputTriangles& inputs,
                                          const Lists<std::uint32_t>& parents_of) {
     Lists<std::uint32_t> surfaces;
+    if (parents_of.values.size() == parents_of.size()) { // one each
+        surfaces.offsets = parents_of.offsets;
+        surfaces.values.resize(parents_of.size());
+        std::uint32_t s = 0;
+        for (std::size_t t = 0; t < parents_of.size(); ++t) {
+            const std::uint32_t p = parents_of.values[t];
+            if (p < inputs.first[s] || p >= inputs.first[s + 1]) s = inputs.surface_of(p);
+            surfaces.values[t] = s;
+        }
+        return surfaces;
+    }
     surfaces.offsets.reserve(parents_of.offsets.size());
     surfaces.values.reserve(parents_of.values.size());
     std::uint32_t s = 0; // mostly that of the triangle before

@@ -156,10 +156,11 @@ private:
 class Prover {
 public:
     Prover(std::span<const Point3> points, std::span<const Triangle> triangles,
-           std::span<const std::uint32_t> surface_of, const EdgeSides& edges, const Run& run) :
+           std::span<const std::uint32_t> surface_of, const EdgeSides& edges, const Run& run,
+           std::span<const Sign> turns) :
         points_(points),
         triangles_(triangles), surface_of_(surface_of), edges_(edges), run_(run),
-        label_(surface_of.begin(), surface_of.end()), group_(triangles.size(), no_group) {}
+        known_turns_(turns), group_(triangles.size(), no_group) {}
 
     Patches operator()() {
         // Whole surfaces first: nothing in the proof needs them to be connected.
@@ -171,6 +172,7 @@ public:
         prove();
         size_of_.clear();
         if (is_done()) return {std::move(group_), std::move(axis_)};
+        label_.assign(surface_of_.begin(), surface_of_.end());
         find_components();
         prove();
         // What is left is split where the orientation changes.
@@ -203,6 +205,8 @@ private:
     }
 
     [[nodiscard]] bool is_done() const {
+        if (std::all_of(proven_.begin(), proven_.end(), [](const auto& p) { return !!p; }))
+            return true;
         return std::find(group_.begin(), group_.end(), no_group) == group_.end();
     }
 
@@ -227,15 +231,18 @@ private:
 
     /// The sign of each open triangle in the projection; a patch with a degenerate one is unusable.
     void find_turns(Axis axis) {
-        turns_.resize(triangles_.size());
+        turns_.resize(triangles_.size()); // those of patches that are not tried are not looked at
         usable_.assign(proven_.size(), true);
+        const bool is_known = axis == Axis::z && !known_turns_.empty();
         const auto flat = parts_of_ranges<std::vector<std::uint32_t>>(
             triangles_.size(), run_, [&](std::size_t first, std::size_t last) {
                 std::vector<std::uint32_t> unusable;
                 for (std::size_t t = first; t < last; ++t) {
                     if (group_[t] != no_group || proven_[patch_of_[t]]) continue;
                     const Triangle& c = triangles_[t];
-                    turns_[t] = orient2d(axis, points_[c[0]], points_[c[1]], points_[c[2]]);
+                    turns_[t] = is_known
+                                    ? known_turns_[t]
+                                    : orient2d(axis, points_[c[0]], points_[c[1]], points_[c[2]]);
                     if (turns_[t] == Sign::Zero) unusable.push_back(patch_of_[t]);
                 }
                 return unusable;
@@ -275,7 +282,8 @@ private:
                 BorderPart part;
                 edges_.for_each(first, last,
                                 [&](std::uint32_t low, std::uint32_t high, auto sides) {
-                                    sum_sides(low, high, sides, part);
+                                    if (!cancel(low, high, sides))
+                                        sum_sides(low, high, sides, part);
                                 });
                 return part;
             });
@@ -284,6 +292,17 @@ private:
             border_.insert(border_.end(), part.edges.begin(), part.edges.end());
             for (const std::uint32_t patch : part.unusable) usable_[patch] = false;
         }
+    }
+
+    /// The sides of most edges: two of one patch that run against each other.
+    [[nodiscard]] bool cancel(std::uint32_t low, std::uint32_t high,
+                              std::span<const EdgeSides::Side> sides) const {
+        if (sides.size() != 2) return false;
+        const std::uint32_t t = sides[0].triangle, u = sides[1].triangle;
+        if (!is_open(sides[0]) || !is_open(sides[1]) || patch_of_[t] != patch_of_[u]) return false;
+        const bool along =
+            runs_along(triangles_[t], low, high) == runs_along(triangles_[u], low, high);
+        return along ? turns_[t] == -turns_[u] : turns_[t] == turns_[u];
     }
 
     void sum_sides(std::uint32_t low, std::uint32_t high, std::span<const EdgeSides::Side> sides,
@@ -338,10 +357,11 @@ private:
     std::span<const std::uint32_t> surface_of_;
     const EdgeSides& edges_;
     const Run& run_;
+    std::span<const Sign> known_turns_;       ///< per triangle, along z; or none
     std::vector<std::uint32_t> label_;        ///< triangles of one patch have the same
     std::vector<std::uint32_t> group_;        ///< the result
     std::vector<Axis> axis_;                  ///< per group
-    std::vector<Sign> turns_;                 ///< per triangle, in the projection being tried
+    Unfilled<Sign> turns_;                    ///< per triangle, in the projection being tried
     std::vector<std::uint32_t> patch_of_;     ///< per triangle without a group
     std::vector<std::optional<Axis>> proven_; ///< per patch
     std::vector<std::size_t> size_of_;        ///< per surface, while they are tried as a whole
@@ -353,8 +373,8 @@ private:
 
 Patches prove_patches(std::span<const Point3> points, std::span<const Triangle> triangles,
                       std::span<const std::uint32_t> surface_of, const EdgeSides& edges,
-                      const Run& run) {
-    return Prover(points, triangles, surface_of, edges, run)();
+                      const Run& run, std::span<const Sign> turns) {
+    return Prover(points, triangles, surface_of, edges, run, turns)();
 }
 
 void confirm_patches(std::span<const Point3> points, std::span<const Triangle> triangles,

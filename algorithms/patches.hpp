@@ -32,11 +32,12 @@ struct Patches {
 };
 
 /// `edges` groups the sides of `triangles`; these are distinct, with area, over distinct points.
+/// `turns`: their orientations seen along z, where they are known already.
 /// Tried first: connected components of a surface, in each of the three projections; then their
 /// parts of like orientation.
 Patches prove_patches(std::span<const Point3> points, std::span<const Triangle> triangles,
                       std::span<const std::uint32_t> surface_of, const EdgeSides& edges,
-                      const Run& run = {});
+                      const Run& run = {}, std::span<const Sign> turns = {});
 
 /// Shows the same again after some vertices have moved a little; patches for which that fails are
 /// taken out of patches.of. patches.of counts the triangles given here (parts of those for which

@@ -12,6 +12,8 @@
 namespace terrane {
 namespace {
 
+constexpr std::uint32_t none = UINT32_MAX;
+
 double area_of(std::span<const Point3> v, const Triangle& t) {
     const Point3 &a = v[t[0]], &b = v[t[1]], &c = v[t[2]];
     const double ux = b.x - a.x, uy = b.y - a.y, uz = b.z - a.z;
@@ -78,6 +80,12 @@ private:
             surfaces_of_.size(), run_,
             [&](std::size_t first, std::size_t last) {
                 Adjacency::Inner others;
+                const bool alone = surfaces_of_.values.size() == surfaces_of_.size();
+                if (alone && first == 0 && last == surfaces_of_.size()) { // a slot per triangle
+                    for (const auto& list : inner)
+                        for (const auto& [t, u] : list) sets_.join(t, u);
+                    return others;
+                }
                 for (const auto& list : inner)
                     for (const auto& [t, u] : list) {
                         if (t < first || t >= last) continue;
@@ -119,17 +127,21 @@ private:
             count, run_, [&](std::size_t first, std::size_t last) {
                 std::vector<Stretch> part;
                 const std::size_t end = std::min(count, cut(last));
-                bool ended = true;
+                Stretch open{none, 0, 0};
+                const auto begin = [&](std::uint32_t region) {
+                    if (open.region != none) part.push_back(open);
+                    open = {region, 0, 0};
+                };
                 for (std::size_t t = cut(first); t < end; ++t) {
                     const double area = area_of(vertices, triangles_[t]);
-                    ended = ended || t % block == 0;
+                    if (t % block == 0) begin(none);
                     for (const std::uint32_t r : out.regions_of[t]) {
-                        if (ended || part.back().region != r) part.push_back({r, 0, 0});
-                        ended = false;
-                        ++part.back().triangles;
-                        part.back().area += area;
+                        if (open.region != r) begin(r);
+                        ++open.triangles;
+                        open.area += area;
                     }
                 }
+                begin(none);
                 return part;
             });
         for (const auto& part : parts)

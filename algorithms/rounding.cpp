@@ -199,7 +199,7 @@ std::vector<CandidatePair> Rounding::contacts() {
 std::vector<CandidatePair> Rounding::first_contacts() {
     if (changed_) return contacts();
     const Arrangement& a = arrangement_;
-    const auto dirty = state_.dirty_triangles(run_);
+    const auto& dirty = state_.found_dirty;
     if (dirty.empty()) return {};
     Patches patches = a.patches;
     const auto turn = [&](std::uint32_t t, Axis axis) { // as that of its parent

@@ -174,9 +174,9 @@ bool RoundingState::tidy(const Run& run) {
         if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return false;
         return !collinear(points[t[0]], points[t[1]], points[t[2]]);
     };
-    const auto dirty = dirty_triangles(run);
+    found_dirty = dirty_triangles(run);
     std::vector<std::uint32_t> lost;
-    for (const std::uint32_t t : dirty)
+    for (const std::uint32_t t : found_dirty)
         if (!has_area(triangles[t])) lost.push_back(t);
     collapsed += lost.size();
     if (lost.empty() && !merged_any) return false; // then no two triangles can have become equal
@@ -184,7 +184,7 @@ bool RoundingState::tidy(const Run& run) {
     for (const std::uint32_t t : lost) gone[t] = true;
     if (!lost.empty()) find_gaps(gone);
     const LostLines lines(points, triangles, lost);
-    join_equal(dirty, gone);
+    join_equal(found_dirty, gone);
     if (!lost.empty() && divide_sides(lines)) {
         gone.assign(triangles.size(), false);
         join_equal(dirty_triangles(run), gone);

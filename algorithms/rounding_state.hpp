@@ -35,6 +35,8 @@ struct RoundingState {
     std::size_t merged = 0;          ///< points that became another one
     std::size_t collapsed = 0;       ///< triangles that lost their area
     double deviation = 0;            ///< sum over the ended rounds of the largest move
+    std::vector<std::uint32_t>
+        found_dirty; ///< dirty_triangles(), if the last tidy() changed nothing
 
     [[nodiscard]] std::vector<std::uint32_t> dirty_triangles(const Run& run) const;
 

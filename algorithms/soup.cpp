@@ -2,6 +2,7 @@
 #include <terrane/algorithms/soup.hpp>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <numeric>
 
@@ -99,34 +100,63 @@ private:
     std::vector<std::uint64_t> shared_; ///< a bit per class: it has several points
 };
 
-bool has_area(const std::vector<Point3>& points, const Triangle& t) {
+Sign turn_of(const std::vector<Point3>& points, const Triangle& t) {
+    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return Sign::Zero;
+    return orient2d(Axis::z, points[t[0]], points[t[1]], points[t[2]]);
+}
+
+bool has_area(const std::vector<Point3>& points, const Triangle& t, Sign turn) {
+    if (turn != Sign::Zero) return true;
     if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return false;
     return !collinear(points[t[0]], points[t[1]], points[t[2]]);
 }
 
 using Pairs = std::vector<std::array<std::uint32_t, 2>>;
 
+// Whether two triangles may have the same corners, of which this is the lowest: they are at two
+// edges of it then. A look at the sides tells, in most cases.
+bool may_repeat(std::span<const EdgeSides::Side> of_low) {
+    constexpr std::size_t few = 16;
+    if (of_low.size() < 4) return false;
+    if (of_low.size() > few) return true;
+    std::array<std::uint64_t, few / 2> pairs{};
+    std::size_t count = 0;
+    for (std::size_t i = 0; i + 1 < of_low.size(); ++i) {
+        if (of_low[i].high != of_low[i + 1].high) continue;
+        if (i + 2 < of_low.size() && of_low[i + 2].high == of_low[i].high) return true;
+        const std::uint64_t pair = std::uint64_t{of_low[i].triangle} << 32 | of_low[i + 1].triangle;
+        for (std::size_t k = 0; k < count; ++k)
+            if (pairs[k] == pair) return true;
+        pairs[count++] = pair;
+        ++i;
+    }
+    return false;
+}
+
 // Triangles that have the same corners as an earlier one, with the first of these. Two such
 // triangles are at the edge of their two lower vertices.
 Pairs repeated_triangles(const Soup& soup, std::size_t first_vertex, std::size_t last_vertex) {
     Pairs repeated, by_third;
-    soup.edges.for_each(first_vertex, last_vertex,
-                        [&](std::uint32_t low, std::uint32_t high, auto sides) {
-                            if (sides.size() < 2) return;
-                            by_third.clear();
-                            for (const auto& s : sides) {
-                                const Triangle& t = soup.triangles[s.triangle];
-                                const std::uint32_t third = t[0] ^ t[1] ^ t[2] ^ low ^ high;
-                                if (third > high) by_third.push_back({third, s.triangle});
-                            }
-                            if (by_third.size() < 2) return;
-                            std::sort(by_third.begin(), by_third.end());
-                            for (std::size_t i = 1, lead = 0; i < by_third.size(); ++i)
-                                if (by_third[i][0] != by_third[lead][0])
-                                    lead = i;
-                                else
-                                    repeated.push_back({by_third[i][1], by_third[lead][1]});
-                        });
+    const auto add = [&](std::uint32_t low, std::uint32_t high, auto sides) {
+        if (sides.size() < 2) return;
+        by_third.clear();
+        for (const auto& s : sides) {
+            const Triangle& t = soup.triangles[s.triangle];
+            const std::uint32_t third = t[0] ^ t[1] ^ t[2] ^ low ^ high;
+            if (third > high) by_third.push_back({third, s.triangle});
+        }
+        if (by_third.size() < 2) return;
+        std::sort(by_third.begin(), by_third.end());
+        for (std::size_t i = 1, lead = 0; i < by_third.size(); ++i)
+            if (by_third[i][0] != by_third[lead][0])
+                lead = i;
+            else
+                repeated.push_back({by_third[i][1], by_third[lead][1]});
+    };
+    const auto& starts = soup.edges.starts;
+    for (std::size_t v = first_vertex; v < last_vertex; ++v)
+        if (may_repeat(std::span(soup.edges.sides).subspan(starts[v], starts[v + 1] - starts[v])))
+            soup.edges.for_each(v, v + 1, add);
     return repeated;
 }
 
@@ -158,11 +188,13 @@ void set_duplicates_aside(Soup& soup, const Run& run) {
         }
         soup.triangles[kept] = soup.triangles[t];
         soup.input_of[kept] = soup.input_of[t];
+        soup.turns[kept] = soup.turns[t];
         soup.surface_of[kept++] = soup.surface_of[t];
     }
     soup.triangles.resize(kept);
     soup.input_of.resize(kept);
     soup.surface_of.resize(kept);
+    soup.turns.resize(kept);
     soup.edges = group_edges(soup.triangles, soup.points.size(), run);
 }
 
@@ -184,17 +216,22 @@ void name_corners(Soup& soup, std::span<const Surface> surfaces,
 
 // Those with an area.
 void take_triangles(Soup& soup, const Run& run) {
+    Unfilled<Sign> turns; // per input triangle
+    turns.resize(soup.input_corners.size());
     soup.degenerate = concatenated(parts_of_ranges<std::vector<std::uint32_t>>(
         soup.input_corners.size(), run, [&](std::size_t begin, std::size_t end) {
             std::vector<std::uint32_t> part;
-            for (auto t = static_cast<std::uint32_t>(begin); t < end; ++t)
-                if (!has_area(soup.points, soup.input_corners[t])) part.push_back(t);
+            for (auto t = static_cast<std::uint32_t>(begin); t < end; ++t) {
+                turns[t] = turn_of(soup.points, soup.input_corners[t]);
+                if (!has_area(soup.points, soup.input_corners[t], turns[t])) part.push_back(t);
+            }
             return part;
         }));
     const std::size_t inputs = soup.input_corners.size();
     soup.triangles.resize(inputs - soup.degenerate.size());
     soup.input_of.resize(soup.triangles.size());
     soup.surface_of.resize(soup.triangles.size());
+    soup.turns.resize(soup.triangles.size());
     for_ranges(inputs, run, [&](std::size_t begin, std::size_t end) {
         auto next = std::lower_bound(soup.degenerate.begin(), soup.degenerate.end(), begin);
         const auto& starts = soup.first_input_triangle;
@@ -208,6 +245,7 @@ void take_triangles(Soup& soup, const Run& run) {
                 continue;
             }
             soup.triangles[to] = soup.input_corners[t];
+            soup.turns[to] = turns[t];
             soup.input_of[to] = t;
             soup.surface_of[to++] = s;
         }

@@ -12,6 +12,7 @@
 #include <terrane/algorithms/run.hpp>
 #include <terrane/algorithms/search/search.hpp>
 #include <terrane/algorithms/surface.hpp>
+#include <terrane/kernel/sign.hpp>
 
 namespace terrane {
 
@@ -24,6 +25,7 @@ struct Soup {
     Unfilled<Triangle> input_corners;      ///< per input triangle: the same, degenerate or not
     Unfilled<std::uint32_t> input_of;      ///< per triangle: its input triangle, ascending
     Unfilled<std::uint32_t> surface_of;    ///< per triangle: the surface of input_of
+    Unfilled<Sign> turns;                  ///< per triangle: its orientation seen along z
     std::vector<std::uint32_t> degenerate; ///< input triangles without area, ascending
     std::vector<std::array<std::uint32_t, 2>> duplicates; ///< {input triangle, the first with the
                                                           ///< same three points}, ascending

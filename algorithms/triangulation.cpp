@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
+#include <numeric>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 namespace terrane {
@@ -37,13 +40,7 @@ FaceTriangulation::operator()(const PointStore& points, std::span<const std::uin
     legalise();
     insert_inner_points(face);
 
-    index_.clear();
-    for (Local p = 0; p < points_.size(); ++p) index_.emplace_back(points_[p], p);
-    std::sort(index_.begin(), index_.end());
-    const auto local = [&](PointIndex p) {
-        return std::lower_bound(index_.begin(), index_.end(), std::pair{p, Local{0}})->second;
-    };
-    for (const Segment& s : face.segments) insert_segment(local(s[0]), local(s[1]));
+    for (const Segment& s : segments_) insert_segment(s[0], s[1]);
 
     result_.clear();
     for (const Cell& c : cells_) {
@@ -54,25 +51,14 @@ FaceTriangulation::operator()(const PointStore& points, std::span<const std::uin
     return result_;
 }
 
-FaceTriangulation::Local FaceTriangulation::add_point(PointIndex p) {
-    const auto line = std::lower_bound(lines_of_.begin(), lines_of_.end(), std::array{p, 0u});
-    points_.push_back(p);
-    first_line_.push_back(static_cast<std::uint32_t>(line - lines_of_.begin()));
-    flat_.push_back(store_->approximate(axis_, p));
-    cell_of_.push_back(0);
-    return static_cast<Local>(points_.size() - 1);
-}
-
 // One cell; its edges are fixed: they are the border.
 void FaceTriangulation::start(const FaceInput& face) {
-    points_.clear();
-    first_line_.clear();
-    flat_.clear();
+    take_points(face);
+    name_points();
     find_lines(face);
-    cell_of_.clear();
+    cell_of_.assign(points_.size(), 0);
     cells_.clear();
     todo_.clear();
-    for (const PointIndex c : face.corners) add_point(c);
     const bool positive = turn(0, 1, 2) == Sign::Positive;
     Cell cell;
     cell.v = positive ? std::array<Local, 3>{0, 1, 2} : std::array<Local, 3>{0, 2, 1};
@@ -81,14 +67,92 @@ void FaceTriangulation::start(const FaceInput& face) {
     cells_.push_back(cell);
 }
 
+void FaceTriangulation::take_points(const FaceInput& face) {
+    points_.clear();
+    flat_.clear();
+    const auto take = [&](PointIndex p) {
+        points_.push_back(p);
+        flat_.push_back(store_->approximate(axis_, p));
+    };
+    for (const PointIndex p : face.corners) take(p);
+    for (const auto& on_edge : face.edge_points)
+        for (const PointIndex p : on_edge) take(p);
+    order_inner_points(face);
+    for (const Inner& i : inner_) {
+        points_.push_back(i.point);
+        flat_.push_back(i.at);
+    }
+}
+
+// Levels by hash, coarse ones first, each level in lexicographic order, or in strips where it is
+// large: short walks, few flips. The triangles do not depend on the order.
+void FaceTriangulation::order_inner_points(const FaceInput& face) {
+    order_.clear();
+    for (const PointIndex p : face.inner_points) {
+        const std::uint64_t rank = rank_[p], h = (rank + 1) * 0x9e3779b97f4a7c15u;
+        const auto level = static_cast<std::uint64_t>(63 - std::countl_zero(h | 1)) / 2;
+        order_.emplace_back(level << 32 | rank, p);
+    }
+    std::sort(order_.begin(), order_.end());
+    inner_.clear();
+    for (const auto& [key, p] : order_) inner_.push_back({store_->approximate(axis_, p), p});
+    const auto level_of = [&](std::size_t k) { return order_[k].first >> 32; };
+    for (std::size_t first = 0, last = 0; first < order_.size(); first = last) {
+        while (last < order_.size() && level_of(last) == level_of(first)) ++last;
+        sort_into_strips(std::span(inner_).subspan(first, last - first));
+    }
+}
+
+// Up one strip and down the next.
+void FaceTriangulation::sort_into_strips(std::span<Inner> level) {
+    constexpr std::size_t few = 128; // of which one is near enough to the next
+    if (level.size() < few) return;
+    std::sort(level.begin(), level.end(), [](const Inner& a, const Inner& b) {
+        return std::tie(a.at.u, a.point) < std::tie(b.at.u, b.point);
+    });
+    const auto strips = static_cast<std::size_t>(std::sqrt(static_cast<double>(level.size())));
+    for (std::size_t k = 0; k < strips; ++k) {
+        const std::size_t first = level.size() * k / strips, last = level.size() * (k + 1) / strips;
+        const auto strip = level.subspan(first, last - first);
+        std::sort(strip.begin(), strip.end(), [](const Inner& a, const Inner& b) {
+            return std::tie(a.at.v, a.point) < std::tie(b.at.v, b.point);
+        });
+        if (k % 2 == 1) std::reverse(strip.begin(), strip.end());
+    }
+}
+
+namespace {
+
+std::size_t hash(PointIndex p) {
+    return (p * 0x9e3779b97f4a7c15u) >> 32;
+}
+
+} // namespace
+
+void FaceTriangulation::name_points() {
+    slots_.assign(std::bit_ceil(2 * points_.size()), none);
+    for (Local p = 0; p < points_.size(); ++p) {
+        std::size_t s = hash(points_[p]) & (slots_.size() - 1);
+        while (slots_[s] != none) s = (s + 1) & (slots_.size() - 1);
+        slots_[s] = p;
+    }
+}
+
+FaceTriangulation::Local FaceTriangulation::local(PointIndex p) const {
+    std::size_t s = hash(p) & (slots_.size() - 1);
+    while (points_[slots_[s]] != p) s = (s + 1) & (slots_.size() - 1);
+    return slots_[s];
+}
+
 // Each edge is cut from its start to its end: the rest is always the edge of one known cell.
 void FaceTriangulation::insert_edge_points(const FaceInput& face) {
+    Local x = 3;
     for (Local e = 0; e < 3; ++e) {
         if (face.edge_points[e].empty()) continue;
         const Local end = (e + 1) % 3;
         Side rest = border_side(e, end);
-        for (const PointIndex p : face.edge_points[e]) {
-            const Local x = add_point(p), fresh = static_cast<Local>(cells_.size());
+        for (std::size_t k = 0; k < face.edge_points[e].size(); ++k, ++x) {
+            const Local fresh = static_cast<Local>(cells_.size());
             const bool end_stays = cells_[rest.cell].v[next(rest.i)] == end;
             split_edge(rest, x);
             rest = {end_stays ? rest.cell : fresh, 0};
@@ -104,19 +168,10 @@ FaceTriangulation::Side FaceTriangulation::border_side(Local a, Local b) const {
         }
 }
 
-// Levels by hash, coarse ones first, each level in lexicographic order: short walks, few flips.
 void FaceTriangulation::insert_inner_points(const FaceInput& face) {
-    order_.clear();
-    for (const PointIndex p : face.inner_points) order_.push_back(p);
-    const auto key = [&](PointIndex p) {
-        const std::uint64_t h = (rank_[p] + 1) * 0x9e3779b97f4a7c15u;
-        return std::pair{-std::countl_zero(h | 1) / 2, rank_[p]};
-    };
-    std::sort(order_.begin(), order_.end(),
-              [&](PointIndex a, PointIndex b) { return key(a) < key(b); });
     Local near = 0;
-    for (const PointIndex q : order_) {
-        const Local p = add_point(q);
+    for (auto p = static_cast<Local>(points_.size() - face.inner_points.size()); p < points_.size();
+         ++p) {
         const Side s = locate(p, near);
         if (s.i == 3)
             split_cell(s.cell, p);
@@ -148,30 +203,40 @@ FaceTriangulation::Side FaceTriangulation::locate(Local p, Local from) const {
 
 /// Which points are known to lie on which lines: those of the segments, and the three edges.
 void FaceTriangulation::find_lines(const FaceInput& face) {
-    lines_of_.clear();
-    for (std::size_t s = 0; s < face.segment_lines.size(); ++s)
-        for (const PointIndex p : face.segments[s])
-            lines_of_.push_back({p, face.segment_lines[s] + 3});
-    for (std::uint32_t e = 0; e < 3; ++e) {
-        lines_of_.push_back({face.corners[e], e});
-        lines_of_.push_back({face.corners[(e + 1) % 3], e});
-        for (const PointIndex p : face.edge_points[e]) lines_of_.push_back({p, e});
-    }
-    std::sort(lines_of_.begin(), lines_of_.end());
-    lines_of_.erase(std::unique(lines_of_.begin(), lines_of_.end()), lines_of_.end());
+    segments_.clear();
+    for (const Segment& s : face.segments) segments_.push_back({local(s[0]), local(s[1])});
+    // Pieces of one line mostly come one after the other: a point is not entered twice then.
+    const auto for_all = [&](const auto& enter) {
+        for (std::uint32_t e = 0, p = 3; e < 3; ++e) {
+            enter(e, e);
+            enter((e + 1) % 3, e);
+            for (std::size_t k = 0; k < face.edge_points[e].size(); ++k) enter(p++, e);
+        }
+        for (std::size_t s = 0; s < face.segment_lines.size(); ++s)
+            for (const Local p : segments_[s]) enter(p, face.segment_lines[s] + 3);
+    };
+    line_end_.assign(points_.size(), UINT32_MAX); // the last line
+    first_line_.assign(points_.size() + 1, 0);
+    for_all([&](Local p, std::uint32_t line) {
+        if (std::exchange(line_end_[p], line) != line) ++first_line_[p + 1];
+    });
+    std::partial_sum(first_line_.begin(), first_line_.end(), first_line_.begin());
+    lines_.resize(first_line_.back());
+    line_end_.assign(first_line_.begin(), first_line_.end() - 1);
+    for_all([&](Local p, std::uint32_t line) {
+        if (line_end_[p] == first_line_[p] || lines_[line_end_[p] - 1] != line)
+            lines_[line_end_[p]++] = line;
+    });
 }
 
 bool FaceTriangulation::on_one_line(Local a, Local b, Local c) const {
-    const auto is_line_of = [&](Local p, std::size_t l) {
-        return l < lines_of_.size() && lines_of_[l][0] == points_[p];
-    };
     const auto has = [&](Local p, std::uint32_t line) {
-        for (std::size_t l = first_line_[p]; is_line_of(p, l); ++l)
-            if (lines_of_[l][1] == line) return true;
-        return false;
+        const auto begin = lines_.begin();
+        const auto end = begin + first_line_[p + 1];
+        return std::find(begin + first_line_[p], end, line) != end;
     };
-    for (std::size_t l = first_line_[a]; is_line_of(a, l); ++l)
-        if (has(b, lines_of_[l][1]) && has(c, lines_of_[l][1])) return true;
+    for (std::uint32_t l = first_line_[a]; l < first_line_[a + 1]; ++l)
+        if (has(b, lines_[l]) && has(c, lines_[l])) return true;
     return false;
 }
 

@@ -61,8 +61,17 @@ private:
         unsigned i;
     };
 
+    struct Inner { ///< an inner point
+        ApproximatePoint at;
+        PointIndex point;
+    };
+
     void start(const FaceInput& face);
-    Local add_point(PointIndex p);
+    void take_points(const FaceInput& face);
+    void order_inner_points(const FaceInput& face);
+    static void sort_into_strips(std::span<Inner> level);
+    void name_points();
+    [[nodiscard]] Local local(PointIndex p) const;
     void find_lines(const FaceInput& face);
     [[nodiscard]] bool on_one_line(Local a, Local b, Local c) const;
     void insert_edge_points(const FaceInput& face);
@@ -93,16 +102,19 @@ private:
     const PointStore* store_ = nullptr;
     std::span<const std::uint32_t> rank_;
     Axis axis_ = Axis::z;
-    std::vector<PointIndex> points_;
-    std::vector<ApproximatePoint> flat_;    ///< per point, in the projection
-    std::vector<std::uint32_t> first_line_; ///< per point: its first entry in lines_of_, if any
-    std::vector<std::array<PointIndex, 2>> lines_of_; ///< sorted {point, line}: lines that carry it
-    std::vector<Local> cell_of_;                      ///< per point, a cell that has it
+    std::vector<PointIndex> points_;     ///< corners, edge points, inner ones as they are inserted
+    std::vector<ApproximatePoint> flat_; ///< per point, in the projection
+    std::vector<Local> slots_;           ///< open addressing: points by hash of their index
+    std::vector<Segment> segments_;      ///< those of the face, as local points
+    std::vector<std::uint32_t> first_line_; ///< per point, and the end: lines_ that carry it
+    std::vector<std::uint32_t> lines_;
+    std::vector<std::uint32_t> line_end_; ///< per point, while lines_ is filled
+    std::vector<Local> cell_of_;          ///< per point, a cell that has it
     std::vector<Cell> cells_;
     std::vector<Side> todo_;
     std::vector<std::array<Local, 2>> crossed_;
-    std::vector<std::pair<PointIndex, Local>> index_; ///< sorted: stored index to local one
-    std::vector<Local> order_;
+    std::vector<std::pair<std::uint64_t, PointIndex>> order_; ///< inner points by level and rank
+    std::vector<Inner> inner_;                                ///< the same as they are inserted
     std::vector<std::array<PointIndex, 3>> result_;
 };
 

@@ -58,6 +58,18 @@ struct PredicateCounts {
     }
 };
 
+/// The default rounding mode for as long as it lives, inside an UpwardRounding or not.
+class ToNearest {
+public:
+    ToNearest() : before_(CGAL::FPU_get_and_set_cw(CGAL_FE_TONEAREST)) {}
+    ~ToNearest() { CGAL::FPU_set_cw(before_); }
+    ToNearest(const ToNearest&) = delete;
+    ToNearest& operator=(const ToNearest&) = delete;
+
+private:
+    CGAL::FPU_CW_t before_;
+};
+
 /// What this thread has decided so far. Take differences; never reset. (Counted per thread since a
 /// parameter on every predicate would cost more than the easy predicates themselves.)
 inline PredicateCounts& predicate_counts() {

@@ -47,12 +47,19 @@ Construction PointStore::construction(PointIndex p) const {
     return how;
 }
 
-void PointStore::append(std::span<const Construction> constructions) {
-    const UpwardRounding guard;
+void PointStore::append(std::span<const Construction> constructions, const Share& share) {
     const std::size_t before = constructed_.size();
     constructed_.insert(constructed_.end(), constructions.begin(), constructions.end());
-    enclosures_.reserve(constructed_.size());
-    for (const Construction& how : constructions) enclosures_.push_back(make_enclosure(how));
+    enclosures_.resize(constructed_.size());
+    const auto enclose = [&](std::size_t first, std::size_t last) {
+        const UpwardRounding guard;
+        for (std::size_t k = first; k < last; ++k)
+            enclosures_[before + k] = make_enclosure(constructions[k]);
+    };
+    if (share)
+        share(constructions.size(), enclose);
+    else
+        enclose(0, constructions.size());
     auto grown = std::make_unique<Cache>(constructed_.size());
     for (std::size_t k = 0; k < before; ++k)
         grown->slots[k].store(cache_->slots[k].exchange(nullptr));
@@ -73,18 +80,6 @@ void PointStore::keep_constructed(std::span<const PointIndex> kept) {
 }
 
 namespace {
-
-/// The default rounding mode for as long as it lives, inside an UpwardRounding or not.
-class ToNearest {
-public:
-    ToNearest() : before_(CGAL::FPU_get_and_set_cw(CGAL_FE_TONEAREST)) {}
-    ~ToNearest() { CGAL::FPU_set_cw(before_); }
-    ToNearest(const ToNearest&) = delete;
-    ToNearest& operator=(const ToNearest&) = delete;
-
-private:
-    CGAL::FPU_CW_t before_;
-};
 
 // Wide enough to make predicates fail that a correctly rounded point would let succeed; without an
 // end where the intervals overflowed.

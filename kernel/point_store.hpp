@@ -24,6 +24,7 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -67,9 +68,14 @@ public:
     /// How the point is constructed; {input, v[0] = p} for an input point.
     [[nodiscard]] Construction construction(PointIndex p) const;
 
+    /// Calls work(first, last) for ranges that cut up [0, count), maybe several at a time.
+    using Share = std::function<void(
+        std::size_t count, const std::function<void(std::size_t first, std::size_t last)>& work)>;
+
     /// Adds constructed points; the first gets index size(). Each construction must be defined
     /// (line and plane not parallel, ...). Not to be called while another thread uses the store.
-    void append(std::span<const Construction> constructions);
+    /// `share` may have the work done by several threads.
+    void append(std::span<const Construction> constructions, const Share& share = {});
 
     /// Keeps of the constructed points those listed (ascending), in this order.
     void keep_constructed(std::span<const PointIndex> kept);

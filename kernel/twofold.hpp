@@ -66,6 +66,10 @@ public:
         return std::nullopt;
     }
 
+    /// The high part, and how far the true value is from it at most.
+    [[nodiscard]] double value() const { return hi_; }
+    [[nodiscard]] double error() const { return (std::fabs(lo_) + err_) * (1 + 4 * unit); }
+
 private:
     static constexpr double unit = std::numeric_limits<double>::epsilon();
     static constexpr double underflow = 0x1p-1000; ///< more than an underflowing product loses

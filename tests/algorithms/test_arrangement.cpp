@@ -3,6 +3,7 @@
 // Small models of every kind of contact, each judged by the verifier, with counts pinned.
 #include "../support/claim.hpp"
 #include "../support/points.hpp"
+#include "../support/sheets.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -225,4 +226,24 @@ TEST_CASE("arrange: progress ascends to 1") {
     REQUIRE(arrange(std::vector{floor_triangle}, {}, run));
     CHECK(std::is_sorted(shares.begin(), shares.end()));
     CHECK(shares.back() == 1);
+}
+
+TEST_CASE("arrange: threads may share out the triangles in front of a divided one") {
+    constexpr int size = 64; // 8192 triangles, of which the middle row is cut
+    Surface sheet = sheet_of(
+        size, size, 1.0, [](int, int) { return true; },
+        [](double x, double y) {
+            return Point3{x, y, 0};
+        });
+    const double y = size / 2.0 + 0.25;
+    const std::vector<Surface> surfaces{sheet,
+                                        triangle({-200, y, -300}, {200, y, -300}, {32, y, 300})};
+    const Arrangement one = arrange(surfaces).value();
+    CHECK(one.statistics.divided == 2 * size + 1);
+    for (const unsigned threads : {2U, 3U, 4U}) {
+        const Arrangement several = arrange(surfaces, {}, {.threads = threads}).value();
+        CHECK(several.triangles == one.triangles);
+        CHECK(several.parents_of == one.parents_of);
+        CHECK(several.adjacency.edges == one.adjacency.edges);
+    }
 }

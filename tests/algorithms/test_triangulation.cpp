@@ -353,6 +353,38 @@ TEST_CASE("two coplanar triangles triangulate a common part in the same way") {
     CHECK(compared > cases(300));
 }
 
+TEST_CASE("face triangulation: a part of a face with many points is as if divided by itself") {
+    Random random(75);
+    for (int i = 0; i < cases(40); ++i) { // points on a circle everywhere
+        const Sheet sheet(random, 40);
+        const auto at = [](int u, int v) { return static_cast<PointIndex>(40 * v + u); };
+        FaceInput part;
+        part.axis = sheet.axis;
+        const int low = random_int(random, 1, 8), high = low + random_int(random, 9, 14);
+        part.corners = {at(low, low), at(high, low), at(low, high)};
+        add_points(random, sheet, part, 100);
+        add_segments(random, sheet, part, 10);
+        FaceInput whole;
+        whole.axis = sheet.axis;
+        whole.corners = {at(0, 0), at(39, 0), at(0, 39)};
+        add_points(random, sheet, whole, 100);
+        whole.segments = part.segments;
+        for (unsigned e = 0; e < 3; ++e)
+            whole.segments.push_back({part.corners[e], part.corners[(e + 1) % 3]});
+        const Triangles of_whole = triangulate(sheet, whole);
+        REQUIRE(covers(sheet, whole, of_whole));
+        REQUIRE(contains_segments(sheet, whole, of_whole));
+        const auto inside = points_named(part);
+        auto of_part = as_set(of_whole);
+        std::erase_if(of_part, [&](const Triangle& t) {
+            return !std::all_of(t.begin(), t.end(), [&](PointIndex p) {
+                return std::find(inside.begin(), inside.end(), p) != inside.end();
+            });
+        });
+        REQUIRE(of_part == as_set(triangulate(sheet, part)));
+    }
+}
+
 TEST_CASE("face triangulation: pinned cases") {
     Random random(74);
     const Sheet sheet(random, 5);
