@@ -60,6 +60,10 @@ void print_rbf(const Model& model, const BorderLoop& loop, const char* way,
     const auto& [filling, joined, report] = made.value();
     print_misfit(way, misfit(model, joined.surface, model.holed.triangles.size()), seconds);
     std::printf(" (predicted %.3g)", expected_of(filling, joined));
+    if (!model.smooth || options.size > 0) return;
+    RbfOptions fine = options; // what remains of the error when triangles are less flat
+    fine.size = report.size / 2;
+    print_rbf(model, loop, "rbf, half the size", fine);
 }
 
 void run(const Model& model, bool yardsticks) {
