@@ -13,7 +13,6 @@
 #include <terrane/algorithms/search/search.hpp>
 #include <terrane/kernel/predicates.hpp>
 
-#include "../support/effort.hpp"
 #include "../support/points.hpp"
 
 using namespace terrane;
@@ -114,7 +113,7 @@ void move_one(Sheet& sheet, Borders& borders, Random& random, Count& count) {
 TEST_CASE("improve: a patch whose border moves is kept only if it is one-to-one", "[improve]") {
     Random random(17);
     Count count;
-    for (int model = 0; model < cases(120); ++model) {
+    for (int model = 0; model < 120; ++model) {
         Sheet sheet(random);
         if (sheet.mesh.triangles.empty()) continue;
         Borders borders(sheet.work);
