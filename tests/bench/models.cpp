@@ -3,9 +3,13 @@
 
 #include <functional>
 #include <map>
+#include <optional>
+#include <stdexcept>
+#include <utility>
 
 #include <terrane/algorithms/soup.hpp>
 #include <terrane/cli/paper_models.hpp>
+#include <terrane/io/files.hpp>
 
 namespace bench {
 namespace {
@@ -46,6 +50,12 @@ Model united(Surfaces surfaces) {
     return m;
 }
 
+Surfaces read(const std::string& file) {
+    auto surfaces = read_surfaces(file, std::nullopt, {});
+    if (!surfaces) throw std::runtime_error(surfaces.error().message());
+    return std::move(surfaces).value();
+}
+
 } // namespace
 
 const Model& model(const std::string& name) {
@@ -53,7 +63,8 @@ const Model& model(const std::string& name) {
     static Model m;
     if (kept != name) {
         m = {};
-        m = united(makers().at(name)());
+        const auto made = makers().find(name);
+        m = united(made != makers().end() ? made->second() : read(name));
         kept = name;
     }
     return m;

@@ -20,7 +20,8 @@ struct Model {
 };
 
 /// "pair1_7k", "pair1_68k", "pair1_680k", "pair1_6800k", pair2 likewise, "nonuniform1",
-/// "nonuniform2", "rectangles_100", "rectangles_1000". Kept until another one is asked for.
+/// "nonuniform2", "rectangles_100", "rectangles_1000"; any other name is that of a file. Kept until
+/// another one is asked for. Throws std::runtime_error for a file that can't be read.
 const Model& model(const std::string& name);
 
 } // namespace bench

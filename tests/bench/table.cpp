@@ -2,7 +2,7 @@
 //
 // The table of required speeds: everything measured in one run, in turn, medians; ratios to the
 // yardsticks and to the floor beside the factors they must keep to.
-//   terrane_bench_table [--repeats N] [--large] [NAME...]
+//   terrane_bench_table [--repeats N] [--large] [NAME|FILE...]
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -185,11 +185,19 @@ bool is_pair(const Row& row) {
     return std::string(row.name).rfind("rectangles", 0) != 0;
 }
 
-} // namespace
+/// Names that are no row's are files of surfaces: coplanar or touching ones, slivers. Of two the
+/// yardstick is corefine, if it takes them.
+void print_files(const Options& options) {
+    for (const std::string& name : options.names) {
+        if (std::any_of(rows.begin(), rows.end(), [&](const Row& r) { return name == r.name; }))
+            continue;
+        const Model& input = model(name);
+        const bool is_pair = input.surfaces.size() == 2;
+        print({name.c_str(), 0, 0}, measure<Corefine>(input, repeats_of(options, input), is_pair));
+    }
+}
 
-int main(int argc, char** argv) {
-    keep_freed_memory(); // for the yardsticks, too
-    const Options options = parse(argc, argv);
+int run(const Options& options) {
     std::puts(
         "seconds, medians; in brackets the most that is allowed; yardstick: CGAL 5.5.1 corefine,\n"
         "for rectangles_1000 autorefine; ours: arrange and round");
@@ -211,9 +219,22 @@ int main(int argc, char** argv) {
             std::printf("%-16s takes %s times as long as rectangles_1000\n", "",
                         ratio(m.ours(), rectangles_1000, 7).c_str());
     }
+    print_files(options);
     std::printf("\n%-16s %9s %9s %9s %9s  %-18s %s\n", "search", "pairs", "ours", "floor", "CGAL",
                 "ours/floor", "CGAL/ours (at least)");
     for (const Row& row : rows)
         if (is_pair(row) && options.wants(row)) print_search(row.name, options);
     return 0;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    keep_freed_memory(); // for the yardsticks, too
+    try {
+        return run(parse(argc, argv));
+    } catch (const std::exception& e) {
+        std::fprintf(stderr, "%s\n", e.what());
+        return 2;
+    }
 }
