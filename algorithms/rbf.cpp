@@ -62,10 +62,11 @@ public:
         if (border < margin) return false;
         const auto surface = surface_.nearest(p, border);
         if (!surface) return false;
-        // Another limb of a fold may be as near, but it faces the other way.
-        if (!(dot(normal_of(surface->triangle), ahead(p)) > 0)) return false;
         // Beyond the data the nearest of them is on their rim.
-        return surface->distance < under || rim_.distance(p, border) <= surface->distance;
+        if (surface->distance >= under && rim_.distance(p, border) > surface->distance)
+            return false;
+        // Another limb of a fold may be as near, but it faces the other way.
+        return dot(normal_of(surface->triangle), ahead(p)) > 0;
     }
 
 private:

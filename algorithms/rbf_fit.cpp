@@ -73,7 +73,9 @@ public:
             if (run_.progress)
                 run_.progress("rbf", 0.5 * static_cast<double>(centres_) /
                                          static_cast<double>(options_.most_centres));
-            if (!add_missed(errors_of(f, whole ? 1 : some()))) break;
+            // Of many data some tell first where centres are wanted.
+            if (add_missed(errors_of(f, some()))) continue;
+            if (!whole || some() == 1 || !add_missed(errors_of(f))) break;
         }
         if (!whole) return f;
         auto fit = fit_rbf(points_, values_, {form_.polynomial, refinements_}, run_);
@@ -178,7 +180,7 @@ private:
         return errors;
     }
 
-    /// The step at which errors at data say enough for a trial.
+    /// The step at which errors at data say enough for a trial, or for more centres.
     [[nodiscard]] std::size_t some() const {
         constexpr std::size_t enough = 20'000;
         return std::max<std::size_t>(1, data_.points.size() / enough);
