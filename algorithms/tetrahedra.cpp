@@ -106,10 +106,17 @@ Box3 enlarged_bounds(std::span<const Point3> points, double margin) {
         box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y),
                     std::max(box.high.z, p.z)};
     }
-    const double add =
-        margin * std::max({box.high.x - box.low.x, box.high.y - box.low.y, box.high.z - box.low.z});
-    box.low = {box.low.x - add, box.low.y - add, box.low.z - add};
-    box.high = {box.high.x + add, box.high.y + add, box.high.z + add};
+    const auto largest = [](const Point3& p) {
+        return std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+    };
+    constexpr double least = 0x1p-40; // of the largest coordinate: room between doubles
+    const double add = std::max(
+        margin * std::max({box.high.x - box.low.x, box.high.y - box.low.y, box.high.z - box.low.z}),
+        least * std::max(largest(box.low), largest(box.high)));
+    const auto below = [&](double x) { return std::min(x - add, std::nextafter(x, -HUGE_VAL)); };
+    const auto above = [&](double x) { return std::max(x + add, std::nextafter(x, HUGE_VAL)); };
+    box.low = {below(box.low.x), below(box.low.y), below(box.low.z)};
+    box.high = {above(box.high.x), above(box.high.y), above(box.high.z)};
     return box;
 }
 

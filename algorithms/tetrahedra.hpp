@@ -31,7 +31,8 @@ struct BlockSize {
 struct TetrahedraOptions {
     std::optional<Box3> box{}; ///< closes the domain; must contain the mesh strictly inside
     double margin = 0.1;       ///< without a box: the bounding box, enlarged on each side by this
-                               ///< share of its longest edge
+                               ///< share of its longest edge, at least by 2^-40 of the largest
+                               ///< coordinate
     std::optional<double> edge_length{};       ///< wanted length, unit of the mesh; none: as few
                                                ///< tetrahedra as possible
     std::optional<double> radius_edge_ratio{}; ///< TetGen's quality bound (>= 1.1); none: no bound,

@@ -364,7 +364,6 @@ TEST_CASE("tetrahedra: each option that makes no sense is an error", "[tetrahedr
         {.margin = -0.1},
         {.margin = nan_value},
         {.margin = infinity},
-        {.margin = 1e-300}, // lost in rounding
         {.edge_length = 0.0},
         {.edge_length = -1.0},
         {.edge_length = nan_value},
@@ -380,6 +379,18 @@ TEST_CASE("tetrahedra: each option that makes no sense is an error", "[tetrahedr
     for (std::size_t i = 0; i < std::size(bad); ++i) {
         INFO(i);
         CHECK(must_fail(rectangle(), bad[i]).code == ErrorCode::bad_option);
+    }
+}
+
+TEST_CASE("tetrahedra: a margin lost in rounding is as wide as it can be told apart",
+          "[tetrahedra]") {
+    Mesh small = rectangle(); // as large as doubles are apart: a tenth of it is nothing
+    for (Point3& p : small.vertices) p = {2 + 0x1p-51 * p.x, 2 + 0x1p-51 * p.y, 2 + 0x1p-51 * p.z};
+    CHECK(std::max(small.vertices[2].x, small.vertices[1].x) > 2);
+    for (const auto& [mesh, margin] : {std::pair{small, 0.1}, std::pair{rectangle(), 1e-300}}) {
+        const auto made = tetrahedralize(mesh, {.margin = margin, .time_limit = 20}, {});
+        if (!made) CHECK(made.error().sentence.find("TetGen") != std::string::npos);
+        if (made) CHECK(made.value().vertices.size() == mesh.vertices.size() + 8);
     }
 }
 
