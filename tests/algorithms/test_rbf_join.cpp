@@ -9,6 +9,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "../support/hole_of.hpp"
 #include "../support/holed_surfaces.hpp"
 #include <terrane/algorithms/check.hpp>
 #include <terrane/algorithms/long_edges.hpp>
@@ -26,14 +27,6 @@ Surface cliff(double lift) {
                          }),
                          0, 0, 240, 240, 24, 24),
                    disk(115, 110, 52));
-}
-
-BorderLoop hole_of(const Surface& s) {
-    auto loops = find_border_loops(s);
-    REQUIRE(loops);
-    std::erase_if(loops.value(), [](const BorderLoop& l) { return l.kind == LoopKind::outer; });
-    REQUIRE(loops.value().size() == 1);
-    return loops.value()[0];
 }
 
 double area(const HoleData& data) {

@@ -10,6 +10,7 @@
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
 
+#include "../support/hole_of.hpp"
 #include "../support/holed_surfaces.hpp"
 #include <terrane/algorithms/check.hpp>
 #include <terrane/algorithms/join.hpp>
@@ -95,14 +96,6 @@ HoleData data_at(const std::vector<Point3>& points) {
     data.distances.assign(points.size(), 0);
     data.radius = 3;
     return data;
-}
-
-BorderLoop hole_of(const Surface& s) {
-    auto loops = find_border_loops(s);
-    REQUIRE(loops);
-    std::erase_if(loops.value(), [](const BorderLoop& l) { return l.kind == LoopKind::outer; });
-    REQUIRE(loops.value().size() == 1);
-    return loops.value()[0];
 }
 
 } // namespace
