@@ -14,10 +14,6 @@
 namespace terrane::clearance {
 namespace {
 
-double length(const Point3& a) {
-    return std::sqrt(dot(a, a));
-}
-
 std::array<Point3, 3> corners_of(const MovedParts& moved, std::uint32_t face) {
     const Triangle& c = moved.faces[face];
     return {moved.face_points[c[0]], moved.face_points[c[1]], moved.face_points[c[2]]};

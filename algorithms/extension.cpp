@@ -25,9 +25,6 @@ constexpr double least_cosine = 0.4;   ///< strips at corners are wider by at mo
 constexpr unsigned most_doublings = 3; ///< of the length along which directions are averaged
 constexpr double past_targets = 1.5;   ///< see StripEdge::targets
 
-double length(const Point3& a) {
-    return std::hypot(a.x, a.y, a.z);
-}
 Point3 along(const Point3& from, double by, const Point3& way) {
     return {from.x + by * way.x, from.y + by * way.y, from.z + by * way.z};
 }

@@ -22,10 +22,6 @@ constexpr unsigned most_covered = 2048; ///< triangles under one
 constexpr unsigned most_parts = 48;     ///< of one triangle
 constexpr double unit = std::numeric_limits<double>::epsilon();
 
-double length(const Point3& a) {
-    return std::sqrt(dot(a, a));
-}
-
 Point3 towards(const Point3& a, const Point3& b, double share) {
     return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y), a.z + share * (b.z - a.z)};
 }

@@ -16,10 +16,6 @@ namespace {
 constexpr double least_share = 0.125; ///< of the wanted length, where a surface is curved
 constexpr double bound_share = 0.05;  ///< of the wanted length
 
-double length(const Point3& a) {
-    return std::hypot(a.x, a.y, a.z);
-}
-
 Point3 normal_of(const Mesh& mesh, const Triangle& t) {
     return cross(minus(mesh.vertices[t[1]], mesh.vertices[t[0]]),
                  minus(mesh.vertices[t[2]], mesh.vertices[t[0]]));

@@ -23,10 +23,6 @@
 namespace terrane {
 namespace {
 
-double length(const Point3& a) {
-    return std::hypot(a.x, a.y, a.z);
-}
-
 std::string text_of(const Point3& p) {
     return "(" + std::to_string(p.x) + ", " + std::to_string(p.y) + ", " + std::to_string(p.z) +
            ")";

@@ -18,10 +18,6 @@ namespace {
 constexpr std::uint32_t none = UINT32_MAX;
 constexpr int samples = 8; ///< along each edge of a triangle
 
-double length(const Point3& a) {
-    return std::hypot(a.x, a.y, a.z);
-}
-
 class Finder {
 public:
     Finder(const Arrangement& a, double distance) : a_(a), distance_(distance) {

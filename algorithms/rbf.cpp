@@ -2,8 +2,10 @@
 #include <terrane/algorithms/rbf.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <new>
 #include <span>
 #include <string>
@@ -23,10 +25,6 @@ namespace terrane {
 namespace {
 
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
-
-double length(const Point3& a) {
-    return std::hypot(a.x, a.y, a.z);
-}
 
 /// The least edge length of a filling of equilateral triangles with as many vertices as are
 /// allowed.
@@ -50,21 +48,33 @@ std::vector<Triangle> rim_of(const HoleData& data) {
 /// What lies under the surface away from the border, or beyond where the data end.
 class Outside {
 public:
-    Outside(const HoleData& data, double size) :
-        points_(data.points), size_(size), surface_(data.points, data.triangles),
-        rim_(data.points, rim_of(data)), border_(data.points, border_edges(data)) {}
+    /// `tree`: of the data's triangles.
+    Outside(const HoleData& data, const TriangleTree& tree, double size) :
+        points_(data.points), size_(size), surface_(tree), rim_(data.points, rim_of(data)),
+        border_(data.points, border_edges(data)) {}
 
-    /// `ahead`: the direction to which the level at p faces.
+    /// `ahead`: the direction to which the level at p faces. Not from several threads: what is
+    /// learned of one point serves those near it.
     template <class Ahead>
-    [[nodiscard]] bool operator()(const Point3& p, const Ahead& ahead) const {
+    [[nodiscard]] bool operator()(const Point3& p, const Ahead& ahead) {
+        const auto known = inside_.find(cell_of(p));
+        if (known != inside_.end() && length(minus(p, known->second.centre)) < known->second.radius)
+            return false;
         const double margin = 3 * size_, under = 1.5 * size_;
         const double border = border_.distance(p, std::numeric_limits<double>::infinity());
         if (border < margin) return false;
         const auto surface = surface_.nearest(p, border);
-        if (!surface) return false;
+        const double distance = surface ? surface->distance : border;
         // Beyond the data the nearest of them is on their rim.
-        if (surface->distance >= under && rim_.distance(p, border) > surface->distance)
-            return false;
+        if (distance >= under) {
+            const double rim = rim_.distance(p, std::numeric_limits<double>::infinity());
+            // No distance changes faster than p does.
+            constexpr double sure = 0.99; // more than rounding can take
+            const double radius = sure * std::min(distance - under, (rim - distance) / 2);
+            if (radius > 0) inside_.insert_or_assign(cell_of(p), Ball{p, radius});
+            if (rim > distance) return false;
+        }
+        if (!surface) return false;
         // Another limb of a fold may be as near, but it faces the other way.
         return dot(normal_of(surface->triangle), ahead(p)) > 0;
     }
@@ -77,19 +87,32 @@ private:
         return edges;
     }
 
+    struct Ball {
+        Point3 centre{};
+        double radius = 0;
+    };
+    using Cell = std::array<double, 3>; ///< whole numbers
+
+    [[nodiscard]] Cell cell_of(const Point3& p) const {
+        const double width = 12 * size_;
+        return {std::floor(p.x / width), std::floor(p.y / width), std::floor(p.z / width)};
+    }
+
     [[nodiscard]] Point3 normal_of(const Triangle& t) const {
         return cross(minus(points_[t[1]], points_[t[0]]), minus(points_[t[2]], points_[t[0]]));
     }
 
     std::span<const Point3> points_;
     double size_;
-    TriangleTree surface_, rim_, border_;
+    const TriangleTree& surface_;
+    TriangleTree rim_, border_;
+    std::map<Cell, Ball> inside_; ///< per cell the last ball of which no point is outside
 };
 
 /// Step (5).
-Result<Surface> mesh_zero_level(const Implicit& f, const HoleData& data, double size,
-                                const Run& run) {
-    const Outside outside(data, size);
+Result<Surface> mesh_zero_level(const Implicit& f, const HoleData& data, const TriangleTree& tree,
+                                double size, const Run& run) {
+    Outside outside(data, tree, size);
     ZeroLevelOptions options;
     options.size = size;
     options.seeds = std::span(data.points).first(data.next.size());
@@ -114,16 +137,17 @@ bool too_coarse(const Surface& level, const Implicit& f, const HoleData& data, d
 
 /// The same, with edges as long as those of the border, or half or a quarter of that where the
 /// surface turns too sharply for them; and no more vertices than are allowed.
-Result<Surface> mesh_to_size(const Implicit& f, const HoleData& data, const BorderLoop& loop,
-                             const RbfOptions& options, double& size, const Run& run) {
+Result<Surface> mesh_to_size(const Implicit& f, const HoleData& data, const TriangleTree& tree,
+                             const BorderLoop& loop, const RbfOptions& options, double& size,
+                             const Run& run) {
     const double least = least_size(loop, options);
     size = options.size > 0 ? options.size : std::max(data.edge, least);
-    auto level = mesh_zero_level(f, data, size, run);
+    auto level = mesh_zero_level(f, data, tree, size, run);
     if (options.size > 0) return level;
     for (int halvings = 0; halvings < 2 && size / 2 >= least; ++halvings) {
         if (!level || !too_coarse(level.value(), f, data, size)) break;
         size /= 2;
-        level = mesh_zero_level(f, data, size, run);
+        level = mesh_zero_level(f, data, tree, size, run);
     }
     return level;
 }
@@ -164,8 +188,7 @@ std::vector<double> deviation_of(const Surface& filling, const HoleData& data,
 }
 
 /// Root mean square over the vertices that are off the surface: over the hole.
-double mean_over_hole(const Filling& filling, const HoleData& data, double size) {
-    const TriangleTree tree(data.points, data.triangles);
+double mean_over_hole(const Filling& filling, const TriangleTree& tree, double size) {
     double squares = 0;
     std::size_t count = 0;
     for (std::size_t v = 0; v < filling.deviation.size(); ++v) {
@@ -198,9 +221,10 @@ Result<Filling> fill_valid(const Surface& surface, const BorderLoop& loop,
     if (!choice) return choice.error();
     const RbfForm& form = choice.value().form;
     report.degree = form.polynomial.degree;
-    const auto f = fit_hole(data.value(), form, options, report, run);
+    const TriangleTree tree(data.value().points, data.value().triangles);
+    const auto f = fit_hole(data.value(), tree, form, options, report, run);
     if (!f) return f.error();
-    auto level = mesh_to_size(f.value(), data.value(), loop, options, report.size, run);
+    auto level = mesh_to_size(f.value(), data.value(), tree, loop, options, report.size, run);
     if (!level) return level.error();
     Filling filling;
     filling.surface = std::move(level).value();
@@ -211,7 +235,7 @@ Result<Filling> fill_valid(const Surface& surface, const BorderLoop& loop,
     filling.report.data = report.data;
     filling.report.invented = filling.surface.vertices.size();
     filling.report.area = area_of(filling.surface);
-    filling.report.expected_error = mean_over_hole(filling, data.value(), report.size);
+    filling.report.expected_error = mean_over_hole(filling, tree, report.size);
     filling.report.validated_error = choice.value().validated;
     filling.report.model = describe(report, form, form.smoothed || options.smoothing.has_value());
     if (options.long_edges) filling.report.model += "; with points on long edges";

@@ -19,10 +19,6 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-double length(const Point3& a) {
-    return std::hypot(a.x, a.y, a.z);
-}
-
 Lists<std::uint32_t> neighbours_in(const Soup& soup) {
     std::vector<std::vector<std::uint32_t>> lists(soup.points.size());
     soup.edges.for_each([&](std::uint32_t low, std::uint32_t high, auto) {

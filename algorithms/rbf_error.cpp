@@ -88,17 +88,31 @@ std::vector<double> RbfError::at(std::span<const Point3> places, bool measured,
     const auto size = static_cast<Eigen::Index>(n + terms());
     const Eigen::Map<const Eigen::MatrixXd> inverse(inverse_.data(), size, size);
     const double unit = scale_ * scale_ * scale_;
-    for_ranges(places.size(), run, [&](std::size_t first, std::size_t last) {
-        Eigen::VectorXd right(size);
-        for (std::size_t k = first; k < last; ++k) {
-            const Point3 d = minus(places[k], middle_);
-            const Point3 p{d.x / scale_, d.y / scale_, d.z / scale_};
-            for (std::size_t i = 0; i < n; ++i) right.data()[i] = cubed_distance(p, points_[i]);
-            terms_at(p, right.data() + n);
-            const double variance = -right.dot(inverse * right) + (measured ? nugget_ : 0);
-            result[k] = std::sqrt(std::max(variance, 0.0) * unit);
+    constexpr std::size_t most_columns = 64; // products of matrices keep the inverse in cache
+    const std::size_t blocks = (places.size() + most_columns - 1) / most_columns;
+    const auto fill_blocks = [&](std::size_t first, std::size_t last) {
+        Eigen::MatrixXd right, solved;
+        for (std::size_t b = first; b < last; ++b) {
+            const std::size_t k = b * most_columns;
+            const std::size_t count = std::min(most_columns, places.size() - k);
+            right.resize(size, static_cast<Eigen::Index>(count));
+            for (std::size_t c = 0; c < count; ++c) {
+                double* const column = right.col(static_cast<Eigen::Index>(c)).data();
+                const Point3 d = minus(places[k + c], middle_);
+                const Point3 p{d.x / scale_, d.y / scale_, d.z / scale_};
+                for (std::size_t i = 0; i < n; ++i) column[i] = cubed_distance(p, points_[i]);
+                terms_at(p, column + n);
+            }
+            solved.noalias() = inverse * right;
+            for (std::size_t c = 0; c < count; ++c) {
+                const auto column = static_cast<Eigen::Index>(c);
+                const double variance =
+                    -right.col(column).dot(solved.col(column)) + (measured ? nugget_ : 0);
+                result[k + c] = std::sqrt(std::max(variance, 0.0) * unit);
+            }
         }
-    });
+    };
+    for_ranges(blocks, run, fill_blocks, 4, 128);
     return result;
 }
 

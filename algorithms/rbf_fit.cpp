@@ -17,10 +17,6 @@ namespace {
 constexpr double graph = 0.5; ///< least cosine of a slope that can be seen as a height
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
-double length(const Point3& a) {
-    return std::hypot(a.x, a.y, a.z);
-}
-
 Point3 along(const Point3& p, double d, const Point3& direction) {
     return {p.x + d * direction.x, p.y + d * direction.y, p.z + d * direction.z};
 }
@@ -32,11 +28,12 @@ std::size_t start_size(const RbfOptions& options) {
 
 /// What all forms have in common.
 struct Start {
-    Start(const HoleData& data, const RbfOptions& options) :
+    /// `tree`: of the data's triangles.
+    Start(const HoleData& data, const TriangleTree& tree, const RbfOptions& options) :
         centres(well_spread(data.points, start_size(options),
                             std::vector<bool>(data.points.size(), true))),
         offset(options.offset > 0 ? options.offset : std::max(data.radius / 20, data.edge / 2)),
-        surface(data.points, data.triangles) {
+        surface(tree) {
         for (const std::uint32_t i : centres) {
             double least = std::numeric_limits<double>::infinity();
             for (const std::uint32_t j : centres)
@@ -48,7 +45,7 @@ struct Start {
     std::vector<std::uint32_t> centres; ///< a well-spread quarter of those allowed
     double spacing = 0;                 ///< none of them is farther from its nearest one
     double offset;                      ///< of constraints off the surface
-    TriangleTree surface;
+    const TriangleTree& surface;
 };
 
 class Fitter {
@@ -75,16 +72,17 @@ public:
                                          static_cast<double>(options_.most_centres));
             // Of many data some tell first where centres are wanted.
             if (add_missed(errors_of(f, some()))) continue;
-            if (!whole || some() == 1 || !add_missed(errors_of(f))) break;
+            if (!whole) return f;
+            fit = fit_rbf(points_, values_, {form_.polynomial, refinements_}, run_);
+            if (!fit) return fit.error();
+            f.smooth = std::move(fit.value().function);
+            report_.solution = fit.value().solution;
+            report_.centres = centres_;
+            auto errors = errors_of(f);
+            if (some() > 1 && add_missed(errors)) continue;
+            make_up(f, std::move(errors));
+            return f;
         }
-        if (!whole) return f;
-        auto fit = fit_rbf(points_, values_, {form_.polynomial, refinements_}, run_);
-        if (!fit) return fit.error();
-        f.smooth = std::move(fit.value().function);
-        report_.solution = fit.value().solution;
-        report_.centres = centres_;
-        make_up(f);
-        return f;
     }
 
     /// Without refinement and step (4).
@@ -163,7 +161,7 @@ private:
         report_.freedom = fit.value().freedom;
         if (!whole) return f;
         if (!options_.smoothing) {
-            make_up(f);
+            make_up(f, errors_of(f));
             return f;
         }
         note_errors(errors_of(f));
@@ -225,16 +223,19 @@ private:
         report_.rms_error = std::sqrt(squares / static_cast<double>(errors.size()));
     }
 
-    /// Step (4), where step (3) left errors.
-    void make_up(Implicit& f) {
-        auto errors = errors_of(f);
+    /// Step (4), where step (3) left errors: those of f so far, per datum.
+    void make_up(Implicit& f, std::vector<double> errors) {
         note_errors(errors);
         report_.missed = report_.largest_error;
         if (report_.missed <= tolerance()) return;
-        for (double& e : errors) e = -e;
-        f.rest = RbfPatches(data_.points, errors);
+        auto wanted = errors;
+        for (double& e : wanted) e = -e;
+        f.rest = RbfPatches(data_.points, wanted);
         report_.patches = f.rest.size();
-        note_errors(errors_of(f));
+        for_ranges(errors.size(), run_, [&](std::size_t a, std::size_t b) {
+            for (std::size_t i = a; i < b; ++i) errors[i] += f.rest(data_.points[i]);
+        });
+        note_errors(errors);
     }
 
     const HoleData& data_;
@@ -295,7 +296,8 @@ struct Trial {
 /// The data left out, and what all trials share.
 struct Trials {
     Trials(const HoleData& all, const RbfOptions& given) :
-        data(all), left(leave_out(all)), options(fewer(given)), start(left.kept, options) {}
+        data(all), left(leave_out(all)), tree(left.kept.points, left.kept.triangles),
+        options(fewer(given)), start(left.kept, tree, options) {}
 
     /// Enough to tell forms apart.
     static RbfOptions fewer(RbfOptions options) {
@@ -306,6 +308,7 @@ struct Trials {
 
     const HoleData& data;
     LeftOut left;
+    TriangleTree tree; ///< of the others
     RbfOptions options;
     Start start;
 };
@@ -409,9 +412,9 @@ std::vector<std::uint32_t> well_spread(const std::vector<Point3>& points, std::s
     return chosen;
 }
 
-Result<Implicit> fit_hole(const HoleData& data, const RbfForm& form, const RbfOptions& options,
-                          RbfReport& report, const Run& run) {
-    return Fitter(data, Start(data, options), form, options, report, run)(true);
+Result<Implicit> fit_hole(const HoleData& data, const TriangleTree& tree, const RbfForm& form,
+                          const RbfOptions& options, RbfReport& report, const Run& run) {
+    return Fitter(data, Start(data, tree, options), form, options, report, run)(true);
 }
 
 Result<RbfChoice> choose_form(const HoleData& data, const RbfOptions& options, const Run& run) {

@@ -10,6 +10,7 @@
 #include <terrane/algorithms/rbf_data.hpp>
 #include <terrane/algorithms/rbf_function.hpp>
 #include <terrane/algorithms/rbf_patches.hpp>
+#include <terrane/algorithms/triangle_tree.hpp>
 
 namespace terrane {
 
@@ -33,9 +34,10 @@ struct RbfForm {
                              ///< noise of the data is left to step (4), and out of the hole
 };
 
-/// `report` gets what happened. Errors: those of fit_rbf; interrupted.
-Result<Implicit> fit_hole(const HoleData& data, const RbfForm& form, const RbfOptions& options,
-                          RbfReport& report, const Run& run);
+/// `tree`: of the data's triangles. `report` gets what happened. Errors: those of fit_rbf;
+/// interrupted.
+Result<Implicit> fit_hole(const HoleData& data, const TriangleTree& tree, const RbfForm& form,
+                          const RbfOptions& options, RbfReport& report, const Run& run);
 
 /// The data without those nearest to the hole, as if it were larger.
 struct LeftOut {

@@ -11,6 +11,7 @@
 #include <mpfr.h>
 
 #include <terrane/algorithms/vectors.hpp>
+#include <terrane/kernel/twofold.hpp>
 
 namespace terrane {
 namespace {
@@ -39,12 +40,41 @@ struct System {
     Matrix terms; ///< n x m: the polynomial's, at each point
 };
 
+/// Per pair j < i of points, by rising i and j: the kernel as the sum of two doubles, to about 100
+/// bits.
+using WideKernel = std::vector<std::array<double, 2>>;
+
+WideKernel wide_kernel(const Matrix& points) {
+    const Eigen::Index n = points.rows();
+    WideKernel kernel;
+    kernel.reserve(static_cast<std::size_t>(n * (n - 1) / 2));
+    for (Eigen::Index i = 0; i < n; ++i)
+        for (Eigen::Index j = 0; j < i; ++j) {
+            Twofold square;
+            for (Eigen::Index k = 0; k < 3; ++k) {
+                const Twofold d = Twofold(points(i, k)) - Twofold(points(j, k));
+                square = square + d * d;
+            }
+            const double root = std::sqrt(square.value()); // and one of Newton's steps
+            const Twofold left = square - Twofold(root) * Twofold(root);
+            const Twofold value = square * (Twofold(root) + Twofold(left.value() / (2 * root)));
+            const double high = value.value();
+            kernel.push_back({high, (value - Twofold(high)).value()});
+        }
+    return kernel;
+}
+
 /// values - (kernel weights + polynomial), each entry summed in wide numbers.
-Vector residual(const System& s, const Vector& weights, const Vector& polynomial) {
+Vector residual(const System& s, const WideKernel& kernel, const Vector& weights,
+                const Vector& polynomial) {
     const Eigen::Index n = s.values.size();
-    std::vector<Wide> sums(static_cast<std::size_t>(n));
+    std::vector<Wide> sums(static_cast<std::size_t>(n)), factors(static_cast<std::size_t>(n));
     const auto sum = [&](Eigen::Index i) -> Wide& { return sums[static_cast<std::size_t>(i)]; };
-    Wide square, d, root;
+    const auto factor = [&](Eigen::Index i) -> Wide& {
+        return factors[static_cast<std::size_t>(i)];
+    };
+    Wide d, value;
+    for (Eigen::Index i = 0; i < n; ++i) mpfr_set_d(factor(i), weights[i], MPFR_RNDN);
     for (Eigen::Index i = 0; i < n; ++i) {
         mpfr_set_d(sum(i), s.values[i], MPFR_RNDN);
         for (Eigen::Index k = 0; k < polynomial.size(); ++k) {
@@ -53,19 +83,14 @@ Vector residual(const System& s, const Vector& weights, const Vector& polynomial
             mpfr_sub(sum(i), sum(i), d, MPFR_RNDN);
         }
     }
+    auto pair = kernel.begin();
     for (Eigen::Index i = 0; i < n; ++i)
-        for (Eigen::Index j = 0; j < i; ++j) { // each pair once: the kernel is symmetric
-            mpfr_set_zero(square, 1);
-            for (Eigen::Index k = 0; k < 3; ++k) {
-                mpfr_set_d(d, s.points(i, k), MPFR_RNDN);
-                mpfr_sub_d(d, d, s.points(j, k), MPFR_RNDN);
-                mpfr_fma(square, d, d, square, MPFR_RNDN);
-            }
-            mpfr_sqrt(root, square, MPFR_RNDN);
-            mpfr_mul(square, square, root, MPFR_RNDN);
-            mpfr_mul_d(d, square, weights[j], MPFR_RNDN);
+        for (Eigen::Index j = 0; j < i; ++j, ++pair) { // each pair once: the kernel is symmetric
+            mpfr_set_d(value, (*pair)[0], MPFR_RNDN);
+            mpfr_add_d(value, value, (*pair)[1], MPFR_RNDN);
+            mpfr_mul(d, value, factor(j), MPFR_RNDN);
             mpfr_sub(sum(i), sum(i), d, MPFR_RNDN);
-            mpfr_mul_d(d, square, weights[i], MPFR_RNDN);
+            mpfr_mul(d, value, factor(i), MPFR_RNDN);
             mpfr_sub(sum(j), sum(j), d, MPFR_RNDN);
         }
     Vector result(n);
@@ -128,13 +153,14 @@ void solve(const System& system, const Solver& solver, Vector& weights, Vector& 
     solver.add_solution(system.values, weights, polynomial);
     solution.first_residual = solution.residual = std::numeric_limits<double>::quiet_NaN();
     if (most_refinements == 0) return;
-    Vector left = residual(system, weights, polynomial);
+    const WideKernel kernel = wide_kernel(system.points);
+    Vector left = residual(system, kernel, weights, polynomial);
     solution.first_residual = solution.residual = left.cwiseAbs().maxCoeff();
     for (unsigned k = 0; k < most_refinements && !run.stop.stop_requested(); ++k) {
         if (solution.residual == 0) return;
         Vector better = weights, polynomial_better = polynomial;
         solver.add_solution(left, better, polynomial_better);
-        const Vector next = residual(system, better, polynomial_better);
+        const Vector next = residual(system, kernel, better, polynomial_better);
         const double largest = next.cwiseAbs().maxCoeff();
         if (!(largest < solution.residual)) return;
         const bool enough = largest > solution.residual / 2;

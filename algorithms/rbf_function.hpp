@@ -6,8 +6,8 @@
 //
 // The system is full and ill-conditioned. What is done about it: coordinates are scaled to a unit
 // box; the polynomial's orthogonal complement makes the rest positive definite (Householder, then
-// Cholesky); residuals are computed with MPFR in 128 bits and the solution refined until they no
-// longer fall by half; the condition is estimated and all of it is reported.
+// Cholesky); residuals are summed with MPFR in 128 bits, of kernels to 100 bits, and the solution
+// refined until they no longer fall by half; the condition is estimated and all of it is reported.
 // Cost: n^3 / 3 to fit n points, n per value.
 // Source: the paper, 4.1, equation (10); Wendland (2005), 6.3 and 8.5, for the complement.
 #pragma once

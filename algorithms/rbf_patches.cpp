@@ -16,10 +16,6 @@ namespace {
 constexpr std::uint32_t most_in_cell = 48;
 constexpr double widening = 1.5; ///< radius of a ball in radii of its cell
 
-double length(const Point3& a) {
-    return std::hypot(a.x, a.y, a.z);
-}
-
 /// Wendland's (1 - r)^4 (4 r + 1): 1 at 0, 0 from 1 on, twice differentiable.
 double weight(double r) {
     if (r >= 1) return 0;
@@ -33,8 +29,8 @@ double coordinate(const Point3& p, int axis) {
 
 double distance_to_box(const Point3& p, const Point3& low, const Point3& high) {
     const auto beyond = [](double x, double l, double h) { return std::max({l - x, 0.0, x - h}); };
-    return std::hypot(beyond(p.x, low.x, high.x), beyond(p.y, low.y, high.y),
-                      beyond(p.z, low.z, high.z));
+    return length(
+        {beyond(p.x, low.x, high.x), beyond(p.y, low.y, high.y), beyond(p.z, low.z, high.z)});
 }
 
 Point3 least(const Point3& a, const Point3& b) {
@@ -133,7 +129,7 @@ void RbfPatches::fit(const Values& data, Patch& patch) const {
     }
     const Eigen::VectorXd solved = system.partialPivLu().solve(right);
     patch.constant = solved[n];
-    patch.weights.assign(solved.begin(), solved.begin() + n);
+    for (Eigen::Index i = 0; i < n; ++i) patch.weights.push_back(solved[i] / patch.radius);
 }
 
 /// Children come after their parents.
@@ -171,7 +167,7 @@ double RbfPatches::operator()(const Point3& p) const {
         if (!(w > 0)) continue;
         double value = patch.constant;
         for (std::size_t i = 0; i < patch.points.size(); ++i)
-            value += patch.weights[i] * length(minus(p, patch.points[i])) / patch.radius;
+            value += patch.weights[i] * length(minus(p, patch.points[i]));
         sum += w * value;
         weights += w;
     }

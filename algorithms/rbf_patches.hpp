@@ -33,7 +33,7 @@ private:
         double radius = 0; ///< of the ball
         double constant = 0;
         std::vector<Point3> points;
-        std::vector<double> weights; ///< per point
+        std::vector<double> weights; ///< per point, and unit of distance
     };
     struct Node {                          ///< of a tree over the points; its leaves are the cells
         Point3 low, high;                  ///< of its points

@@ -106,14 +106,16 @@ public:
         energy_.compute(kernel.bottomRightCorner(n_ - m_, n_ - m_));
     }
     [[nodiscard]] bool ok() const { return energy_.info() == Eigen::Success; }
-    [[nodiscard]] Eigen::Index size() const { return n_ - m_; }
-
-    /// Per column of s.
-    [[nodiscard]] Matrix of(const Matrix& s) const {
-        Matrix weights = Matrix::Zero(n_, s.cols());
-        weights.bottomRows(n_ - m_) = energy_.matrixU().solve(s);
+    [[nodiscard]] Vector of(const Vector& s) const {
+        Vector weights = Vector::Zero(n_);
+        weights.tail(n_ - m_) = energy_.matrixU().solve(s);
         weights.applyOnTheLeft(terms_.householderQ());
         return weights;
+    }
+    /// What s makes of the weights' columns: rows times of(s) for any s.
+    [[nodiscard]] Matrix columns_for(Matrix rows) const {
+        rows.applyOnTheRight(terms_.householderQ());
+        return energy_.matrixU().solve<Eigen::OnTheRight>(rows.rightCols(n_ - m_));
     }
 
 private:
@@ -131,7 +133,9 @@ public:
         const Matrix base = terms_.householderQ() * Matrix::Identity(count_, m_);
         const Matrix across = columns_ - base * (base.transpose() * columns_);
         const Vector wanted = values_ - base * (base.transpose() * values_);
-        directions_.compute(across.transpose() * across);
+        Matrix normal = Matrix::Zero(columns_.cols(), columns_.cols()); // its lower half
+        normal.selfadjointView<Eigen::Lower>().rankUpdate(across.transpose());
+        directions_.compute(normal);
         right_ = directions_.eigenvectors().transpose() * (across.transpose() * wanted);
         spectrum_ = {directions_.eigenvalues(), right_.cwiseAbs2(), wanted.squaredNorm(),
                      static_cast<double>(count_), static_cast<double>(m_)};
@@ -193,8 +197,7 @@ Result<RbfSmoothFit> smooth_rbf(std::span<const Point3> centres, std::span<const
     const auto centre_places = scaled(centres), places = scaled(points);
     const Weights weights(kernel_between(centre_places, centre_places), terms(centre_places));
     if (!weights.ok()) return bad("points are too near together");
-    const Matrix columns = kernel_between(places, centre_places) *
-                           weights.of(Matrix::Identity(weights.size(), weights.size()));
+    const Matrix columns = weights.columns_for(kernel_between(places, centre_places));
     if (run.stop.stop_requested()) return Error{ErrorCode::interrupted, "stopped on request", ""};
     // 2. how much smoothing
     Vector wanted(static_cast<Eigen::Index>(values.size()));
@@ -207,8 +210,8 @@ Result<RbfSmoothFit> smooth_rbf(std::span<const Point3> centres, std::span<const
         rms > 0 ? missing_by(spectrum, rms / f.scale_) : cross_validated(spectrum);
     // 3. the function
     const Vector s = ridge.solve(lambda), polynomial_part = ridge.polynomial(s);
-    const Matrix chosen = weights.of(s);
-    f.weights_.assign(chosen.data(), chosen.data() + chosen.size());
+    const Vector chosen = weights.of(s);
+    f.weights_.assign(chosen.begin(), chosen.end());
     f.polynomial_.assign(polynomial_part.begin(), polynomial_part.end());
     fit.rms = f.scale_ * spectrum.rms(lambda);
     fit.freedom = spectrum.freedom(lambda);

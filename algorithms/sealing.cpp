@@ -33,10 +33,6 @@ constexpr unsigned most_rounds = 4;  ///< of taking useless strips out: one is e
 constexpr double least_steps = 1024; ///< shortest strip, in steps of doubles at its coordinates:
                                      ///< shorter ones have no direction
 
-double length(const Point3& a) {
-    return std::hypot(a.x, a.y, a.z);
-}
-
 Point3 middle(const Point3& p, const Point3& q) {
     return {p.x + (q.x - p.x) / 2, p.y + (q.y - p.y) / 2, p.z + (q.z - p.z) / 2};
 }

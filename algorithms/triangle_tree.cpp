@@ -13,10 +13,6 @@ namespace {
 
 constexpr std::uint32_t most_in_leaf = 4;
 
-double length(const Point3& a) {
-    return std::hypot(a.x, a.y, a.z);
-}
-
 /// How far along a b the nearest point is, from 0 to 1.
 double nearest_share(const Point3& p, const Point3& a, const Point3& b) {
     const Point3 d = minus(b, a), from = minus(p, a);
@@ -38,8 +34,8 @@ Point3 nearest_on_segment(const Point3& p, const Point3& a, const Point3& b) {
 
 double distance_to_box(const Point3& p, const Point3& low, const Point3& high) {
     const auto beyond = [](double x, double l, double h) { return std::max({l - x, 0.0, x - h}); };
-    return std::hypot(beyond(p.x, low.x, high.x), beyond(p.y, low.y, high.y),
-                      beyond(p.z, low.z, high.z));
+    return length(
+        {beyond(p.x, low.x, high.x), beyond(p.y, low.y, high.y), beyond(p.z, low.z, high.z)});
 }
 
 } // namespace
@@ -121,22 +117,28 @@ std::uint32_t TriangleTree::build(std::uint32_t first, std::uint32_t last) {
 template <class Visit>
 void TriangleTree::for_near(const Point3& p, const double& bound, const Visit& visit) const {
     if (nodes_.empty()) return;
-    const auto to_box = [&](std::uint32_t n) {
-        return distance_to_box(p, nodes_[n].low, nodes_[n].high);
+    struct Open {
+        std::uint32_t node;
+        double distance; ///< to its box
     };
-    std::array<std::uint32_t, 96> stack{}; // two per level, and the tree is halved at each
+    const auto opened = [&](std::uint32_t n) {
+        return Open{n, distance_to_box(p, nodes_[n].low, nodes_[n].high)};
+    };
+    std::array<Open, 96> stack; // two per level, and the tree is halved at each
     std::size_t top = 0;
-    stack[top++] = 0;
+    stack[top++] = opened(0);
     while (top > 0) {
-        const Node& node = nodes_[stack[--top]];
-        if (distance_to_box(p, node.low, node.high) >= bound) continue;
+        const Open next = stack[--top];
+        if (next.distance >= bound) continue;
+        const Node& node = nodes_[next.node];
         if (node.left == 0) {
             for (std::uint32_t t = node.first; t < node.last; ++t) visit(triangles_[t]);
             continue;
         }
-        const bool left_first = to_box(node.left) <= to_box(node.right);
-        stack[top++] = left_first ? node.right : node.left;
-        stack[top++] = left_first ? node.left : node.right;
+        const Open left = opened(node.left), right = opened(node.right);
+        const bool left_first = left.distance <= right.distance;
+        stack[top++] = left_first ? right : left;
+        stack[top++] = left_first ? left : right;
     }
 }
 

@@ -3,6 +3,8 @@
 // Vectors in floating point, for measures: exact signs come from the kernel's predicates.
 #pragma once
 
+#include <cmath>
+
 #include <terrane/kernel/point.hpp>
 
 namespace terrane {
@@ -12,6 +14,12 @@ inline Point3 minus(const Point3& a, const Point3& b) {
 }
 inline double dot(const Point3& a, const Point3& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+/// Without overflow or underflow on the way.
+inline double length(const Point3& a) {
+    const double square = dot(a, a);
+    constexpr double least = 1e-290, most = 1e290; // what is between has not lost any digits
+    return square > least && square < most ? std::sqrt(square) : std::hypot(a.x, a.y, a.z);
 }
 inline Point3 cross(const Point3& a, const Point3& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};

@@ -267,10 +267,6 @@ private:
     std::vector<Node> cubes_;
 };
 
-double length(const Point3& a) {
-    return std::hypot(a.x, a.y, a.z);
-}
-
 /// Takes out vertices that are nearer to a neighbour than `least`: one after the other stays, and
 /// those near it go, so that each that went has one near it that stayed. Those at the border come
 /// first, since they have to stay.
@@ -319,13 +315,13 @@ private:
     std::vector<bool> stays_; ///< per vertex
 };
 
-/// The point moved along the gradient onto the level, by `most` at most.
-Point3 onto_level(const SpaceFunction& function, Point3 p, double most) {
-    constexpr int steps = 2; // quadratic convergence, from a start that is near
+/// The point moved along the gradient onto the level, by `most` at most in a step. The gradient of
+/// the start serves all steps: of what is missed there, two leave about the cube.
+Point3 onto_level(const SpaceFunction& function, Point3 p, double most, int steps) {
+    const Point3 g = function.gradient(p);
+    const double square = dot(g, g);
+    if (!(square > 0)) return p;
     for (int k = 0; k < steps; ++k) {
-        const Point3 g = function.gradient(p);
-        const double square = dot(g, g);
-        if (!(square > 0)) return p;
         const double f = function.value(p) / square;
         const double size = std::fabs(f) * std::sqrt(square);
         const double share = size > most ? most / size : 1;
@@ -351,8 +347,10 @@ void smooth(DiskMesh& mesh, const SpaceFunction& function, double size, bool mov
             const auto count = static_cast<double>(near.size());
             p = {p.x / count, p.y / count, p.z / count};
         }
-        // To be on the level matters more than shape.
-        mesh.move_if_sound(v, onto_level(function, p, size / 3), move_to_middle ? 0.4 : 0.05);
+        // To be on the level matters more than shape, and what moves on needs not be on it yet.
+        const int steps = move_to_middle ? 1 : 2;
+        mesh.move_if_sound(v, onto_level(function, p, size / 3, steps),
+                           move_to_middle ? 0.4 : 0.05);
     }
 }
 
