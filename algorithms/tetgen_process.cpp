@@ -29,6 +29,18 @@
 #define TETLIBRARY
 #include <tetgen.h>
 
+// Of the runtime of AddressSanitizer; null in a program without it.
+// NOLINTBEGIN(bugprone-reserved-identifier)
+namespace __lsan {
+void LockAllocator() __attribute__((weak));
+void UnlockAllocator() __attribute__((weak));
+} // namespace __lsan
+namespace __sanitizer {
+void StackDepotLockAll() __attribute__((weak));
+void StackDepotUnlockAll() __attribute__((weak));
+} // namespace __sanitizer
+// NOLINTEND(bugprone-reserved-identifier)
+
 namespace terrane {
 namespace {
 
@@ -194,6 +206,28 @@ int call_tetgen(const TetgenInput& input, tetgenio& out) {
 
 // ---- In the parent ----------------------------------------------------------------------------
 
+/// A child may allocate, whatever other threads were at when it was forked: glibc holds the locks
+/// of its allocator meanwhile, but AddressSanitizer's allocator (LLVM 14) leaves that to us.
+class AllocatorLocks {
+public:
+    AllocatorLocks() {
+        if (__lsan::LockAllocator != nullptr) __lsan::LockAllocator();
+        if (__sanitizer::StackDepotLockAll != nullptr) __sanitizer::StackDepotLockAll();
+    }
+    ~AllocatorLocks() {
+        if (__sanitizer::StackDepotUnlockAll != nullptr) __sanitizer::StackDepotUnlockAll();
+        if (__lsan::UnlockAllocator != nullptr) __lsan::UnlockAllocator();
+    }
+    AllocatorLocks(const AllocatorLocks&) = delete;
+    AllocatorLocks& operator=(const AllocatorLocks&) = delete;
+};
+
+/// fork(), with the locks released in both processes.
+pid_t fork_soundly() {
+    const AllocatorLocks locks;
+    return fork();
+}
+
 Error from_tetgen(int code) {
     switch (code) {
     case 1:
@@ -219,7 +253,7 @@ public:
         int ends[2];
         if (pipe2(ends, O_CLOEXEC) != 0) return;
         const pid_t parent = getpid();
-        pid_ = fork();
+        pid_ = fork_soundly();
         if (pid_ == 0) {
             close(ends[0]);
             become_child(parent);

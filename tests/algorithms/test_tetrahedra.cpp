@@ -2,12 +2,14 @@
 #include <terrane/algorithms/tetrahedra.hpp>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <stop_token>
@@ -20,6 +22,7 @@
 
 #include <terrane/algorithms/arrangement.hpp>
 #include <terrane/algorithms/rounding.hpp>
+#include <terrane/algorithms/tetgen_process.hpp>
 #include <terrane/io/files.hpp>
 #include <terrane/kernel/predicates.hpp>
 
@@ -451,6 +454,28 @@ TEST_CASE("tetrahedra: calls from several threads do not disturb each other", "[
         CHECK(one->vertices == alone.vertices);
         CHECK(one->tetrahedra == alone.tetrahedra);
     }
+}
+
+// The child has but one thread; a lock that another one held when it was forked stays locked in it.
+TEST_CASE("tetrahedra: other threads may allocate while TetGen is started", "[tetrahedra]") {
+    const auto allocate = [](const std::stop_token& stop) {
+        for (std::size_t round = 0; !stop.stop_requested(); ++round) {
+            std::vector<std::unique_ptr<char[]>> blocks;
+            for (std::size_t k = 0; k < 1000; ++k)
+                blocks.emplace_back(new char[1 + (k * 3701 + round * 11) % 20'000]);
+        }
+    };
+    const std::array<std::jthread, 2> busy{std::jthread(allocate), std::jthread(allocate)};
+    TetgenInput cube_of_points;
+    for (unsigned k = 0; k < 8; ++k)
+        cube_of_points.points.push_back({k & 1U ? 1.0 : 0, k & 2U ? 1.0 : 0, k & 4U ? 1.0 : 0});
+    for (const auto& face : std::array<std::array<std::uint32_t, 4>, 6>{
+             {{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}}})
+        cube_of_points.facets.push_back(face);
+    cube_of_points.max_volume = 0.001;
+    cube_of_points.keep_facets = false;
+    cube_of_points.time_limit = 60; // it takes milliseconds
+    for (int k = 0; k < 20; ++k) REQUIRE(run_tetgen(cube_of_points, {}));
 }
 
 TEST_CASE("tetrahedra: nothing is printed, also where TetGen would", "[tetrahedra]") {
