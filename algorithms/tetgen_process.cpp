@@ -30,7 +30,7 @@
 #include <tetgen.h>
 
 // Of the runtime of AddressSanitizer; null in a program without it.
-// NOLINTBEGIN(bugprone-reserved-identifier)
+// NOLINTBEGIN(bugprone-reserved-identifier,readability-identifier-naming): their names
 namespace __lsan {
 void LockAllocator() __attribute__((weak));
 void UnlockAllocator() __attribute__((weak));
@@ -39,7 +39,7 @@ namespace __sanitizer {
 void StackDepotLockAll() __attribute__((weak));
 void StackDepotUnlockAll() __attribute__((weak));
 } // namespace __sanitizer
-// NOLINTEND(bugprone-reserved-identifier)
+// NOLINTEND(bugprone-reserved-identifier,readability-identifier-naming)
 
 namespace terrane {
 namespace {
