@@ -17,7 +17,6 @@
 #include <terrane/algorithms/arrangement.hpp>
 #include <terrane/algorithms/memory.hpp>
 #include <terrane/algorithms/rounding.hpp>
-#include <terrane/algorithms/soup.hpp>
 
 #include "floor.hpp"
 #include "models.hpp"
@@ -153,7 +152,7 @@ void print_search(const char* name, const Options& options) {
     std::size_t pairs = 0, same = 0;
     for (unsigned i = 0; i < repeats; ++i) {
         ours.time([&] {
-            const auto boxes = boxes_of(m.points, m.triangles);
+            const BoxSource boxes(m.points, m.triangles); // as arrange has it
             pairs = candidate_pairs(boxes, m.groups, Search::automatic).size();
         });
         floor.time([&] { same = floor_of_search(m); });
