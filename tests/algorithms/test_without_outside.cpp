@@ -15,6 +15,7 @@
 #include <terrane/algorithms/sharpest_angle.hpp>
 #include <terrane/algorithms/tetrahedra.hpp>
 #include <terrane/algorithms/triangle_tree.hpp>
+#include <terrane/algorithms/vectors.hpp>
 
 using namespace terrane;
 using namespace test_support;
@@ -111,8 +112,7 @@ TEST_CASE("TriangleTree: the nearest point is on the triangles, and as far as th
         const auto near = tree.nearest(p, HUGE_VAL);
         REQUIRE(near);
         CHECK(near->distance == Approx(d).margin(1e-15));
-        CHECK(std::hypot(near->place.x - p.x, near->place.y - p.y, near->place.z - p.z) ==
-              near->distance);
+        CHECK(length(minus(near->place, p)) == near->distance);
         if (d > 1e-9) CHECK_FALSE(tree.nearest(p, d * 0.999));
     }
     CHECK_FALSE(TriangleTree(points, {}).nearest({0, 0, 0}, HUGE_VAL));
