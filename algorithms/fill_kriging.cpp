@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include <terrane/algorithms/edges.hpp>
+#include <terrane/algorithms/flatness.hpp>
 #include <terrane/algorithms/hole_data.hpp>
 #include <terrane/algorithms/kriging_choice.hpp>
 #include <terrane/kernel/predicates.hpp>
@@ -19,6 +22,7 @@ using detail::HoleData;
 
 constexpr std::size_t most_places = 20'000;
 constexpr std::size_t most_validated = 400;
+constexpr std::size_t most_sags = 256;
 
 Error interrupted() {
     return {ErrorCode::interrupted, "interrupted", ""};
@@ -119,7 +123,39 @@ Result<FlatFilling> mesh_of(const HoleData& data, double mesh_size, const Run& r
         }
         flat.triangles.push_back(t);
     }
+    if (const auto status = check_sides(data, flat.points, flat.triangles); !status)
+        return status.error();
     return flat;
+}
+
+/// Gives what is invented its heights. Per vertex its deviation, 0 on the borders.
+std::vector<double> set_heights(FlatFilling& flat, const Kriging& kriging, const Run& run) {
+    const auto estimates = kriging.at(std::span(flat.points).subspan(flat.border), run);
+    std::vector<double> deviation(flat.points.size(), 0);
+    for (std::size_t i = 0; i < estimates.size(); ++i) {
+        flat.points[flat.border + i].z = estimates[i].value;
+        deviation[flat.border + i] = estimates[i].deviation;
+    }
+    return deviation;
+}
+
+/// Whether a filling of smaller triangles would be nearer to the truth.
+bool is_too_flat(const FlatFilling& flat, const Kriging& kriging, double mesh_size,
+                 const Run& run) {
+    const auto edges = detail::some_inner_edges(flat.triangles, flat.points.size(), most_sags);
+    std::vector<Point3> places;
+    for (const auto& [a, b] : edges) {
+        const Point3 &p = flat.points[a], &q = flat.points[b];
+        places.insert(places.end(), {p, q, detail::middle_of(p, q)});
+    }
+    const auto estimates = kriging.at(places, run);
+    std::vector<double> sags, expected;
+    for (std::size_t i = 0; i < estimates.size(); i += 3) {
+        const Estimate* e = &estimates[i]; // noise of the data on the border does not count
+        sags.push_back(e[2].value - (e[0].value + e[1].value) / 2);
+        expected.push_back(e[2].deviation);
+    }
+    return detail::flatness_outweighs(sags, expected, mesh_size);
 }
 
 double area_of(const Surface& s) {
@@ -171,38 +207,41 @@ Result<Filling> fill_by_kriging(const Surface& surface, const BorderLoop& loop,
     if (!found) return found.error();
     const HoleData& data = found.value();
     const double area = detail::signed_area(data.points, data.borders[0]);
-    const double mesh_size =
+    double mesh_size =
         options.mesh_size > 0 ? options.mesh_size : median_edge(data.points, data.borders[0]);
     if (area == 0 || !(mesh_size > 0))
         return Error{ErrorCode::nothing_to_do, "the hole has no area, seen from above",
                      fmt::format("({}, {}, {})", loop.centre.x, loop.centre.y, loop.centre.z)};
     if (run.stop.stop_requested()) return interrupted();
     // 2. the mesh in the plane
-    auto meshed = mesh_of(data, mesh_size, run);
-    if (!meshed) return meshed.error();
-    const FlatFilling& flat = meshed.value();
-    if (const auto status = check_sides(data, flat.points, flat.triangles); !status)
-        return status.error();
+    auto flat = mesh_of(data, mesh_size, run);
+    if (!flat) return flat.error();
+    const auto border = flat.value().border;
     // 3. heights
     Filling filling;
-    const Kriging kriging = model_of(data, flat.border, options.variogram, filling.report);
-    const auto estimates = kriging.at(std::span(flat.points).subspan(flat.border), run);
-    if (run.stop.stop_requested()) return interrupted();
-    filling.surface = {surface.name, surface.role, flat.points, flat.triangles};
-    filling.exact_border = true;
-    filling.deviation.assign(flat.points.size(), 0);
-    double squares = 0;
-    for (std::size_t i = 0; i < estimates.size(); ++i) {
-        filling.surface.vertices[flat.border + i].z = estimates[i].value;
-        filling.deviation[flat.border + i] = estimates[i].deviation;
-        squares += estimates[i].deviation * estimates[i].deviation;
+    const Kriging kriging = model_of(data, border, options.variogram, filling.report);
+    filling.deviation = set_heights(flat.value(), kriging, run);
+    for (int halvings = 0; options.mesh_size == 0 && halvings < detail::most_halvings; ++halvings) {
+        if (4 * (flat.value().points.size() - border) > most_places || run.stop.stop_requested() ||
+            !is_too_flat(flat.value(), kriging, mesh_size, run))
+            break;
+        mesh_size /= 2;
+        flat = mesh_of(data, mesh_size, run);
+        if (!flat) return flat.error();
+        filling.deviation = set_heights(flat.value(), kriging, run);
     }
+    if (run.stop.stop_requested()) return interrupted();
+    filling.surface = {surface.name, surface.role, std::move(flat.value().points),
+                       std::move(flat.value().triangles)};
+    filling.exact_border = true;
     if (area > 0) // the surface on the left of a loop that runs the other way: its front is down
         for (Triangle& t : filling.surface.triangles) std::swap(t[1], t[2]);
-    filling.report.invented = estimates.size();
+    filling.report.invented = filling.surface.vertices.size() - border;
     filling.report.area = area_of(filling.surface);
+    const double squares = std::inner_product(filling.deviation.begin(), filling.deviation.end(),
+                                              filling.deviation.begin(), 0.0);
     filling.report.expected_error =
-        estimates.empty() ? 0 : std::sqrt(squares / static_cast<double>(estimates.size()));
+        squares == 0 ? 0 : std::sqrt(squares / static_cast<double>(filling.report.invented));
     return filling;
 }
 

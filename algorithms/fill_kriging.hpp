@@ -16,7 +16,9 @@ namespace terrane {
 
 struct KrigingOptions {
     FitOptions variogram{};
-    double mesh_size = 0;  ///< of the filling, unit of x and y; 0: median edge of the hole's border
+    double mesh_size = 0;  ///< of the filling, unit of x and y; 0: the median edge of the hole's
+                           ///< border, down to a quarter where flat triangles of that size would
+                           ///< miss more than the heights themselves are expected to
     std::size_t rings = 5; ///< of triangles round the hole whose corners are data; >= 1
     std::span<const BorderLoop> loops{}; ///< all of the surface: parts of it that lie within the
                                          ///< hole are data too, and left out of the filling

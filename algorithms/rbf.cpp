@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include <terrane/algorithms/edges.hpp>
+#include <terrane/algorithms/flatness.hpp>
 #include <terrane/algorithms/rbf_data.hpp>
 #include <terrane/algorithms/rbf_error.hpp>
 #include <terrane/algorithms/rbf_fit.hpp>
@@ -122,34 +123,72 @@ Result<Surface> mesh_zero_level(const Implicit& f, const HoleData& data, const T
     return zero_level(function, options, run);
 }
 
+/// Per place the expected error; 0 over the surface.
+std::vector<double> deviation_at(std::span<const Point3> places, const HoleData& data,
+                                 const RbfChoice& choice, double nugget, const Run& run) {
+    std::vector<double> deviation(places.size(), no_number);
+    if (!std::isfinite(choice.expected)) return deviation;
+    const RbfError error(data, choice.form.polynomial, 0, nugget);
+    deviation = error.at(places, false, run);
+    for (double& d : deviation) d *= choice.expected;
+    return deviation;
+}
+
+/// The level over the hole, as far as it is meshed.
+struct Level {
+    const Implicit& f;
+    const HoleData& data;
+    const TriangleTree& tree; ///< of the data's triangles
+    const RbfChoice& choice;
+};
+
 /// Whether the triangles cut corners at the border: the level there is farther from them than a
 /// quarter of their size.
-bool too_coarse(const Surface& level, const Implicit& f, const HoleData& data, double size) {
-    const TriangleTree tree(level.vertices, level.triangles);
-    const auto border = std::span(data.points).first(data.next.size());
+bool cuts_corners(const Surface& mesh, const Level& level, double size) {
+    const TriangleTree tree(mesh.vertices, mesh.triangles);
+    const auto border = std::span(level.data.points).first(level.data.next.size());
     return std::any_of(border.begin(), border.end(), [&](const Point3& p) {
-        const Point3 g = f.smooth.gradient(p);
-        const double step = -f(p) / dot(g, g);
+        const Point3 g = level.f.smooth.gradient(p);
+        const double step = -level.f(p) / dot(g, g);
         const Point3 on{p.x + step * g.x, p.y + step * g.y, p.z + step * g.z};
         return tree.distance(on, size) > size / 4;
     });
 }
 
-/// The same, with edges as long as those of the border, or half or a quarter of that where the
-/// surface turns too sharply for them; and no more vertices than are allowed.
-Result<Surface> mesh_to_size(const Implicit& f, const HoleData& data, const TriangleTree& tree,
-                             const BorderLoop& loop, const RbfOptions& options, double& size,
-                             const Run& run) {
-    const double least = least_size(loop, options);
-    size = options.size > 0 ? options.size : std::max(data.edge, least);
-    auto level = mesh_zero_level(f, data, tree, size, run);
-    if (options.size > 0) return level;
-    for (int halvings = 0; halvings < 2 && size / 2 >= least; ++halvings) {
-        if (!level || !too_coarse(level.value(), f, data, size)) break;
-        size /= 2;
-        level = mesh_zero_level(f, data, tree, size, run);
+/// Whether a filling of smaller triangles would be nearer to the truth.
+bool is_too_flat(const Surface& mesh, const Level& level, double size, const Run& run) {
+    constexpr std::size_t most = 1024;
+    const RbfFunction& f = level.f.smooth; // patches fade away over less than an edge
+    std::vector<Point3> middles;
+    std::vector<double> sags;
+    for (const auto& [a, b] :
+         detail::some_inner_edges(mesh.triangles, mesh.vertices.size(), most)) {
+        const Point3 &p = mesh.vertices[a], &q = mesh.vertices[b], m = detail::middle_of(p, q);
+        if (level.tree.distance(m, size / 2) < size / 2) continue; // over the surface
+        sags.push_back((f(m) - (f(p) + f(q)) / 2) / length(f.gradient(m)));
+        middles.push_back(m);
     }
-    return level;
+    return detail::flatness_outweighs(
+        sags, deviation_at(middles, level.data, level.choice, level.f.nugget, run), size);
+}
+
+/// The same, with edges as long as those of the border, or half or a quarter of that where the
+/// surface turns too sharply for them or is known better than they can show; and no more vertices
+/// than are allowed.
+Result<Surface> mesh_to_size(const Level& level, const BorderLoop& loop, const RbfOptions& options,
+                             double& size, const Run& run) {
+    const double least = least_size(loop, options);
+    size = options.size > 0 ? options.size : std::max(level.data.edge, least);
+    auto mesh = mesh_zero_level(level.f, level.data, level.tree, size, run);
+    if (options.size > 0) return mesh;
+    for (int halvings = 0; halvings < detail::most_halvings && size / 2 >= least; ++halvings) {
+        if (!mesh || !(cuts_corners(mesh.value(), level, size) ||
+                       is_too_flat(mesh.value(), level, size, run)))
+            break;
+        size /= 2;
+        mesh = mesh_zero_level(level.f, level.data, level.tree, size, run);
+    }
+    return mesh;
 }
 
 double area_of(const Surface& s) {
@@ -174,17 +213,6 @@ std::string describe(const RbfReport& r, const RbfForm& form, bool smoothed) {
                                "missed by {:.2g} at most, {} patches, then by {:.2g}",
                                r.solution.condition, r.solution.residual, r.solution.refinements,
                                r.missed, r.patches, r.largest_error);
-}
-
-/// Per vertex of the filling the expected error; 0 over the surface.
-std::vector<double> deviation_of(const Surface& filling, const HoleData& data,
-                                 const RbfChoice& choice, double nugget, const Run& run) {
-    std::vector<double> deviation(filling.vertices.size(), no_number);
-    if (!std::isfinite(choice.expected)) return deviation;
-    const RbfError error(data, choice.form.polynomial, 0, nugget);
-    deviation = error.at(filling.vertices, false, run);
-    for (double& d : deviation) d *= choice.expected;
-    return deviation;
 }
 
 /// Root mean square over the vertices that are off the surface: over the hole.
@@ -224,14 +252,15 @@ Result<Filling> fill_valid(const Surface& surface, const BorderLoop& loop,
     const TriangleTree tree(data.value().points, data.value().triangles);
     const auto f = fit_hole(data.value(), tree, form, options, report, run);
     if (!f) return f.error();
-    auto level = mesh_to_size(f.value(), data.value(), tree, loop, options, report.size, run);
-    if (!level) return level.error();
+    const Level level{f.value(), data.value(), tree, choice.value()};
+    auto mesh = mesh_to_size(level, loop, options, report.size, run);
+    if (!mesh) return mesh.error();
     Filling filling;
-    filling.surface = std::move(level).value();
+    filling.surface = std::move(mesh).value();
     filling.surface.name = surface.name;
     filling.surface.role = surface.role;
     filling.deviation =
-        deviation_of(filling.surface, data.value(), choice.value(), f.value().nugget, run);
+        deviation_at(filling.surface.vertices, data.value(), choice.value(), f.value().nugget, run);
     filling.report.data = report.data;
     filling.report.invented = filling.surface.vertices.size();
     filling.report.area = area_of(filling.surface);

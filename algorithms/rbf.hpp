@@ -50,7 +50,8 @@ struct RbfOptions {
     double tolerance = 0; ///< unit of the surface; 0: a thousandth of the median border edge
     double size = 0;      ///< edge length of the filling; 0: the median border edge, more where
                           ///< the hole would take more than most_vertices, down to a quarter
-                          ///< where triangles of that size would cut corners at the border
+                          ///< where triangles of that size would cut corners at the border, or be
+                          ///< farther off the level, for being flat, than that is off the truth
     std::size_t most_vertices = 50'000;
     unsigned degree = 0; ///< of the polynomial part along the hole: 1 is the paper's, up to 8; 0:
                          ///< the one of these that predicts best

@@ -93,6 +93,36 @@ TEST_CASE("fill by kriging: smooth surfaces, far nearer than the depth of the ho
     }
 }
 
+TEST_CASE("fill by kriging: triangles as small as the heights are good", "[kriging]") {
+    const auto missed_by_triangles = [](const Filling& f) {
+        double sum = 0;
+        for (const Triangle& t : f.surface.triangles) {
+            const auto &a = f.surface.vertices[t[0]], &b = f.surface.vertices[t[1]],
+                       &c = f.surface.vertices[t[2]];
+            const double z = (a.z + b.z + c.z) / 3;
+            sum += std::pow(z - wave((a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3), 2);
+        }
+        return std::sqrt(sum / double(f.surface.triangles.size()));
+    };
+    const Surface s = sheet(40, 36, 10, without_disc(18, 17, 5), wave);
+    const Filling fine = filling_of(s), given = filling_of(s, {.mesh_size = 10});
+    CHECK(fine.report.invented > 10 * given.report.invented); // a quarter of the size
+    CHECK(fine.report.invented < 25 * given.report.invented);
+    CHECK(4 * missed_by_triangles(fine) < missed_by_triangles(given));
+    CHECK(fine.report.expected_error < 2 * given.report.expected_error);
+    check_joined(s, joined(s, fine));
+    // Not where heights are known no better than large triangles show them, nor beyond what the
+    // mesh may have of vertices.
+    Random random(5);
+    const auto noisy = [&](double x, double y) {
+        return wave(x, y) + std::normal_distribution<double>(0, 1)(random);
+    };
+    const Surface rough = sheet(40, 36, 10, without_disc(18, 17, 5), noisy);
+    CHECK(filling_of(rough).report.invented == given.report.invented);
+    const Surface wide = sheet(190, 190, 10, without_disc(95, 95, 86), wave);
+    CHECK(filling_of(wide).report.invented < 21'000);
+}
+
 TEST_CASE("fill by kriging: a plane is filled with that plane", "[kriging]") {
     const auto plane = [](double x, double y) { return 0.25 * x - 0.5 * y + 7; };
     const Surface s = sheet(20, 20, 8, without_disc(10, 9, 4), plane);

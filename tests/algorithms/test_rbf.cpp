@@ -15,6 +15,7 @@
 #include "../support/holed_surfaces.hpp"
 #include <terrane/algorithms/check.hpp>
 #include <terrane/algorithms/join.hpp>
+#include <terrane/algorithms/rbf_join.hpp>
 
 using namespace terrane;
 using namespace test_support;
@@ -208,6 +209,51 @@ TEST_CASE("rbf: a hinge sharper than the border's edges takes smaller triangles"
     // As many vertices as are allowed are a limit for them, too.
     REQUIRE(fill_by_rbf(s, hole, {.most_centres = 400, .most_vertices = 300}, report, {}));
     CHECK(report.size == Approx(25.9).epsilon(0.01));
+}
+
+TEST_CASE("rbf: triangles as small as the level is good", "[rbf]") {
+    const auto wavy = [](double x, double y) { return 0.5 * std::sin(x) * std::cos(0.7 * y); };
+    const auto missed_by_triangles = [&](const Surface& before, const Surface& after) {
+        double sum = 0;
+        const std::size_t first = before.triangles.size(), n = after.triangles.size() - first;
+        for (std::size_t i = first; i < after.triangles.size(); ++i) {
+            Point3 m{0, 0, 0};
+            for (const auto v : after.triangles[i]) {
+                const Point3& p = after.vertices[v];
+                m = {m.x + p.x / 3, m.y + p.y / 3, m.z + p.z / 3};
+            }
+            sum += std::pow(m.z - wavy(m.x, m.y), 2);
+        }
+        return std::sqrt(sum / static_cast<double>(n));
+    };
+    const auto holed = [&](double noise) {
+        Surface s = punched(sheet(graph(wavy), 0, 0, 10, 10, 40, 40), disk(5, 5, 0.9));
+        std::mt19937 random(7);
+        std::normal_distribution<double> off(0, noise);
+        if (noise > 0)
+            for (Point3& p : s.vertices) p.z += off(random);
+        return s;
+    };
+    const Surface smooth = holed(0);
+    const auto hole = holes_of(smooth).at(0);
+    const auto filled = fill_and_join_by_rbf(smooth, hole, {});
+    const auto coarse = fill_and_join_by_rbf(smooth, hole, {.size = 0.25});
+    REQUIRE((filled && coarse));
+    const auto& [filling, joined, report] = filled.value();
+    CHECK(report.size <= 0.25 / 2);
+    CHECK(report.size > 0.25 / 5);
+    CHECK(coarse.value().report.size == 0.25);
+    CHECK(3 * missed_by_triangles(smooth, joined.surface) <
+          missed_by_triangles(smooth, coarse.value().joined.surface));
+    CHECK(check(std::span(&joined.surface, 1)).value().clean());
+    // Not where the level is known no better than large triangles show it, nor beyond the vertices
+    // that are allowed.
+    const Surface rough = holed(0.02);
+    RbfReport other;
+    REQUIRE(fill_by_rbf(rough, holes_of(rough).at(0), {}, other, {}));
+    CHECK(other.size > 0.24);
+    REQUIRE(fill_by_rbf(smooth, hole, {.most_vertices = 100}, other, {}));
+    CHECK(other.size > 0.24);
 }
 
 TEST_CASE("rbf: four holes on one horizon (the paper's Figure 22)", "[rbf]") {

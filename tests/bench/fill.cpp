@@ -48,6 +48,13 @@ double expected_of(const Filling& filling, const Joined& made) {
     return std::sqrt(squares / double(std::max<std::size_t>(made.filling_vertices.size(), 1)));
 }
 
+void print_kriging(const Model& model, const Filling& filling, const char* way, double seconds) {
+    const auto filled = joined(model.holed, filling);
+    print_misfit(way, misfit(model, filled, model.holed.triangles.size()), seconds);
+    std::printf(" (predicted %.3g, left out %.3g)", filling.report.expected_error,
+                filling.report.validated_error);
+}
+
 void print_rbf(const Model& model, const BorderLoop& loop, const char* way,
                const RbfOptions& options) {
     const auto start = std::chrono::steady_clock::now();
@@ -60,10 +67,17 @@ void print_rbf(const Model& model, const BorderLoop& loop, const char* way,
     const auto& [filling, joined, report] = made.value();
     print_misfit(way, misfit(model, joined.surface, model.holed.triangles.size()), seconds);
     std::printf(" (predicted %.3g)", expected_of(filling, joined));
-    if (!model.smooth || options.size > 0) return;
-    RbfOptions fine = options; // what remains of the error when triangles are less flat
-    fine.size = report.size / 2;
-    print_rbf(model, loop, "rbf, half the size", fine);
+}
+
+/// With triangles as large as those round the hole.
+void print_at_size_of_border(const Model& model, const BorderLoop& loop) {
+    const double size = loop.length / double(loop.vertices.size());
+    KrigingOptions options;
+    options.mesh_size = size;
+    const auto start = std::chrono::steady_clock::now();
+    if (const auto filling = fill_by_kriging(model.holed, loop, options))
+        print_kriging(model, filling.value(), "kriging, border's size", seconds_since(start));
+    print_rbf(model, loop, "rbf, border's size", {.size = size});
 }
 
 void run(const Model& model, bool yardsticks) {
@@ -76,15 +90,12 @@ void run(const Model& model, bool yardsticks) {
     const auto start = std::chrono::steady_clock::now();
     const auto filling = fill_by_kriging(model.holed, *hole);
     const double seconds = seconds_since(start);
-    if (filling) {
-        const auto filled = joined(model.holed, filling.value());
-        const FillReport& r = filling.value().report;
-        print_misfit("kriging", misfit(model, filled, model.holed.triangles.size()), seconds);
-        std::printf(" (predicted %.3g, left out %.3g)", r.expected_error, r.validated_error);
-    } else {
+    if (filling)
+        print_kriging(model, filling.value(), "kriging", seconds);
+    else
         std::printf("  kriging refuses");
-    }
     print_rbf(model, *hole, "rbf", {});
+    if (model.smooth) print_at_size_of_border(model, *hole);
     if (!model.smooth) print_rbf(model, *hole, "rbf smoothed", {.smoothing = 0.0});
     if (yardsticks) {
         print_yardstick(model, *hole, "fair", true);
