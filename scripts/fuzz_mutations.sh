@@ -31,7 +31,7 @@ mutations=(
     'refusal~rounding~algorithms/rounding.cpp~s/report\.clean = pairs\.empty\(\)/report.clean = pairs.size() < 2/'
     'parted-region~regions~algorithms/regions.cpp~s/else if \(sides\.size\(\) == 2\)/else if (sides.size() == 2 && sides[0] % 3 != 2)/'
     'radial-order~volumes~algorithms/radial.cpp~s/opposite\(ahead\(sheets, low, next\)\)/ahead(sheets, low, next)/'
-    'nesting~volumes~algorithms/nesting.cpp~s/first \? outside : upper_side\(hits_\[i - 1\]\.triangle\)/outside/'
+    'nesting~volumes~algorithms/nesting.cpp~s/first \? outside/first || i > 0 ? outside/'
     'face-of-triangle~tetrahedra~algorithms/tetgen_assembly.cpp~s/face_triangle\.push_back\(face\.facet\)/face_triangle.push_back(face.facet \/ 2)/'
     'obj-index~read_obj~io/obj.cpp~s/if \(vertex >= vertices_\.size\(\)\)/if (vertex > vertices_.size())/'
     'ply-index~read_ply~io/ply.cpp~s/index < 0 \|\| index >= limit/index < 0 || index > limit/'

@@ -2,7 +2,7 @@
 //
 // Improving a mesh of several surfaces, beside CGAL's isotropic remeshing of each of them alone
 // with the curves protected: quality, contacts, deviation, processor time.
-//   terrane_bench_improve [--edge-length L] [--iterations N] NAME|FILE...
+//   terrane_bench_improve [--edge-length L] [--iterations N] [--passes N] NAME|FILE...
 // A NAME is a model of models.hpp. Several FILEs are one model. To be built with NDEBUG, as by the
 // preset `bench`: with its assertions CGAL takes up to three times as long.
 #include <algorithm>
@@ -42,7 +42,8 @@ namespace pmp = CGAL::Polygon_mesh_processing;
 
 struct Settings {
     double edge_length = 0;
-    unsigned iterations = 5;
+    unsigned iterations = 5; ///< CGAL's
+    unsigned passes = terrane::ImproveOptions{}.passes;
     std::vector<std::string> names;
 };
 
@@ -195,6 +196,7 @@ int run_one(const std::string& name, const std::vector<Surface>& surfaces,
     const Surface before{"", Role::unknown, mesh.vertices, mesh.triangles};
     ImproveOptions options;
     options.edge_length = settings.edge_length;
+    options.passes = settings.passes;
     const double start = processor_seconds();
     const auto improved = improve(mesh, options);
     const double seconds = processor_seconds() - start;
@@ -234,6 +236,8 @@ int main(int argc, char** argv) {
             settings.edge_length = std::atof(argv[++i]);
         else if (word == "--iterations" && i + 1 < argc)
             settings.iterations = static_cast<unsigned>(std::atoi(argv[++i]));
+        else if (word == "--passes" && i + 1 < argc)
+            settings.passes = static_cast<unsigned>(std::atoi(argv[++i]));
         else
             settings.names.push_back(word);
     }
