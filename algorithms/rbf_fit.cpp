@@ -73,7 +73,7 @@ public:
             // Of many data some tell first where centres are wanted.
             if (add_missed(errors_of(f, some()))) continue;
             if (!whole) return f;
-            fit = fit_rbf(points_, values_, {form_.polynomial, refinements_}, run_);
+            fit = fit_rbf(points_, values_, {form_.polynomial}, run_);
             if (!fit) return fit.error();
             f.smooth = std::move(fit.value().function);
             report_.solution = fit.value().solution;
@@ -249,7 +249,6 @@ private:
     std::vector<bool> is_centre_; ///< per datum
     std::size_t centres_ = 0;
     double spacing_ = 0;
-    unsigned refinements_ = 6;
 };
 
 LeftOut leave_out(const HoleData& data) {

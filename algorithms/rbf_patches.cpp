@@ -8,6 +8,7 @@
 
 #include <Eigen/Dense>
 
+#include <terrane/algorithms/triangle_tree.hpp>
 #include <terrane/algorithms/vectors.hpp>
 
 namespace terrane {
@@ -25,12 +26,6 @@ double weight(double r) {
 
 double coordinate(const Point3& p, int axis) {
     return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
-}
-
-double distance_to_box(const Point3& p, const Point3& low, const Point3& high) {
-    const auto beyond = [](double x, double l, double h) { return std::max({l - x, 0.0, x - h}); };
-    return length(
-        {beyond(p.x, low.x, high.x), beyond(p.y, low.y, high.y), beyond(p.z, low.z, high.z)});
 }
 
 Point3 least(const Point3& a, const Point3& b) {

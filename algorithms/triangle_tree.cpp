@@ -32,13 +32,13 @@ Point3 nearest_on_segment(const Point3& p, const Point3& a, const Point3& b) {
     return {a.x + t * d.x, a.y + t * d.y, a.z + t * d.z};
 }
 
+} // namespace
+
 double distance_to_box(const Point3& p, const Point3& low, const Point3& high) {
     const auto beyond = [](double x, double l, double h) { return std::max({l - x, 0.0, x - h}); };
     return length(
         {beyond(p.x, low.x, high.x), beyond(p.y, low.y, high.y), beyond(p.z, low.z, high.z)});
 }
-
-} // namespace
 
 double distance_to_triangle(const Point3& p, const Point3& a, const Point3& b, const Point3& c) {
     const Point3 n = cross(minus(b, a), minus(c, a));

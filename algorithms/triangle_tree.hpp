@@ -47,6 +47,9 @@ private:
     std::vector<Node> nodes_;
 };
 
+/// Distance from p to the box, in floating point; 0 inside.
+double distance_to_box(const Point3& p, const Point3& low, const Point3& high);
+
 /// Distance from p to the triangle, in floating point.
 double distance_to_triangle(const Point3& p, const Point3& a, const Point3& b, const Point3& c);
 
