@@ -11,8 +11,7 @@ namespace terrane::detail {
 namespace {
 
 double root_mean_square(std::span<const double> values) {
-    const double squares =
-        std::inner_product(values.begin(), values.end(), values.begin(), 0.0);
+    const double squares = std::inner_product(values.begin(), values.end(), values.begin(), 0.0);
     return std::sqrt(squares / static_cast<double>(values.size()));
 }
 

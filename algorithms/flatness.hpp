@@ -23,8 +23,8 @@ inline Point3 middle_of(const Point3& a, const Point3& b) {
 }
 
 /// Whether smaller triangles would bring a filling nearer to the truth: what the function that it
-/// stands for bends away from the middles of edges (`sags`) is more than it is itself expected to be
-/// off there, both as root mean squares, and more than rounding: a millionth of `size`, the edge
+/// stands for bends away from the middles of edges (`sags`) is more than it is itself expected to
+/// be off there, both as root mean squares, and more than rounding: a millionth of `size`, the edge
 /// length. False where an expected error is not known, or without any.
 bool flatness_outweighs(std::span<const double> sags, std::span<const double> expected,
                         double size);
