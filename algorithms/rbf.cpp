@@ -9,6 +9,7 @@
 #include <new>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -185,8 +186,11 @@ Result<Surface> mesh_to_size(const Level& level, const BorderLoop& loop, const R
         if (!mesh || !(cuts_corners(mesh.value(), level, size) ||
                        is_too_flat(mesh.value(), level, size, run)))
             break;
+        auto finer = mesh_zero_level(level.f, level.data, level.tree, size / 2, run);
+        // It may be too large for them.
+        if (!finer && finer.error().code != ErrorCode::interrupted) break;
         size /= 2;
-        mesh = mesh_zero_level(level.f, level.data, level.tree, size, run);
+        mesh = std::move(finer);
     }
     return mesh;
 }
