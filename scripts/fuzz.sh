@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 #
 # Fuzzes: scripts/fuzz.sh [SECONDS [TARGET...]]
-# Builds the preset fuzz (FUZZ_PRESET: another one) and runs each target (all, unless some are named) for so many seconds, 60
-# unless given, two at a time, from the committed seeds. The readers share the seconds of one target.
+# Builds the preset fuzz (FUZZ_PRESET: another one) and runs each target (all, unless some are
+# named) for so many seconds, 60 unless given, two at a time, from the committed seeds.
 # FUZZ_SEED makes a run repeatable as far as time allows (0, the default: another one each time);
 # FUZZ_CORPUS names a folder in which the corpora are kept from one run to the next. Ends with a
 # table; where something was found with the file that reproduces it, and status 1.
@@ -12,11 +12,11 @@ cd "$(dirname "$0")/.."
 
 seconds=${1:-60}
 shift || true
-readers=(read_ts read_ml read_obj read_off read_stl read_ply read_irap read_zmap read_cps3 read_asc
-         read_xyz read_vs)
 targets=("$@")
 [[ ${#targets[@]} -gt 0 ]] ||
-    targets=(corefine arrange rounding tetrahedra predicates tri_tri search regions volumes "${readers[@]}")
+    targets=(corefine arrange rounding tetrahedra predicates tri_tri search regions volumes
+             read_ts read_ml read_obj read_off read_stl read_ply read_irap read_zmap read_cps3
+             read_asc read_xyz read_vs)
 
 preset=${FUZZ_PRESET:-fuzz}
 cmake --preset "$preset" >/dev/null
@@ -33,17 +33,16 @@ export ASAN_OPTIONS=malloc_context_size=1${ASAN_OPTIONS:+:$ASAN_OPTIONS}
 
 # A finding ends the target: what is found first is to be mended first.
 run_target() {
-    local target=$1 time=$seconds options=(-max_len=400 -len_control=10 -entropic=0)
+    local target=$1 options=(-max_len=400 -len_control=10 -entropic=0)
     local seed=${FUZZ_SEED:-0}
     local seeds=$PWD/fuzz/corpus/$target
     mkdir -p "$corpora/$target"
     if [[ $target == read_* ]]; then
-        [[ ${#targets[@]} -eq 1 ]] || time=$(((seconds + ${#readers[@]} - 1) / ${#readers[@]}))
         options=(-max_len=4096 -malloc_limit_mb=256 "-dict=$PWD/fuzz/dictionaries/${target#read_}.dict")
     fi
     # len_control: inputs may grow sooner. entropic: its book-keeping is linear in the features of
     # a run, and took two thirds of the time.
-    "$binaries/fuzz_$target" "${options[@]}" -seed="$seed" -max_total_time="$time" -timeout=20 \
+    "$binaries/fuzz_$target" "${options[@]}" -seed="$seed" -max_total_time="$seconds" -timeout=20 \
         -rss_limit_mb=2048 -print_final_stats=1 -artifact_prefix="$findings/$target-" \
         "$corpora/$target" "$seeds" >"$results/$target.log" 2>&1 ||
         echo "$target" >>"$results/failed"
