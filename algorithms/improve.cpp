@@ -5,11 +5,13 @@
 #include <cmath>
 #include <limits>
 #include <new>
+#include <optional>
 #include <string>
 
 #include <terrane/algorithms/conforming.hpp>
 #include <terrane/algorithms/improve_operations.hpp>
 #include <terrane/algorithms/improve_sizes.hpp>
+#include <terrane/algorithms/parallel.hpp>
 #include <terrane/algorithms/stopwatch.hpp>
 #include <terrane/algorithms/volumes.hpp>
 
@@ -269,9 +271,14 @@ WorstCause Improver::cause_of_worst(Triangle t) {
 
 /// Whether volumes can be renamed so that each sheet has the same ones on its sides as before.
 Result<bool> Improver::sides_kept(const Mesh& after, std::span<const std::uint32_t> sheets) const {
-    const auto old = find_volumes(input_, run_);
+    std::optional<Result<Volumes>> found_old, found_now;
+    Run quiet = run_; // progress is the calling thread's alone
+    quiet.progress = nullptr;
+    both(
+        run_, [&] { found_old = find_volumes(input_, quiet); },
+        [&] { found_now = find_volumes(after, quiet); });
+    const Result<Volumes>&old = *found_old, &now = *found_now;
     if (!old) return old.error();
-    const auto now = find_volumes(after, run_);
     if (!now) return now.error();
     std::vector<std::uint32_t> to(old.value().measures.size(), none);
     std::vector<std::uint32_t> back(now.value().measures.size(), none);

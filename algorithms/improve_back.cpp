@@ -158,7 +158,8 @@ Result<std::vector<double>> shown(const Mesh& before, const Improved& after,
     const Features now = features_of(features, after, run);
     const auto hints = hints_of(features, after);
     std::vector<double> bounds = bounds_of_sheets(before, features, after.report);
-    Reference reference(after.mesh.vertices, now, bounds);
+    const Reference reference(after.mesh.vertices, now, bounds);
+    Reference::Search search;
     std::vector<double> of_surfaces(before.surfaces.size(), 0);
     std::vector<std::uint32_t> open(features.triangles.size());
     for (std::uint32_t t = 0; t < open.size(); ++t) open[t] = t;
@@ -173,7 +174,7 @@ Result<std::vector<double>> shown(const Mesh& before, const Improved& after,
         return std::all_of(surfaces.begin(), surfaces.end(), [&](std::uint32_t s) {
             if (!nearest[s]) nearest[s].emplace(after.mesh, s);
             return nearest[s]->is_near(corners, bound, [&](const Corners& part) {
-                return hints[t] != none && reference.follows(part, hints[t]).has_value();
+                return hints[t] != none && reference.follows(part, hints[t], search).has_value();
             });
         });
     };
@@ -184,7 +185,8 @@ Result<std::vector<double>> shown(const Mesh& before, const Improved& after,
                 return Error{ErrorCode::interrupted, "stopped on request", ""};
             const auto& [a, b, c] = features.triangles[t];
             const Corners corners{before.vertices[a], before.vertices[b], before.vertices[c]};
-            if ((hints[t] != none && reference.follows(corners, hints[t])) || is_near(t, corners))
+            if ((hints[t] != none && reference.follows(corners, hints[t], search)) ||
+                is_near(t, corners))
                 raise(t, bounds[features.sheet_of[t]]);
             else
                 still_open.push_back(t);

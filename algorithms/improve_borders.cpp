@@ -97,7 +97,7 @@ void Borders::find_chain(const Change& change, std::span<const std::uint32_t> pa
                     add(chain_, change.added[i][k], change.added[i][(k + 1) % 3]);
     for (const std::uint32_t r : change.removed) {
         if (patch_of[r] != patch) continue;
-        const Triangle t = with(mesh_.triangles[r], change.moved, name_of_old);
+        const Triangle t = with(mesh_.triangles[r], change.placed, name_of_old);
         for (std::size_t k = 0; k < 3; ++k) add(chain_, t[(k + 1) % 3], t[k]);
     }
 }
@@ -115,7 +115,8 @@ bool Borders::find_swept(const Change& change, Axis axis) {
         std::swap(*next, chain_[i + 1]);
     }
     const auto corner = [&](const Edge& e) {
-        return Corner{e[0], e[0] == old_place ? change.before : mesh_.points[e[0]]};
+        return Corner{e[0], e[0] == old_place ? mesh_.points[change.placed]
+                                              : change.point(mesh_.points, e[0])};
     };
     if (chain_.size() == 3) {
         swept_.push_back({corner(chain_[0]), corner(chain_[1]), corner(chain_[2])});
@@ -126,7 +127,7 @@ bool Borders::find_swept(const Change& change, Axis axis) {
     if (old == 4) return false;
     const Corner from = corner(chain_[old]), a = corner(chain_[(old + 1) % 4]),
                  to = corner(chain_[(old + 2) % 4]), b = corner(chain_[(old + 3) % 4]);
-    if (to.name != change.moved) return false;
+    if (to.name != change.placed) return false;
     swept_.push_back({from, a, to});
     swept_.push_back({from, to, b});
     if (orient2d(axis, a.point, to.point, b.point) != Sign::Zero) return true;
@@ -159,7 +160,8 @@ bool Borders::keeps(const Change& change, std::span<const std::uint32_t> patch_o
         const Flat p = flat(axis, mesh_.points[e[0]]), q = flat(axis, mesh_.points[e[1]]);
         for (std::size_t k = 0; k < 2; ++k) // most are far
             if (std::max(p[k], q[k]) < low[k] || std::min(p[k], q[k]) > high[k]) return true;
-        const bool moves = change.moved != none && (e[0] == change.moved || e[1] == change.moved);
+        const bool moves =
+            change.placed != none && (e[0] == change.placed || e[1] == change.placed);
         // All edges at a vertex that moves are part of the change.
         return moves || is_changed(e) || stays_apart(e, axis);
     });
@@ -185,7 +187,7 @@ bool Borders::stays_apart(const Edge& e, Axis axis) const {
 
 void Borders::update(const Change& change, std::span<const std::uint32_t> patch_of,
                      std::uint32_t patch, bool is_kept) {
-    find_chain(change, patch_of, patch, is_kept, change.moved);
+    find_chain(change, patch_of, patch, is_kept, change.placed);
     for (const auto& [from, to] : chain_) add(edges_[patch], from, to);
 }
 

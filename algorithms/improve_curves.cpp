@@ -48,20 +48,21 @@ bool split(Workshop& shop, const CurveEdge& e) {
     const double at = from + (to - from) / 2;
     if (!chord_follows(shop, e.curve, from, at) || !chord_follows(shop, e.curve, at, to))
         return false;
-    Change change;
+    Change& change = shop.proposal.change;
+    change.clear();
     change.on_border = true;
     mesh.triangles_at(e.from, e.to, change.removed);
     set_facing(mesh, change);
-    const std::uint32_t m = mesh.add_vertex(point_on(shop, e.curve, at), VertexKind::curve,
-                                            mesh.wanted_length(e.from, e.to));
+    const std::uint32_t m = mesh.next_vertex();
+    change.placed = m;
+    change.place = point_on(shop, e.curve, at);
+    change.kind = VertexKind::curve;
+    change.size = mesh.wanted_length(e.from, e.to);
     for (const std::uint32_t t : change.removed) {
         change.add(with(mesh.triangles[t], e.to, m), t);
         change.add(with(mesh.triangles[t], e.from, m), t);
     }
-    if (shop.guard.apply(change) != Verdict::allowed) {
-        mesh.drop_last_vertex();
-        return false;
-    }
+    if (shop.guard.apply(change) != Verdict::allowed) return false;
     mesh.curve_of[m] = e.curve;
     mesh.place_on[m] = at;
     mesh.along[m] = {e.from, e.to};
@@ -74,9 +75,13 @@ bool split(Workshop& shop, const CurveEdge& e) {
     return true;
 }
 
-double sum_of_shapes(const WorkMesh& mesh, std::span<const std::uint32_t> triangles) {
+/// Of the added triangles, with the vertex at the point.
+double sum_of_shapes(const WorkMesh& mesh, Change& change, const Point3& at) {
+    change.place = at;
     double sum = 0;
-    for (const std::uint32_t t : triangles) sum += 1 / shape_of(mesh, mesh.triangles[t]);
+    for (const Triangle& t : change.added)
+        sum += 1 / shape_of(change.point(mesh.points, t[0]), change.point(mesh.points, t[1]),
+                            change.point(mesh.points, t[2]));
     return sum;
 }
 
@@ -87,21 +92,17 @@ bool slide(Workshop& shop, std::uint32_t v, double at) {
     if (!chord_follows(shop, curve, mesh.place_at(shop.curves, curve, before, v), at) ||
         !chord_follows(shop, curve, at, mesh.place_at(shop.curves, curve, after, v)))
         return false;
-    Change change;
+    Change& change = shop.proposal.change;
+    change.clear();
     change.in_place = change.on_border = true;
+    change.placed = v;
     change.removed = mesh.star[v];
     for (const std::uint32_t t : change.removed) change.add(mesh.triangles[t], t);
     set_facing(mesh, change);
-    const double sum = sum_of_shapes(mesh, change.removed);
-    const Point3 old = mesh.points[v];
-    change.moved = v;
-    change.before = old;
-    mesh.points[v] = point_on(shop, curve, at);
-    if (!(sum_of_shapes(mesh, change.removed) < sum * (1 - least_gain)) ||
-        shop.guard.apply(change) != Verdict::allowed) {
-        mesh.points[v] = old;
+    const double sum = sum_of_shapes(mesh, change, mesh.points[v]);
+    if (!(sum_of_shapes(mesh, change, point_on(shop, curve, at)) < sum * (1 - least_gain)) ||
+        shop.guard.apply(change) != Verdict::allowed)
         return false;
-    }
     mesh.place_on[v] = at;
     ++shop.moves;
     return true;

@@ -25,6 +25,8 @@
 #include <span>
 #include <vector>
 
+#include <tbb/enumerable_thread_specific.h>
+
 #include <terrane/algorithms/improve_borders.hpp>
 #include <terrane/algorithms/improve_grid.hpp>
 #include <terrane/algorithms/improve_mesh.hpp>
@@ -44,10 +46,20 @@ struct Refusals {
 
 enum class Verdict : std::uint8_t { allowed, contact, deviation, shape };
 
+/// What the guard has found out about a change.
+struct Judgement {
+    std::vector<std::uint32_t> hints;   ///< per added triangle
+    std::vector<char> alone;            ///< per added: all that it follows is
+    std::vector<std::uint32_t> patches; ///< per added, or no_group
+    std::vector<GridBox> boxes;         ///< per added
+    GridBox around{};                   ///< of what is added and swept; none where it is free
+    bool is_free = false; ///< nothing that is added can meet anything, by patch and what it follows
+};
+
 class Guard {
 public:
     /// What is named must outlive it.
-    Guard(WorkMesh& mesh, Reference& reference) :
+    Guard(WorkMesh& mesh, const Reference& reference) :
         mesh_(mesh), reference_(reference), borders_(mesh) {}
 
     /// Proves patches anew. To be called first, and when many triangles have left theirs.
@@ -57,36 +69,64 @@ public:
     /// Whether all triangles are in one proven patch: a change to them costs little.
     [[nodiscard]] bool in_one_patch(std::span<const std::uint32_t> triangles) const;
 
+    /// Whether the change is allowed to the mesh as it is. Several threads may ask at the same
+    /// time, but for changes of curves.
+    Verdict judge(const Change& change, Judgement& judgement);
+    /// Carries out what is allowed to the mesh as it is.
+    void carry_out(const Change& change, const Judgement& judgement);
     /// Carries the change out, where that is allowed.
     Verdict apply(const Change& change);
 
-    [[nodiscard]] const Refusals& refusals() const { return refusals_; }
+    /// Whether what was allowed before another change is so after it; they share no vertex.
+    [[nodiscard]] static bool are_apart(const Judgement& one, const Judgement& other);
+
+    /// Of all changes judged.
+    [[nodiscard]] Refusals refusals() const;
     /// How many triangles have left their patch since they were grouped.
     [[nodiscard]] std::size_t ungrouped() const { return ungrouped_; }
 
 private:
+    /// What each thread has to itself.
+    struct Bench {
+        struct Tetrahedron {
+            std::array<Point3, 4> corners; ///< positively oriented
+            Box box;
+        };
+        Reference::Search search;
+        std::vector<QuickPlane> planes;         ///< of the added triangles
+        Point3 top{};                           ///< of what the change sweeps
+        std::vector<Tetrahedron> swept;         ///< by it
+        std::vector<std::uint32_t> its_corners; ///< per vertex: the last change that had it
+        std::vector<std::uint32_t> seen;        ///< per triangle: the last change that saw it
+        std::uint32_t change = 0;
+        Refusals refusals;
+    };
+
     void find_whole_sheets();
     void fill_grid();
-    void box_added(const Change& change);
-    Verdict judge(const Change& change);
+    Verdict verdict_on(const Change& change, Judgement& judgement, Bench& bench);
+    [[nodiscard]] Corners corners_of(const Change& change, const Triangle& t) const;
     [[nodiscard]] bool shapes_hold(const Change& change, std::uint32_t patch) const;
-    bool bounds_hold(const Change& change);
+    bool bounds_hold(const Change& change, Judgement& judgement, Bench& bench) const;
+    void box_added(const Change& change, Judgement& judgement) const;
     [[nodiscard]] bool is_beside(const QuickPlane& plane, const Triangle& t,
                                  const Triangle& other) const;
-    void sweep(const Change& change);
-    [[nodiscard]] bool is_swept(const Triangle& t) const;
-    bool meets_properly(const Change& change);
+    [[nodiscard]] bool meet(const Change& change, const Triangle& t, const Triangle& other) const;
+    void sweep(const Change& change, Bench& bench) const;
+    [[nodiscard]] bool is_swept(const Triangle& t, const Bench& bench) const;
+    bool meets_properly(const Change& change, Judgement& judgement, Bench& bench) const;
+    [[nodiscard]] Sign turn_of(const Change& change, const Triangle& t, std::uint32_t patch) const;
     [[nodiscard]] bool are_wound(const Change& change, std::uint32_t patch) const;
-    bool find_patches(const Change& change);
+    bool find_patches(const Change& change, Judgement& judgement);
     /// Nothing can meet it, by its patch and by what it follows: it is not in the grid.
     [[nodiscard]] bool is_quiet(std::uint32_t t) const {
         return mesh_.alone[t] != 0 && is_whole_[mesh_.sheet_of[t]] != 0;
     }
-    [[nodiscard]] bool is_free(const Change& change) const;
-    void leave_patches(const Change& change);
+    [[nodiscard]] bool is_free(const Change& change, const Judgement& judgement) const;
+    void leave_patches(const Change& change, const Judgement& judgement);
 
     WorkMesh& mesh_;
-    Reference& reference_;
+    const Reference& reference_;
 
     std::vector<std::uint32_t> patch_of_; ///< per triangle, or no_group
     std::vector<Axis> axis_;              ///< per patch
@@ -97,21 +137,9 @@ private:
     Grid grid_;
     std::size_t ungrouped_ = 0;
 
-    std::vector<std::uint32_t> hints_, numbers_; ///< of the change at hand
-    std::vector<std::uint32_t> patches_;         ///< of its added triangles, or no_group
-    std::vector<char> alone_;                    ///< per added: all that it follows is
-    std::vector<GridBox> boxes_;                 ///< of its added triangles
-    std::vector<QuickPlane> planes_;             ///< of its added triangles
-    struct Tetrahedron {
-        std::array<Point3, 4> corners; ///< positively oriented
-        Box box;
-    };
-    Point3 top_{};                           ///< of what it sweeps
-    std::vector<Tetrahedron> swept_;         ///< by it
-    std::vector<std::uint32_t> its_corners_; ///< per vertex: the last change that had it
-    std::vector<std::uint32_t> seen_;        ///< per triangle: the last change that saw it
-    std::uint32_t change_ = 0;
-    Refusals refusals_;
+    tbb::enumerable_thread_specific<Bench> benches_;
+    Judgement judgement_;                ///< of the change at hand
+    std::vector<std::uint32_t> numbers_; ///< of what it adds
 };
 
 } // namespace terrane::improving

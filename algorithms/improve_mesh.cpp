@@ -30,7 +30,7 @@ WorkMesh::WorkMesh(const Mesh& mesh, const Features& features) :
     }
 }
 
-std::uint32_t WorkMesh::add_vertex(const Point3& p, VertexKind kind, double size) {
+void WorkMesh::add_vertex(const Point3& p, VertexKind kind, double size) {
     points.push_back(p);
     sizes.push_back(size);
     kinds.push_back(kind);
@@ -38,17 +38,6 @@ std::uint32_t WorkMesh::add_vertex(const Point3& p, VertexKind kind, double size
     place_on.push_back(0);
     along.push_back({none, none});
     star.emplace_back();
-    return static_cast<std::uint32_t>(points.size() - 1);
-}
-
-void WorkMesh::drop_last_vertex() {
-    points.pop_back();
-    sizes.pop_back();
-    kinds.pop_back();
-    curve_of.pop_back();
-    place_on.pop_back();
-    along.pop_back();
-    star.pop_back();
 }
 
 std::uint32_t WorkMesh::curve_at(std::uint32_t a, std::uint32_t b) const {
@@ -110,6 +99,7 @@ void WorkMesh::apply(const Change& change, std::span<const std::uint32_t> hints,
                      std::vector<std::uint32_t>& numbers) {
     numbers.clear();
     if (change.in_place) {
+        points[change.placed] = change.place;
         for (std::size_t i = 0; i < change.removed.size(); ++i) {
             hint_of[change.removed[i]] = hints[i];
             changed_at[change.removed[i]] = now;
@@ -117,6 +107,7 @@ void WorkMesh::apply(const Change& change, std::span<const std::uint32_t> hints,
         }
         return;
     }
+    if (change.placed != none) add_vertex(change.place, change.kind, change.size);
     std::array<std::uint32_t, 64> few{};
     std::vector<std::uint32_t> many;
     const bool is_few = change.added.size() <= few.size();

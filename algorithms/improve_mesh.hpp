@@ -17,17 +17,20 @@
 
 namespace terrane::improving {
 
-/// Some triangles for others, with the same border. Vertices have their new places already.
+/// Some triangles for others, with the same border. One vertex may get another place, or be new.
 struct Change {
     std::vector<std::uint32_t> removed; ///< triangles, each once
     std::vector<Triangle> added;        ///< their corners
     std::vector<std::uint32_t> from;    ///< per added: the removed one it takes its sheet from
     std::vector<std::pair<std::uint32_t, Point3>>
-        facing;                 ///< per sheet that is removed from: the sum of its normals there
-    bool in_place = false;      ///< the corners are the same: a vertex moved
-    bool on_border = false;     ///< a curve is changed
-    std::uint32_t moved = none; ///< in place: the vertex that moved
-    Point3 before{};            ///< in place: where it was
+        facing;                  ///< per sheet that is removed from: the sum of its normals there
+    bool in_place = false;       ///< the corners are the same: a vertex moves
+    bool on_border = false;      ///< a curve is changed
+    std::uint32_t placed = none; ///< in place: the vertex that moves; else one that is new: the
+                                 ///< number after the last one's
+    Point3 place{};              ///< where that is to be
+    VertexKind kind{};           ///< of a new one
+    double size = 0;             ///< of a new one: wanted length of edges there
 
     void clear() {
         removed.clear();
@@ -35,7 +38,19 @@ struct Change {
         from.clear();
         facing.clear();
         in_place = on_border = false;
-        moved = none;
+        placed = none;
+    }
+    /// A new vertex gets this number.
+    void number_new(std::uint32_t v) {
+        if (in_place || placed == none || placed == v) return;
+        for (Triangle& t : added)
+            for (std::uint32_t& c : t)
+                if (c == placed) c = v;
+        placed = v;
+    }
+    /// Of a vertex after the change.
+    [[nodiscard]] const Point3& point(std::span<const Point3> before, std::uint32_t v) const {
+        return v == placed ? place : before[v];
     }
     void add(const Triangle& corners, std::uint32_t source) {
         added.push_back(corners);
@@ -64,9 +79,6 @@ public:
     std::vector<std::vector<std::uint32_t>> star; ///< per vertex: the triangles at it, in any order
 
     [[nodiscard]] bool in_use(std::uint32_t t) const { return triangles[t][0] != none; }
-
-    [[nodiscard]] std::uint32_t add_vertex(const Point3& p, VertexKind kind, double size);
-    void drop_last_vertex();
 
     /// The curve that has the edge (a, b); none for any other edge.
     [[nodiscard]] std::uint32_t curve_at(std::uint32_t a, std::uint32_t b) const;
@@ -104,6 +116,9 @@ public:
     [[nodiscard]] Point3 normal(const Triangle& t) const {
         return cross(minus(points[t[1]], points[t[0]]), minus(points[t[2]], points[t[0]]));
     }
+    [[nodiscard]] std::uint32_t next_vertex() const {
+        return static_cast<std::uint32_t>(points.size());
+    }
     [[nodiscard]] double edge_length(std::uint32_t a, std::uint32_t b) const;
     [[nodiscard]] double wanted_length(std::uint32_t a, std::uint32_t b) const {
         return (sizes[a] + sizes[b]) / 2;
@@ -113,6 +128,7 @@ private:
     static std::uint64_t key(std::uint32_t a, std::uint32_t b) {
         return a < b ? std::uint64_t{a} << 32U | b : std::uint64_t{b} << 32U | a;
     }
+    void add_vertex(const Point3& p, VertexKind kind, double size);
     void take_from_star(std::uint32_t v, std::uint32_t t);
 
     std::unordered_map<std::uint64_t, std::uint32_t> direct_; ///< edges from corner to corner

@@ -31,11 +31,21 @@ namespace terrane::improving {
 constexpr double long_share = 4.0 / 3;  ///< of the wanted length: longer edges are split
 constexpr double short_share = 4.0 / 5; ///< of the wanted length: shorter ones are collapsed
 
+/// A change on its way, and where what leads to it is noted.
+struct Proposal {
+    Change change{};
+    Judgement judgement{};
+    bool is_allowed = false;   ///< as the mesh was then
+    bool is_looked_at = false; ///< smoothing: there was reason to
+    std::uint32_t gone = none; ///< a collapse: the vertex
+    std::vector<std::uint32_t> at_edge{}, of_gone{}, of_kept{}, common{}, across{}; ///< a collapse
+};
+
 /// What all operations work on; what is named must outlive them.
 struct Workshop {
     WorkMesh& mesh;
     Guard& guard;
-    Reference& reference;
+    const Reference& reference;
     std::span<const Point3> points;   ///< of the input
     const std::vector<Curve>& curves; ///< of the input
     std::vector<double> curve_bound;  ///< per curve: how far an edge may be from it
@@ -45,8 +55,9 @@ struct Workshop {
     std::uint32_t evened_at = 0, swapped_at = 0, collapsed_at = 0;
     std::vector<std::uint32_t> smoothed_at{}; ///< per vertex: when it was tried in vain
     std::vector<std::uint32_t> lifted_at{};   ///< the same
-    Change change{};                          ///< the one at hand
-    std::vector<std::uint32_t> at_edge{};     ///< of it
+    Proposal proposal{};                      ///< the one at hand, where there is one
+    std::vector<Proposal> window{};           ///< those at hand, where there are several
+    std::vector<std::uint32_t> touched_at{};  ///< per vertex: when a change had it last
 };
 
 /// Whether the straight edge between two places of a curve is within its bound of all between them,
@@ -58,7 +69,10 @@ Point3 point_on(const Workshop& shop, std::uint32_t curve, double at);
 /// Sums of normals of the triangles that are removed.
 void set_facing(const WorkMesh& mesh, Change& change);
 
-double shape_of(const WorkMesh& mesh, const Triangle& t); ///< q, see quality.hpp
+double shape_of(const Point3& a, const Point3& b, const Point3& c); ///< q, see quality.hpp
+inline double shape_of(const WorkMesh& mesh, const Triangle& t) {
+    return shape_of(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]);
+}
 
 // Each returns how many changes were made.
 std::size_t split_curves(Workshop& shop);

@@ -257,7 +257,7 @@ bool Reference::is_near(const Target& target, const Corners& facet,
 }
 
 /// Looks at one triangle under the target.
-Reference::Cover Reference::visit(const Target& target, std::uint32_t t) {
+Reference::Cover Reference::visit(const Target& target, std::uint32_t t, Search& search) const {
     if (turn_of(t, target.frame) != target.turn) return Cover::open;
     const Facet& facet = facets_[t];
     const Target::Measures& m = target.measures;
@@ -296,9 +296,9 @@ Reference::Cover Reference::visit(const Target& target, std::uint32_t t) {
         if (low > high + share_error) continue;
         const std::uint32_t beyond = facet.across[i];
         if (beyond == none) return Cover::open;
-        if (facets_[beyond].seen != search_) {
-            facets_[beyond].seen = search_;
-            front_.push_back(beyond);
+        if (search.seen_[beyond] != search.number_) {
+            search.seen_[beyond] = search.number_;
+            search.front_.push_back(beyond);
         }
         if (all_near) continue;
         const double rise = heights[k] - heights[i];
@@ -310,20 +310,21 @@ Reference::Cover Reference::visit(const Target& target, std::uint32_t t) {
     return all_near || is_near(target, facet.corners, heights) ? Cover::near : Cover::far;
 }
 
-Reference::Cover Reference::covered(const Target& target, std::uint32_t start) {
-    ++search_;
-    if (search_ == 0) { // counted round
-        for (Facet& f : facets_) f.seen = 0;
-        ++search_;
+Reference::Cover Reference::covered(const Target& target, std::uint32_t start,
+                                    Search& search) const {
+    ++search.number_;
+    if (search.number_ == 0) { // counted round
+        std::fill(search.seen_.begin(), search.seen_.end(), 0);
+        ++search.number_;
     }
-    front_.assign(1, start);
-    facets_[start].seen = search_;
-    for (unsigned count = 0; !front_.empty(); ++count) {
+    search.front_.assign(1, start);
+    search.seen_[start] = search.number_;
+    for (unsigned count = 0; !search.front_.empty(); ++count) {
         if (count == most_covered) return Cover::open;
-        const std::uint32_t t = front_.back();
-        front_.pop_back();
-        all_alone_ = all_alone_ && facets_[t].alone;
-        const Cover cover = visit(target, t);
+        const std::uint32_t t = search.front_.back();
+        search.front_.pop_back();
+        search.all_alone_ = search.all_alone_ && facets_[t].alone;
+        const Cover cover = visit(target, t, search);
         if (cover != Cover::near) return cover;
     }
     return Cover::near;
@@ -337,7 +338,7 @@ bool Reference::near_one(const Corners& triangle, std::uint32_t t, double bound)
 }
 
 bool Reference::part_follows(const Corners& triangle, Followed& followed, double bound,
-                             unsigned& budget) {
+                             unsigned& budget, Search& search) const {
     if (budget == 0) return false;
     --budget;
     for (const bool along_axis : {false, true}) {
@@ -347,10 +348,10 @@ bool Reference::part_follows(const Corners& triangle, Followed& followed, double
             walk(target->frame, target->origin, target->middle, target->turn, followed.hint);
         followed.hint = way.end;
         if (!way.arrived) continue;
-        all_alone_ = true;
-        const Cover cover = covered(*target, way.end);
+        search.all_alone_ = true;
+        const Cover cover = covered(*target, way.end, search);
         if (cover == Cover::near) {
-            followed.alone = followed.alone && all_alone_;
+            followed.alone = followed.alone && search.all_alone_;
             return true;
         }
         if (cover == Cover::far) return false;
@@ -368,18 +369,20 @@ bool Reference::part_follows(const Corners& triangle, Followed& followed, double
     const Point3 &a = triangle[i], &b = triangle[(i + 1) % 3], &c = triangle[(i + 2) % 3];
     const Point3 middle = towards(a, b, 0.5);
     const std::uint32_t hint = followed.hint;
-    if (!part_follows({a, middle, c}, followed, bound, budget)) return false;
+    if (!part_follows({a, middle, c}, followed, bound, budget, search)) return false;
     Followed other{hint, followed.alone};
-    const bool follows = part_follows({middle, b, c}, other, bound, budget);
+    const bool follows = part_follows({middle, b, c}, other, bound, budget, search);
     followed.alone = other.alone;
     return follows;
 }
 
-std::optional<Reference::Followed> Reference::follows(const Corners& triangle, std::uint32_t hint) {
+std::optional<Reference::Followed> Reference::follows(const Corners& triangle, std::uint32_t hint,
+                                                      Search& search) const {
+    search.seen_.resize(facets_.size(), 0);
     unsigned budget = most_parts;
     Followed followed{hint, true};
     const double bound = bound_of_[features_.sheet_of[hint]] - slack_;
-    if (!part_follows(triangle, followed, bound, budget)) return std::nullopt;
+    if (!part_follows(triangle, followed, bound, budget, search)) return std::nullopt;
     return followed;
 }
 

@@ -61,8 +61,17 @@ public:
         std::uint32_t hint = 0; ///< a triangle of the sheet near the middle
         bool alone = true;      ///< all that is followed is alone
     };
+    /// What a thread that asks has to itself; its contents mean nothing to it.
+    class Search {
+        friend class Reference;
+        std::vector<std::uint32_t> seen_; ///< per triangle: the last search that saw it
+        std::uint32_t number_ = 0;        ///< of the search at hand
+        std::vector<std::uint32_t> front_;
+        bool all_alone_ = true; ///< of the triangles that it has visited
+    };
     /// Whether the triangle is shown to be within the bound of the sheet of the triangle `hint`.
-    [[nodiscard]] std::optional<Followed> follows(const Corners& triangle, std::uint32_t hint);
+    [[nodiscard]] std::optional<Followed> follows(const Corners& triangle, std::uint32_t hint,
+                                                  Search& search) const;
 
     struct Place {
         Point3 point;           ///< on the surface, but for rounding
@@ -127,12 +136,13 @@ private:
     [[nodiscard]] int turn_of(std::uint32_t t, const Frame& frame) const;
     [[nodiscard]] Walk walk(const Frame& frame, const Point3& origin, const Flat& to, int turn,
                             std::uint32_t from) const;
-    Cover covered(const Target& target, std::uint32_t start);
-    Cover visit(const Target& target, std::uint32_t t);
+    Cover covered(const Target& target, std::uint32_t start, Search& search) const;
+    Cover visit(const Target& target, std::uint32_t t, Search& search) const;
     [[nodiscard]] static bool is_near(const Target& target, const Corners& facet,
                                       const std::array<double, 3>& heights);
     [[nodiscard]] bool near_one(const Corners& triangle, std::uint32_t t, double bound) const;
-    bool part_follows(const Corners& triangle, Followed& followed, double bound, unsigned& budget);
+    bool part_follows(const Corners& triangle, Followed& followed, double bound, unsigned& budget,
+                      Search& search) const;
     [[nodiscard]] bool is_beyond_plane(std::uint32_t t, std::uint32_t of, double gap) const;
 
     std::span<const Point3> points_;
@@ -147,13 +157,9 @@ private:
         std::array<std::uint32_t, 3> across{}; ///< as in the features
         std::array<std::int8_t, 3> turns{};    ///< per axis, exactly
         bool alone = false;
-        std::uint32_t seen = 0; ///< the last search that saw it
     };
     std::vector<Facet> facets_; ///< per triangle
     double slack_ = 0;          ///< more than the errors of distances from rounded coordinates
-    std::uint32_t search_ = 0;
-    std::vector<std::uint32_t> front_;
-    bool all_alone_ = true; ///< of the triangles that the search has visited
 };
 
 } // namespace terrane::improving

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include <terrane/algorithms/improve_windows.hpp>
+
 namespace terrane::improving {
 namespace {
 
@@ -49,10 +51,17 @@ struct Badness {
     double sum = 0, largest = 0;
 };
 
-Badness badness_at(const WorkMesh& mesh, std::uint32_t v) {
+/// q of a triangle at v, were that at p.
+double shape_with(const WorkMesh& mesh, const Triangle& t, std::uint32_t v, const Point3& p) {
+    const auto at = [&](std::uint32_t c) -> const Point3& { return c == v ? p : mesh.points[c]; };
+    return shape_of(at(t[0]), at(t[1]), at(t[2]));
+}
+
+/// With the vertex at p.
+Badness badness_at(const WorkMesh& mesh, std::uint32_t v, const Point3& p) {
     Badness badness;
     for (const std::uint32_t t : mesh.star[v]) {
-        const double one = 1 / shape_of(mesh, mesh.triangles[t]);
+        const double one = 1 / shape_with(mesh, mesh.triangles[t], v, p);
         badness.sum += one;
         badness.largest = std::max(badness.largest, one);
     }
@@ -62,90 +71,72 @@ Badness badness_at(const WorkMesh& mesh, std::uint32_t v) {
 constexpr double endless = std::numeric_limits<double>::infinity();
 
 /// Whether both would be less than the limits with the vertex at p; none of 1 / q is less than 1.
-bool is_below(WorkMesh& mesh, std::uint32_t v, const Point3& p, const Badness& limits) {
-    const Point3 old = mesh.points[v];
-    mesh.points[v] = p;
+bool is_below(const WorkMesh& mesh, std::uint32_t v, const Point3& p, const Badness& limits) {
     auto left = static_cast<double>(mesh.star[v].size());
     double sum = 0;
-    bool is = true;
     for (const std::uint32_t t : mesh.star[v]) {
-        const double one = 1 / shape_of(mesh, mesh.triangles[t]);
+        const double one = 1 / shape_with(mesh, mesh.triangles[t], v, p);
         sum += one;
         left -= 1;
-        is = sum + left < limits.sum && one < limits.largest;
-        if (!is) break;
+        if (!(sum + left < limits.sum && one < limits.largest)) return false;
     }
-    mesh.points[v] = old;
-    return is;
+    return true;
 }
 
-/// Moves one inner vertex after another, where that brings it below limits.
-class Mover {
-public:
-    explicit Mover(Workshop& shop) : shop_(shop) {}
+/// The change that moves the vertex, but for where to.
+void look_at(const WorkMesh& mesh, std::uint32_t v, Change& change) {
+    change.clear();
+    change.in_place = true;
+    change.placed = v;
+    change.removed = mesh.star[v];
+    for (const std::uint32_t t : change.removed) change.add(mesh.triangles[t], t);
+}
 
-    void look_at(std::uint32_t v) {
-        WorkMesh& mesh = shop_.mesh;
-        v_ = v;
-        change_.clear();
-        change_.in_place = true;
-        change_.removed = mesh.star[v];
-        for (const std::uint32_t t : change_.removed) change_.add(mesh.triangles[t], t);
-        before_ = badness_at(mesh, v);
-    }
-    /// Before any move.
-    [[nodiscard]] const Point3& facing() {
-        if (change_.facing.empty()) set_facing(shop_.mesh, change_);
-        return change_.facing[0].second;
-    }
-
-    [[nodiscard]] const Badness& before() const { return before_; }
-
-    /// On the surface above or below `to`.
-    bool move(const Point3& to, const Badness& limits) {
-        WorkMesh& mesh = shop_.mesh;
-        const Point3 old = mesh.points[v_];
-        if (!is_below(mesh, v_, to, limits)) return false; // mostly
-        const auto place = shop_.reference.above(to, facing(), mesh.hint_of[change_.removed[0]]);
-        if (!place || !is_below(mesh, v_, place->point, limits)) return false;
-        change_.moved = v_;
-        change_.before = old;
-        mesh.points[v_] = place->point;
-        if (shop_.guard.apply(change_) != Verdict::allowed) {
-            mesh.points[v_] = old;
-            return false;
-        }
-        before_ = badness_at(mesh, v_);
-        ++shop_.moves;
-        return true;
-    }
-
-private:
-    Workshop& shop_;
-    std::uint32_t v_ = 0;
-    Change change_;
-    Badness before_;
-};
+/// Whether it may move, after look_at, to the place on the surface above or below `to`, and comes
+/// below the limits there.
+bool propose_move(const Workshop& shop, const Point3& to, const Badness& limits,
+                  Proposal& proposal) {
+    const WorkMesh& mesh = shop.mesh;
+    Change& change = proposal.change;
+    const std::uint32_t v = change.placed;
+    if (!is_below(mesh, v, to, limits)) return false; // mostly
+    if (change.facing.empty()) set_facing(mesh, change);
+    const auto place =
+        shop.reference.above(to, change.facing[0].second, mesh.hint_of[change.removed[0]]);
+    if (!place || !is_below(mesh, v, place->point, limits)) return false;
+    change.place = place->point;
+    return shop.guard.judge(change, proposal.judgement) == Verdict::allowed;
+}
 
 Point3 between(const Point3& a, const Point3& b, double share) {
     return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y), a.z + share * (b.z - a.z)};
 }
 
-bool smooth_vertex(Workshop& shop, Mover& mover, std::uint32_t v) {
-    mover.look_at(v);
-    const Badness better{mover.before().sum * (1 - least_gain), endless};
-    const Point3 from = shop.mesh.points[v];
-    const Point3 to = drawn(shop.mesh, v);
+bool propose_smoothing(const Workshop& shop, std::uint32_t v, Proposal& proposal) {
+    const WorkMesh& mesh = shop.mesh;
+    proposal.is_looked_at = mesh.changed_since(v, shop.smoothed_at[v]);
+    if (!proposal.is_looked_at) return false;
+    look_at(mesh, v, proposal.change);
+    const Point3 &from = mesh.points[v], to = drawn(mesh, v);
+    const Badness better{badness_at(mesh, v, from).sum * (1 - least_gain), endless};
     // A triangle slides the vertex along its base only, which is half of a way on the mean.
-    if (mover.move(between(from, to, 2.0), better)) return true;
-    return mover.move(between(from, to, 1.0), better) ||
-           mover.move(between(from, centre(shop.mesh, v), 0.5), better);
+    return propose_move(shop, between(from, to, 2.0), better, proposal) ||
+           propose_move(shop, between(from, to, 1.0), better, proposal) ||
+           propose_move(shop, between(from, centre(mesh, v), 0.5), better, proposal);
 }
 
-/// Eight directions in the plane across the normal; steps that are halved.
-bool lift_vertex(Workshop& shop, Mover& mover, std::uint32_t v) {
-    mover.look_at(v);
-    Point3 n = mover.facing();
+/// From where it is in eight directions in the plane across the normal, by steps that are halved:
+/// the last place on the way that was better than those before.
+bool propose_lift(const Workshop& shop, std::uint32_t v, double below, Proposal& proposal) {
+    const WorkMesh& mesh = shop.mesh;
+    proposal.is_looked_at =
+        mesh.changed_since(v, shop.lifted_at[v]) &&
+        std::any_of(mesh.star[v].begin(), mesh.star[v].end(),
+                    [&](std::uint32_t t) { return shape_of(mesh, mesh.triangles[t]) < below; });
+    if (!proposal.is_looked_at) return false;
+    look_at(mesh, v, proposal.change);
+    set_facing(mesh, proposal.change);
+    Point3 n = proposal.change.facing[0].second;
     const double size = std::sqrt(dot(n, n));
     if (!(size > 0)) return false;
     n = {n.x / size, n.y / size, n.z / size};
@@ -153,20 +144,25 @@ bool lift_vertex(Workshop& shop, Mover& mover, std::uint32_t v) {
     const double across = std::sqrt(dot(u, u));
     u = {u.x / across, u.y / across, u.z / across};
     const Point3 w = cross(n, u);
-    bool moved = false;
-    double step = shop.mesh.sizes[v] / 4;
+    bool moves = false;
+    Point3 p = mesh.points[v];
+    Judgement of_p;
+    double largest = badness_at(mesh, v, p).largest, step = mesh.sizes[v] / 4;
     for (unsigned halving = 0; halving < 4; ++halving, step /= 2)
         for (unsigned k = 0; k < 8; ++k) {
             const double angle = k * std::acos(-1.0) / 4;
             const double c = step * std::cos(angle), s = step * std::sin(angle);
-            const Point3& p = shop.mesh.points[v];
-            const Badness better{endless, mover.before().largest * (1 - least_gain)};
-            moved = mover.move(
-                        {p.x + c * u.x + s * w.x, p.y + c * u.y + s * w.y, p.z + c * u.z + s * w.z},
-                        better) ||
-                    moved;
+            const Point3 to{p.x + c * u.x + s * w.x, p.y + c * u.y + s * w.y,
+                            p.z + c * u.z + s * w.z};
+            if (!propose_move(shop, to, {endless, largest * (1 - least_gain)}, proposal)) continue;
+            p = proposal.change.place;
+            std::swap(of_p, proposal.judgement);
+            largest = badness_at(mesh, v, p).largest;
+            moves = true;
         }
-    return moved;
+    proposal.change.place = p;
+    std::swap(of_p, proposal.judgement);
+    return moves;
 }
 
 /// Each coordinate in [-1, 1), from the number alone.
@@ -182,77 +178,67 @@ Point3 scattered(std::uint32_t v) {
     return {x, y, z};
 }
 
-/// Inner vertices that `wanted` names: those in one patch first.
-template <class Wanted, class Work>
-std::size_t for_inner(Workshop& shop, const Wanted& wanted, const Work& work) {
-    std::size_t count = 0;
-    std::vector<std::uint32_t> rest;
-    const WorkMesh& mesh = shop.mesh;
-    for (std::uint32_t v = 0; v < mesh.kinds.size(); ++v) {
-        if (mesh.kinds[v] != VertexKind::inner || !wanted(v)) continue;
-        if (shop.run.stop.stop_requested()) return count;
-        if (shop.guard.in_one_patch(mesh.star[v]))
-            count += work(v);
-        else
-            rest.push_back(v);
-    }
-    for (const std::uint32_t v : rest) {
-        if (shop.run.stop.stop_requested()) return count;
-        count += work(v);
-    }
-    return count;
+/// Inner vertices: those in one patch, and the rest.
+std::array<std::vector<std::uint32_t>, 2> inner_vertices(const Workshop& shop) {
+    std::array<std::vector<std::uint32_t>, 2> lists;
+    for (std::uint32_t v = 0; v < shop.mesh.kinds.size(); ++v)
+        if (shop.mesh.kinds[v] == VertexKind::inner)
+            lists[shop.guard.in_one_patch(shop.mesh.star[v]) ? 0 : 1].push_back(v);
+    return lists;
 }
 
 } // namespace
 
 std::size_t smooth(Workshop& shop) {
-    Mover mover(shop);
     ++shop.mesh.now;
     shop.smoothed_at.resize(shop.mesh.kinds.size(), 0);
-    const auto is_new = [&](std::uint32_t v) {
-        return shop.mesh.changed_since(v, shop.smoothed_at[v]);
-    };
-    return for_inner(shop, is_new, [&](std::uint32_t v) {
-        const bool moved = smooth_vertex(shop, mover, v);
-        shop.smoothed_at[v] = moved ? 0 : ++shop.mesh.now;
-        return moved;
-    });
+    std::size_t count = 0;
+    for (const std::vector<std::uint32_t>& vertices : inner_vertices(shop))
+        count += in_windows(
+            shop, vertices,
+            [&](std::uint32_t v, Proposal& p) { return propose_smoothing(shop, v, p); },
+            [&](std::uint32_t v, const Proposal& p, bool is_made) {
+                // What changes in the window comes after it.
+                if (p.is_looked_at) shop.smoothed_at[v] = is_made ? 0 : shop.mesh.now;
+            });
+    shop.moves += count;
+    return count;
 }
 
 std::size_t shake(Workshop& shop) {
-    Mover mover(shop);
-    const auto is_square = [&](std::uint32_t v) {
-        return std::all_of(shop.mesh.star[v].begin(), shop.mesh.star[v].end(),
-                           [&](std::uint32_t t) {
-                               return shape_of(shop.mesh, shop.mesh.triangles[t]) < square_shape;
-                           });
-    };
-    return for_inner(shop, is_square, [&](std::uint32_t v) {
-        mover.look_at(v);
-        const double size = shake_share * shop.mesh.sizes[v];
-        const Point3& p = shop.mesh.points[v];
+    const WorkMesh& mesh = shop.mesh;
+    const auto propose = [&](std::uint32_t v, Proposal& proposal) {
+        if (!std::all_of(mesh.star[v].begin(), mesh.star[v].end(), [&](std::uint32_t t) {
+                return shape_of(mesh, mesh.triangles[t]) < square_shape;
+            }))
+            return false;
+        look_at(mesh, v, proposal.change);
+        const double size = shake_share * mesh.sizes[v];
+        const Point3& p = mesh.points[v];
         const auto off = scattered(v);
-        return mover.move({p.x + size * off.x, p.y + size * off.y, p.z + size * off.z},
-                          {endless, 2});
-    });
+        return propose_move(shop, {p.x + size * off.x, p.y + size * off.y, p.z + size * off.z},
+                            {endless, 2}, proposal);
+    };
+    std::size_t count = 0;
+    for (const std::vector<std::uint32_t>& vertices : inner_vertices(shop))
+        count += in_windows(shop, vertices, propose, nothing_more);
+    shop.moves += count;
+    return count;
 }
 
 std::size_t lift_worst(Workshop& shop, double below) {
-    Mover mover(shop);
     ++shop.mesh.now;
     shop.lifted_at.resize(shop.mesh.kinds.size(), 0);
-    const auto is_bad = [&](std::uint32_t v) {
-        return shop.mesh.changed_since(v, shop.lifted_at[v]) &&
-               std::any_of(shop.mesh.star[v].begin(), shop.mesh.star[v].end(),
-                           [&](std::uint32_t t) {
-                               return shape_of(shop.mesh, shop.mesh.triangles[t]) < below;
-                           });
-    };
-    return for_inner(shop, is_bad, [&](std::uint32_t v) {
-        const bool moved = lift_vertex(shop, mover, v);
-        shop.lifted_at[v] = moved ? 0 : ++shop.mesh.now;
-        return moved;
-    });
+    std::size_t count = 0;
+    for (const std::vector<std::uint32_t>& vertices : inner_vertices(shop))
+        count += in_windows(
+            shop, vertices,
+            [&](std::uint32_t v, Proposal& p) { return propose_lift(shop, v, below, p); },
+            [&](std::uint32_t v, const Proposal& p, bool is_made) {
+                if (p.is_looked_at) shop.lifted_at[v] = is_made ? 0 : shop.mesh.now;
+            });
+    shop.moves += count;
+    return count;
 }
 
 } // namespace terrane::improving

@@ -5,9 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
+#include <functional>
+#include <map>
 
-#include <terrane/algorithms/sets.hpp>
+#include <terrane/algorithms/improve_windows.hpp>
 
 namespace terrane::improving {
 namespace {
@@ -37,29 +38,39 @@ std::vector<std::pair<double, Edge>> inner_edges(const WorkMesh& mesh, const Wan
     return edges;
 }
 
-/// Inner edges of triangles that have changed at this time or later, each once.
+/// The edges of each class, the highest first.
+std::vector<std::vector<Edge>> by_class(const std::vector<std::pair<double, Edge>>& edges) {
+    std::map<double, std::vector<Edge>, std::greater<>> classes;
+    for (const auto& [measure, e] : edges) classes[measure].push_back(e);
+    std::vector<std::vector<Edge>> lists;
+    for (auto& [measure, list] : classes) lists.push_back(std::move(list));
+    return lists;
+}
+
+/// Inner edges of triangles that have changed at this time or later, and some more, each once.
 std::vector<Edge> edges_changed_since(const WorkMesh& mesh, std::uint32_t time) {
-    std::vector<std::uint64_t> keys;
+    std::vector<char> is_near(mesh.points.size(), 0);
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+        if (mesh.in_use(t) && mesh.changed_at[t] >= time)
+            for (const std::uint32_t v : mesh.triangles[t]) is_near[v] = 1;
+    std::vector<Edge> edges;
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-        if (!mesh.in_use(t) || mesh.changed_at[t] < time) continue;
+        if (!mesh.in_use(t)) continue;
         for (std::size_t i = 0; i < 3; ++i) {
             const std::uint32_t a = mesh.triangles[t][i], b = mesh.triangles[t][(i + 1) % 3];
-            if (mesh.curve_at(a, b) == none)
-                keys.push_back(std::uint64_t{std::min(a, b)} << 32U | std::max(a, b));
+            // The neighbour has it the other way round.
+            if (a < b && is_near[a] != 0 && is_near[b] != 0 && mesh.curve_at(a, b) == none)
+                edges.push_back({a, b});
         }
     }
-    sort_unique(keys);
-    std::vector<Edge> edges;
-    edges.reserve(keys.size());
-    for (const std::uint64_t k : keys)
-        edges.push_back({static_cast<std::uint32_t>(k >> 32U), static_cast<std::uint32_t>(k)});
     return edges;
 }
 
-bool split(Workshop& shop, const Edge& e, std::uint32_t since) {
-    WorkMesh& mesh = shop.mesh;
+/// Whether splitting the edge is allowed, unless one of its triangles has changed since then.
+bool propose_split(Workshop& shop, const Edge& e, std::uint32_t since, Proposal& proposal) {
+    const WorkMesh& mesh = shop.mesh;
     const auto [a, b] = e;
-    Change& change = shop.change;
+    Change& change = proposal.change;
     change.clear();
     mesh.triangles_at(a, b, change.removed);
     if (change.removed.size() != 2) return false;
@@ -68,27 +79,22 @@ bool split(Workshop& shop, const Edge& e, std::uint32_t since) {
     set_facing(mesh, change);
     const Point3 &p = mesh.points[a], &q = mesh.points[b];
     const Point3 middle{p.x + (q.x - p.x) / 2, p.y + (q.y - p.y) / 2, p.z + (q.z - p.z) / 2};
-    const std::uint32_t m = mesh.add_vertex(middle, VertexKind::inner, mesh.wanted_length(a, b));
+    const std::uint32_t m = mesh.next_vertex();
+    change.placed = m;
+    change.kind = VertexKind::inner;
+    change.size = mesh.wanted_length(a, b);
     for (const std::uint32_t t : change.removed) {
         change.add(with(mesh.triangles[t], b, m), t);
         change.add(with(mesh.triangles[t], a, m), t);
     }
-    const auto place =
+    const auto above =
         shop.reference.above(middle, change.facing[0].second, mesh.hint_of[change.removed[0]]);
-    if (place) {
-        mesh.points[m] = place->point;
-        if (shop.guard.apply(change) == Verdict::allowed) {
-            ++shop.splits;
-            return true;
-        }
-        mesh.points[m] = middle;
+    if (above) {
+        change.place = above->point;
+        if (shop.guard.judge(change, proposal.judgement) == Verdict::allowed) return true;
     }
-    if (shop.guard.apply(change) == Verdict::allowed) {
-        ++shop.splits;
-        return true;
-    }
-    mesh.drop_last_vertex();
-    return false;
+    change.place = middle;
+    return shop.guard.judge(change, proposal.judgement) == Verdict::allowed;
 }
 
 /// The largest angle of a triangle, as the least cosine.
@@ -115,10 +121,10 @@ int unevenness(const WorkMesh& mesh, std::array<std::uint32_t, 4> v, int change)
     return sum;
 }
 
-bool swap(Workshop& shop, const Edge& e, bool even) {
-    WorkMesh& mesh = shop.mesh;
+bool propose_swap(Workshop& shop, const Edge& e, bool even, Proposal& proposal) {
+    const WorkMesh& mesh = shop.mesh;
     const auto [a, b] = e;
-    Change& change = shop.change;
+    Change& change = proposal.change;
     change.clear();
     mesh.triangles_at(a, b, change.removed);
     if (change.removed.size() != 2) return false;
@@ -139,26 +145,33 @@ bool swap(Workshop& shop, const Edge& e, bool even) {
     set_facing(mesh, change);
     change.add(left, t);
     change.add(right, u);
-    if (shop.guard.apply(change) != Verdict::allowed) return false;
-    ++shop.swaps;
-    return true;
+    return shop.guard.judge(change, proposal.judgement) == Verdict::allowed;
+}
+
+std::size_t swap_those(Workshop& shop, const std::vector<Edge>& edges, bool even) {
+    const std::size_t count = in_windows(
+        shop, edges, [&](const Edge& e, Proposal& p) { return propose_swap(shop, e, even, p); },
+        nothing_more);
+    shop.swaps += count;
+    return count;
 }
 
 /// Whether the collapse keeps the mesh what it is but for its division.
-bool keeps_topology(const WorkMesh& mesh, std::uint32_t gone, std::uint32_t kept,
-                    const Change& change, std::span<const std::uint32_t> at_edge) {
-    std::vector<std::uint32_t> of_gone, of_kept, common, across;
-    mesh.neighbours(gone, of_gone);
-    mesh.neighbours(kept, of_kept);
-    std::set_intersection(of_gone.begin(), of_gone.end(), of_kept.begin(), of_kept.end(),
-                          std::back_inserter(common));
-    for (const std::uint32_t t : at_edge) across.push_back(opposite(mesh.triangles[t], gone, kept));
-    std::sort(across.begin(), across.end());
-    if (common != across) return false;
+bool keeps_topology(const WorkMesh& mesh, std::uint32_t gone, std::uint32_t kept, Proposal& p) {
+    mesh.neighbours(gone, p.of_gone);
+    mesh.neighbours(kept, p.of_kept);
+    p.common.clear();
+    p.across.clear();
+    std::set_intersection(p.of_gone.begin(), p.of_gone.end(), p.of_kept.begin(), p.of_kept.end(),
+                          std::back_inserter(p.common));
+    for (const std::uint32_t t : p.at_edge)
+        p.across.push_back(opposite(mesh.triangles[t], gone, kept));
+    std::sort(p.across.begin(), p.across.end());
+    if (p.common != p.across) return false;
     const auto is_across = [&](std::uint32_t v) {
-        return std::binary_search(across.begin(), across.end(), v);
+        return std::binary_search(p.across.begin(), p.across.end(), v);
     };
-    for (const Triangle& t : change.added) {
+    for (const Triangle& t : p.change.added) {
         unsigned count = 0;
         for (const std::uint32_t v : t) count += is_across(v);
         if (count == 2) return false; // it might be there already
@@ -188,28 +201,27 @@ void join_on_curve(WorkMesh& mesh, std::uint32_t gone, std::uint32_t kept, std::
     if (!inner_before && !inner_after) mesh.set_direct(kept, other, curve);
 }
 
-} // namespace
-
-bool collapse(Workshop& shop, std::uint32_t gone, std::uint32_t kept, double longest,
-              double least) {
-    WorkMesh& mesh = shop.mesh;
+/// Whether moving one vertex into the other is allowed, and makes no edge longer than that and no
+/// triangle worse than `least`, or than what was there; `other`: see curve_allows.
+bool propose_collapse(Workshop& shop, const Edge& gone_kept, double longest, double least,
+                      std::uint32_t& other, Proposal& proposal) {
+    const WorkMesh& mesh = shop.mesh;
+    const auto [gone, kept] = gone_kept;
     if (mesh.kinds[gone] == VertexKind::corner) return false;
     const bool on_curve = mesh.kinds[gone] == VertexKind::curve;
-    std::uint32_t other = none;
     if (on_curve && !curve_allows(shop, gone, kept, other)) return false;
-    Change& change = shop.change;
+    Change& change = proposal.change;
     change.clear();
     change.on_border = on_curve;
     change.removed = mesh.star[gone];
-    std::vector<std::uint32_t>& at_edge = shop.at_edge;
-    at_edge.clear();
+    proposal.at_edge.clear();
     double longest_added = 0;
     for (const std::uint32_t t : change.removed) {
         const Triangle& corners = mesh.triangles[t];
         if (has(corners, kept)) {
             // All that a sheet has between the two edges of the curve must not vanish.
             if (on_curve && opposite(corners, gone, kept) == other) return false;
-            at_edge.push_back(t);
+            proposal.at_edge.push_back(t);
             continue;
         }
         change.add(with(corners, gone, kept), t);
@@ -228,17 +240,46 @@ bool collapse(Workshop& shop, std::uint32_t gone, std::uint32_t kept, double lon
             worst_before = std::min(worst_before, shape_of(mesh, mesh.triangles[t]));
         if (!(worst > worst_before)) return false;
     }
-    if (!keeps_topology(mesh, gone, kept, change, at_edge)) return false;
+    if (!keeps_topology(mesh, gone, kept, proposal)) return false;
     set_facing(mesh, change);
-    if (shop.guard.apply(change) != Verdict::allowed) return false;
-    if (on_curve) join_on_curve(mesh, gone, kept, other);
-    mesh.kinds[gone] = VertexKind::unused;
+    return shop.guard.judge(change, proposal.judgement) == Verdict::allowed;
+}
+
+/// One of the two ends of a short edge into the other, unless nothing there has changed since then.
+bool propose_collapse_of(Workshop& shop, const Edge& e, std::uint32_t since, Proposal& proposal) {
+    const WorkMesh& mesh = shop.mesh;
+    const auto [a, b] = e;
+    if (mesh.kinds[a] == VertexKind::unused || mesh.kinds[b] == VertexKind::unused) return false;
+    const double wanted = mesh.wanted_length(a, b);
+    if (!mesh.changed_since(a, since) && !mesh.changed_since(b, since)) return false;
+    if (!(mesh.edge_length(a, b) < short_share * wanted) || !mesh.are_neighbours(a, b) ||
+        mesh.curve_at(a, b) != none)
+        return false;
+    const auto into = [&](std::uint32_t gone, std::uint32_t kept) {
+        std::uint32_t other = none;
+        proposal.gone = gone;
+        return mesh.kinds[gone] == VertexKind::inner &&
+               propose_collapse(shop, {gone, kept}, long_share * wanted, least_shape, other,
+                                proposal);
+    };
+    return into(a, b) || into(b, a);
+}
+
+} // namespace
+
+bool collapse(Workshop& shop, std::uint32_t gone, std::uint32_t kept, double longest,
+              double least) {
+    std::uint32_t other = none;
+    Proposal& proposal = shop.proposal;
+    if (!propose_collapse(shop, {gone, kept}, longest, least, other, proposal)) return false;
+    shop.guard.carry_out(proposal.change, proposal.judgement);
+    if (proposal.change.on_border) join_on_curve(shop.mesh, gone, kept, other);
+    shop.mesh.kinds[gone] = VertexKind::unused;
     ++shop.collapses;
     return true;
 }
 
-double shape_of(const WorkMesh& mesh, const Triangle& t) {
-    const Point3 &a = mesh.points[t[0]], &b = mesh.points[t[1]], &c = mesh.points[t[2]];
+double shape_of(const Point3& a, const Point3& b, const Point3& c) {
     const Point3 u = minus(b, a), v = minus(c, b), w = minus(a, c);
     const Point3 n = cross(u, v);
     const double lu = std::sqrt(dot(u, u)), lv = std::sqrt(dot(v, v)), lw = std::sqrt(dot(w, w));
@@ -261,21 +302,20 @@ void set_facing(const WorkMesh& mesh, Change& change) {
 std::size_t split_edges(Workshop& shop) {
     const WorkMesh& mesh = shop.mesh;
     std::size_t count = 0;
-    for (unsigned round = 0; round < 32; ++round) {
-        auto edges = inner_edges(mesh, [&](std::uint32_t a, std::uint32_t b) {
+    for (unsigned round = 0; round < 32 && !shop.run.stop.stop_requested(); ++round) {
+        const auto classes = by_class(inner_edges(mesh, [&](std::uint32_t a, std::uint32_t b) {
             const double ratio = mesh.edge_length(a, b) / mesh.wanted_length(a, b);
             return ratio > long_share ? length_class(ratio) : 0;
-        });
-        std::sort(edges.begin(), edges.end(), [](const auto& e, const auto& f) {
-            return std::tuple(-e.first, e.second) < std::tuple(-f.first, f.second);
-        });
+        }));
         std::size_t more = 0;
         const std::uint32_t since = ++shop.mesh.now;
-        for (const auto& [length, e] : edges) {
-            if (shop.run.stop.stop_requested()) return count;
-            more += split(shop, e, since);
-        }
+        for (const std::vector<Edge>& edges : classes)
+            more += in_windows(
+                shop, edges,
+                [&](const Edge& e, Proposal& p) { return propose_split(shop, e, since, p); },
+                nothing_more);
         if (more == 0) break;
+        shop.splits += more;
         count += more;
         // Halves of slivers are slivers: swapped and collapsed, they are not halved again and
         // again.
@@ -289,29 +329,20 @@ std::size_t split_edges(Workshop& shop) {
 std::size_t collapse_edges(Workshop& shop) {
     const WorkMesh& mesh = shop.mesh;
     std::size_t count = 0;
-    auto edges = inner_edges(mesh, [&](std::uint32_t a, std::uint32_t b) {
+    const auto classes = by_class(inner_edges(mesh, [&](std::uint32_t a, std::uint32_t b) {
         const double ratio = mesh.edge_length(a, b) / mesh.wanted_length(a, b);
         return ratio < short_share ? length_class(1 / std::max(ratio, 1e-70)) : 0;
-    });
-    std::sort(edges.begin(), edges.end(), [](const auto& e, const auto& f) {
-        return std::tuple(-e.first, e.second) < std::tuple(-f.first, f.second);
-    });
+    }));
     const std::uint32_t since = shop.collapsed_at; // what was tried then in vain is no better now
     shop.collapsed_at = ++shop.mesh.now;
-    for (const auto& [length, e] : edges) {
-        if (shop.run.stop.stop_requested()) return count;
-        const auto [a, b] = e;
-        if (mesh.kinds[a] == VertexKind::unused || mesh.kinds[b] == VertexKind::unused) continue;
-        const double wanted = mesh.wanted_length(a, b);
-        if (!mesh.changed_since(a, since) && !mesh.changed_since(b, since)) continue;
-        if (!(mesh.edge_length(a, b) < short_share * wanted) || !mesh.are_neighbours(a, b) ||
-            mesh.curve_at(a, b) != none)
-            continue;
-        const bool gone_a = mesh.kinds[a] == VertexKind::inner;
-        const bool gone_b = mesh.kinds[b] == VertexKind::inner;
-        count += (gone_a && collapse(shop, a, b, long_share * wanted, least_shape)) ||
-                 (gone_b && collapse(shop, b, a, long_share * wanted, least_shape));
-    }
+    for (const std::vector<Edge>& edges : classes)
+        count += in_windows(
+            shop, edges,
+            [&](const Edge& e, Proposal& p) { return propose_collapse_of(shop, e, since, p); },
+            [&](const Edge&, const Proposal& p, bool is_made) {
+                if (is_made) shop.mesh.kinds[p.gone] = VertexKind::unused;
+            });
+    shop.collapses += count;
     return count;
 }
 
@@ -343,25 +374,18 @@ std::size_t collapse_bad(Workshop& shop, double below) {
 }
 
 std::size_t even_out(Workshop& shop) {
-    std::size_t count = 0;
-    for (const Edge& e : edges_changed_since(shop.mesh, shop.evened_at)) {
-        if (shop.run.stop.stop_requested()) return count;
-        count += swap(shop, e, true);
-    }
+    const std::size_t count =
+        swap_those(shop, edges_changed_since(shop.mesh, shop.evened_at), true);
     shop.evened_at = ++shop.mesh.now;
     return count;
 }
 
 std::size_t swap_edges(Workshop& shop) {
     std::size_t count = 0;
-    for (unsigned round = 0; round < 6; ++round) {
-        std::size_t more = 0;
+    for (unsigned round = 0; round < 6 && !shop.run.stop.stop_requested(); ++round) {
         const auto edges = edges_changed_since(shop.mesh, shop.swapped_at);
         shop.swapped_at = ++shop.mesh.now;
-        for (const Edge& e : edges) {
-            if (shop.run.stop.stop_requested()) return count;
-            more += swap(shop, e, false);
-        }
+        const std::size_t more = swap_those(shop, edges, false);
         count += more;
         if (100 * more < shop.mesh.triangles.size()) break;
     }

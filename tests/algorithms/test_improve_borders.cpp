@@ -75,8 +75,11 @@ void move_one(Sheet& sheet, Borders& borders, Random& random, Count& count) {
     if (work.star[v].empty() || work.kinds[v] == VertexKind::inner) return;
     Change change;
     change.in_place = change.on_border = true;
-    change.moved = v;
-    change.before = work.points[v];
+    change.placed = v;
+    const Point3 before = work.points[v];
+    change.place = before;
+    change.place.x += random_int(random, -3, 3);
+    change.place.y += random_int(random, -3, 3);
     change.removed = work.star[v];
     for (const std::uint32_t t : change.removed) change.add(work.triangles[t], t);
     const std::uint32_t patch = sheet.patches.of[change.removed[0]];
@@ -87,25 +90,22 @@ void move_one(Sheet& sheet, Borders& borders, Random& random, Count& count) {
         return orient2d(axis, work.points[a], work.points[b], work.points[c]);
     };
     const Sign turn = turn_of(change.removed[0]);
-    work.points[v].x += random_int(random, -3, 3);
-    work.points[v].y += random_int(random, -3, 3);
+    work.points[v] = change.place;
     const bool is_wound =
         std::all_of(change.removed.begin(), change.removed.end(), [&](std::uint32_t t) {
             return sheet.patches.of[t] == patch && turn_of(t) == turn;
         });
-    if (is_wound) {
-        const bool kept = borders.keeps(change, sheet.patches.of, patch, axis);
-        const bool is_so = sheet.is_one_to_one(patch);
-        if (kept) REQUIRE(is_so);
-        count.kept += kept;
-        count.rightly_not += !kept && !is_so;
-        count.wrongly_not += !kept && is_so;
-        if (kept && random_int(random, 0, 1) == 0) {
-            borders.update(change, sheet.patches.of, patch, true);
-            return; // stays there
-        }
-    }
-    work.points[v] = change.before;
+    const bool is_so = is_wound && sheet.is_one_to_one(patch);
+    work.points[v] = before;
+    if (!is_wound) return;
+    const bool kept = borders.keeps(change, sheet.patches.of, patch, axis);
+    if (kept) REQUIRE(is_so);
+    count.kept += kept;
+    count.rightly_not += !kept && !is_so;
+    count.wrongly_not += !kept && is_so;
+    if (!kept || random_int(random, 0, 1) == 0) return;
+    borders.update(change, sheet.patches.of, patch, true);
+    work.points[v] = change.place; // stays there
 }
 
 } // namespace

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // Improving a mesh of several surfaces, beside CGAL's isotropic remeshing of each of them alone
-// with the curves protected: quality, contacts, deviation, processor time.
-//   terrane_bench_improve [--edge-length L] [--iterations N] [--passes N] NAME|FILE...
+// with the curves protected: quality, contacts, deviation, time by the clock and of the processor.
+//   terrane_bench_improve [--edge-length L] [--iterations N] [--passes N] [--threads N]
+//   NAME|FILE...
 // A NAME is a model of models.hpp. Several FILEs are one model. To be built with NDEBUG, as by the
 // preset `bench`: with its assertions CGAL takes up to three times as long.
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -44,12 +46,28 @@ struct Settings {
     double edge_length = 0;
     unsigned iterations = 5; ///< CGAL's
     unsigned passes = terrane::ImproveOptions{}.passes;
+    unsigned threads = 2; ///< ours; CGAL's remeshing has one
     std::vector<std::string> names;
 };
 
-double processor_seconds() {
-    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-}
+/// By the clock, and of the processor.
+struct Seconds {
+    double clock = 0, processor = 0;
+
+    static Seconds now() {
+        const std::chrono::duration<double> since =
+            std::chrono::steady_clock::now().time_since_epoch();
+        return {since.count(), static_cast<double>(std::clock()) / CLOCKS_PER_SEC};
+    }
+    friend Seconds operator-(const Seconds& a, const Seconds& b) {
+        return {a.clock - b.clock, a.processor - b.processor};
+    }
+    Seconds& operator+=(const Seconds& o) {
+        clock += o.clock;
+        processor += o.processor;
+        return *this;
+    }
+};
 
 /// The triangles of each surface, with vertices of their own.
 std::vector<Surface> split_by_surface(const Mesh& mesh) {
@@ -89,13 +107,13 @@ PlacedEdge placed(const Point3& a, const Point3& b) {
 
 struct Remeshed {
     std::vector<Surface> surfaces;
-    double seconds = 0;
+    Seconds seconds;
     std::size_t failed = 0;
 };
 
 /// One surface by CGAL; its constrained edges are those in `curves` and its borders.
 Surface remesh(const Surface& in, const std::vector<PlacedEdge>& curves, double length,
-               unsigned iterations, double& seconds) {
+               unsigned iterations, Seconds& seconds) {
     std::vector<Kernel::Point_3> points;
     std::vector<std::array<std::size_t, 3>> polygons;
     for (const Point3& p : in.vertices) points.emplace_back(p.x, p.y, p.z);
@@ -112,7 +130,7 @@ Surface remesh(const Surface& in, const std::vector<PlacedEdge>& curves, double 
         fixed[e] = mesh.is_border(e) ||
                    std::binary_search(curves.begin(), curves.end(),
                                       placed(place(mesh.vertex(e, 0)), place(mesh.vertex(e, 1))));
-    const double start = processor_seconds();
+    const Seconds start = Seconds::now();
     std::vector<CgalMesh::Edge_index> long_ones;
     for (const auto e : mesh.edges())
         if (fixed[e]) long_ones.push_back(e);
@@ -122,7 +140,7 @@ Surface remesh(const Surface& in, const std::vector<PlacedEdge>& curves, double 
                              CGAL::parameters::number_of_iterations(iterations)
                                  .protect_constraints(true)
                                  .edge_is_constrained_map(fixed));
-    seconds += processor_seconds() - start;
+    seconds += Seconds::now() - start;
     mesh.collect_garbage();
     Surface out;
     out.name = in.name;
@@ -197,9 +215,11 @@ int run_one(const std::string& name, const std::vector<Surface>& surfaces,
     ImproveOptions options;
     options.edge_length = settings.edge_length;
     options.passes = settings.passes;
-    const double start = processor_seconds();
-    const auto improved = improve(mesh, options);
-    const double seconds = processor_seconds() - start;
+    Run run;
+    run.threads = settings.threads;
+    const Seconds start = Seconds::now();
+    const auto improved = improve(mesh, options, run);
+    const Seconds seconds = Seconds::now() - start;
     if (!improved) {
         std::printf("%s: %s\n", name.c_str(), improved.error().message().c_str());
         return 1;
@@ -214,15 +234,17 @@ int run_one(const std::string& name, const std::vector<Surface>& surfaces,
     const auto ours = split_by_surface(improved.value().mesh);
     const Surface all_ours{"", Role::unknown, improved.value().mesh.vertices,
                            improved.value().mesh.triangles};
-    print_row("terrane", report.after, seconds, flaws_of(ours), sampled_distance(all_ours, before),
-              sampled_distance(before, all_ours));
+    print_row("terrane", report.after, seconds.clock, flaws_of(ours),
+              sampled_distance(all_ours, before), sampled_distance(before, all_ours));
     const Remeshed theirs = by_cgal(mesh, settings);
     const Surface all_theirs = joined(theirs.surfaces);
-    print_row("CGAL", measure_quality(all_theirs.vertices, all_theirs.triangles), theirs.seconds,
-              flaws_of(theirs.surfaces), sampled_distance(all_theirs, before),
+    print_row("CGAL", measure_quality(all_theirs.vertices, all_theirs.triangles),
+              theirs.seconds.clock, flaws_of(theirs.surfaces), sampled_distance(all_theirs, before),
               sampled_distance(before, all_theirs));
     if (theirs.failed > 0) std::printf("  CGAL failed on %zu surfaces\n", theirs.failed);
-    std::printf("  time of CGAL's: %.2f\n", seconds / theirs.seconds);
+    std::printf("  time of CGAL's: %.2f with threads: %u, %.2f of the processor's\n",
+                seconds.clock / theirs.seconds.clock, settings.threads,
+                seconds.processor / theirs.seconds.processor);
     return 0;
 }
 
@@ -238,6 +260,8 @@ int main(int argc, char** argv) {
             settings.iterations = static_cast<unsigned>(std::atoi(argv[++i]));
         else if (word == "--passes" && i + 1 < argc)
             settings.passes = static_cast<unsigned>(std::atoi(argv[++i]));
+        else if (word == "--threads" && i + 1 < argc)
+            settings.threads = static_cast<unsigned>(std::atoi(argv[++i]));
         else
             settings.names.push_back(word);
     }
