@@ -3,7 +3,7 @@
 #
 # Fuzzes: scripts/fuzz.sh [SECONDS [TARGET...]]
 # Builds the preset fuzz (FUZZ_PRESET: another one) and runs each target (all, unless some are
-# named) for so many seconds, 60 unless given, two at a time, from the committed seeds.
+# named) for so many seconds, 60 unless given, two at a time (FUZZ_JOBS), from the committed seeds.
 # FUZZ_SEED makes a run repeatable as far as time allows (0, the default: another one each time);
 # FUZZ_CORPUS names a folder in which the corpora are kept from one run to the next. Ends with a
 # table; where something was found with the file that reproduces it, and status 1.
@@ -49,7 +49,7 @@ run_target() {
 }
 
 for target in "${targets[@]}"; do
-    while [[ $(jobs -rp | wc -l) -ge 2 ]]; do wait -n || true; done
+    while [[ $(jobs -rp | wc -l) -ge ${FUZZ_JOBS:-2} ]]; do wait -n || true; done
     run_target "$target" &
 done
 wait

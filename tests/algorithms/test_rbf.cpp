@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <random>
+#include <span>
 #include <stop_token>
 
 #include <catch2/catch.hpp>
@@ -97,7 +98,7 @@ TEST_CASE("rbf: smooth surfaces are filled many times better than by a plane", "
              },
              30},
         Case{"saddle", [](double x, double y) { return 0.1 * (x - 5) * (y - 4); }, 100}};
-    for (const Case& c : known)
+    for (const Case& c : std::span(known).first(std::size_t(cases(int(known.size())))))
         for (const double radius : {0.9, 1.4}) { // 2.5 and 6 % of the area
             CAPTURE(c.name, radius);
             const Surface s =

@@ -10,6 +10,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "../support/effort.hpp"
 #include "../support/random_models.hpp"
 #include "../support/volume_oracle.hpp"
 
@@ -51,7 +52,7 @@ void judge_model(std::uint64_t seed, std::size_t& blocks) {
 TEST_CASE("volumes: 1000 random models hold for the oracle", "[volumes]") {
     std::size_t blocks = 0;
     const char* const wanted = std::getenv("TERRANE_RANDOM_MODELS"); // for longer runs
-    const int models = wanted != nullptr ? std::atoi(wanted) : 1000;
+    const int models = wanted != nullptr ? std::atoi(wanted) : cases(1000);
     for (int seed = 0; seed < models; ++seed) judge_model(static_cast<std::uint64_t>(seed), blocks);
     CHECK(blocks > 3 * static_cast<std::size_t>(models)); // or the models are too easy
 }
