@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <span>
 #include <stop_token>
 
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
 
+#include "../support/effort.hpp"
 #include "../support/hole_of.hpp"
 #include "../support/holed_surfaces.hpp"
 #include <terrane/algorithms/check.hpp>
@@ -230,7 +232,7 @@ TEST_CASE("rbf: expected errors are of the order of what is missed", "[rbf]") {
             return 2 * std::exp(-(std::pow(x - 5, 2) + std::pow(y - 5, 2)) / 12);
         },
         [](double x, double y) { return std::sqrt(64 - std::pow(x - 5, 2) - std::pow(y - 5, 2)); }};
-    for (const auto& height : heights) {
+    for (const auto& height : std::span(heights).first(std::size_t(cases(3)))) {
         const Surface s =
             punched(sheet(graph(height), 0, 0, 10, 10, 36, 36, 0.2), disk(5.2, 4.9, 1.4));
         const auto hole = hole_of(s);
