@@ -12,7 +12,6 @@
 #include <terrane/algorithms/improve_operations.hpp>
 #include <terrane/algorithms/improve_sizes.hpp>
 #include <terrane/algorithms/parallel.hpp>
-#include <terrane/algorithms/stopwatch.hpp>
 #include <terrane/algorithms/volumes.hpp>
 
 namespace terrane {
@@ -48,23 +47,40 @@ Status check_options(const Mesh& mesh, const ImproveOptions& o) {
     return Done{};
 }
 
-Status check_input(const Mesh& mesh, const Run& run) {
+/// Whether all that is listed is there, and is a number: what is needed to look at the mesh.
+Status check_lists(const Mesh& mesh) {
     if (mesh.triangles.empty()) return Error{ErrorCode::nothing_to_do, "no triangle", ""};
     const bool lists_fit =
         mesh.surfaces_of.size() == mesh.triangles.size() &&
         (mesh.regions_of.size() == 0 || mesh.regions_of.size() == mesh.triangles.size());
     if (!lists_fit) return Error{ErrorCode::bad_index, "surfaces or regions per triangle", ""};
-    std::vector<std::uint32_t> labels;
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+        const Point3& p = mesh.vertices[v];
+        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+            return Error{ErrorCode::bad_number, "a coordinate is not finite",
+                         "vertex " + std::to_string(v)};
+    }
+    const auto wrong_at = [](std::size_t t, std::string sentence) {
+        return Error{ErrorCode::bad_index, std::move(sentence), "triangle " + std::to_string(t)};
+    };
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         for (const std::uint32_t s : mesh.surfaces_of[t])
-            if (s >= mesh.surfaces.size())
-                return Error{ErrorCode::bad_index, "there is no such surface",
-                             "triangle " + std::to_string(t)};
-        if (mesh.surfaces_of[t].empty())
-            return Error{ErrorCode::bad_index, "it has no surface",
+            if (s >= mesh.surfaces.size()) return wrong_at(t, "there is no such surface");
+        if (mesh.surfaces_of[t].empty()) return wrong_at(t, "it has no surface");
+        const auto& [a, b, c] = mesh.triangles[t];
+        if (std::max({a, b, c}) >= mesh.vertices.size())
+            return wrong_at(t, "a corner names no vertex");
+        if (a == b || b == c || c == a)
+            return Error{ErrorCode::improper_contact, "it has no area",
                          "triangle " + std::to_string(t)};
-        labels.push_back(mesh.surfaces_of[t][0]);
     }
+    return Done{};
+}
+
+Status check_conforming(const Mesh& mesh, const Run& run) {
+    std::vector<std::uint32_t> labels;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+        labels.push_back(mesh.surfaces_of[t][0]);
     return conforming(mesh.vertices, mesh.triangles, labels, run);
 }
 
@@ -86,8 +102,8 @@ class Improver {
 public:
     Improver(const Mesh& mesh, const ImproveOptions& options, const Run& run) :
         input_(mesh), options_(options), run_(run),
-        features_(
-            find_features(mesh, {options.crease_angle * pi / 180, options.curve_angle * pi / 180})),
+        features_(find_features(
+            mesh, {options.crease_angle * pi / 180, options.curve_angle * pi / 180}, run)),
         sizes_(find_sizes(mesh, features_, options)),
         reference_(mesh.vertices, features_, sizes_.bound_of), mesh_(mesh, features_),
         guard_(mesh_, reference_), shop_{mesh_,
@@ -124,7 +140,7 @@ private:
     [[nodiscard]] bool stopped() const { return run_.stop.stop_requested(); }
 
     void regroup_if_needed() {
-        if (!stopped() && 100 * guard_.ungrouped() > mesh_.triangles.size())
+        if (!stopped() && 20 * guard_.ungrouped() > mesh_.triangles.size())
             guard_.group_again(run_);
     }
 
@@ -183,6 +199,7 @@ private:
     }
 
     Result<Improved> assembled();
+    [[nodiscard]] Status judge(const Mesh& after, std::span<const std::uint32_t> sheets);
     [[nodiscard]] Result<bool> sides_kept(const Mesh& after,
                                           std::span<const std::uint32_t> sheets) const;
     [[nodiscard]] Mesh output(std::span<const std::uint32_t> used) const;
@@ -297,6 +314,29 @@ Result<bool> Improver::sides_kept(const Mesh& after, std::span<const std::uint32
     return true;
 }
 
+/// Quality, before and after; whether it is conforming, and volumes are what they were.
+Status Improver::judge(const Mesh& after, std::span<const std::uint32_t> sheets) {
+    std::optional<Status> holds;
+    std::optional<Result<bool>> kept;
+    both(
+        run_,
+        [&] {
+            report_.before = measure_quality(input_.vertices, input_.triangles, run_);
+            report_.after = measure_quality(after.vertices, after.triangles, run_);
+        },
+        [&] {
+            holds = conforming(after.vertices, after.triangles, sheets, run_);
+            if (*holds) kept = sides_kept(after, sheets);
+        });
+    if (!*holds && holds->error().code == ErrorCode::interrupted) return holds->error();
+    if (!*holds)
+        return Error{ErrorCode::internal,
+                     "the improved mesh is not conforming: " + holds->error().message(), ""};
+    if (!*kept) return kept->error();
+    report_.sides_kept = kept->value();
+    return Done{};
+}
+
 Result<Improved> Improver::assembled() {
     std::vector<std::uint32_t> used, sheets;
     Improved improved;
@@ -314,38 +354,26 @@ Result<Improved> Improver::assembled() {
     report_.refused_deviation = guard_.refusals().deviation;
     report_.refused_shape = guard_.refusals().shape;
     improved.mesh = output(used);
-    report_.after = measure_quality(improved.mesh.vertices, improved.mesh.triangles);
+    if (auto good = judge(improved.mesh, sheets); !good) return good.error();
     report_.worst_cause = cause_of_worst(mesh_.triangles[used[report_.after.worst]]);
     report_.sheets = features_.first_of.size();
     report_.curves = features_.curves.size();
     report_.corners = static_cast<std::size_t>(
         std::count(features_.kinds.begin(), features_.kinds.end(), VertexKind::corner));
-    Stopwatch watch;
-    const auto holds = conforming(improved.mesh.vertices, improved.mesh.triangles, sheets, run_);
-    report_.seconds_check += watch.lap();
-    if (!holds && holds.error().code == ErrorCode::interrupted) return holds.error();
-    if (!holds)
-        return Error{ErrorCode::internal,
-                     "the improved mesh is not conforming: " + holds.error().message(), ""};
-    const auto kept = sides_kept(improved.mesh, sheets);
-    if (!kept) return kept.error();
-    report_.sides_kept = kept.value();
     improved.report = report_;
     return improved;
 }
 
 Result<Improved> improve_checked(const Mesh& mesh, const ImproveOptions& options, const Run& run) {
     if (auto good = check_options(mesh, options); !good) return good.error();
-    Stopwatch watch;
-    if (auto good = check_input(mesh, run); !good) return good.error();
-    const double seconds_check = watch.lap();
-    auto improved = Improver(mesh, options, run)();
-    if (!improved) return improved;
-    ImproveReport& report = improved.value().report;
-    report.before = measure_quality(mesh.vertices, mesh.triangles);
-    report.seconds_improve = watch.lap() - report.seconds_check;
-    report.seconds_check += seconds_check;
-    return improved;
+    if (auto good = check_lists(mesh); !good) return good.error();
+    std::optional<Status> good;
+    std::optional<Improver> improver;
+    both(
+        run, [&] { good = check_conforming(mesh, run); },
+        [&] { improver.emplace(mesh, options, run); });
+    if (!*good) return good->error();
+    return (*improver)();
 }
 
 } // namespace

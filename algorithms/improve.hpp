@@ -75,7 +75,6 @@ struct ImproveReport {
     unsigned passes = 0;
     bool sides_kept = false; ///< each sheet has the same volumes on its sides as before: exactly
     WorstCause worst_cause = WorstCause::none; ///< of after.worst
-    double seconds_check = 0, seconds_improve = 0;
 };
 
 struct Improved {

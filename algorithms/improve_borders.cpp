@@ -88,48 +88,50 @@ void Borders::find(std::span<const std::uint32_t> patch_of, std::size_t patches)
 
 /// The sum of the borders of what the patch gets, less that of what it loses.
 void Borders::find_chain(const Change& change, std::span<const std::uint32_t> patch_of,
-                         std::uint32_t patch, bool with_added, std::uint32_t name_of_old) {
-    chain_.clear();
+                         std::uint32_t patch, bool with_added, std::uint32_t name_of_old,
+                         std::vector<Edge>& chain) const {
+    chain.clear();
     if (with_added)
         for (std::size_t i = 0; i < change.added.size(); ++i)
             if (patch_of[change.from[i]] == patch)
                 for (std::size_t k = 0; k < 3; ++k)
-                    add(chain_, change.added[i][k], change.added[i][(k + 1) % 3]);
+                    add(chain, change.added[i][k], change.added[i][(k + 1) % 3]);
     for (const std::uint32_t r : change.removed) {
         if (patch_of[r] != patch) continue;
         const Triangle t = with(mesh_.triangles[r], change.placed, name_of_old);
-        for (std::size_t k = 0; k < 3; ++k) add(chain_, t[(k + 1) % 3], t[k]);
+        for (std::size_t k = 0; k < 3; ++k) add(chain, t[(k + 1) % 3], t[k]);
     }
 }
 
 /// The chain as a loop of three or four corners, and the triangles of it.
-bool Borders::find_swept(const Change& change, Axis axis) {
-    swept_.clear();
-    if (chain_.empty()) return true;
-    if (chain_.size() < 3 || chain_.size() > 4) return false;
-    for (std::size_t i = 0; i + 1 < chain_.size(); ++i) {
+bool Borders::find_swept(const Change& change, Axis axis, Search& search) const {
+    auto& [chain, swept] = search;
+    swept.clear();
+    if (chain.empty()) return true;
+    if (chain.size() < 3 || chain.size() > 4) return false;
+    for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
         const auto next =
-            std::find_if(chain_.begin() + static_cast<std::ptrdiff_t>(i) + 1, chain_.end(),
-                         [&](const Edge& e) { return e[0] == chain_[i][1]; });
-        if (next == chain_.end()) return false;
-        std::swap(*next, chain_[i + 1]);
+            std::find_if(chain.begin() + static_cast<std::ptrdiff_t>(i) + 1, chain.end(),
+                         [&](const Edge& e) { return e[0] == chain[i][1]; });
+        if (next == chain.end()) return false;
+        std::swap(*next, chain[i + 1]);
     }
     const auto corner = [&](const Edge& e) {
         return Corner{e[0], e[0] == old_place ? mesh_.points[change.placed]
                                               : change.point(mesh_.points, e[0])};
     };
-    if (chain_.size() == 3) {
-        swept_.push_back({corner(chain_[0]), corner(chain_[1]), corner(chain_[2])});
+    if (chain.size() == 3) {
+        swept.push_back({corner(chain[0]), corner(chain[1]), corner(chain[2])});
         return true;
     }
     std::size_t old = 0;
-    while (old < 4 && chain_[old][0] != old_place) ++old;
+    while (old < 4 && chain[old][0] != old_place) ++old;
     if (old == 4) return false;
-    const Corner from = corner(chain_[old]), a = corner(chain_[(old + 1) % 4]),
-                 to = corner(chain_[(old + 2) % 4]), b = corner(chain_[(old + 3) % 4]);
+    const Corner from = corner(chain[old]), a = corner(chain[(old + 1) % 4]),
+                 to = corner(chain[(old + 2) % 4]), b = corner(chain[(old + 3) % 4]);
     if (to.name != change.placed) return false;
-    swept_.push_back({from, a, to});
-    swept_.push_back({from, to, b});
+    swept.push_back({from, a, to});
+    swept.push_back({from, to, b});
     if (orient2d(axis, a.point, to.point, b.point) != Sign::Zero) return true;
     const Flat p = flat(axis, a.point), m = flat(axis, to.point), q = flat(axis, b.point);
     for (std::size_t k = 0; k < 2; ++k)
@@ -137,18 +139,17 @@ bool Borders::find_swept(const Change& change, Axis axis) {
     return false; // it would turn back on itself
 }
 
-/// Whether an edge of the border is one that goes.
-bool Borders::is_changed(const Edge& e) const {
-    return std::find(chain_.begin(), chain_.end(), Edge{e[1], e[0]}) != chain_.end();
-}
-
 bool Borders::keeps(const Change& change, std::span<const std::uint32_t> patch_of,
-                    std::uint32_t patch, Axis axis) {
-    find_chain(change, patch_of, patch, true, old_place);
-    if (!find_swept(change, axis)) return false;
-    if (swept_.empty()) return true;
-    Flat low = flat(axis, swept_[0][0].point), high = low;
-    for (const Swept& t : swept_)
+                    std::uint32_t patch, Axis axis, Search& search) const {
+    find_chain(change, patch_of, patch, true, old_place, search.chain_);
+    if (!find_swept(change, axis, search)) return false;
+    if (search.swept_.empty()) return true;
+    const auto goes = [&](const Edge& e) {
+        return std::find(search.chain_.begin(), search.chain_.end(), Edge{e[1], e[0]}) !=
+               search.chain_.end();
+    };
+    Flat low = flat(axis, search.swept_[0][0].point), high = low;
+    for (const Swept& t : search.swept_)
         for (const Corner& c : t) {
             const Flat p = flat(axis, c.point);
             for (std::size_t k = 0; k < 2; ++k) {
@@ -163,14 +164,14 @@ bool Borders::keeps(const Change& change, std::span<const std::uint32_t> patch_o
         const bool moves =
             change.placed != none && (e[0] == change.placed || e[1] == change.placed);
         // All edges at a vertex that moves are part of the change.
-        return moves || is_changed(e) || stays_apart(e, axis);
+        return moves || goes(e) || stays_apart(e, axis, search);
     });
 }
 
 /// Whether an edge of the border touches what lies between at the ends of the chain only.
-bool Borders::stays_apart(const Edge& e, Axis axis) const {
+bool Borders::stays_apart(const Edge& e, Axis axis, const Search& search) const {
     const Point3 &a = mesh_.points[e[0]], &b = mesh_.points[e[1]];
-    return std::all_of(swept_.begin(), swept_.end(), [&](const Swept& t) {
+    return std::all_of(search.swept_.begin(), search.swept_.end(), [&](const Swept& t) {
         const std::array<Point3, 3> c{t[0].point, t[1].point, t[2].point};
         const auto find = [&](std::uint32_t v) {
             std::size_t i = 0;
@@ -187,7 +188,7 @@ bool Borders::stays_apart(const Edge& e, Axis axis) const {
 
 void Borders::update(const Change& change, std::span<const std::uint32_t> patch_of,
                      std::uint32_t patch, bool is_kept) {
-    find_chain(change, patch_of, patch, is_kept, change.placed);
+    find_chain(change, patch_of, patch, is_kept, change.placed, chain_);
     for (const auto& [from, to] : chain_) add(edges_[patch], from, to);
 }
 

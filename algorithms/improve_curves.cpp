@@ -6,10 +6,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include <terrane/algorithms/improve_windows.hpp>
+
 namespace terrane::improving {
 namespace {
 
 constexpr double least_gain = 1e-2; ///< share of the sum of 1 / q that a move must take away
+constexpr double least_shape = 0.3; ///< that collapses may leave where there was better
 
 /// An edge of a curve, in its direction.
 struct CurveEdge {
@@ -42,37 +45,40 @@ std::array<double, 2> places_of(const Workshop& shop, const CurveEdge& e) {
                 : shop.mesh.place_at(shop.curves, e.curve, e.to, e.from)};
 }
 
-bool split(Workshop& shop, const CurveEdge& e) {
-    WorkMesh& mesh = shop.mesh;
+bool propose_split(Workshop& shop, const CurveEdge& e, Proposal& proposal) {
+    const WorkMesh& mesh = shop.mesh;
     const auto [from, to] = places_of(shop, e);
-    const double at = from + (to - from) / 2;
-    if (!chord_follows(shop, e.curve, from, at) || !chord_follows(shop, e.curve, at, to))
+    proposal.at = from + (to - from) / 2;
+    if (!chord_follows(shop, e.curve, from, proposal.at) ||
+        !chord_follows(shop, e.curve, proposal.at, to))
         return false;
-    Change& change = shop.proposal.change;
+    Change& change = proposal.change;
     change.clear();
     change.on_border = true;
     mesh.triangles_at(e.from, e.to, change.removed);
     set_facing(mesh, change);
     const std::uint32_t m = mesh.next_vertex();
     change.placed = m;
-    change.place = point_on(shop, e.curve, at);
+    change.place = point_on(shop, e.curve, proposal.at);
     change.kind = VertexKind::curve;
     change.size = mesh.wanted_length(e.from, e.to);
     for (const std::uint32_t t : change.removed) {
         change.add(with(mesh.triangles[t], e.to, m), t);
         change.add(with(mesh.triangles[t], e.from, m), t);
     }
-    if (shop.guard.apply(change) != Verdict::allowed) return false;
+    return shop.guard.judge(change, proposal.judgement) == Verdict::allowed;
+}
+
+void after_split(WorkMesh& mesh, const CurveEdge& e, const Proposal& proposal) {
+    const std::uint32_t m = proposal.change.placed;
     mesh.curve_of[m] = e.curve;
-    mesh.place_on[m] = at;
+    mesh.place_on[m] = proposal.at;
     mesh.along[m] = {e.from, e.to};
     const bool from_inner = mesh.kinds[e.from] == VertexKind::curve;
     const bool to_inner = mesh.kinds[e.to] == VertexKind::curve;
     if (from_inner) mesh.along[e.from][1] = m;
     if (to_inner) mesh.along[e.to][0] = m;
     if (!from_inner && !to_inner) mesh.drop_direct(e.from, e.to);
-    ++shop.splits;
-    return true;
 }
 
 /// Of the added triangles, with the vertex at the point.
@@ -85,27 +91,54 @@ double sum_of_shapes(const WorkMesh& mesh, Change& change, const Point3& at) {
     return sum;
 }
 
-bool slide(Workshop& shop, std::uint32_t v, double at) {
-    WorkMesh& mesh = shop.mesh;
+bool propose_slide_to(Workshop& shop, std::uint32_t v, double at, Proposal& proposal) {
+    const WorkMesh& mesh = shop.mesh;
     const std::uint32_t curve = mesh.curve_of[v];
     const auto [before, after] = mesh.along[v];
     if (!chord_follows(shop, curve, mesh.place_at(shop.curves, curve, before, v), at) ||
         !chord_follows(shop, curve, at, mesh.place_at(shop.curves, curve, after, v)))
         return false;
-    Change& change = shop.proposal.change;
-    change.clear();
-    change.in_place = change.on_border = true;
-    change.placed = v;
-    change.removed = mesh.star[v];
-    for (const std::uint32_t t : change.removed) change.add(mesh.triangles[t], t);
-    set_facing(mesh, change);
+    proposal.at = at;
+    Change& change = proposal.change;
+    look_at(mesh, v, change);
+    change.on_border = true;
     const double sum = sum_of_shapes(mesh, change, mesh.points[v]);
-    if (!(sum_of_shapes(mesh, change, point_on(shop, curve, at)) < sum * (1 - least_gain)) ||
-        shop.guard.apply(change) != Verdict::allowed)
+    if (!(sum_of_shapes(mesh, change, point_on(shop, curve, at)) < sum * (1 - least_gain)))
         return false;
-    mesh.place_on[v] = at;
-    ++shop.moves;
-    return true;
+    set_facing(mesh, change);
+    return shop.guard.judge(change, proposal.judgement) == Verdict::allowed;
+}
+
+/// Halfway between its neighbours, or half of the way there.
+bool propose_slide(Workshop& shop, std::uint32_t v, Proposal& proposal) {
+    const WorkMesh& mesh = shop.mesh;
+    if (mesh.kinds[v] != VertexKind::curve) return false;
+    const std::uint32_t curve = mesh.curve_of[v];
+    const double from = mesh.place_at(shop.curves, curve, mesh.along[v][0], v);
+    const double to = mesh.place_at(shop.curves, curve, mesh.along[v][1], v);
+    const double middle = from + (to - from) / 2, here = mesh.place_on[v];
+    if (std::fabs(middle - here) < 0.05 * (to - from)) return false;
+    return propose_slide_to(shop, v, middle, proposal) ||
+           propose_slide_to(shop, v, here + (middle - here) / 2, proposal);
+}
+
+/// Into the nearer neighbour on the curve, where that is short.
+bool propose_collapse_of(Workshop& shop, std::uint32_t v, Proposal& proposal) {
+    const WorkMesh& mesh = shop.mesh;
+    if (mesh.kinds[v] != VertexKind::curve) return false;
+    const auto [before, after] = mesh.along[v];
+    const double back = mesh.edge_length(v, before), on = mesh.edge_length(v, after);
+    const std::uint32_t kept = back < on ? before : after;
+    const double wanted = mesh.wanted_length(v, kept);
+    return std::min(back, on) < short_share * wanted && back + on < long_share * wanted &&
+           propose_collapse(shop, {v, kept}, 2 * wanted, least_shape, proposal);
+}
+
+std::vector<std::uint32_t> curve_vertices(const WorkMesh& mesh) {
+    std::vector<std::uint32_t> vertices;
+    for (std::uint32_t v = 0; v < mesh.kinds.size(); ++v)
+        if (mesh.kinds[v] == VertexKind::curve) vertices.push_back(v);
+    return vertices;
 }
 
 } // namespace
@@ -139,50 +172,43 @@ bool chord_follows(const Workshop& shop, std::uint32_t curve, double from, doubl
 
 std::size_t split_curves(Workshop& shop) {
     std::size_t count = 0;
-    for (unsigned round = 0; round < 32; ++round) {
-        std::size_t more = 0;
-        for (const CurveEdge& e : curve_edges(shop.mesh, shop.curves)) {
-            if (shop.run.stop.stop_requested()) return count;
+    for (unsigned round = 0; round < 32 && !shop.run.stop.stop_requested(); ++round) {
+        std::vector<CurveEdge> edges = curve_edges(shop.mesh, shop.curves);
+        std::erase_if(edges, [&](const CurveEdge& e) {
             const auto [from, to] = places_of(shop, e);
-            if (to - from > long_share * shop.mesh.wanted_length(e.from, e.to))
-                more += split(shop, e);
-        }
+            return !(to - from > long_share * shop.mesh.wanted_length(e.from, e.to));
+        });
+        const std::size_t more = in_windows(
+            shop, edges, [&](const CurveEdge& e, Proposal& p) { return propose_split(shop, e, p); },
+            [&](const CurveEdge& e, const Proposal& p, bool is_made) {
+                if (is_made) after_split(shop.mesh, e, p);
+            });
         if (more == 0) break;
+        shop.splits += more;
         count += more;
     }
     return count;
 }
 
 std::size_t collapse_curves(Workshop& shop) {
-    WorkMesh& mesh = shop.mesh;
-    std::size_t count = 0;
-    const auto vertices = static_cast<std::uint32_t>(mesh.kinds.size());
-    for (std::uint32_t v = 0; v < vertices; ++v) {
-        if (shop.run.stop.stop_requested()) return count;
-        if (mesh.kinds[v] != VertexKind::curve) continue;
-        const auto [before, after] = mesh.along[v];
-        const double back = mesh.edge_length(v, before), on = mesh.edge_length(v, after);
-        const std::uint32_t kept = back < on ? before : after;
-        const double wanted = mesh.wanted_length(v, kept);
-        if (std::min(back, on) < short_share * wanted && back + on < long_share * wanted)
-            count += collapse(shop, v, kept, 2 * wanted, 0.3);
-    }
+    const std::size_t count = in_windows(
+        shop, curve_vertices(shop.mesh),
+        [&](std::uint32_t v, Proposal& p) { return propose_collapse_of(shop, v, p); },
+        [&](std::uint32_t, const Proposal& p, bool is_made) {
+            if (is_made) after_collapse(shop.mesh, p);
+        });
+    shop.collapses += count;
     return count;
 }
 
 std::size_t slide_curves(Workshop& shop) {
-    WorkMesh& mesh = shop.mesh;
-    std::size_t count = 0;
-    for (std::uint32_t v = 0; v < mesh.kinds.size(); ++v) {
-        if (shop.run.stop.stop_requested()) return count;
-        if (mesh.kinds[v] != VertexKind::curve) continue;
-        const std::uint32_t curve = mesh.curve_of[v];
-        const double from = mesh.place_at(shop.curves, curve, mesh.along[v][0], v);
-        const double to = mesh.place_at(shop.curves, curve, mesh.along[v][1], v);
-        const double middle = from + (to - from) / 2, here = mesh.place_on[v];
-        if (std::fabs(middle - here) < 0.05 * (to - from)) continue;
-        count += slide(shop, v, middle) || slide(shop, v, here + (middle - here) / 2);
-    }
+    const std::size_t count = in_windows(
+        shop, curve_vertices(shop.mesh),
+        [&](std::uint32_t v, Proposal& p) { return propose_slide(shop, v, p); },
+        [&](std::uint32_t v, const Proposal& p, bool is_made) {
+            if (is_made) shop.mesh.place_on[v] = p.at;
+        });
+    shop.moves += count;
     return count;
 }
 

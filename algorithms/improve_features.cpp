@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <terrane/algorithms/edges.hpp>
+#include <terrane/algorithms/parallel.hpp>
 #include <terrane/algorithms/sets.hpp>
 #include <terrane/algorithms/vectors.hpp>
 
@@ -24,8 +25,9 @@ bool same_list(const Lists<T>& lists, std::uint32_t i, std::uint32_t j) {
 
 class Finder {
 public:
-    Finder(const Mesh& mesh, const FeatureAngles& angles) :
-        mesh_(mesh), angles_(angles), sides_(group_edges(mesh.triangles, mesh.vertices.size())) {}
+    Finder(const Mesh& mesh, const FeatureAngles& angles, const Run& run) :
+        mesh_(mesh), angles_(angles), run_(run),
+        sides_(group_edges(mesh.triangles, mesh.vertices.size(), run)) {}
 
     Features operator()() {
         out_.triangles = mesh_.triangles;
@@ -152,8 +154,10 @@ private:
         for (std::uint32_t t = 0; t < out_.triangles.size(); ++t)
             for (const std::uint32_t v : out_.triangles[t]) star[v].push_back(t);
         out_.kinds.assign(count, VertexKind::unused);
-        for (std::uint32_t v = 0; v < count; ++v)
-            if (!star[v].empty()) out_.kinds[v] = kind_of_vertex(v, star[v]);
+        for_ranges(count, run_, [&](std::size_t first, std::size_t last) {
+            for (auto v = static_cast<std::uint32_t>(first); v < last; ++v)
+                if (!star[v].empty()) out_.kinds[v] = kind_of_vertex(v, star[v]);
+        });
     }
 
     [[nodiscard]] VertexKind kind_of_vertex(std::uint32_t v,
@@ -261,6 +265,7 @@ private:
 
     const Mesh& mesh_;
     const FeatureAngles& angles_;
+    const Run& run_;
     const EdgeSides sides_;
     std::vector<std::vector<std::uint32_t>> curve_edges_at_; ///< per vertex: the other ends
     Features out_;
@@ -268,8 +273,8 @@ private:
 
 } // namespace
 
-Features find_features(const Mesh& mesh, const FeatureAngles& angles) {
-    return Finder(mesh, angles)();
+Features find_features(const Mesh& mesh, const FeatureAngles& angles, const Run& run) {
+    return Finder(mesh, angles, run)();
 }
 
 } // namespace terrane::improving

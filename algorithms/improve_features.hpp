@@ -19,6 +19,7 @@
 #include <vector>
 
 #include <terrane/algorithms/mesh.hpp>
+#include <terrane/algorithms/run.hpp>
 
 namespace terrane::improving {
 
@@ -51,6 +52,6 @@ struct FeatureAngles {
     double curve = 0;  ///< radians by which a curve may turn at a vertex; more is a corner
 };
 
-Features find_features(const Mesh& mesh, const FeatureAngles& angles);
+Features find_features(const Mesh& mesh, const FeatureAngles& angles, const Run& run = {});
 
 } // namespace terrane::improving

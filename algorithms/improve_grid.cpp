@@ -6,46 +6,25 @@
 namespace terrane::improving {
 namespace {
 
+constexpr std::size_t least_buckets = 1024;
 constexpr std::size_t most_levels = 32; ///< the last has one cell for each side of the origin
 
 } // namespace
 
-std::size_t Grid::Level::slot_of(const Place& at) const {
-    std::uint64_t h = 0;
-    for (const std::int32_t k : {at.x, at.y, at.z}) {
-        h = (h ^ static_cast<std::uint32_t>(k)) * 0x9E3779B97F4A7C15ULL;
-        h ^= h >> 29U;
-    }
-    return static_cast<std::size_t>(h) & (slots.size() - 1);
-}
-
-const Grid::Cell* Grid::Level::find(const Place& at) const {
-    for (std::size_t s = slot_of(at);; s = (s + 1) & (slots.size() - 1)) {
-        if (slots[s] == 0) return nullptr;
-        const Cell& cell = cells[slots[s] - 1];
-        if (cell.at == at) return &cell;
-    }
+void Grid::Level::enter(const Entry& entry) {
+    const std::size_t b = bucket_of(place_of(*this, entry.box.low));
+    if (entries[b].empty()) patch_of[b] = entry.patch;
+    if (patch_of[b] != entry.patch) patch_of[b] = no_group;
+    entries[b].push_back(entry);
 }
 
 void Grid::Level::grow() {
-    std::size_t wanted = 64;
-    while (wanted < 4 * cells.size()) wanted *= 2;
-    slots.assign(wanted, 0);
-    for (std::uint32_t c = 0; c < cells.size(); ++c) {
-        std::size_t s = slot_of(cells[c].at);
-        while (slots[s] != 0) s = (s + 1) & (slots.size() - 1);
-        slots[s] = c + 1;
-    }
-}
-
-Grid::Cell& Grid::Level::find_or_make(const Place& at, std::uint32_t patch) {
-    if (2 * (cells.size() + 1) > slots.size()) grow();
-    std::size_t s = slot_of(at);
-    for (; slots[s] != 0; s = (s + 1) & (slots.size() - 1))
-        if (cells[slots[s] - 1].at == at) return cells[slots[s] - 1];
-    cells.push_back({at, patch, {}});
-    slots[s] = static_cast<std::uint32_t>(cells.size());
-    return cells.back();
+    const auto before = std::move(entries);
+    const std::size_t size = std::max(least_buckets, 2 * before.size());
+    patch_of.assign(size, vacant);
+    entries.assign(size, {});
+    for (const auto& bucket : before)
+        for (const Entry& e : bucket) enter(e);
 }
 
 void Grid::reset(const Point3& origin, double size) {
@@ -69,45 +48,34 @@ std::size_t Grid::level_of(const GridBox& box) const {
 
 void Grid::enter(std::uint32_t t, const GridBox& box, std::uint32_t patch) {
     Level& level = levels_[level_of(box)];
-    const Range range = range_of(level, box);
-    for (std::int32_t x = range.low.x; x <= range.high.x; ++x)
-        for (std::int32_t y = range.low.y; y <= range.high.y; ++y)
-            for (std::int32_t z = range.low.z; z <= range.high.z; ++z) {
-                Cell& cell = level.find_or_make({x, y, z}, patch);
-                if (cell.entries.empty()) cell.patch = patch;
-                if (cell.patch != patch) cell.patch = no_group;
-                cell.entries.push_back({box, t, patch});
-            }
+    if (2 * level.count >= level.entries.size()) level.grow();
+    ++level.count;
+    level.enter({box, t, patch});
 }
 
 void Grid::leave(std::uint32_t t, const GridBox& box) {
     Level& level = levels_[level_of(box)];
-    const Range range = range_of(level, box);
-    for (std::int32_t x = range.low.x; x <= range.high.x; ++x)
-        for (std::int32_t y = range.low.y; y <= range.high.y; ++y)
-            for (std::int32_t z = range.low.z; z <= range.high.z; ++z) {
-                auto& entries = level.find_or_make({x, y, z}, no_group).entries;
-                const auto at = std::find_if(entries.begin(), entries.end(),
-                                             [t](const Entry& e) { return e.triangle == t; });
-                *at = entries.back();
-                entries.pop_back();
-            }
+    const std::size_t b = level.bucket_of(place_of(level, box.low));
+    auto& entries = level.entries[b];
+    const auto at = std::find_if(entries.begin(), entries.end(),
+                                 [t](const Entry& e) { return e.triangle == t; });
+    *at = entries.back();
+    entries.pop_back();
+    if (entries.empty()) level.patch_of[b] = vacant;
+    --level.count;
 }
 
 void Grid::move(std::uint32_t t, const GridBox& before, const GridBox& box, std::uint32_t patch) {
     const std::size_t here = level_of(box);
     Level& level = levels_[here];
-    const Range range = range_of(level, box);
-    if (level_of(before) != here || !(range_of(level, before) == range)) {
+    const std::size_t b = level.bucket_of(place_of(level, before.low));
+    if (level_of(before) != here || level.bucket_of(place_of(level, box.low)) != b) {
         leave(t, before);
         enter(t, box, patch);
         return;
     }
-    for (std::int32_t x = range.low.x; x <= range.high.x; ++x)
-        for (std::int32_t y = range.low.y; y <= range.high.y; ++y)
-            for (std::int32_t z = range.low.z; z <= range.high.z; ++z)
-                for (Entry& e : level.find_or_make({x, y, z}, no_group).entries)
-                    if (e.triangle == t) e.box = box;
+    for (Entry& e : level.entries[b])
+        if (e.triangle == t) e.box = box;
 }
 
 } // namespace terrane::improving

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <terrane/algorithms/search/search.hpp>
+#include <terrane/kernel/construction.hpp>
 
 namespace terrane::improving {
 
@@ -23,6 +24,13 @@ struct GridBox {
                static_cast<int>(low[1] <= o.high[1]) & static_cast<int>(o.low[1] <= high[1]) &
                static_cast<int>(low[2] <= o.high[2]) & static_cast<int>(o.low[2] <= high[2]);
     }
+    /// In the projection along the axis.
+    [[nodiscard]] bool overlaps_along(Axis axis, const GridBox& o) const {
+        for (std::size_t k = 0; k < 3; ++k)
+            if (k != static_cast<std::size_t>(axis) && (low[k] > o.high[k] || o.low[k] > high[k]))
+                return false;
+        return true;
+    }
     void widen(const GridBox& by) {
         for (std::size_t k = 0; k < 3; ++k) {
             low[k] = std::min(low[k], by.low[k]);
@@ -31,7 +39,9 @@ struct GridBox {
     }
 };
 
-/// Cells of several sizes; a box is entered in cells as large as it is, eight of them at most.
+/// Cells of several sizes; a box is entered in the one that has its lowest corner, of those that
+/// are as large as it is: who looks for it looks one cell further down. Cells share buckets, which
+/// is no harm, as boxes are compared.
 class Grid {
 public:
     /// Empties it. `origin`: near what comes; `size`: of the smallest cells.
@@ -58,24 +68,25 @@ public:
     template <class Visit>
     bool visit(const GridBox& box, std::uint32_t but, const Visit& visit) const {
         for (const Level& level : levels_) {
-            if (level.cells.empty()) continue;
-            const Range range = range_of(level, box);
-            if (range.count() > 2 * static_cast<double>(level.cells.size()) + 64) {
-                for (const Cell& cell : level.cells) // the box is large against these cells
-                    if (range.contains(cell.at) && !visit_cell(cell, box, but, visit)) return false;
+            if (level.entries.empty()) continue;
+            const Range range = range_round(level, box);
+            if (range.count() > static_cast<double>(level.entries.size())) {
+                for (std::size_t b = 0; b < level.entries.size(); ++b)
+                    if (!visit_bucket(level, b, box, but, visit)) return false;
                 continue;
             }
-            for (std::int32_t x = range.low.x; x <= range.high.x; ++x)
+            for (std::int32_t z = range.low.z; z <= range.high.z; ++z)
                 for (std::int32_t y = range.low.y; y <= range.high.y; ++y)
-                    for (std::int32_t z = range.low.z; z <= range.high.z; ++z) {
-                        const Cell* const cell = level.find({x, y, z});
-                        if (cell != nullptr && !visit_cell(*cell, box, but, visit)) return false;
-                    }
+                    for (std::int32_t x = range.low.x; x <= range.high.x; ++x)
+                        if (!visit_bucket(level, level.bucket_of({x, y, z}), box, but, visit))
+                            return false;
         }
         return true;
     }
 
 private:
+    static constexpr std::uint32_t vacant = no_group - 1;
+
     struct Place {
         std::int32_t x = 0, y = 0, z = 0;
 
@@ -84,11 +95,6 @@ private:
     struct Entry {
         GridBox box;
         std::uint32_t triangle, patch;
-    };
-    struct Cell {
-        Place at{};
-        std::uint32_t patch = 0; ///< of all entries, or no_group
-        std::vector<Entry> entries;
     };
     struct Range {
         Place low, high;
@@ -101,24 +107,30 @@ private:
             return low.x <= p.x && p.x <= high.x && low.y <= p.y && p.y <= high.y && low.z <= p.z &&
                    p.z <= high.z;
         }
-        friend bool operator==(const Range&, const Range&) = default;
     };
     struct Level {
         float inverse = 1; ///< of the size of its cells: a power of two
-        std::vector<Cell> cells;
-        std::vector<std::uint32_t> slots; ///< open addressing: 1 + index into cells, 0 is free
+        std::size_t count = 0;
+        std::vector<std::uint32_t> patch_of; ///< per bucket: of all entries, or no_group, or vacant
+        std::vector<std::vector<Entry>> entries; ///< per bucket, of which there are 2^k, or none
 
-        [[nodiscard]] const Cell* find(const Place& at) const;
-        Cell& find_or_make(const Place& at, std::uint32_t patch);
+        /// Cells in a row along x have buckets in a row.
+        [[nodiscard]] std::size_t bucket_of(const Place& at) const {
+            const std::uint32_t place = static_cast<std::uint32_t>(at.x) +
+                                        static_cast<std::uint32_t>(at.y) * 0x9E3779B1U +
+                                        static_cast<std::uint32_t>(at.z) * 0x85EBCA77U;
+            return place & (patch_of.size() - 1);
+        }
+        void enter(const Entry& entry);
         void grow();
-        [[nodiscard]] std::size_t slot_of(const Place& at) const;
     };
 
     template <class Visit>
-    static bool visit_cell(const Cell& cell, const GridBox& box, std::uint32_t but,
-                           const Visit& visit) {
-        if (but != no_group && cell.patch == but) return true;
-        for (const Entry& e : cell.entries)
+    static bool visit_bucket(const Level& level, std::size_t b, const GridBox& box,
+                             std::uint32_t but, const Visit& visit) {
+        const std::uint32_t patch = level.patch_of[b];
+        if (patch == vacant || (but != no_group && patch == but)) return true;
+        for (const Entry& e : level.entries[b])
             if (e.box.overlaps(box) && (but == no_group || e.patch != but) &&
                 !visit(e.triangle, e.box))
                 return false;
@@ -128,16 +140,20 @@ private:
         constexpr double most = 0x1p30; // beyond, all is at one place: monotone, so still right
         return static_cast<float>(std::clamp((x - origin_[axis]) * inverse_, -most, most));
     }
-    static std::int32_t cell_of(float x) {
+    static std::int32_t cell_of(double x) {
         const auto truncated = static_cast<std::int32_t>(x);
-        return truncated - static_cast<std::int32_t>(static_cast<float>(truncated) > x);
+        return truncated - static_cast<std::int32_t>(static_cast<double>(truncated) > x);
     }
-    static Range range_of(const Level& level, const GridBox& box) {
-        const auto place = [&](const std::array<float, 3>& p) {
-            return Place{cell_of(p[0] * level.inverse), cell_of(p[1] * level.inverse),
-                         cell_of(p[2] * level.inverse)};
-        };
-        return {place(box.low), place(box.high)};
+    /// The cell of a point, when that is moved down by some cells.
+    static Place place_of(const Level& level, const std::array<float, 3>& p, double down = 0) {
+        const double inverse = level.inverse;
+        return {cell_of(p[0] * inverse - down), cell_of(p[1] * inverse - down),
+                cell_of(p[2] * inverse - down)};
+    }
+    /// Where boxes of the level are that overlap this one.
+    static Range range_round(const Level& level, const GridBox& box) {
+        constexpr double size = 1 + 0x1p-20; // of a box, in cells, were it rounded down
+        return {place_of(level, box.low, size), place_of(level, box.high)};
     }
     [[nodiscard]] std::size_t level_of(const GridBox& box) const;
 

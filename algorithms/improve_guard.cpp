@@ -190,9 +190,9 @@ bool Guard::meet(const Change& change, const Triangle& t, const Triangle& other)
 /// The cone from a corner of all added triangles over the removed ones, where they were.
 void Guard::sweep(const Change& change, Bench& bench) const {
     bench.swept.clear();
-    bench.its_corners.resize(mesh_.points.size() + 1, 0);
+    bench.not_swept.resize(mesh_.points.size() + 1, 0);
     const auto note = [&](const Triangle& t) {
-        for (const std::uint32_t v : t) bench.its_corners[v] = bench.change;
+        for (const std::uint32_t v : t) bench.not_swept[v] = bench.change;
     };
     for (const Triangle& t : change.added) note(t);
     std::uint32_t apex = change.in_place ? change.placed : none;
@@ -219,9 +219,10 @@ void Guard::sweep(const Change& change, Bench& bench) const {
 
 /// Whether a corner that the change does not have is in what it sweeps, or at the place of its top:
 /// pair tests take different vertices to be at different places.
-bool Guard::is_swept(const Triangle& t, const Bench& bench) const {
+bool Guard::is_swept(const Triangle& t, Bench& bench) const {
     for (const std::uint32_t v : t) {
-        if (bench.its_corners[v] == bench.change) continue;
+        if (bench.not_swept[v] == bench.change) continue;
+        bench.not_swept[v] = bench.change;
         const Point3& p = mesh_.points[v];
         if (p == bench.top) return true;
         for (const auto& [c, box] : bench.swept)
@@ -235,11 +236,11 @@ bool Guard::is_swept(const Triangle& t, const Bench& bench) const {
     return false;
 }
 
-bool Guard::meets_properly(const Change& change, Judgement& judgement, Bench& bench) const {
+bool Guard::meets_properly(const Change& change, const Judgement& judgement, Bench& bench) const {
     ++bench.change;
     if (bench.change == 0) { // counted round
         std::fill(bench.seen.begin(), bench.seen.end(), 0);
-        std::fill(bench.its_corners.begin(), bench.its_corners.end(), 0);
+        std::fill(bench.not_swept.begin(), bench.not_swept.end(), 0);
         ++bench.change;
     }
     bench.seen.resize(mesh_.triangles.size(), 0);
@@ -251,10 +252,6 @@ bool Guard::meets_properly(const Change& change, Judgement& judgement, Bench& be
     }
     sweep(change, bench);
     const auto& boxes = judgement.boxes;
-    GridBox& all = judgement.around;
-    all = boxes.front();
-    for (const GridBox& b : boxes) all.widen(b);
-    for (const auto& t : bench.swept) all.widen(grid_.scaled(t.box));
     const auto& patches = judgement.patches;
     const auto are_shown = [&](std::size_t i, std::uint32_t patch) {
         return patches[i] != no_group && patches[i] == patch;
@@ -271,9 +268,7 @@ bool Guard::meets_properly(const Change& change, Judgement& judgement, Bench& be
                 return false;
         return true;
     };
-    const bool is_one = std::all_of(patches.begin(), patches.end(),
-                                    [&](std::uint32_t p) { return p == patches[0]; });
-    if (!grid_.visit(all, is_one ? patches[0] : no_group, proper)) return false;
+    if (!grid_.visit(judgement.reach.around, judgement.reach.patch, proper)) return false;
     for (std::size_t i = 0; i < change.added.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)
             if (boxes[i].overlaps(boxes[j]) && !are_shown(i, patches[j]) &&
@@ -293,7 +288,7 @@ bool Guard::are_wound(const Change& change, std::uint32_t patch) const {
 
 /// The patches of what is added: of the only one of what is removed; where a curve changes, of
 /// those that are shown to stay what they are. False where a whole sheet would not stay one patch.
-bool Guard::find_patches(const Change& change, Judgement& judgement) {
+bool Guard::find_patches(const Change& change, Judgement& judgement, Bench& bench) const {
     std::vector<std::uint32_t>& patches = judgement.patches;
     patches.assign(change.added.size(), no_group);
     if (!change.on_border) {
@@ -309,7 +304,8 @@ bool Guard::find_patches(const Change& change, Judgement& judgement) {
         if (p == no_group) continue;
         if (first < i)
             patches[i] = patches[first];
-        else if (are_wound(change, p) && borders_.keeps(change, patch_of_, p, axis_[p]))
+        else if (are_wound(change, p) &&
+                 borders_.keeps(change, patch_of_, p, axis_[p], bench.border_search))
             patches[i] = p;
         else if (is_whole_[mesh_.sheet_of[change.from[i]]] != 0)
             return false;
@@ -324,15 +320,36 @@ bool Guard::is_free(const Change& change, const Judgement& judgement) const {
     return true;
 }
 
+void Guard::find_reach(const Change& change, Judgement& judgement) const {
+    Reach& reach = judgement.reach;
+    reach.around = judgement.boxes.front();
+    for (const GridBox& b : judgement.boxes) reach.around.widen(b);
+    for (const std::uint32_t r : change.removed) reach.around.widen(box_of_[r]);
+    const auto& patches = judgement.patches;
+    const bool is_one = std::all_of(patches.begin(), patches.end(),
+                                    [&](std::uint32_t p) { return p == patches[0]; });
+    reach.patch = is_one ? patches[0] : no_group;
+    reach.borders.clear();
+    if (change.on_border)
+        for (const std::uint32_t r : change.removed) {
+            const std::uint32_t p = patch_of_[r];
+            const auto is_it = [p](const Reach::Border& b) { return b.patch == p; };
+            if (p != no_group && std::none_of(reach.borders.begin(), reach.borders.end(), is_it))
+                reach.borders.push_back({p, axis_[p]});
+        }
+    reach.is_free = is_free(change, judgement);
+}
+
 Verdict Guard::verdict_on(const Change& change, Judgement& judgement, Bench& bench) {
     const bool in_one = !change.on_border && in_one_patch(change.removed);
     if (!shapes_hold(change, in_one ? patch_of_[change.removed[0]] : no_group))
         return Verdict::shape;
     if (!bounds_hold(change, judgement, bench)) return Verdict::deviation;
     box_added(change, judgement);
-    if (!find_patches(change, judgement)) return Verdict::contact;
-    judgement.is_free = is_free(change, judgement);
-    if (!judgement.is_free && !meets_properly(change, judgement, bench)) return Verdict::contact;
+    if (!find_patches(change, judgement, bench)) return Verdict::contact;
+    find_reach(change, judgement);
+    if (!judgement.reach.is_free && !meets_properly(change, judgement, bench))
+        return Verdict::contact;
     return Verdict::allowed;
 }
 
@@ -353,16 +370,6 @@ Refusals Guard::refusals() const {
         sum.contact += b.refusals.contact;
     }
     return sum;
-}
-
-bool Guard::are_apart(const Judgement& one, const Judgement& other) {
-    if (one.is_free || other.is_free) return true;
-    const std::uint32_t p = one.patches[0];
-    const auto is_p = [p](std::uint32_t q) { return q == p; };
-    if (p != no_group && std::all_of(one.patches.begin(), one.patches.end(), is_p) &&
-        std::all_of(other.patches.begin(), other.patches.end(), is_p))
-        return true;
-    return !one.around.overlaps(other.around);
 }
 
 /// Before the mesh is changed.
@@ -405,12 +412,6 @@ void Guard::carry_out(const Change& change, const Judgement& judgement) {
         patch_of_[t] = patch;
         box_of_[t] = box;
     }
-}
-
-Verdict Guard::apply(const Change& change) {
-    const Verdict verdict = judge(change, judgement_);
-    if (verdict == Verdict::allowed) carry_out(change, judgement_);
-    return verdict;
 }
 
 } // namespace terrane::improving

@@ -46,14 +46,35 @@ struct Refusals {
 
 enum class Verdict : std::uint8_t { allowed, contact, deviation, shape };
 
+/// Where a change is.
+struct Reach {
+    /// A proven patch whose border is changed.
+    struct Border {
+        std::uint32_t patch = 0;
+        Axis axis{}; ///< along which it is projected
+    };
+    GridBox around{};        ///< of what is added and what is removed
+    std::uint32_t patch = 0; ///< of all that is added, or no_group
+    bool is_free = false; ///< nothing that is added can meet anything, by patch and what it follows
+    std::vector<Border> borders; ///< where a curve is changed
+
+    /// Whether what was allowed before the other change is so after it; they share no vertex.
+    [[nodiscard]] bool is_apart(const Reach& other) const {
+        for (const Border& b : borders)
+            for (const Border& c : other.borders)
+                if (b.patch == c.patch && around.overlaps_along(b.axis, other.around)) return false;
+        return is_free || other.is_free || !around.overlaps(other.around) ||
+               (patch != no_group && patch == other.patch);
+    }
+};
+
 /// What the guard has found out about a change.
 struct Judgement {
     std::vector<std::uint32_t> hints;   ///< per added triangle
     std::vector<char> alone;            ///< per added: all that it follows is
     std::vector<std::uint32_t> patches; ///< per added, or no_group
     std::vector<GridBox> boxes;         ///< per added
-    GridBox around{};                   ///< of what is added and swept; none where it is free
-    bool is_free = false; ///< nothing that is added can meet anything, by patch and what it follows
+    Reach reach{};
 };
 
 class Guard {
@@ -70,15 +91,10 @@ public:
     [[nodiscard]] bool in_one_patch(std::span<const std::uint32_t> triangles) const;
 
     /// Whether the change is allowed to the mesh as it is. Several threads may ask at the same
-    /// time, but for changes of curves.
+    /// time.
     Verdict judge(const Change& change, Judgement& judgement);
     /// Carries out what is allowed to the mesh as it is.
     void carry_out(const Change& change, const Judgement& judgement);
-    /// Carries the change out, where that is allowed.
-    Verdict apply(const Change& change);
-
-    /// Whether what was allowed before another change is so after it; they share no vertex.
-    [[nodiscard]] static bool are_apart(const Judgement& one, const Judgement& other);
 
     /// Of all changes judged.
     [[nodiscard]] Refusals refusals() const;
@@ -93,11 +109,13 @@ private:
             Box box;
         };
         Reference::Search search;
-        std::vector<QuickPlane> planes;         ///< of the added triangles
-        Point3 top{};                           ///< of what the change sweeps
-        std::vector<Tetrahedron> swept;         ///< by it
-        std::vector<std::uint32_t> its_corners; ///< per vertex: the last change that had it
-        std::vector<std::uint32_t> seen;        ///< per triangle: the last change that saw it
+        Borders::Search border_search;
+        std::vector<QuickPlane> planes;       ///< of the added triangles
+        Point3 top{};                         ///< of what the change sweeps
+        std::vector<Tetrahedron> swept;       ///< by it
+        std::vector<std::uint32_t> not_swept; ///< per vertex: the last change that had it, or
+                                              ///< was looked at for it
+        std::vector<std::uint32_t> seen;      ///< per triangle: the last change that saw it
         std::uint32_t change = 0;
         Refusals refusals;
     };
@@ -109,15 +127,16 @@ private:
     [[nodiscard]] bool shapes_hold(const Change& change, std::uint32_t patch) const;
     bool bounds_hold(const Change& change, Judgement& judgement, Bench& bench) const;
     void box_added(const Change& change, Judgement& judgement) const;
+    void find_reach(const Change& change, Judgement& judgement) const;
     [[nodiscard]] bool is_beside(const QuickPlane& plane, const Triangle& t,
                                  const Triangle& other) const;
     [[nodiscard]] bool meet(const Change& change, const Triangle& t, const Triangle& other) const;
     void sweep(const Change& change, Bench& bench) const;
-    [[nodiscard]] bool is_swept(const Triangle& t, const Bench& bench) const;
-    bool meets_properly(const Change& change, Judgement& judgement, Bench& bench) const;
+    [[nodiscard]] bool is_swept(const Triangle& t, Bench& bench) const;
+    bool meets_properly(const Change& change, const Judgement& judgement, Bench& bench) const;
     [[nodiscard]] Sign turn_of(const Change& change, const Triangle& t, std::uint32_t patch) const;
     [[nodiscard]] bool are_wound(const Change& change, std::uint32_t patch) const;
-    bool find_patches(const Change& change, Judgement& judgement);
+    bool find_patches(const Change& change, Judgement& judgement, Bench& bench) const;
     /// Nothing can meet it, by its patch and by what it follows: it is not in the grid.
     [[nodiscard]] bool is_quiet(std::uint32_t t) const {
         return mesh_.alone[t] != 0 && is_whole_[mesh_.sheet_of[t]] != 0;
@@ -138,7 +157,6 @@ private:
     std::size_t ungrouped_ = 0;
 
     tbb::enumerable_thread_specific<Bench> benches_;
-    Judgement judgement_;                ///< of the change at hand
     std::vector<std::uint32_t> numbers_; ///< of what it adds
 };
 

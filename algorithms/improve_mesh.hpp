@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include <boost/container/small_vector.hpp>
+
 #include <terrane/algorithms/improve_features.hpp>
 #include <terrane/algorithms/mesh.hpp>
 #include <terrane/algorithms/vectors.hpp>
@@ -76,7 +78,9 @@ public:
     std::vector<char> alone;               ///< per triangle: all that it follows is (Reference)
     std::vector<std::uint32_t> changed_at; ///< per triangle: when it or its place changed last
     std::uint32_t now = 1;                 ///< counts sweeps over the mesh
-    std::vector<std::vector<std::uint32_t>> star; ///< per vertex: the triangles at it, in any order
+    /// Mostly six, at their vertex: 64 bytes.
+    using Star = boost::container::small_vector<std::uint32_t, 10>;
+    std::vector<Star> star; ///< per vertex: the triangles at it, in any order
 
     [[nodiscard]] bool in_use(std::uint32_t t) const { return triangles[t][0] != none; }
 

@@ -35,9 +35,12 @@ constexpr double short_share = 4.0 / 5; ///< of the wanted length: shorter ones 
 struct Proposal {
     Change change{};
     Judgement judgement{};
-    bool is_allowed = false;   ///< as the mesh was then
-    bool is_looked_at = false; ///< smoothing: there was reason to
-    std::uint32_t gone = none; ///< a collapse: the vertex
+    bool is_allowed = false;    ///< as the mesh was then
+    bool is_looked_at = false;  ///< smoothing: there was reason to
+    std::uint32_t gone = none;  ///< a collapse: the vertex
+    std::uint32_t kept = none;  ///< a collapse: that into which it goes
+    std::uint32_t other = none; ///< a collapse on a curve: the neighbour on the other side
+    double at = 0;              ///< on a curve: length along it where the vertex is to be
     std::vector<std::uint32_t> at_edge{}, of_gone{}, of_kept{}, common{}, across{}; ///< a collapse
 };
 
@@ -55,8 +58,7 @@ struct Workshop {
     std::uint32_t evened_at = 0, swapped_at = 0, collapsed_at = 0;
     std::vector<std::uint32_t> smoothed_at{}; ///< per vertex: when it was tried in vain
     std::vector<std::uint32_t> lifted_at{};   ///< the same
-    Proposal proposal{};                      ///< the one at hand, where there is one
-    std::vector<Proposal> window{};           ///< those at hand, where there are several
+    std::vector<Proposal> window{};           ///< those at hand
     std::vector<std::uint32_t> touched_at{};  ///< per vertex: when a change had it last
 };
 
@@ -66,6 +68,8 @@ bool chord_follows(const Workshop& shop, std::uint32_t curve, double from, doubl
 /// The point at this length along a curve.
 Point3 point_on(const Workshop& shop, std::uint32_t curve, double at);
 
+/// The change that moves a vertex, but for where to.
+void look_at(const WorkMesh& mesh, std::uint32_t v, Change& change);
 /// Sums of normals of the triangles that are removed.
 void set_facing(const WorkMesh& mesh, Change& change);
 
@@ -95,7 +99,11 @@ std::size_t shake(Workshop& shop);
 std::size_t lift_worst(Workshop& shop, double below);
 
 // Shared by the passes.
-bool collapse(Workshop& shop, std::uint32_t gone, std::uint32_t kept, double longest,
-              double least_shape);
+/// Whether moving one vertex into the other is allowed, and makes no edge longer than that and no
+/// triangle worse than `least`, or than what was there.
+bool propose_collapse(Workshop& shop, const Edge& gone_kept, double longest, double least,
+                      Proposal& proposal);
+/// What is left to be done when that was carried out.
+void after_collapse(WorkMesh& mesh, const Proposal& proposal);
 
 } // namespace terrane::improving

@@ -83,15 +83,6 @@ bool is_below(const WorkMesh& mesh, std::uint32_t v, const Point3& p, const Badn
     return true;
 }
 
-/// The change that moves the vertex, but for where to.
-void look_at(const WorkMesh& mesh, std::uint32_t v, Change& change) {
-    change.clear();
-    change.in_place = true;
-    change.placed = v;
-    change.removed = mesh.star[v];
-    for (const std::uint32_t t : change.removed) change.add(mesh.triangles[t], t);
-}
-
 /// Whether it may move, after look_at, to the place on the surface above or below `to`, and comes
 /// below the limits there.
 bool propose_move(const Workshop& shop, const Point3& to, const Badness& limits,
@@ -181,13 +172,23 @@ Point3 scattered(std::uint32_t v) {
 /// Inner vertices: those in one patch, and the rest.
 std::array<std::vector<std::uint32_t>, 2> inner_vertices(const Workshop& shop) {
     std::array<std::vector<std::uint32_t>, 2> lists;
-    for (std::uint32_t v = 0; v < shop.mesh.kinds.size(); ++v)
+    for (std::uint32_t v = 0; v < shop.mesh.kinds.size(); ++v) {
+        const WorkMesh::Star& star = shop.mesh.star[v];
         if (shop.mesh.kinds[v] == VertexKind::inner)
-            lists[shop.guard.in_one_patch(shop.mesh.star[v]) ? 0 : 1].push_back(v);
+            lists[shop.guard.in_one_patch({star.data(), star.size()}) ? 0 : 1].push_back(v);
+    }
     return lists;
 }
 
 } // namespace
+
+void look_at(const WorkMesh& mesh, std::uint32_t v, Change& change) {
+    change.clear();
+    change.in_place = true;
+    change.placed = v;
+    change.removed.assign(mesh.star[v].begin(), mesh.star[v].end());
+    for (const std::uint32_t t : change.removed) change.add(mesh.triangles[t], t);
+}
 
 std::size_t smooth(Workshop& shop) {
     ++shop.mesh.now;

@@ -8,6 +8,7 @@
 #include <functional>
 #include <map>
 
+#include <terrane/algorithms/edges.hpp>
 #include <terrane/algorithms/improve_windows.hpp>
 
 namespace terrane::improving {
@@ -22,20 +23,33 @@ double length_class(double ratio) {
     return 1.0 + std::ilogb(ratio * ratio * (ratio * ratio));
 }
 
+/// What list(t, items) adds for each triangle in use, in their order.
+template <class Item, class List>
+std::vector<Item> from_triangles(const Workshop& shop, const List& list) {
+    const WorkMesh& mesh = shop.mesh;
+    const auto of_range = [&](std::size_t first, std::size_t last) {
+        std::vector<Item> items;
+        for (auto t = static_cast<std::uint32_t>(first); t < last; ++t)
+            if (mesh.in_use(t)) list(t, items);
+        return items;
+    };
+    return concatenated(
+        parts_of_ranges<std::vector<Item>>(mesh.triangles.size(), shop.run, of_range));
+}
+
 /// Inner edges with the lower vertex first, each once, from the triangles in their order.
 template <class Wanted>
-std::vector<std::pair<double, Edge>> inner_edges(const WorkMesh& mesh, const Wanted& wanted) {
-    std::vector<std::pair<double, Edge>> edges;
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-        if (!mesh.in_use(t)) continue;
+std::vector<std::pair<double, Edge>> inner_edges(const Workshop& shop, const Wanted& wanted) {
+    using Measured = std::pair<double, Edge>;
+    const WorkMesh& mesh = shop.mesh;
+    return from_triangles<Measured>(shop, [&](std::uint32_t t, std::vector<Measured>& edges) {
         for (std::size_t i = 0; i < 3; ++i) {
             const std::uint32_t a = mesh.triangles[t][i], b = mesh.triangles[t][(i + 1) % 3];
             if (a > b) continue; // the neighbour has it the other way round
             const double measure = wanted(a, b);
             if (measure > 0 && mesh.curve_at(a, b) == none) edges.push_back({measure, {a, b}});
         }
-    }
-    return edges;
+    });
 }
 
 /// The edges of each class, the highest first.
@@ -47,23 +61,45 @@ std::vector<std::vector<Edge>> by_class(const std::vector<std::pair<double, Edge
     return lists;
 }
 
-/// Inner edges of triangles that have changed at this time or later, and some more, each once.
-std::vector<Edge> edges_changed_since(const WorkMesh& mesh, std::uint32_t time) {
+/// Why edges are swapped.
+enum class Aim : std::uint8_t { angles, evenness };
+
+/// By how much the square of what a vertex has too few or too many edges grows with one more, or
+/// with one less.
+int unevenness(const WorkMesh& mesh, std::uint32_t v, int change) {
+    if (mesh.kinds[v] != VertexKind::inner) return 0;
+    return 2 * change * (static_cast<int>(mesh.star[v].size()) - 6) + 1;
+}
+
+/// Whether a swap of the edge (a, b) of a triangle, across from c, can be worth it. In a plane, a
+/// swap makes the sums of the angles at both ends of the edge angles of new triangles: the largest
+/// angle gets smaller only where that is across from the edge and larger than both sums, so obtuse,
+/// as these four are 360 degrees in all. What evenness gains is the sum of what it is seen to gain
+/// from the two triangles: one of them has half or more.
+bool promises(const WorkMesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c, Aim aim) {
+    if (aim == Aim::evenness)
+        return unevenness(mesh, a, -1) + unevenness(mesh, b, -1) + 2 * unevenness(mesh, c, 1) < 0;
+    const Point3& p = mesh.points[c];
+    return dot(minus(mesh.points[a], p), minus(mesh.points[b], p)) < 0;
+}
+
+/// Inner edges as their triangles have them that promise something, where a triangle at them has
+/// changed at this time or later, and some more.
+std::vector<Edge> edges_to_swap(const Workshop& shop, std::uint32_t time, Aim aim) {
+    const WorkMesh& mesh = shop.mesh;
     std::vector<char> is_near(mesh.points.size(), 0);
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
         if (mesh.in_use(t) && mesh.changed_at[t] >= time)
             for (const std::uint32_t v : mesh.triangles[t]) is_near[v] = 1;
-    std::vector<Edge> edges;
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-        if (!mesh.in_use(t)) continue;
+    return from_triangles<Edge>(shop, [&](std::uint32_t t, std::vector<Edge>& edges) {
+        const Triangle& c = mesh.triangles[t];
         for (std::size_t i = 0; i < 3; ++i) {
-            const std::uint32_t a = mesh.triangles[t][i], b = mesh.triangles[t][(i + 1) % 3];
-            // The neighbour has it the other way round.
-            if (a < b && is_near[a] != 0 && is_near[b] != 0 && mesh.curve_at(a, b) == none)
+            const std::uint32_t a = c[i], b = c[(i + 1) % 3];
+            if (is_near[a] != 0 && is_near[b] != 0 && promises(mesh, a, b, c[(i + 2) % 3], aim) &&
+                mesh.curve_at(a, b) == none)
                 edges.push_back({a, b});
         }
-    }
-    return edges;
+    });
 }
 
 /// Whether splitting the edge is allowed, unless one of its triangles has changed since then.
@@ -109,37 +145,30 @@ double least_cosine(const WorkMesh& mesh, const Triangle& t) {
     return least;
 }
 
-/// How far the numbers of edges at four vertices are from six, squared, when those of a and b have
-/// one more than now, or less.
-int unevenness(const WorkMesh& mesh, std::array<std::uint32_t, 4> v, int change) {
-    int sum = 0;
-    for (std::size_t i = 0; i < 4; ++i) {
-        if (mesh.kinds[v[i]] != VertexKind::inner) continue;
-        const int off = static_cast<int>(mesh.star[v[i]].size()) + (i < 2 ? -change : change) - 6;
-        sum += off * off;
-    }
-    return sum;
-}
-
-bool propose_swap(Workshop& shop, const Edge& e, bool even, Proposal& proposal) {
+/// The edge is one of edges_to_swap.
+bool propose_swap(Workshop& shop, const Edge& e, Aim aim, Proposal& proposal) {
     const WorkMesh& mesh = shop.mesh;
     const auto [a, b] = e;
     Change& change = proposal.change;
     change.clear();
     mesh.triangles_at(a, b, change.removed);
     if (change.removed.size() != 2) return false;
+    if (!runs_along(mesh.triangles[change.removed[0]], a, b))
+        std::swap(change.removed[0], change.removed[1]);
     const std::uint32_t t = change.removed[0], u = change.removed[1];
     const Triangle &first = mesh.triangles[t], &second = mesh.triangles[u];
-    std::uint32_t c = opposite(first, a, b), d = opposite(second, a, b);
-    if (even && unevenness(mesh, {a, b, c, d}, 1) >= unevenness(mesh, {a, b, c, d}, 0))
-        return false;
-    const bool forward = (first[0] == a && first[1] == b) || (first[1] == a && first[2] == b) ||
-                         (first[2] == a && first[0] == b);
-    if (!forward) std::swap(c, d); // now a, b, c and b, a, d run round alike
+    const std::uint32_t c = opposite(first, a, b), d = opposite(second, a, b);
+    if (a > b && promises(mesh, b, a, d, aim)) return false; // it is in the list as (b, a), too
+    double least = least_even_cosine;
+    if (aim == Aim::evenness) {
+        if (unevenness(mesh, a, -1) + unevenness(mesh, b, -1) + unevenness(mesh, c, 1) +
+                unevenness(mesh, d, 1) >=
+            0)
+            return false;
+    } else {
+        least = 1e-6 + std::min(least_cosine(mesh, first), least_cosine(mesh, second));
+    }
     const Triangle left{c, a, d}, right{d, b, c};
-    const double least =
-        even ? least_even_cosine
-             : 1e-6 + std::min(least_cosine(mesh, first), least_cosine(mesh, second));
     if (!(least_cosine(mesh, left) > least) || !(least_cosine(mesh, right) > least)) return false;
     if (mesh.are_neighbours(c, d)) return false;
     set_facing(mesh, change);
@@ -148,10 +177,10 @@ bool propose_swap(Workshop& shop, const Edge& e, bool even, Proposal& proposal) 
     return shop.guard.judge(change, proposal.judgement) == Verdict::allowed;
 }
 
-std::size_t swap_those(Workshop& shop, const std::vector<Edge>& edges, bool even) {
+std::size_t swap_those(Workshop& shop, std::uint32_t changed_since, Aim aim) {
     const std::size_t count = in_windows(
-        shop, edges, [&](const Edge& e, Proposal& p) { return propose_swap(shop, e, even, p); },
-        nothing_more);
+        shop, edges_to_swap(shop, changed_since, aim),
+        [&](const Edge& e, Proposal& p) { return propose_swap(shop, e, aim, p); }, nothing_more);
     shop.swaps += count;
     return count;
 }
@@ -191,36 +220,65 @@ bool curve_allows(const Workshop& shop, std::uint32_t gone, std::uint32_t kept,
                          mesh.place_at(shop.curves, curve, after, gone));
 }
 
-void join_on_curve(WorkMesh& mesh, std::uint32_t gone, std::uint32_t kept, std::uint32_t other) {
-    const std::uint32_t curve = mesh.curve_of[gone];
-    const auto [before, after] = mesh.along[gone];
-    const bool inner_before = mesh.kinds[before] == VertexKind::curve;
-    const bool inner_after = mesh.kinds[after] == VertexKind::curve;
-    if (inner_before) mesh.along[before][1] = after;
-    if (inner_after) mesh.along[after][0] = before;
-    if (!inner_before && !inner_after) mesh.set_direct(kept, other, curve);
+/// One of the two ends of a short edge into the other, unless nothing there has changed since then.
+bool propose_collapse_of(Workshop& shop, const Edge& e, std::uint32_t since, Proposal& proposal) {
+    const WorkMesh& mesh = shop.mesh;
+    const auto [a, b] = e;
+    if (mesh.kinds[a] == VertexKind::unused || mesh.kinds[b] == VertexKind::unused) return false;
+    const double wanted = mesh.wanted_length(a, b);
+    if (!mesh.changed_since(a, since) && !mesh.changed_since(b, since)) return false;
+    if (!(mesh.edge_length(a, b) < short_share * wanted) || !mesh.are_neighbours(a, b) ||
+        mesh.curve_at(a, b) != none)
+        return false;
+    const auto into = [&](std::uint32_t gone, std::uint32_t kept) {
+        return mesh.kinds[gone] == VertexKind::inner &&
+               propose_collapse(shop, {gone, kept}, long_share * wanted, least_shape, proposal);
+    };
+    return into(a, b) || into(b, a);
 }
 
-/// Whether moving one vertex into the other is allowed, and makes no edge longer than that and no
-/// triangle worse than `least`, or than what was there; `other`: see curve_allows.
+/// One of the ends of the shortest edge into the other, or of that which is next.
+bool propose_collapse_at(Workshop& shop, const Triangle& c, Proposal& proposal) {
+    const WorkMesh& mesh = shop.mesh;
+    std::array<std::pair<double, std::size_t>, 3> by_length;
+    for (std::size_t i = 0; i < 3; ++i) by_length[i] = {mesh.edge_length(c[i], c[(i + 1) % 3]), i};
+    std::sort(by_length.begin(), by_length.end());
+    for (std::size_t k = 0; k < 2; ++k) { // the longest would make a long one
+        const std::uint32_t a = c[by_length[k].second], b = c[(by_length[k].second + 1) % 3];
+        const double longest = 2 * mesh.wanted_length(a, b);
+        const bool on_curve = mesh.curve_at(a, b) != none;
+        const auto into = [&](std::uint32_t gone, std::uint32_t kept) {
+            const bool fits = mesh.kinds[gone] == VertexKind::inner ||
+                              (on_curve && mesh.kinds[gone] == VertexKind::curve);
+            return fits && propose_collapse(shop, {gone, kept}, longest, 1.0, proposal);
+        };
+        if (into(a, b) || into(b, a)) return true;
+    }
+    return false;
+}
+
+} // namespace
+
 bool propose_collapse(Workshop& shop, const Edge& gone_kept, double longest, double least,
-                      std::uint32_t& other, Proposal& proposal) {
+                      Proposal& proposal) {
     const WorkMesh& mesh = shop.mesh;
     const auto [gone, kept] = gone_kept;
     if (mesh.kinds[gone] == VertexKind::corner) return false;
     const bool on_curve = mesh.kinds[gone] == VertexKind::curve;
-    if (on_curve && !curve_allows(shop, gone, kept, other)) return false;
+    proposal.gone = gone;
+    proposal.kept = kept;
+    if (on_curve && !curve_allows(shop, gone, kept, proposal.other)) return false;
     Change& change = proposal.change;
     change.clear();
     change.on_border = on_curve;
-    change.removed = mesh.star[gone];
+    change.removed.assign(mesh.star[gone].begin(), mesh.star[gone].end());
     proposal.at_edge.clear();
     double longest_added = 0;
     for (const std::uint32_t t : change.removed) {
         const Triangle& corners = mesh.triangles[t];
         if (has(corners, kept)) {
             // All that a sheet has between the two edges of the curve must not vanish.
-            if (on_curve && opposite(corners, gone, kept) == other) return false;
+            if (on_curve && opposite(corners, gone, kept) == proposal.other) return false;
             proposal.at_edge.push_back(t);
             continue;
         }
@@ -245,38 +303,17 @@ bool propose_collapse(Workshop& shop, const Edge& gone_kept, double longest, dou
     return shop.guard.judge(change, proposal.judgement) == Verdict::allowed;
 }
 
-/// One of the two ends of a short edge into the other, unless nothing there has changed since then.
-bool propose_collapse_of(Workshop& shop, const Edge& e, std::uint32_t since, Proposal& proposal) {
-    const WorkMesh& mesh = shop.mesh;
-    const auto [a, b] = e;
-    if (mesh.kinds[a] == VertexKind::unused || mesh.kinds[b] == VertexKind::unused) return false;
-    const double wanted = mesh.wanted_length(a, b);
-    if (!mesh.changed_since(a, since) && !mesh.changed_since(b, since)) return false;
-    if (!(mesh.edge_length(a, b) < short_share * wanted) || !mesh.are_neighbours(a, b) ||
-        mesh.curve_at(a, b) != none)
-        return false;
-    const auto into = [&](std::uint32_t gone, std::uint32_t kept) {
-        std::uint32_t other = none;
-        proposal.gone = gone;
-        return mesh.kinds[gone] == VertexKind::inner &&
-               propose_collapse(shop, {gone, kept}, long_share * wanted, least_shape, other,
-                                proposal);
-    };
-    return into(a, b) || into(b, a);
-}
-
-} // namespace
-
-bool collapse(Workshop& shop, std::uint32_t gone, std::uint32_t kept, double longest,
-              double least) {
-    std::uint32_t other = none;
-    Proposal& proposal = shop.proposal;
-    if (!propose_collapse(shop, {gone, kept}, longest, least, other, proposal)) return false;
-    shop.guard.carry_out(proposal.change, proposal.judgement);
-    if (proposal.change.on_border) join_on_curve(shop.mesh, gone, kept, other);
-    shop.mesh.kinds[gone] = VertexKind::unused;
-    ++shop.collapses;
-    return true;
+void after_collapse(WorkMesh& mesh, const Proposal& proposal) {
+    const auto gone = proposal.gone, kept = proposal.kept;
+    mesh.kinds[gone] = VertexKind::unused;
+    if (!proposal.change.on_border) return;
+    const std::uint32_t curve = mesh.curve_of[gone], other = proposal.other;
+    const auto [before, after] = mesh.along[gone];
+    const bool inner_before = mesh.kinds[before] == VertexKind::curve;
+    const bool inner_after = mesh.kinds[after] == VertexKind::curve;
+    if (inner_before) mesh.along[before][1] = after;
+    if (inner_after) mesh.along[after][0] = before;
+    if (!inner_before && !inner_after) mesh.set_direct(kept, other, curve);
 }
 
 double shape_of(const Point3& a, const Point3& b, const Point3& c) {
@@ -303,7 +340,7 @@ std::size_t split_edges(Workshop& shop) {
     const WorkMesh& mesh = shop.mesh;
     std::size_t count = 0;
     for (unsigned round = 0; round < 32 && !shop.run.stop.stop_requested(); ++round) {
-        const auto classes = by_class(inner_edges(mesh, [&](std::uint32_t a, std::uint32_t b) {
+        const auto classes = by_class(inner_edges(shop, [&](std::uint32_t a, std::uint32_t b) {
             const double ratio = mesh.edge_length(a, b) / mesh.wanted_length(a, b);
             return ratio > long_share ? length_class(ratio) : 0;
         }));
@@ -329,7 +366,7 @@ std::size_t split_edges(Workshop& shop) {
 std::size_t collapse_edges(Workshop& shop) {
     const WorkMesh& mesh = shop.mesh;
     std::size_t count = 0;
-    const auto classes = by_class(inner_edges(mesh, [&](std::uint32_t a, std::uint32_t b) {
+    const auto classes = by_class(inner_edges(shop, [&](std::uint32_t a, std::uint32_t b) {
         const double ratio = mesh.edge_length(a, b) / mesh.wanted_length(a, b);
         return ratio < short_share ? length_class(1 / std::max(ratio, 1e-70)) : 0;
     }));
@@ -340,42 +377,35 @@ std::size_t collapse_edges(Workshop& shop) {
             shop, edges,
             [&](const Edge& e, Proposal& p) { return propose_collapse_of(shop, e, since, p); },
             [&](const Edge&, const Proposal& p, bool is_made) {
-                if (is_made) shop.mesh.kinds[p.gone] = VertexKind::unused;
+                if (is_made) after_collapse(shop.mesh, p);
             });
     shop.collapses += count;
     return count;
 }
 
 std::size_t collapse_bad(Workshop& shop, double below) {
+    using Triangles = std::vector<std::uint32_t>;
     const WorkMesh& mesh = shop.mesh;
-    std::size_t count = 0;
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-        if (shop.run.stop.stop_requested()) return count;
-        if (!mesh.in_use(t) || !(shape_of(mesh, mesh.triangles[t]) < below)) continue;
-        const Triangle c = mesh.triangles[t];
-        std::array<std::pair<double, std::size_t>, 3> by_length;
-        for (std::size_t i = 0; i < 3; ++i)
-            by_length[i] = {mesh.edge_length(c[i], c[(i + 1) % 3]), i};
-        std::sort(by_length.begin(), by_length.end());
-        bool done = false;
-        for (std::size_t k = 0; k < 2 && !done; ++k) { // the longest would make a long one
-            const std::uint32_t a = c[by_length[k].second], b = c[(by_length[k].second + 1) % 3];
-            const double longest = 2 * mesh.wanted_length(a, b);
-            const bool on_curve = mesh.curve_at(a, b) != none;
-            for (const auto& [gone, kept] : {std::pair(a, b), std::pair(b, a)}) {
-                const bool fits = mesh.kinds[gone] == VertexKind::inner ||
-                                  (on_curve && mesh.kinds[gone] == VertexKind::curve);
-                done = done || (fits && collapse(shop, gone, kept, longest, 1.0));
-            }
-        }
-        count += done;
-    }
+    const auto is_bad = [&](std::uint32_t t) {
+        return mesh.in_use(t) && shape_of(mesh, mesh.triangles[t]) < below;
+    };
+    const auto bad = from_triangles<std::uint32_t>(shop, [&](std::uint32_t t, Triangles& list) {
+        if (is_bad(t)) list.push_back(t);
+    });
+    const std::size_t count = in_windows(
+        shop, bad,
+        [&](std::uint32_t t, Proposal& p) {
+            return is_bad(t) && propose_collapse_at(shop, mesh.triangles[t], p);
+        },
+        [&](std::uint32_t, const Proposal& p, bool is_made) {
+            if (is_made) after_collapse(shop.mesh, p);
+        });
+    shop.collapses += count;
     return count;
 }
 
 std::size_t even_out(Workshop& shop) {
-    const std::size_t count =
-        swap_those(shop, edges_changed_since(shop.mesh, shop.evened_at), true);
+    const std::size_t count = swap_those(shop, shop.evened_at, Aim::evenness);
     shop.evened_at = ++shop.mesh.now;
     return count;
 }
@@ -383,9 +413,9 @@ std::size_t even_out(Workshop& shop) {
 std::size_t swap_edges(Workshop& shop) {
     std::size_t count = 0;
     for (unsigned round = 0; round < 6 && !shop.run.stop.stop_requested(); ++round) {
-        const auto edges = edges_changed_since(shop.mesh, shop.swapped_at);
+        const std::uint32_t since = shop.swapped_at;
         shop.swapped_at = ++shop.mesh.now;
-        const std::size_t more = swap_those(shop, edges, false);
+        const std::size_t more = swap_those(shop, since, Aim::angles);
         count += more;
         if (100 * more < shop.mesh.triangles.size()) break;
     }

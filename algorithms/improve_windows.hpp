@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -20,6 +21,44 @@ constexpr std::size_t window_size = 256;
 
 /// Fewer are not worth several threads.
 constexpr std::size_t few = 8;
+
+/// Those of the changes that were carried out in a window. Boxes are compared with all of them at a
+/// time: what is near one is looked at closely.
+class Reaches {
+public:
+    void clear() {
+        reaches_.clear();
+        for (auto& side : sides_) side.clear();
+    }
+    void add(const Reach& reach) {
+        reaches_.push_back(reach);
+        for (std::size_t k = 0; k < 3; ++k) {
+            sides_[k].push_back(reach.around.low[k]);
+            sides_[3 + k].push_back(reach.around.high[k]);
+        }
+    }
+    [[nodiscard]] bool are_apart(const Reach& reach) const {
+        const auto& [low, high] = reach.around;
+        int near = 0, in_some_projection = 0;
+        for (std::size_t i = 0; i < reaches_.size(); ++i) { // without branches, several in one
+            const int x = static_cast<int>(low[0] <= sides_[3][i]) &
+                          static_cast<int>(sides_[0][i] <= high[0]);
+            const int y = static_cast<int>(low[1] <= sides_[4][i]) &
+                          static_cast<int>(sides_[1][i] <= high[1]);
+            const int z = static_cast<int>(low[2] <= sides_[5][i]) &
+                          static_cast<int>(sides_[2][i] <= high[2]);
+            near |= x & y & z;
+            in_some_projection |= (x & y) | (y & z) | (z & x);
+        }
+        if (!reach.borders.empty()) near = in_some_projection;
+        return near == 0 || std::all_of(reaches_.begin(), reaches_.end(),
+                                        [&](const Reach& other) { return reach.is_apart(other); });
+    }
+
+private:
+    std::vector<Reach> reaches_;
+    std::array<std::vector<float>, 6> sides_; ///< per coordinate: low ones, then high ones
+};
 
 constexpr auto nothing_more = [](const auto&, const Proposal&, bool) {};
 
@@ -38,15 +77,16 @@ std::size_t in_windows(Workshop& shop, const std::vector<Item>& items, const Pro
     const std::size_t size = std::clamp(items.size() / 16, std::size_t{1}, window_size);
     const std::size_t windows = (items.size() + size - 1) / size;
     shop.window.resize(std::max(shop.window.size(), size));
-    std::vector<const Judgement*> made;
+    Reaches made;
     std::size_t sum = 0;
+    const auto can_be_anywhere = [](const Proposal& p) {
+        return p.judgement.reach.is_free && p.judgement.reach.borders.empty();
+    };
     const auto is_stale = [&](const Proposal& p) {
         for (const std::uint32_t t : p.change.removed)
             for (const std::uint32_t v : mesh.triangles[t])
                 if (v == none || shop.touched_at[v] == mesh.now) return true;
-        return std::any_of(made.begin(), made.end(), [&](const Judgement* other) {
-            return !Guard::are_apart(p.judgement, *other);
-        });
+        return !can_be_anywhere(p) && !made.are_apart(p.judgement.reach);
     };
     const auto touch = [&](const Triangle& t) {
         for (const std::uint32_t v : t) shop.touched_at[v] = mesh.now;
@@ -57,7 +97,7 @@ std::size_t in_windows(Workshop& shop, const std::vector<Item>& items, const Pro
         shop.guard.carry_out(p.change, p.judgement);
         shop.touched_at.resize(mesh.points.size(), 0);
         for (const Triangle& t : p.change.added) touch(t);
-        made.push_back(&p.judgement);
+        if (!can_be_anywhere(p)) made.add(p.judgement.reach);
     };
     shop.touched_at.resize(mesh.points.size(), 0);
     with_threads(shop.run, [&] {

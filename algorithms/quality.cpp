@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 #include <terrane/algorithms/edges.hpp>
+#include <terrane/algorithms/parallel.hpp>
 #include <terrane/algorithms/vectors.hpp>
 
 namespace terrane {
@@ -24,10 +27,19 @@ double angle_opposite(double a, double b, double c) {
     return 2 * std::atan2(std::sqrt(sine), std::sqrt(cosine)) * 180 / std::acos(-1.0);
 }
 
+/// The least and the largest: across from the shortest and the longest side.
+std::pair<double, double> extreme_angles(const Point3& a, const Point3& b, const Point3& c) {
+    std::array<double, 3> sides{distance(b, c), distance(c, a), distance(a, b)};
+    std::sort(sides.begin(), sides.end());
+    return {angle_opposite(sides[0], sides[1], sides[2]),
+            angle_opposite(sides[2], sides[0], sides[1])};
+}
+
 std::vector<double> edge_lengths(std::span<const Point3> vertices,
-                                 std::span<const Triangle> triangles) {
+                                 std::span<const Triangle> triangles, const Run& run) {
     std::vector<double> lengths;
-    group_edges(triangles, vertices.size())
+    lengths.reserve(triangles.size() * 2);
+    group_edges(triangles, vertices.size(), run)
         .for_each([&](std::uint32_t low, std::uint32_t high, auto) {
             lengths.push_back(distance(vertices[low], vertices[high]));
         });
@@ -57,40 +69,57 @@ std::array<double, 3> angles_of(const Point3& a, const Point3& b, const Point3& 
 Spread spread_of(std::vector<double> values) {
     Spread spread;
     if (values.empty()) return spread;
-    std::sort(values.begin(), values.end());
     double sum = 0;
     for (const double v : values) sum += v;
-    spread.min = values.front();
-    spread.max = values.back();
     spread.mean = sum / static_cast<double>(values.size());
+    const auto [least, largest] = std::minmax_element(values.begin(), values.end());
+    spread.min = *least;
+    spread.max = *largest;
     constexpr std::array<std::size_t, 5> hundredths{1, 5, 50, 95, 99};
-    for (std::size_t i = 0; i < hundredths.size(); ++i)
-        spread.percentiles[i] =
-            values[std::min(values.size() - 1, values.size() * hundredths[i] / 100)];
+    auto first = values.begin();
+    for (std::size_t i = 0; i < hundredths.size(); ++i) {
+        const auto place =
+            values.begin() + static_cast<std::ptrdiff_t>(
+                                 std::min(values.size() - 1, values.size() * hundredths[i] / 100));
+        std::nth_element(first, place, values.end());
+        spread.percentiles[i] = *place;
+        first = place;
+    }
     return spread;
 }
 
-QualityReport measure_quality(std::span<const Point3> vertices,
-                              std::span<const Triangle> triangles) {
+QualityReport measure_quality(std::span<const Point3> vertices, std::span<const Triangle> triangles,
+                              const Run& run) {
     QualityReport report;
     report.triangles = triangles.size();
     if (triangles.empty()) return report;
-    std::vector<double> q, smallest, largest;
-    for (const auto& [i, j, k] : triangles) {
-        q.push_back(quality_of(vertices[i], vertices[j], vertices[k]));
-        const auto angles = angles_of(vertices[i], vertices[j], vertices[k]);
-        smallest.push_back(*std::min_element(angles.begin(), angles.end()));
-        largest.push_back(*std::max_element(angles.begin(), angles.end()));
-        const auto place = static_cast<std::size_t>(q.back() * QualityReport::classes);
+    const std::size_t count = triangles.size();
+    std::vector<double> q(count), smallest(count), largest(count);
+    const auto measure = [&](std::size_t first, std::size_t last) {
+        for (std::size_t t = first; t < last; ++t) {
+            const auto& [i, j, k] = triangles[t];
+            q[t] = quality_of(vertices[i], vertices[j], vertices[k]);
+            std::tie(smallest[t], largest[t]) =
+                extreme_angles(vertices[i], vertices[j], vertices[k]);
+        }
+    };
+    both(
+        run, [&] { for_ranges(count, run, measure); },
+        [&] { report.edge_length = spread_of(edge_lengths(vertices, triangles, run)); });
+    for (const double x : q) {
+        const auto place = static_cast<std::size_t>(x * QualityReport::classes);
         ++report.histogram[std::min(place, QualityReport::classes - 1)];
     }
     const auto good = std::count_if(q.begin(), q.end(), [](double x) { return x > 0.8; });
-    report.share_above_08 = static_cast<double>(good) / static_cast<double>(q.size());
+    report.share_above_08 = static_cast<double>(good) / static_cast<double>(count);
     report.worst = static_cast<std::uint32_t>(std::min_element(q.begin(), q.end()) - q.begin());
-    report.q = spread_of(std::move(q));
-    report.smallest_angle = spread_of(std::move(smallest));
-    report.largest_angle = spread_of(std::move(largest));
-    report.edge_length = spread_of(edge_lengths(vertices, triangles));
+    both(
+        run,
+        [&] {
+            report.q = spread_of(std::move(q));
+            report.smallest_angle = spread_of(std::move(smallest));
+        },
+        [&] { report.largest_angle = spread_of(std::move(largest)); });
     return report;
 }
 

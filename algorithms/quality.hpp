@@ -2,7 +2,7 @@
 //
 // How good triangles are, in floating point: q = 2 r / R (r the radius of the inscribed circle, R
 // of the circumscribed one; 1 for an equilateral triangle, 0 for one without area), angles,
-// lengths. Cost: linear, but for sorting. Source: the paper, section 4.
+// lengths. Cost: linear. Source: the paper, section 4.
 #pragma once
 
 #include <array>
@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include <terrane/algorithms/run.hpp>
 #include <terrane/algorithms/surface.hpp>
 
 namespace terrane {
@@ -42,7 +43,8 @@ struct QualityReport {
     std::uint32_t worst = UINT32_MAX;             ///< a triangle of least q, the first; or none
 };
 
-QualityReport measure_quality(std::span<const Point3> vertices,
-                              std::span<const Triangle> triangles);
+/// The same numbers for any number of threads.
+QualityReport measure_quality(std::span<const Point3> vertices, std::span<const Triangle> triangles,
+                              const Run& run = {});
 
 } // namespace terrane

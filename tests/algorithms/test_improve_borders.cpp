@@ -80,7 +80,7 @@ void move_one(Sheet& sheet, Borders& borders, Random& random, Count& count) {
     change.place = before;
     change.place.x += random_int(random, -3, 3);
     change.place.y += random_int(random, -3, 3);
-    change.removed = work.star[v];
+    change.removed.assign(work.star[v].begin(), work.star[v].end());
     for (const std::uint32_t t : change.removed) change.add(work.triangles[t], t);
     const std::uint32_t patch = sheet.patches.of[change.removed[0]];
     if (patch == no_group) return;
@@ -98,7 +98,8 @@ void move_one(Sheet& sheet, Borders& borders, Random& random, Count& count) {
     const bool is_so = is_wound && sheet.is_one_to_one(patch);
     work.points[v] = before;
     if (!is_wound) return;
-    const bool kept = borders.keeps(change, sheet.patches.of, patch, axis);
+    Borders::Search search;
+    const bool kept = borders.keeps(change, sheet.patches.of, patch, axis, search);
     if (kept) REQUIRE(is_so);
     count.kept += kept;
     count.rightly_not += !kept && !is_so;
