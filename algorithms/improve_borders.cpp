@@ -105,7 +105,8 @@ void Borders::find_chain(const Change& change, std::span<const std::uint32_t> pa
 
 /// The chain as a loop of three or four corners, and the triangles of it.
 bool Borders::find_swept(const Change& change, Axis axis, Search& search) const {
-    auto& [chain, swept] = search;
+    std::vector<Edge>& chain = search.chain_;
+    std::vector<Swept>& swept = search.swept_;
     swept.clear();
     if (chain.empty()) return true;
     if (chain.size() < 3 || chain.size() > 4) return false;
