@@ -23,24 +23,6 @@ Error contact(std::string sentence, std::uint32_t triangle) {
             "triangle " + std::to_string(triangle)};
 }
 
-/// Indices, numbers, and triangles one by one.
-Status sound_triangles(std::span<const Point3> points, std::span<const Triangle> triangles) {
-    for (std::size_t v = 0; v < points.size(); ++v) {
-        const Point3& p = points[v];
-        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-            return Error{ErrorCode::bad_number, "a coordinate is not finite",
-                         "vertex " + std::to_string(v)};
-    }
-    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-        const auto& [a, b, c] = triangles[t];
-        if (std::max({a, b, c}) >= points.size())
-            return Error{ErrorCode::bad_index, "a corner names no vertex",
-                         "triangle " + std::to_string(t)};
-        if (collinear(points[a], points[b], points[c])) return contact("it has no area", t);
-    }
-    return Done{};
-}
-
 Status distinct_triangles(std::span<const Triangle> triangles) {
     std::vector<std::pair<Triangle, std::uint32_t>> sorted;
     sorted.reserve(triangles.size());
@@ -91,6 +73,23 @@ std::optional<CandidatePair> first_contact(std::span<const Point3> points,
 }
 
 } // namespace
+
+Status sound_triangles(std::span<const Point3> points, std::span<const Triangle> triangles) {
+    for (std::size_t v = 0; v < points.size(); ++v) {
+        const Point3& p = points[v];
+        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+            return Error{ErrorCode::bad_number, "a coordinate is not finite",
+                         "vertex " + std::to_string(v)};
+    }
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+        const auto& [a, b, c] = triangles[t];
+        if (std::max({a, b, c}) >= points.size())
+            return Error{ErrorCode::bad_index, "a corner names no vertex",
+                         "triangle " + std::to_string(t)};
+        if (collinear(points[a], points[b], points[c])) return contact("it has no area", t);
+    }
+    return Done{};
+}
 
 Status conforming(std::span<const Point3> points, std::span<const Triangle> triangles,
                   std::span<const std::uint32_t> label_of, const Run& run) {

@@ -12,7 +12,6 @@ namespace terrane::improving {
 namespace {
 
 constexpr double least_gain = 1e-2; ///< share of the sum of 1 / q that a move must take away
-constexpr double least_shape = 0.3; ///< that collapses may leave where there was better
 
 /// An edge of a curve, in its direction.
 struct CurveEdge {
@@ -45,7 +44,7 @@ std::array<double, 2> places_of(const Workshop& shop, const CurveEdge& e) {
                 : shop.mesh.place_at(shop.curves, e.curve, e.to, e.from)};
 }
 
-bool propose_split(Workshop& shop, const CurveEdge& e, Proposal& proposal) {
+bool propose_curve_split(Workshop& shop, const CurveEdge& e, Proposal& proposal) {
     const WorkMesh& mesh = shop.mesh;
     const auto [from, to] = places_of(shop, e);
     proposal.at = from + (to - from) / 2;
@@ -81,9 +80,8 @@ void after_split(WorkMesh& mesh, const CurveEdge& e, const Proposal& proposal) {
     if (!from_inner && !to_inner) mesh.drop_direct(e.from, e.to);
 }
 
-/// Of the added triangles, with the vertex at the point.
-double sum_of_shapes(const WorkMesh& mesh, Change& change, const Point3& at) {
-    change.place = at;
+/// Of 1 / q of the triangles as they will be.
+double badness_of_added(const WorkMesh& mesh, const Change& change) {
     double sum = 0;
     for (const Triangle& t : change.added)
         sum += 1 / shape_of(change.point(mesh.points, t[0]), change.point(mesh.points, t[1]),
@@ -102,9 +100,10 @@ bool propose_slide_to(Workshop& shop, std::uint32_t v, double at, Proposal& prop
     Change& change = proposal.change;
     look_at(mesh, v, change);
     change.on_border = true;
-    const double sum = sum_of_shapes(mesh, change, mesh.points[v]);
-    if (!(sum_of_shapes(mesh, change, point_on(shop, curve, at)) < sum * (1 - least_gain)))
-        return false;
+    change.place = mesh.points[v];
+    const double before_it = badness_of_added(mesh, change);
+    change.place = point_on(shop, curve, at);
+    if (!(badness_of_added(mesh, change) < before_it * (1 - least_gain))) return false;
     set_facing(mesh, change);
     return shop.guard.judge(change, proposal.judgement) == Verdict::allowed;
 }
@@ -123,7 +122,7 @@ bool propose_slide(Workshop& shop, std::uint32_t v, Proposal& proposal) {
 }
 
 /// Into the nearer neighbour on the curve, where that is short.
-bool propose_collapse_of(Workshop& shop, std::uint32_t v, Proposal& proposal) {
+bool propose_curve_collapse(Workshop& shop, std::uint32_t v, Proposal& proposal) {
     const WorkMesh& mesh = shop.mesh;
     if (mesh.kinds[v] != VertexKind::curve) return false;
     const auto [before, after] = mesh.along[v];
@@ -179,7 +178,8 @@ std::size_t split_curves(Workshop& shop) {
             return !(to - from > long_share * shop.mesh.wanted_length(e.from, e.to));
         });
         const std::size_t more = in_windows(
-            shop, edges, [&](const CurveEdge& e, Proposal& p) { return propose_split(shop, e, p); },
+            shop, edges,
+            [&](const CurveEdge& e, Proposal& p) { return propose_curve_split(shop, e, p); },
             [&](const CurveEdge& e, const Proposal& p, bool is_made) {
                 if (is_made) after_split(shop.mesh, e, p);
             });
@@ -193,7 +193,7 @@ std::size_t split_curves(Workshop& shop) {
 std::size_t collapse_curves(Workshop& shop) {
     const std::size_t count = in_windows(
         shop, curve_vertices(shop.mesh),
-        [&](std::uint32_t v, Proposal& p) { return propose_collapse_of(shop, v, p); },
+        [&](std::uint32_t v, Proposal& p) { return propose_curve_collapse(shop, v, p); },
         [&](std::uint32_t, const Proposal& p, bool is_made) {
             if (is_made) after_collapse(shop.mesh, p);
         });

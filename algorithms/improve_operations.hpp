@@ -30,6 +30,7 @@ namespace terrane::improving {
 
 constexpr double long_share = 4.0 / 3;  ///< of the wanted length: longer edges are split
 constexpr double short_share = 4.0 / 5; ///< of the wanted length: shorter ones are collapsed
+constexpr double least_shape = 0.3;     ///< that collapses may leave where there was better
 
 /// A change on its way, and where what leads to it is noted.
 struct Proposal {

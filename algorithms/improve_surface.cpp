@@ -15,7 +15,6 @@ namespace terrane::improving {
 namespace {
 
 constexpr double least_even_cosine = -0.35; ///< of angles that evening out may make
-constexpr double least_shape = 0.3;         ///< that collapses may leave where there was better
 
 /// 1, 2, ... for ratios from 1, each of four classes up to 2, and so on: edges of a class are taken
 /// in the order of their vertices, as what lies together costs less to get.
@@ -103,7 +102,7 @@ std::vector<Edge> edges_to_swap(const Workshop& shop, std::uint32_t time, Aim ai
 }
 
 /// Whether splitting the edge is allowed, unless one of its triangles has changed since then.
-bool propose_split(Workshop& shop, const Edge& e, std::uint32_t since, Proposal& proposal) {
+bool propose_edge_split(Workshop& shop, const Edge& e, std::uint32_t since, Proposal& proposal) {
     const WorkMesh& mesh = shop.mesh;
     const auto [a, b] = e;
     Change& change = proposal.change;
@@ -221,7 +220,7 @@ bool curve_allows(const Workshop& shop, std::uint32_t gone, std::uint32_t kept,
 }
 
 /// One of the two ends of a short edge into the other, unless nothing there has changed since then.
-bool propose_collapse_of(Workshop& shop, const Edge& e, std::uint32_t since, Proposal& proposal) {
+bool propose_edge_collapse(Workshop& shop, const Edge& e, std::uint32_t since, Proposal& proposal) {
     const WorkMesh& mesh = shop.mesh;
     const auto [a, b] = e;
     if (mesh.kinds[a] == VertexKind::unused || mesh.kinds[b] == VertexKind::unused) return false;
@@ -349,7 +348,7 @@ std::size_t split_edges(Workshop& shop) {
         for (const std::vector<Edge>& edges : classes)
             more += in_windows(
                 shop, edges,
-                [&](const Edge& e, Proposal& p) { return propose_split(shop, e, since, p); },
+                [&](const Edge& e, Proposal& p) { return propose_edge_split(shop, e, since, p); },
                 nothing_more);
         if (more == 0) break;
         shop.splits += more;
@@ -375,7 +374,7 @@ std::size_t collapse_edges(Workshop& shop) {
     for (const std::vector<Edge>& edges : classes)
         count += in_windows(
             shop, edges,
-            [&](const Edge& e, Proposal& p) { return propose_collapse_of(shop, e, since, p); },
+            [&](const Edge& e, Proposal& p) { return propose_edge_collapse(shop, e, since, p); },
             [&](const Edge&, const Proposal& p, bool is_made) {
                 if (is_made) after_collapse(shop.mesh, p);
             });

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <random>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -281,6 +282,30 @@ TEST_CASE("improve: closed, one-sided and folded surfaces stay where they were",
         CHECK(sampled_distance(surface_of_mesh(better.mesh, 0), s) <= bound);
         CHECK(sampled_distance(s, surface_of_mesh(better.mesh, 0)) <= 2 * bound);
         CHECK(better.report.after.q.mean > 0.85);
+    }
+}
+
+TEST_CASE("improve: triangles that cross at random are refused, however they hang together",
+          "[improve]") {
+    // Features and curves are looked for while the mesh is still being checked.
+    std::mt19937 random(8);
+    std::uniform_real_distribution<double> coordinate(0, 1);
+    for (int i = 0; i < 200; ++i) {
+        Mesh mesh;
+        for (std::uint32_t v = 0; v < 12; ++v)
+            mesh.vertices.push_back(
+                {coordinate(random), coordinate(random), i % 2 == 0 ? coordinate(random) : 0});
+        std::uniform_int_distribution<std::uint32_t> vertex(0, 11), surface(0, 2);
+        mesh.surfaces.resize(3);
+        while (mesh.triangles.size() < 40) {
+            const Triangle t{vertex(random), vertex(random), vertex(random)};
+            if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
+            mesh.triangles.push_back(t);
+            mesh.surfaces_of.push_back(std::vector<std::uint32_t>{surface(random)});
+        }
+        Run run;
+        run.threads = 2;
+        CHECK(refusal(mesh, {}, run) == ErrorCode::improper_contact);
     }
 }
 
