@@ -59,9 +59,8 @@ Patches patches_of_faces(Patches of_soup, const Lists<std::uint32_t>& faces_of, 
     return patches;
 }
 
-/// Candidates of which one has a constructed point on it, as input triangles.
+/// Pairs of which one has a constructed point on it, as input triangles.
 std::vector<CandidatePair> neighbours_of_divided(const Soup& soup, const Division& division,
-                                                 std::span<const CandidatePair> candidates,
                                                  const Run& run) {
     std::vector<char> has_constructed(soup.triangles.size(), 0);
     const auto inputs = static_cast<PointIndex>(division.points.input_count());
@@ -74,7 +73,7 @@ std::vector<CandidatePair> neighbours_of_divided(const Soup& soup, const Divisio
         }
     });
     std::vector<CandidatePair> neighbours;
-    for (const CandidatePair& p : candidates)
+    for (const CandidatePair& p : division.near)
         if (has_constructed[p.first] != 0 || has_constructed[p.second] != 0)
             neighbours.push_back({soup.input_of[p.first], soup.input_of[p.second]});
     return neighbours;
@@ -165,7 +164,7 @@ Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
     a.inputs = {soup.first_input_triangle, soup.first_input_vertex, std::move(soup.input_corners),
                 soup.duplicates};
     a.degenerate = soup.degenerate;
-    a.neighbours = neighbours_of_divided(soup, division, candidates, run);
+    a.neighbours = neighbours_of_divided(soup, division, run);
     const Labels labels = labels_of(soup, patches, run);
     std::vector<std::uint32_t> vertex_of;
     both(

@@ -61,8 +61,9 @@ struct Arrangement {
                                            ///< are those of the triangles at it
     std::vector<std::uint32_t> degenerate; ///< input triangles without area, ascending
     Patches patches;                       ///< of the triangles: within one, none meet improperly
-    std::vector<CandidatePair> neighbours; ///< input triangles whose boxes overlap, one of them
-                                           ///< with constructed points, not both within one patch;
+    std::vector<CandidatePair> neighbours; ///< input triangles, one of them with constructed
+                                           ///< points, not both within one patch, that meet or may
+                                           ///< do so when points are rounded to nearest doubles;
                                            ///< no duplicates; sorted
     Adjacency adjacency;                   ///< of the triangles, for what follows
     bool whole = true;                     ///< false: some triangles were taken out, see

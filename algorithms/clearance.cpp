@@ -20,23 +20,24 @@ namespace {
 
 using namespace clearance;
 
-/// Which vertices are a face's: per point.
-struct Stamp {
-    std::uint32_t face = none;
-    std::uint32_t vertex = 0; ///< index into Faces::vertices
-};
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Where a vertex is: a part that leaves a plane to one side is above or below with all corners that
 // do not rest on it.
 constexpr std::uint8_t rests = 0, above = 1, below = 2, neither = 3;
 constexpr std::uint8_t unknown = 0xff;
 
+/// Of the parts of two faces at their common vertices.
+struct Common {
+    std::uint32_t first = none; ///< the first of the two faces
+    Sizes sizes;
+};
+
 struct Scratch {
-    std::array<std::vector<Stamp>, 2> stamps;
-    std::vector<std::uint8_t> sides;            ///< per corner of a cell
-    std::vector<std::uint8_t> beyond;           ///< per corner: see edges_before, or unknown
-    std::vector<std::uint32_t> low;             ///< corners that are not clearly above or below
-    std::vector<std::uint32_t> doubtful;        ///< entries of Faces::parts
+    std::vector<Common> common;                 ///< per face, with the first of a group of pairs
+    std::vector<std::uint8_t> sides;            ///< per vertex of a face
+    std::vector<std::uint8_t> beyond;           ///< per vertex: see edges_before, or unknown
+    std::vector<std::uint32_t> low;             ///< vertices that are not clearly above or below
     std::vector<std::uint32_t> left, left_back; ///< entries of Faces::parts without proof
     std::vector<Box> boxes;                     ///< of left_back
 };
@@ -50,72 +51,51 @@ double most_of(std::span<const double> moves) {
     return moves.empty() ? 0 : *std::max_element(moves.begin(), moves.end());
 }
 
+/// The interval that a face has on the line in which its plane meets another one.
+struct Cut {
+    double low = infinity, high = -infinity; ///< no end lies farther out
+    double least_sine = 1;                   ///< of the angles of crossed edges with the line
+    bool is_certain = false;                 ///< the face has points on both sides of the line
+    bool is_usable = true;
+};
+
 class Prover {
 public:
     Prover(const MovedParts& moved, std::span<const CandidatePair> meeting, const Run& run) :
-        Prover(moved, meeting, Measured(moved, meeting, run), run) {}
+        moved_(moved), meeting_(meeting), move_(most_of(moved.moves)),
+        faces_(moved, meeting, move_, run) {}
 
     [[nodiscard]] Unclear operator()(const Run& run);
 
 private:
-    Prover(const MovedParts& moved, std::span<const CandidatePair> meeting, Measured measured,
-           const Run& run) :
-        moved_(moved),
-        move_(most_of(moved.moves)), meeting_(close_pairs(meeting, measured, run)),
-        faces_(moved, std::move(measured), meeting_, move_, run) {}
-
     /// Parts of f are to be told clear of g.
     struct Pair {
-        std::uint32_t f_name, g_name;
-        const Face& g;
-        double d;                      ///< the margin
-        std::span<const Stamp> stamps; ///< of g
-        std::span<Stamp> stamps_back;  ///< of f, for the other direction; or none
+        std::uint32_t f_slot, g_slot;
+        const Face &f, &g;
+        double d; ///< the margin
+        Functional height;
+        std::array<Functional, 3> beyond;
     };
 
-    [[nodiscard]] std::vector<CandidatePair> close_pairs(std::span<const CandidatePair> meeting,
-                                                         const Measured& measured,
-                                                         const Run& run) const;
-    [[nodiscard]] double margin(double extent, const Face& g) const;
-    [[nodiscard]] const Face& face(std::uint32_t f) const {
-        return faces_.faces[faces_.slot_of[f]];
-    }
-    [[nodiscard]] std::span<const Cell> cells_of(const Face& f) const {
-        return {faces_.cells.data() + f.cell, faces_.cells.data() + f.cell_end};
-    }
+    [[nodiscard]] double margin(const Face& f, const Face& g) const;
+    [[nodiscard]] Pair pair_of(std::uint32_t f_slot, std::uint32_t g_slot) const;
+    [[nodiscard]] Cut cut(std::uint32_t f_slot, std::uint32_t g_slot, const Point3& origin,
+                          const Point3& line) const;
     void add_restless(const Face& f, std::vector<std::uint32_t>& parts) const;
+    void find_common(std::uint32_t g_slot, std::vector<Common>& common) const;
+    [[nodiscard]] bool is_clear_as_a_whole(std::uint32_t f_slot, std::uint32_t g_slot,
+                                           const Common& common) const;
     void test_group(std::size_t first, std::size_t last, Scratch& scratch, Found& found) const;
-    void stamp(std::uint32_t f, std::vector<Stamp>& stamps) const;
-    [[nodiscard]] bool is_apart(const Face& f, const Face& g) const;
-    [[nodiscard]] bool is_clear(const Pair& pair, const Cell& cell, std::uint32_t entry) const;
-    bool find_sides(const Pair& pair, const Cell& cell, Scratch& scratch) const;
-    void find_left(const Pair& pair, const Cell& cell, Scratch& scratch,
-                   std::vector<std::uint32_t>& left) const;
+    [[nodiscard]] bool is_clear(const Pair& pair, const Triangle& part) const;
+    bool find_sides(const Pair& pair, Scratch& scratch) const;
     void find_left(const Pair& pair, Scratch& scratch, std::vector<std::uint32_t>& left) const;
     void add_pairs(Scratch& scratch, Found& found) const;
 
     const MovedParts& moved_;
-    double move_;                        ///< d: the most
-    std::vector<CandidatePair> meeting_; ///< the pairs of faces that are not apart as a whole
-    Faces faces_;                        ///< of these
+    std::span<const CandidatePair> meeting_;
+    double move_; ///< d: the most
+    Faces faces_;
 };
-
-/// The pairs that are not apart as a whole.
-std::vector<CandidatePair> Prover::close_pairs(std::span<const CandidatePair> meeting,
-                                               const Measured& measured, const Run& run) const {
-    const auto blocks = for_blocks<std::vector<CandidatePair>>(
-        meeting.size(), 1024, run, [&](std::size_t first, std::size_t last) {
-            std::vector<CandidatePair> close;
-            for (const CandidatePair& p : meeting.subspan(first, last - first)) {
-                const Face &f = measured[p.second], &g = measured[p.first];
-                if (!is_apart(f, g) && !is_apart(g, f)) close.push_back(p);
-            }
-            return close;
-        });
-    std::vector<CandidatePair> close;
-    for (const auto& block : blocks) close.insert(close.end(), block.begin(), block.end());
-    return close;
-}
 
 /// a^2 >= 64 d l; also false where anything has underflown.
 bool is_calm(const Sizes& s, double d) {
@@ -125,44 +105,91 @@ bool is_calm(const Sizes& s, double d) {
 /// Parts of it that may meet another one of it improperly.
 void Prover::add_restless(const Face& f, std::vector<std::uint32_t>& parts) const {
     if (f.part_end - f.part == 1) return;
-    for (const Cell& cell : cells_of(f)) {
-        const auto calm = [&](std::uint32_t corner) {
-            return is_calm(faces_.sizes[faces_.vertex_at[cell.corner + corner]], 4 * move_);
-        };
-        for (std::uint32_t e = cell.part; e < cell.part_end; ++e) {
-            const auto& c = faces_.corners[e];
-            if (!std::all_of(c.begin(), c.end(), calm)) parts.push_back(faces_.parts[e]);
-        }
+    const auto calm = [&](std::uint32_t v) { return is_calm(faces_.sizes[v], 4 * move_); };
+    for (std::uint32_t e = f.part; e < f.part_end; ++e) {
+        const Triangle& c = faces_.corners[e];
+        if (!std::all_of(c.begin(), c.end(), calm)) parts.push_back(faces_.parts[e]);
     }
 }
 
-void Prover::stamp(std::uint32_t f, std::vector<Stamp>& stamps) const {
-    stamps.resize(moved_.points.size());
-    for (std::uint32_t v = face(f).vertex; v < face(f).vertex_end; ++v)
-        stamps[faces_.vertices[v]] = {f, v};
+/// d of the lemma for parts of f and the functionals of g, with room for errors in both directions.
+double Prover::margin(const Face& f, const Face& g) const {
+    return 4 * (move_ + (f.extent + g.extent) * g.functional_error);
 }
 
-/// d of the lemma for parts of a face of an extent, and the functionals of g, with room for errors
-/// in both directions.
-double Prover::margin(double extent, const Face& g) const {
-    return 4 * (move_ + (extent + g.extent) * g.functional_error);
+Prover::Pair Prover::pair_of(std::uint32_t f_slot, std::uint32_t g_slot) const {
+    const Face &f = faces_.faces[f_slot], &g = faces_.faces[g_slot];
+    return {
+        f_slot, g_slot, f, g, margin(f, g), g.height(), {g.beyond(0), g.beyond(1), g.beyond(2)}};
 }
 
-/// The whole of f lies beyond g.
-bool Prover::is_apart(const Face& f, const Face& g) const {
-    const double d = margin(f.extent, g);
-    const Point3 &p = f.corners[0], &q = f.corners[1], &r = f.corners[2];
-    const double a = g.height(p), b = g.height(q), c = g.height(r);
-    if ((a > d && b > d && c > d) || (a < -d && b < -d && c < -d)) return true;
-    return std::any_of(g.beyond.begin(), g.beyond.end(),
-                       [&](const Functional& u) { return u(p) > d && u(q) > d && u(r) > d; });
+/// Where f is cut by the plane of g: an edge between corners on both sides is crossed at one place,
+/// as exactly as their heights are known. Near a corner that may be on the plane the line may cross
+/// either edge. An edge may lie on the line only if both faces have its ends.
+Cut Prover::cut(std::uint32_t f_slot, std::uint32_t g_slot, const Point3& origin,
+                const Point3& line) const {
+    const Face &f = faces_.faces[f_slot], &g = faces_.faces[g_slot];
+    const Functional height = g.height();
+    const double d = margin(f, g);
+    std::array<double, 3> h{}, at{};
+    std::array<int, 3> side{};
+    for (unsigned i = 0; i < 3; ++i) {
+        h[i] = height(f.corners[i]);
+        at[i] = dot(minus(f.corners[i], origin), line);
+        side[i] = h[i] > d ? 1 : h[i] < -d ? -1 : 0;
+    }
+    const auto is_common = [&](unsigned i) {
+        return f.corner_at[i] != none && faces_.has(g_slot, f.corner_at[i]);
+    };
+    Cut cut;
+    const auto include = [&](double place, double error) {
+        cut.low = std::min(cut.low, place - error);
+        cut.high = std::max(cut.high, place + error);
+    };
+    for (unsigned i = 0; i < 3; ++i) {
+        const unsigned j = (i + 1) % 3;
+        if (side[i] * side[j] > 0) continue;
+        if (side[i] == 0 && side[j] == 0) {
+            cut.is_usable = cut.is_usable && is_common(i) && is_common(j);
+            continue;
+        }
+        const Point3 e = minus(f.corners[j], f.corners[i]);
+        const double size = length(e), rise = std::fabs(h[j] - h[i]);
+        cut.least_sine = std::min(cut.least_sine, length(cross(e, line)) / size);
+        cut.is_certain = cut.is_certain || side[i] * side[j] < 0;
+        include(at[i] + h[i] / (h[i] - h[j]) * (at[j] - at[i]), 4 * size * d / rise);
+    }
+    return cut;
+}
+
+/// Cases (1) and (2) of the lemma. Sines and directions are off by a thousandth at most; what they
+/// lead to is taken half or twice as large.
+bool Prover::is_clear_as_a_whole(std::uint32_t f_slot, std::uint32_t g_slot,
+                                 const Common& common) const {
+    constexpr double least_edge_sine = 0x1p-7;
+    const Face &f = faces_.faces[f_slot], &g = faces_.faces[g_slot];
+    const Point3 across = cross(f.normal, g.normal);
+    const double sine = length(across);
+    if (!(sine > 1024 * (f.functional_error + g.functional_error))) return false;
+    const Point3 line{across.x / sine, across.y / sine, across.z / sine};
+    const Cut on_f = cut(f_slot, g_slot, f.corners[0], line);
+    const Cut on_g = cut(g_slot, f_slot, f.corners[0], line);
+    const double least = std::min(on_f.least_sine, on_g.least_sine), s = sine / 2;
+    if (!on_f.is_usable || !on_g.is_usable || !(least > least_edge_sine)) return false;
+    if (common.first == g_slot) {
+        const double k = s / (2 + 2 / least);
+        return is_calm(common.sizes, 2 * move_ / k);
+    }
+    if (!on_f.is_certain || !on_g.is_certain) return false;
+    const double gap = std::max(on_g.low - on_f.high, on_f.low - on_g.high) / 2;
+    return gap * s / (1 + 4 / least) > 4 * move_;
 }
 
 /// What the other corners must rise to when a part leaves g at a vertex; infinite where g is not
 /// calm.
 double least_rise(const Sizes& there, double longest, double d) {
     const double l = std::max(there.longest, longest);
-    if (!is_calm({there.altitude, l}, d)) return std::numeric_limits<double>::infinity();
+    if (!is_calm({there.altitude, l}, d)) return infinity;
     const double ratio = l / there.altitude;
     return 128 * d * ratio * ratio;
 }
@@ -189,25 +216,22 @@ bool leaves_turned(const std::array<double, 3>& e, const std::array<double, 3>& 
     return false;
 }
 
-/// Case (1) or (2) of the lemma for a part of another face, by any of the functionals.
-bool Prover::is_clear(const Pair& pair, const Cell& cell, std::uint32_t entry) const {
+/// Case (3) or (4) of the lemma for a part of f, by any of the functionals.
+bool Prover::is_clear(const Pair& pair, const Triangle& part) const {
     const double d = pair.d;
     std::array<Point3, 3> at;
     std::array<bool, 3> on{}; // it is a vertex of g
-    std::array<const Sizes*, 3> there{};
-    double longest = std::numeric_limits<double>::infinity();
+    std::array<std::uint32_t, 3> there{};
+    double longest = infinity;
     for (unsigned i = 0; i < 3; ++i) {
-        const std::uint32_t corner = cell.corner + faces_.corners[entry][i];
-        const std::uint32_t v = faces_.vertex_at[corner];
-        const Stamp& s = pair.stamps[faces_.vertices[v]];
-        on[i] = s.face == pair.g_name;
-        if (on[i]) there[i] = &faces_.sizes[s.vertex];
-        at[i] = faces_.places[corner];
-        longest = std::min(longest, faces_.sizes[v].longest); // its own is in all three
+        there[i] = faces_.find(pair.g_slot, faces_.vertices[part[i]]);
+        on[i] = there[i] != none;
+        at[i] = faces_.places[part[i]];
+        longest = std::min(longest, faces_.sizes[part[i]].longest); // its own is in all three
     }
     double least = d; // what corners off g must rise above
     for (unsigned i = 0; i < 3; ++i)
-        if (on[i]) least = std::max(least, least_rise(*there[i], longest, d));
+        if (on[i]) least = std::max(least, least_rise(faces_.sizes[there[i]], longest, d));
     if (std::isinf(least)) return false;
     const auto leaves = [&](double a, double b, double c) {
         const bool rests_a = on[0] && std::fabs(a) <= d / 2,
@@ -216,10 +240,10 @@ bool Prover::is_clear(const Pair& pair, const Cell& cell, std::uint32_t entry) c
         return (rests_a || a > least) && (rests_b || b > least) && (rests_c || c > least) &&
                !(rests_a && rests_b && rests_c);
     };
-    const Functional& height = pair.g.height;
+    const Functional& height = pair.height;
     const std::array<double, 3> h{height(at[0]), height(at[1]), height(at[2])};
     if (leaves(h[0], h[1], h[2]) || leaves(-h[0], -h[1], -h[2])) return true;
-    for (const Functional& u : pair.g.beyond) {
+    for (const Functional& u : pair.beyond) {
         const std::array<double, 3> e{u(at[0]), u(at[1]), u(at[2])};
         if (leaves(e[0], e[1], e[2])) return true;
         std::array<bool, 3> before{};
@@ -230,19 +254,18 @@ bool Prover::is_clear(const Pair& pair, const Cell& cell, std::uint32_t entry) c
     return false;
 }
 
-/// Where the corners of a cell are: above the plane of g, below it, resting on a vertex of g in it,
-/// or neither. True if what rises at all rises enough for whatever rests. Those that rest are
-/// entered in stamps_back as vertices of f: no others matter to parts of g.
-bool Prover::find_sides(const Pair& pair, const Cell& cell, Scratch& scratch) const {
-    const std::uint32_t count = cell.corner_end - cell.corner;
+/// Where the vertices of f are: above the plane of g, below it, resting on a vertex of g in it, or
+/// neither. True if what rises at all rises enough for whatever rests.
+bool Prover::find_sides(const Pair& pair, Scratch& scratch) const {
+    const std::uint32_t first = pair.f.vertex, count = pair.f.vertex_end - first;
     auto& sides = scratch.sides;
     auto& low = scratch.low;
     sides.resize(count);
     low.resize(count);
-    const Point3* place = faces_.places.data() + cell.corner;
-    const Functional height = pair.g.height;
+    const Point3* place = faces_.places.data() + first;
+    const Functional height = pair.height;
     const double d = pair.d;
-    double least_lift = std::numeric_limits<double>::infinity(), most_rise = 0;
+    double least_lift = infinity, most_rise = 0;
     std::uint32_t lows = 0; // no branches: they would be foretold badly
     for (std::uint32_t k = 0; k < count; ++k) {
         const double u = height(place[k]), lift = std::fabs(u);
@@ -252,99 +275,50 @@ bool Prover::find_sides(const Pair& pair, const Cell& cell, Scratch& scratch) co
         lows += lift > d ? 0 : 1;
     }
     for (std::uint32_t n = 0; n < lows; ++n) {
-        const std::uint32_t k = low[n], v = faces_.vertex_at[cell.corner + k];
-        const Stamp& s = pair.stamps[faces_.vertices[v]];
-        if (s.face != pair.g_name) continue;
-        if (!pair.stamps_back.empty()) pair.stamps_back[faces_.vertices[v]] = {pair.f_name, v};
-        if (!(std::fabs(height(place[k])) <= d / 2)) continue;
+        const std::uint32_t k = low[n];
+        const std::uint32_t there = faces_.find(pair.g_slot, faces_.vertices[first + k]);
+        if (there == none || !(std::fabs(height(place[k])) <= d / 2)) continue;
         sides[k] = rests;
-        const double rise = least_rise(faces_.sizes[s.vertex], faces_.sizes[v].longest, d);
-        most_rise = std::max(most_rise, rise);
+        most_rise = std::max(most_rise,
+                             least_rise(faces_.sizes[there], faces_.sizes[first + k].longest, d));
     }
     return least_lift > most_rise;
 }
 
 /// The edges of g beyond which p lies by more than d: a bit for each.
-std::uint8_t edges_before(const Face& g, const Point3& p, double d) {
+std::uint8_t edges_before(const std::array<Functional, 3>& beyond, const Point3& p, double d) {
     unsigned edges = 0;
     for (unsigned j = 0; j < 3; ++j)
-        if (g.beyond[j](p) > d) edges |= 1u << j;
+        if (beyond[j](p) > d) edges |= 1u << j;
     return static_cast<std::uint8_t>(edges);
 }
 
-/// The parts of a cell that may meet parts of g improperly. Most lie on one side of its plane, or
-/// leave it at vertices of both.
-void Prover::find_left(const Pair& pair, const Cell& cell, Scratch& scratch,
-                       std::vector<std::uint32_t>& left) const {
-    const bool all_leave = find_sides(pair, cell, scratch);
+/// The parts of f that may meet parts of g improperly. Most lie on one side of its plane, or leave
+/// it at vertices of both.
+void Prover::find_left(const Pair& pair, Scratch& scratch, std::vector<std::uint32_t>& left) const {
+    left.clear();
+    const bool all_leave = find_sides(pair, scratch);
+    const std::uint32_t first = pair.f.vertex;
     const auto& sides = scratch.sides;
-    const auto is_doubtful = [&](const std::array<std::uint16_t, 3>& c) {
-        const unsigned i = sides[c[0]], j = sides[c[1]], k = sides[c[2]], together = i | j | k;
+    const auto is_doubtful = [&](const Triangle& c) {
+        const unsigned i = sides[c[0] - first], j = sides[c[1] - first], k = sides[c[2] - first];
+        const unsigned together = i | j | k;
         const bool both_sides = together == neither || together == rests;
         const bool any_rests = i == rests || j == rests || k == rests;
-        return both_sides | (any_rests & !all_leave);
+        return both_sides || (any_rests && !all_leave);
     };
-    auto& doubtful = scratch.doubtful;
-    doubtful.resize(cell.part_end - cell.part);
-    std::size_t doubts = 0;
-    for (std::uint32_t e = cell.part; e < cell.part_end; ++e) {
-        doubtful[doubts] = e;
-        doubts += is_doubtful(faces_.corners[e]) ? 1 : 0;
-    }
-    if (doubts == 0) return;
     scratch.beyond.assign(sides.size(), unknown);
-    const auto beyond = [&](std::uint32_t corner) {
-        std::uint8_t& edges = scratch.beyond[corner];
-        if (edges == unknown)
-            edges = edges_before(pair.g, faces_.places[cell.corner + corner], pair.d);
+    const auto beyond = [&](std::uint32_t v) {
+        std::uint8_t& edges = scratch.beyond[v - first];
+        if (edges == unknown) edges = edges_before(pair.beyond, faces_.places[v], pair.d);
         return edges;
     };
-    for (std::size_t n = 0; n < doubts; ++n) {
-        const auto& [i, j, k] = faces_.corners[doubtful[n]];
-        if ((beyond(i) & beyond(j) & beyond(k)) != 0) continue;
-        if (!is_clear(pair, cell, doubtful[n])) left.push_back(doubtful[n]);
+    for (std::uint32_t e = pair.f.part; e < pair.f.part_end; ++e) {
+        const Triangle& c = faces_.corners[e];
+        if (is_doubtful(c) && (beyond(c[0]) & beyond(c[1]) & beyond(c[2])) == 0 &&
+            !is_clear(pair, c))
+            left.push_back(e);
     }
-}
-
-/// Tells cells of f that lie on one side of the plane of g, or beyond one of its edges, as a whole.
-class FarCells {
-public:
-    FarCells(const Face& f, const Face& g, double d) :
-        functionals_{FramedFunctional(g.height, f.frame),
-                     {g.beyond[0], f.frame},
-                     {g.beyond[1], f.frame},
-                     {g.beyond[2], f.frame}},
-        twice_(2 * d) {}
-
-    // A box is as near to the corners in it as rounding permits, which takes the points a few units
-    // of the size of both faces off their places in the frame: twice the margin is room for that.
-    [[nodiscard]] bool operator()(const Cell& cell) const {
-        const double height = functionals_[0](cell.centre);
-        if (std::fabs(height) - spread(functionals_[0], cell) > twice_) return true;
-        for (unsigned j = 1; j < 4; ++j)
-            if (functionals_[j](cell.centre) - spread(functionals_[j], cell) > twice_) return true;
-        return false;
-    }
-
-private:
-    static double spread(const FramedFunctional& u, const Cell& cell) {
-        const Point3 &n = u.factor, &h = cell.half;
-        return (std::fabs(n.x) * h.x + std::fabs(n.y) * h.y + std::fabs(n.z) * h.z) * (1 + 0x1p-40);
-    }
-
-    std::array<FramedFunctional, 4> functionals_;
-    double twice_;
-};
-
-/// The same of all f; where it has many parts, most cells are far from g.
-void Prover::find_left(const Pair& pair, Scratch& scratch, std::vector<std::uint32_t>& left) const {
-    const Face& f = face(pair.f_name);
-    left.clear();
-    const auto cells = cells_of(f);
-    if (cells.size() == 1) return find_left(pair, cells.front(), scratch, left);
-    const FarCells is_far(f, pair.g, pair.d);
-    for (const Cell& cell : cells)
-        if (!is_far(cell)) find_left(pair, cell, scratch, left);
 }
 
 /// Few pairs are listed where their boxes overlap; where they are many, the parts of the smaller
@@ -372,19 +346,30 @@ void Prover::add_pairs(Scratch& scratch, Found& found) const {
     }
 }
 
+/// Sizes of the parts of g and of each other face at the vertices that both have.
+void Prover::find_common(std::uint32_t g_slot, std::vector<Common>& common) const {
+    common.resize(faces_.faces.size());
+    const Face& g = faces_.faces[g_slot];
+    for (std::uint32_t v = g.vertex; v < g.vertex_end; ++v)
+        for (std::uint32_t w = faces_.last_at[faces_.vertices[v]]; w != none;
+             w = faces_.before[w]) {
+            Common& c = common[faces_.face_at[w]];
+            if (c.first != g_slot) c = {g_slot, {}};
+            c.sizes.add(faces_.sizes[v]);
+            c.sizes.add(faces_.sizes[w]);
+        }
+}
+
 /// Pairs with the same first face.
 void Prover::test_group(std::size_t first, std::size_t last, Scratch& scratch, Found& found) const {
-    const std::uint32_t g = meeting_[first].first;
-    auto& [of_g, of_f] = scratch.stamps;
-    of_f.resize(moved_.points.size());
-    stamp(g, of_g);
+    const std::uint32_t g = faces_.slot_of[meeting_[first].first];
+    find_common(g, scratch.common);
     for (std::size_t i = first; i < last; ++i) {
-        const std::uint32_t f = meeting_[i].second;
-        find_left({f, g, face(g), margin(face(f).extent, face(g)), of_g, of_f}, scratch,
-                  scratch.left);
+        const std::uint32_t f = faces_.slot_of[meeting_[i].second];
+        if (is_clear_as_a_whole(f, g, scratch.common[f])) continue;
+        find_left(pair_of(f, g), scratch, scratch.left);
         if (scratch.left.empty()) continue;
-        find_left({g, f, face(f), margin(face(g).extent, face(f)), of_f, {}}, scratch,
-                  scratch.left_back);
+        find_left(pair_of(g, f), scratch, scratch.left_back);
         add_pairs(scratch, found);
     }
 }

@@ -8,7 +8,7 @@
 
 #include <terrane/algorithms/construction_table.hpp>
 #include <terrane/algorithms/parallel.hpp>
-#include <terrane/kernel/quick_plane.hpp>
+#include <terrane/kernel/quick_triangle.hpp>
 
 namespace terrane {
 namespace {
@@ -20,30 +20,40 @@ struct PairContact {
 
 struct PairBlock {
     std::vector<PairContact> contacts;
+    std::vector<CandidatePair> near;
     PredicateCounts predicates;
 };
 
-/// Strictly, by the static filter: no corner is common.
-bool lies_beside(const QuickPlane& plane, const TriangleSoup& soup, std::uint32_t triangle) {
-    const Triangle& t = soup.triangles[triangle];
-    const auto a = plane.side(soup.points[t[0]]);
-    return a && plane.side(soup.points[t[1]]) == a && plane.side(soup.points[t[2]]) == a;
+bool have_common_vertex(const Triangle& t, const Triangle& u) {
+    return std::any_of(t.begin(), t.end(),
+                       [&](std::uint32_t v) { return v == u[0] || v == u[1] || v == u[2]; });
 }
 
 PairBlock test_pairs(const TriangleSoup& soup, std::span<const CandidatePair> pairs) {
     PairBlock block;
     const PredicateCounts before = predicate_counts();
-    std::uint32_t first = UINT32_MAX;
-    std::optional<QuickPlane> plane; // of the first: pairs come sorted
+    const auto at = [&](std::uint32_t t, unsigned i) -> const Point3& {
+        return soup.points[soup.triangles[t][i]];
+    };
+    std::uint32_t last = UINT32_MAX;
+    std::optional<QuickTriangle> first; // pairs come sorted by it
     for (const CandidatePair& p : pairs) {
-        if (p.first != first) {
-            const Triangle& t = soup.triangles[first = p.first];
-            plane.emplace(soup.points[t[0]], soup.points[t[1]], soup.points[t[2]]);
+        const auto [f, g] = p;
+        if (f != last) first.emplace(at(f, 0), at(f, 1), at(f, 2));
+        last = f;
+        const bool joined = have_common_vertex(soup.triangles[f], soup.triangles[g]);
+        if (!joined) {
+            if (first->is_beside(at(g, 0), at(g, 1), at(g, 2))) continue;
+            const QuickTriangle second(at(g, 0), at(g, 1), at(g, 2));
+            if (second.is_beside(at(f, 0), at(f, 1), at(f, 2)) ||
+                first->is_beyond(at(g, 0), at(g, 1), at(g, 2)) ||
+                second.is_beyond(at(f, 0), at(f, 1), at(f, 2)))
+                continue;
         }
-        if (lies_beside(*plane, soup, p.second)) continue;
-        if (const auto contact =
-                improper_contact(soup.points, soup.triangles[p.first], soup.triangles[p.second]))
-            block.contacts.push_back({p, *contact});
+        block.near.push_back(p);
+        const auto contact = improper_contact(soup.points, soup.triangles[f], soup.triangles[g],
+                                              joined ? Filters::all : Filters::none);
+        if (contact) block.contacts.push_back({p, *contact});
     }
     block.predicates = predicate_counts() - before;
     return block;
@@ -128,6 +138,7 @@ Contacts find_contacts(const TriangleSoup& soup, std::vector<Point3> points,
         contacts.predicates += block.predicates;
         contacts.improper += block.contacts.size();
         for (const PairContact& c : block.contacts) collector.add(c);
+        contacts.near.insert(contacts.near.end(), block.near.begin(), block.near.end());
     }
     contacts.points = PointStore(std::move(points));
     contacts.points.append(collector.constructions(), sharing(run));

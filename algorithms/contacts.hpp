@@ -54,6 +54,8 @@ struct Contacts {
     std::vector<FacePiece> pieces;       ///< by face, then in the order of pairs
     std::vector<FaceCrossing> crossings; ///< by face
     std::vector<bool> overlapped;        ///< per triangle: some coplanar one overlaps it
+    std::vector<CandidatePair> near;     ///< candidates that may meet when points are rounded to
+                                         ///< nearest doubles
     std::size_t candidates = 0;          ///< pairs of boxes
     std::size_t improper = 0;            ///< pairs of triangles
     PredicateCounts predicates;

@@ -298,6 +298,7 @@ Division divide(std::vector<Point3> points, std::span<const Triangle> triangles,
     Stitcher(soup, contacts, parts, run, out)();
     out.points = std::move(contacts.points);
     out.ascending = std::move(order.ascending);
+    out.near = std::move(contacts.near);
     out.statistics.seconds_stitch = watch.lap();
     return out;
 }

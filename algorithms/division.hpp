@@ -36,6 +36,8 @@ struct Division {
                                         ///< ascending, >= 1
     std::vector<std::uint32_t> kept_as; ///< per triangle of the soup: the same triangle here, where
                                         ///< it came out whole and alone; UINT32_MAX where not
+    std::vector<CandidatePair> near;    ///< candidates whose parts may meet when their points are
+                                        ///< rounded to nearest doubles; all others stay apart
     DivisionStatistics statistics;
 };
 

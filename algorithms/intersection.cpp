@@ -66,6 +66,7 @@ public:
                 }
     }
 
+    [[nodiscard]] bool quickly_apart() const;
     std::optional<Contact> improper();
 
 private:
@@ -286,10 +287,14 @@ Axis TrianglePair::likely_axis() const {
     return z >= x && z >= y ? Axis::z : x >= y ? Axis::x : Axis::y;
 }
 
-std::optional<Contact> TrianglePair::improper() {
-    if (quickly_beside_plane(0) || quickly_beside_plane(1)) return std::nullopt;
+/// But for common corners.
+bool TrianglePair::quickly_apart() const {
+    if (quickly_beside_plane(0) || quickly_beside_plane(1)) return true;
     const Axis axis = likely_axis();
-    if (quickly_beside_edge(0, axis) || quickly_beside_edge(1, axis)) return std::nullopt;
+    return quickly_beside_edge(0, axis) || quickly_beside_edge(1, axis);
+}
+
+std::optional<Contact> TrianglePair::improper() {
     contact_.emplace();
     sides_[0] = sides(0);
     if (all_on_one_side(sides_[0])) return std::nullopt;
@@ -318,8 +323,10 @@ std::optional<Contact> TrianglePair::improper() {
 } // namespace
 
 std::optional<Contact> improper_contact(std::span<const Point3> points, const Triangle& first,
-                                        const Triangle& second) {
-    return TrianglePair(points, first, second).improper();
+                                        const Triangle& second, Filters filters) {
+    TrianglePair pair(points, first, second);
+    if (filters == Filters::all && pair.quickly_apart()) return std::nullopt;
+    return pair.improper();
 }
 
 Construction line_plane(std::array<std::uint32_t, 2> line, Triangle plane) {

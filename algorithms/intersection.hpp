@@ -60,12 +60,16 @@ struct Contact {
                                                          ///< coplanar: per edge of the other one
 };
 
+/// What is tried before exact tests; never changes a result. `none`: for pairs that were filtered
+/// before.
+enum class Filters { all, none };
+
 /// How two triangles meet, if they share more than the hull of their common vertices.
 /// Triangles are given by vertices: equal indices are equal points and different ones differ; each
 /// has an area; they do not have all three vertices in common.
 /// Cost: nothing on the heap; most pairs take one to six orient3d.
 std::optional<Contact> improper_contact(std::span<const Point3> points, const Triangle& first,
-                                        const Triangle& second);
+                                        const Triangle& second, Filters filters = Filters::all);
 
 // Constructions in canonical form (see construction.hpp); vertices by index.
 Construction line_plane(std::array<std::uint32_t, 2> line, Triangle plane);

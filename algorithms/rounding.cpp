@@ -215,8 +215,8 @@ std::vector<CandidatePair> Rounding::first_contacts() {
                             turn, patches);
         },
         [&] {
-            unclear = find_unclear({a.points.inputs(), a.inputs.corners, state_.points, state_.move,
-                                    state_.triangles, a.parents_of},
+            unclear = find_unclear({a.points.inputs(), a.inputs.corners, a.vertices, state_.points,
+                                    state_.move, state_.triangles, a.parents_of},
                                    a.neighbours, run_);
         });
     const auto improper = is_improper();

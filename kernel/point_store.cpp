@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/kernel/point_store.hpp>
 
+#include <bit>
 #include <limits>
 #include <utility>
 
@@ -32,7 +33,7 @@ PointStore::PointStore(PointStore&&) noexcept = default;
 PointStore& PointStore::operator=(PointStore&&) noexcept = default;
 
 PointStore::PointStore(const PointStore& other) :
-    input_(other.input_), constructed_(other.constructed_), enclosures_(other.enclosures_),
+    input_(other.input_), constructed_(other.constructed_), rounded_(other.rounded_),
     cache_(std::make_unique<Cache>(constructed_.size())) {}
 
 PointStore& PointStore::operator=(const PointStore& other) {
@@ -50,16 +51,15 @@ Construction PointStore::construction(PointIndex p) const {
 void PointStore::append(std::span<const Construction> constructions, const Share& share) {
     const std::size_t before = constructed_.size();
     constructed_.insert(constructed_.end(), constructions.begin(), constructions.end());
-    enclosures_.resize(constructed_.size());
-    const auto enclose = [&](std::size_t first, std::size_t last) {
-        const UpwardRounding guard;
-        for (std::size_t k = first; k < last; ++k)
-            enclosures_[before + k] = make_enclosure(constructions[k]);
+    rounded_.resize(constructed_.size());
+    const auto round_all = [&](std::size_t first, std::size_t last) {
+        const ToNearest mode;
+        for (std::size_t k = first; k < last; ++k) rounded_[before + k] = round(constructions[k]);
     };
     if (share)
-        share(constructions.size(), enclose);
+        share(constructions.size(), round_all);
     else
-        enclose(0, constructions.size());
+        round_all(0, constructions.size());
     auto grown = std::make_unique<Cache>(constructed_.size());
     for (std::size_t k = 0; k < before; ++k)
         grown->slots[k].store(cache_->slots[k].exchange(nullptr));
@@ -71,64 +71,60 @@ void PointStore::keep_constructed(std::span<const PointIndex> kept) {
     for (std::size_t k = 0; k < kept.size(); ++k) {
         const std::size_t from = kept[k] - input_.size();
         constructed_[k] = constructed_[from];
-        enclosures_[k] = enclosures_[from];
+        rounded_[k] = rounded_[from];
         cache->slots[k].store(cache_->slots[from].exchange(nullptr));
     }
     constructed_.resize(kept.size());
-    enclosures_.resize(kept.size());
+    rounded_.resize(kept.size());
     cache_ = std::move(cache);
 }
 
 namespace {
 
-// Wide enough to make predicates fail that a correctly rounded point would let succeed; without an
-// end where the intervals overflowed.
-bool is_wide(const Enclosure& e) {
-    for (unsigned k = 0; k < 3; ++k) {
-        const double size = std::max(std::fabs(e.low[k]), std::fabs(e.high[k]));
-        if (!std::isfinite(size) || !(e.high[k] - e.low[k] <= 0x1p-46 * size)) return true;
-    }
-    return false;
+/// The next double above; infinity stays.
+double above(double d) {
+    if (d == std::numeric_limits<double>::infinity()) return d;
+    const auto bits = std::bit_cast<std::int64_t>(d + 0.0); // -0 is 0
+    return std::bit_cast<double>(d >= 0 ? bits + 1 : bits - 1);
+}
+double below(double d) {
+    return -above(-d);
 }
 
-template <class W>
-Enclosure divide(const polynomial::Coordinates<Interval, W>& c, const Interval& w) {
-    const Interval x = c.x / w, y = c.y / w, z = c.z / w;
-    return {{x.inf(), y.inf(), z.inf()}, {x.sup(), y.sup(), z.sup()}};
+/// Half a step between doubles of this size: no true value is farther from the nearest one.
+double half_step(double d) {
+    return std::fabs(d) * 0x1p-53 + std::numeric_limits<double>::denorm_min();
 }
 
-// The doubles next below and above `nearest` enclose what was rounded to it.
-Enclosure around(const Point3& nearest) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    const auto below = [](double d) { return std::nextafter(d, -infinity); };
-    const auto above = [](double d) { return std::nextafter(d, infinity); };
-    return {{below(nearest.x), below(nearest.y), below(nearest.z)},
-            {above(nearest.x), above(nearest.y), above(nearest.z)}};
+// Files should not show zeros of either sign.
+Point3 round_exactly(const ExactPoint& p) {
+    const auto quotient = [&](const Exact& x) { return nearest_quotient(x, p.w) + 0.0; };
+    return {quotient(p.x), quotient(p.y), quotient(p.z)};
 }
 
-// Intervals leave zeros of either sign, files should not show them.
-Point3 with_positive_zeros(const Point3& p) {
-    const auto positive = [](double d) { return d == 0 ? 0 : d; };
-    return {positive(p.x), positive(p.y), positive(p.z)};
-}
+using TwofoldPoint = std::array<Twofold, 3>;
 
-Point3 round(const ExactPoint& p) {
-    return with_positive_zeros(
-        {nearest_quotient(p.x, p.w), nearest_quotient(p.y, p.w), nearest_quotient(p.z, p.w)});
-}
-
-/// The nearest doubles where numbers of about 106 bits leave no doubt.
-std::optional<Point3> round_quickly(std::span<const Point3> input, const Construction& how) {
-    const ToNearest mode;
+/// Under the default rounding mode.
+TwofoldPoint twofold_point(std::span<const Point3> input, const Construction& how) {
     const auto at = [&](std::uint32_t v) -> const Point3& { return input[v]; };
     const auto h = polynomial::construct<Twofold>(how, at);
     const Point3& base = input[how.v[0]];
-    const auto x = (Twofold(base.x) + h.x / h.w).nearest();
-    const auto y = (Twofold(base.y) + h.y / h.w).nearest();
-    const auto z = (Twofold(base.z) + h.z / h.w).nearest();
-    if (!x || !y || !z) return std::nullopt;
-    return Point3{*x, *y, *z};
+    return {Twofold(base.x) + h.x / h.w, Twofold(base.y) + h.y / h.w, Twofold(base.z) + h.z / h.w};
 }
+
+#if defined(__x86_64__) && defined(__GNUC__)
+// The processor's own fused multiplication in place of calls of the C library's: the same numbers.
+[[gnu::target("fma"), gnu::flatten]] TwofoldPoint fused_point(std::span<const Point3> input,
+                                                              const Construction& how) {
+    return twofold_point(input, how);
+}
+const bool has_fma = __builtin_cpu_supports("fma") != 0;
+#else
+TwofoldPoint fused_point(std::span<const Point3> input, const Construction& how) {
+    return twofold_point(input, how);
+}
+constexpr bool has_fma = false;
+#endif
 
 ExactPoint construct_exactly(std::span<const Point3> input, const Construction& how) {
     const auto at = [&](std::uint32_t v) -> const Point3& { return input[v]; };
@@ -140,17 +136,18 @@ ExactPoint construct_exactly(std::span<const Point3> input, const Construction& 
 
 } // namespace
 
-Enclosure PointStore::make_enclosure(const Construction& how) const {
-    const auto at = [&](std::uint32_t v) -> const Point3& { return input_[v]; };
-    const auto h = polynomial::construct<Interval>(how, at);
-    if (certain_sign(h.w).value_or(Sign::Zero) != Sign::Zero) {
-        const Point3& base = input_[how.v[0]];
-        const Interval x = h.x / h.w + base.x, y = h.y / h.w + base.y, z = h.z / h.w + base.z;
-        const Enclosure e{{x.inf(), y.inf(), z.inf()}, {x.sup(), y.sup(), z.sup()}};
-        if (!is_wide(e)) return e;
-    }
-    if (const auto quick = round_quickly(input_, how)) return around(*quick);
-    return around(round(make_exact(how)));
+/// Where numbers of about 106 bits leave no doubt; under the default rounding mode.
+std::optional<PointStore::Rounded> PointStore::round_quickly(std::span<const Point3> input,
+                                                             const Construction& how) {
+    const TwofoldPoint p = has_fma ? fused_point(input, how) : twofold_point(input, how);
+    const auto x = p[0].nearest(), y = p[1].nearest(), z = p[2].nearest();
+    if (!x || !y || !z) return std::nullopt;
+    return Rounded{{*x, *y, *z}, {p[0].is_double(), p[1].is_double(), p[2].is_double()}};
+}
+
+PointStore::Rounded PointStore::round(const Construction& how) const {
+    if (const auto quick = round_quickly(input_, how)) return *quick;
+    return {round_exactly(make_exact(how)), {false, false, false}};
 }
 
 ExactPoint PointStore::make_exact(const Construction& how) const {
@@ -173,39 +170,35 @@ ExactPoint PointStore::exact(PointIndex p) const {
     return {Exact(q.x), Exact(q.y), Exact(q.z), Exact(1)};
 }
 
-Point3 PointStore::nearest(PointIndex p) const {
-    if (is_input(p)) return input_[p];
-    const Enclosure& e = enclosures_[p - input_.size()];
-    if (e.low == e.high) return with_positive_zeros({e.low[0], e.low[1], e.low[2]});
-    if (const auto quick = round_quickly(input_, constructed_[p - input_.size()])) return *quick;
-    return round(cached_exact(p - input_.size()));
-}
-
 Enclosure PointStore::enclosure(PointIndex p) const {
-    if (!is_input(p)) return enclosures_[p - input_.size()];
-    const Point3& q = input_[p];
-    return {{q.x, q.y, q.z}, {q.x, q.y, q.z}};
+    const Point3& q = nearest(p);
+    const std::array x{q.x, q.y, q.z};
+    if (is_input(p)) return {x, x};
+    const auto& is_exact = rounded_[p - input_.size()].is_exact;
+    Enclosure e{x, x};
+    for (unsigned k = 0; k < 3; ++k)
+        if (!is_exact[k]) {
+            e.low[k] = below(x[k]);
+            e.high[k] = above(x[k]);
+        }
+    return e;
 }
 
 ApproximatePoint PointStore::approximate(Axis axis, PointIndex p) const {
     const auto k = static_cast<unsigned>(axis);
     const unsigned u = (k + 1) % 3, v = (k + 2) % 3;
-    if (is_input(p)) {
-        const Point3& q = input_[p];
-        const std::array<double, 3> x{q.x, q.y, q.z};
-        return {x[u], x[v], 0};
-    }
-    const Enclosure& e = enclosures_[p - input_.size()];
-    const auto middle = [&](unsigned i) { return e.low[i] + (e.high[i] - e.low[i]) / 2; };
-    const double mu = middle(u), mv = middle(v);
+    const Point3& q = nearest(p);
+    const std::array x{q.x, q.y, q.z};
+    if (is_input(p)) return {x[u], x[v], 0};
+    const auto& is_exact = rounded_[p - input_.size()].is_exact;
     const double radius =
-        std::max(std::max(e.high[u] - mu, mu - e.low[u]), std::max(e.high[v] - mv, mv - e.low[v]));
-    return {mu, mv, radius * (1 + 0x1p-50)}; // the last factor for the roundings of differences
+        std::max(is_exact[u] ? 0 : half_step(x[u]), is_exact[v] ? 0 : half_step(x[v]));
+    return {x[u], x[v], radius};
 }
 
 PointStore::IntervalPoint PointStore::interval(PointIndex p) const {
     if (is_input(p)) return cartesian<Interval>(input_[p]);
-    const Enclosure& e = enclosures_[p - input_.size()];
+    const Enclosure e = enclosure(p);
     return {Interval(e.low[0], e.high[0]), Interval(e.low[1], e.high[1]),
             Interval(e.low[2], e.high[2]), One{}};
 }
@@ -268,7 +261,7 @@ Sign PointStore::in_circle(Axis axis, PointIndex a, PointIndex b, PointIndex c,
 
 Point3 nearest(std::span<const Point3> input, const Construction& how) {
     if (how.kind == Construction::Kind::input) return input[how.v[0]];
-    return round(construct_exactly(input, how));
+    return round_exactly(construct_exactly(input, how));
 }
 
 Sign PointStore::side_of_plane(PointIndex a, PointIndex b, PointIndex c, PointIndex p) const {

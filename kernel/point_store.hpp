@@ -2,9 +2,10 @@
 //
 // Input points and the points constructed from them, named by index, with exact predicates.
 //
-// A predicate on stored points tries intervals (enclosures of the Cartesian coordinates, a few ulp
-// wide), then exact homogeneous coordinates, made when first needed and kept. Where all points are
-// input points it is the predicate of predicates.hpp.
+// Of a constructed point the nearest doubles are found at once, and which of them are the point's
+// very coordinates. A predicate on stored points tries intervals round these, then exact
+// homogeneous coordinates, made when first needed and kept. Where all points are input points it is
+// the predicate of predicates.hpp.
 //
 // Laws (a test carries each number):
 // (1) Each predicate agrees with its namesake in predicates.hpp on input points, and keeps its laws
@@ -26,6 +27,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -44,7 +46,7 @@ using PointIndex = std::uint32_t;
 /// Exact homogeneous coordinates, w > 0.
 using ExactPoint = polynomial::Coordinates<Exact, Exact>;
 
-/// Doubles around a point: low[k] <= coordinate k <= high[k].
+/// Doubles around a point: low[k] <= coordinate k <= high[k], two steps apart or equal.
 struct Enclosure {
     std::array<double, 3> low, high;
 };
@@ -84,7 +86,9 @@ public:
     /// The point in the projection along `axis`, for the filters of approximate.hpp.
     [[nodiscard]] ApproximatePoint approximate(Axis axis, PointIndex p) const;
     [[nodiscard]] ExactPoint exact(PointIndex p) const;
-    [[nodiscard]] Point3 nearest(PointIndex p) const;
+    [[nodiscard]] const Point3& nearest(PointIndex p) const {
+        return is_input(p) ? input_[p] : rounded_[p - input_.size()].nearest;
+    }
 
     // Predicates. The caller holds an UpwardRounding.
     [[nodiscard]] std::strong_ordering compare(PointIndex p, PointIndex q) const;
@@ -100,17 +104,24 @@ private:
     using IntervalPoint = polynomial::Coordinates<Interval, polynomial::One>;
     struct Cache;
 
+    struct Rounded {
+        Point3 nearest;
+        std::array<bool, 3> is_exact; ///< per coordinate: nearest is the point's own
+    };
+
     [[nodiscard]] IntervalPoint interval(PointIndex p) const;
     [[nodiscard]] const ExactPoint& cached_exact(std::size_t k) const;
     [[nodiscard]] ExactPoint make_exact(const Construction& how) const;
-    [[nodiscard]] Enclosure make_enclosure(const Construction& how) const;
+    [[nodiscard]] static std::optional<Rounded> round_quickly(std::span<const Point3> input,
+                                                              const Construction& how);
+    [[nodiscard]] Rounded round(const Construction& how) const;
     template <class Polynomial, class... P>
     Sign filtered(const Polynomial& polynomial, P... points) const;
 
     std::vector<Point3> input_;
     std::vector<Construction> constructed_;
-    std::vector<Enclosure> enclosures_; ///< of the constructed points
-    std::unique_ptr<Cache> cache_;      ///< exact coordinates of the constructed points
+    std::vector<Rounded> rounded_; ///< of the constructed points
+    std::unique_ptr<Cache> cache_; ///< exact coordinates of the constructed points
 };
 
 /// The doubles nearest to a single construction's point.

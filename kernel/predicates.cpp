@@ -93,6 +93,22 @@ std::optional<Sign> static_in_circle(const Uv& a, const Uv& b, const Uv& c, cons
     return beyond(value, 132 * unit * (m * m) * (m * m));
 }
 
+// The axis along which the normal is longest, by more than rounding can hide: each of its
+// coordinates is a minor of differences, off by at most 8 unit times the square of the largest.
+std::optional<Axis> static_projection_axis(const Point3& a, const Point3& b, const Point3& c) {
+    const double bx = b.x - a.x, by = b.y - a.y, bz = b.z - a.z;
+    const double cx = c.x - a.x, cy = c.y - a.y, cz = c.z - a.z;
+    const double m = std::max(largest(bx, by, bz), largest(cx, cy, cz));
+    if (!(m > low2 && m < high2)) return std::nullopt;
+    const double x = std::fabs(by * cz - bz * cy), y = std::fabs(bz * cx - bx * cz),
+                 z = std::fabs(bx * cy - by * cx);
+    const double bound = 18 * unit * m * m;
+    if (x > y + bound && x > z + bound) return Axis::x;
+    if (y > z + bound && y > x + bound) return Axis::y;
+    if (z > x + bound && z > y + bound) return Axis::z;
+    return std::nullopt;
+}
+
 // Stages two and three. `polynomial` is generic over the number type.
 template <class Polynomial>
 Sign filtered(const Polynomial& polynomial) {
@@ -172,6 +188,7 @@ bool collinear(const Point3& a, const Point3& b, const Point3& c) {
 }
 
 Axis projection_axis(const Point3& a, const Point3& b, const Point3& c) {
+    if (const auto axis = static_projection_axis(a, b, c)) return *axis;
     const auto longer = [&](Axis first, Axis second) {
         const auto pick = []<class N>(const polynomial::Vector<N>& n, Axis k) -> const N& {
             return k == Axis::x ? n.x : k == Axis::y ? n.y : n.z;

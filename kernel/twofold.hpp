@@ -32,7 +32,7 @@ public:
     friend Twofold operator-(const Twofold& a, const Twofold& b) { return a + -b; }
 
     // The product of the high parts is exact in two numbers (fma); low times low is left out; the
-    // mixed terms and their sum round.
+    // mixed terms and their sum round. Without low parts nothing is lost unless it underflows.
     friend Twofold operator*(const Twofold& a, const Twofold& b) {
         if (a.is_zero() || b.is_zero()) return {};
         const double p = a.hi_ * b.hi_, rest = std::fma(a.hi_, b.hi_, -p);
@@ -40,7 +40,8 @@ public:
         const double lost = std::fabs(rest) + std::fabs(m) + std::fabs(n);
         const double err = a.size() * b.err_ + b.size() * a.err_ + a.err_ * b.err_ +
                            std::fabs(a.lo_ * b.lo_) + 2 * unit * lost + underflow;
-        return normal(p, rest + (m + n), err);
+        const bool is_exact = a.is_double() && b.is_double() && std::fabs(p) > least_product;
+        return normal(p, rest + (m + n), is_exact ? 0 : err);
     }
 
     // Two quotients of high parts; what they leave of the dividend bounds the error.
@@ -51,14 +52,16 @@ public:
         const Twofold second(left.hi_ / b.hi_);
         const Twofold open = left - second * b;
         Twofold q = first + second;
+        if (open.is_zero()) return q;
         const double least = std::fabs(b.hi_) * (1 - 4 * unit) - std::fabs(b.lo_) - b.err_;
-        q.err_ += (least > 0 ? (open.size() + open.err_) / least : HUGE_VAL) * (1 + 8 * unit);
+        q.err_ += (least > 0 ? (open.size() + open.err_) / least : HUGE_VAL) * (1 + 8 * unit) +
+                  std::numeric_limits<double>::denorm_min();
         return q;
     }
 
     /// The double nearest to the true value, where the error leaves no doubt.
     [[nodiscard]] std::optional<double> nearest() const {
-        if (err_ == 0 && lo_ == 0) return hi_ + 0.0; // never -0
+        if (is_double()) return hi_ + 0.0; // never -0
         const double above = (std::nextafter(hi_, HUGE_VAL) - hi_) / 2;
         const double below = (hi_ - std::nextafter(hi_, -HUGE_VAL)) / 2;
         const double err = err_ * (1 + 8 * unit);
@@ -66,13 +69,17 @@ public:
         return std::nullopt;
     }
 
+    /// The double that it is, without doubt.
+    [[nodiscard]] bool is_double() const { return lo_ == 0 && err_ == 0; }
+
     /// The high part, and how far the true value is from it at most.
     [[nodiscard]] double value() const { return hi_; }
     [[nodiscard]] double error() const { return (std::fabs(lo_) + err_) * (1 + 4 * unit); }
 
 private:
     static constexpr double unit = std::numeric_limits<double>::epsilon();
-    static constexpr double underflow = 0x1p-1000; ///< more than an underflowing product loses
+    static constexpr double underflow = 0x1p-1000;    ///< more than an underflowing product loses
+    static constexpr double least_product = 0x1p-900; ///< of doubles, in two normal numbers
 
     Twofold(double hi, double lo, double err) : hi_(hi), lo_(lo), err_(err) {}
 

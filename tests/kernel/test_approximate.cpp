@@ -2,9 +2,11 @@
 #include "../support/effort.hpp"
 #include "../support/points.hpp"
 
+#include <terrane/algorithms/intersection.hpp>
 #include <terrane/kernel/approximate.hpp>
 #include <terrane/kernel/predicates.hpp>
 #include <terrane/kernel/quick_plane.hpp>
+#include <terrane/kernel/quick_triangle.hpp>
 
 #include <catch2/catch.hpp>
 
@@ -26,6 +28,31 @@ Point3 within(Random& random, const Point3& p, double radius) {
         return std::fabs(moved - d) <= radius ? moved : d;
     };
     return {off(p.x), off(p.y), p.z};
+}
+
+using Corners = std::array<Point3, 3>;
+
+/// Exactly; nothing is said where one has no area.
+bool are_apart(const Corners& t, const Corners& u) {
+    if (collinear(t[0], t[1], t[2]) || collinear(u[0], u[1], u[2])) return true;
+    const std::array points{t[0], t[1], t[2], u[0], u[1], u[2]};
+    return !improper_contact(points, {0, 1, 2}, {3, 4, 5});
+}
+
+double largest_of(const Corners& t) {
+    double most = 0;
+    for (const Point3& p : t)
+        most = std::max({most, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+    return most;
+}
+
+/// Each coordinate a little off, by twice what rounding may do.
+Corners shaken(Random& random, const Corners& t) {
+    const double by = largest_of(t) * 0x1p-52;
+    const auto off = [&](double d) { return d + random_int(random, -1, 1) * by; };
+    Corners moved = t;
+    for (Point3& p : moved) p = {off(p.x), off(p.y), off(p.z)};
+    return moved;
 }
 
 } // namespace
@@ -83,5 +110,29 @@ TEST_CASE("quick plane law 1: a side is the sign of orient3d, in any rounding mo
                 REQUIRE(*side == orient3d(p[0], p[1], p[2], p[3]));
             }
         CHECK(decided > cases(10'000));
+    }
+}
+
+TEST_CASE("quick triangle law 1: what it tells apart is so after rounding, in any rounding mode") {
+    Random random(4);
+    for (const int mode : {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
+        int beside = 0, beyond = 0;
+        for (const Family family : all_families)
+            for (int i = 0; i < cases(5'000); ++i) {
+                const auto p = points_of(random, family, 6);
+                const Corners t{p[0], p[1], p[2]}, u{p[3], p[4], p[5]};
+                std::fesetround(mode);
+                const QuickTriangle quick(t[0], t[1], t[2]);
+                const bool is_beside = quick.is_beside(u[0], u[1], u[2]);
+                const bool is_beyond = quick.is_beyond(u[0], u[1], u[2]);
+                std::fesetround(FE_TONEAREST);
+                beside += is_beside;
+                beyond += is_beyond;
+                if (!is_beside && !is_beyond) continue;
+                for (int tries = 0; tries < 4; ++tries)
+                    REQUIRE(are_apart(shaken(random, t), shaken(random, u)));
+            }
+        CHECK(beside > cases(5'000));
+        CHECK(beyond > cases(1'000));
     }
 }
