@@ -197,12 +197,13 @@ PointOrder order_points(const TriangleSoup& soup, const Contacts& contacts, cons
     }
     for (PointIndex p = inputs; p < store.size(); ++p) used.push_back(p);
 
-    std::vector<Key> keys;
-    keys.reserve(used.size());
-    for (const PointIndex p : used) {
-        const Enclosure e = store.enclosure(p);
-        keys.push_back({e.low[0], e.high[0], p});
-    }
+    std::vector<Key> keys(used.size());
+    for_ranges(used.size(), run, [&](std::size_t first, std::size_t last) {
+        for (std::size_t k = first; k < last; ++k) {
+            const Enclosure e = store.enclosure(used[k]);
+            keys[k] = {e.low[0], e.high[0], used[k]};
+        }
+    });
     sort_keys(store, keys, run);
     const UpwardRounding guard;
     for (std::size_t i = 0; i < keys.size(); ++i) used[i] = keys[i].point;

@@ -151,20 +151,29 @@ public:
     void operator()() {
         collect_repeated();
         out_.kept_as.resize(soup_.triangles.size());
-        auto blocks = parts_of_ranges<Block>(
-            soup_.triangles.size(), run_,
-            [&](std::size_t first, std::size_t last) { return stitch(first, last); }, 1);
-        out_.triangles = std::move(blocks.front().triangles);
-        out_.faces_of = std::move(blocks.front().faces_of);
-        for (std::size_t b = 1; b < blocks.size(); ++b) append(blocks[b]);
+        // Parts that may repeat others are told from them one after the other.
+        const std::size_t count = soup_.triangles.size();
+        if (any_overlapped_)
+            blocks_.push_back(stitch(0, count));
+        else
+            blocks_ = parts_of_ranges<Block>(
+                count, run_,
+                [&](std::size_t first, std::size_t last) { return stitch(first, last); }, 1);
+        out_.triangles = std::move(blocks_.front().triangles);
+        out_.faces_of = std::move(blocks_.front().faces_of);
+        for (std::size_t b = 1; b < blocks_.size(); ++b) append(blocks_[b]);
     }
 
 private:
-    /// What comes of a range of the soup; kept_as counts from its own first triangle.
+    /// What comes of a range of the soup.
     struct Block {
-        std::size_t first, last;
+        std::uint32_t start; ///< triangles before
         std::vector<Triangle> triangles;
-        Lists<std::uint32_t> faces_of;
+        Lists<std::uint32_t> faces_of; ///< offsets count from the first triangle of all
+
+        [[nodiscard]] std::uint32_t next() const {
+            return start + static_cast<std::uint32_t>(triangles.size());
+        }
     };
 
     struct Hash {
@@ -201,8 +210,21 @@ private:
         });
     }
 
+    /// Triangles that come of those before this one, where each has parts of its own.
+    std::uint32_t triangles_before(std::size_t face) const {
+        if (face == 0) return 0;
+        std::size_t count = face;
+        for (std::size_t k = 0; k < parts_.size() && parts_[k].face < face; ++k)
+            if (k == 0 || parts_[k].face != parts_[k - 1].face) --count;
+        const auto before = [](const Part& p, std::size_t f) { return p.face < f; };
+        count += static_cast<std::size_t>(
+            std::lower_bound(parts_.begin(), parts_.end(), face, before) - parts_.begin());
+        return static_cast<std::uint32_t>(count);
+    }
+
     Block stitch(std::size_t first, std::size_t last) {
-        Block block{first, last, {}, {}};
+        Block block{triangles_before(first), {}, {}};
+        block.faces_of.offsets.front() = block.start;
         const std::size_t share = first == 0 ? soup_.triangles.size() : last - first;
         const std::size_t expected = share + parts_.size();
         block.triangles.reserve(expected);
@@ -231,12 +253,12 @@ private:
     /// Undivided triangles, none of which is overlapped.
     void add_whole(std::size_t first, std::size_t last, Block& block) {
         const auto whole = soup_.triangles.subspan(first, last - first);
-        const auto start = static_cast<std::uint32_t>(block.triangles.size());
+        const std::uint32_t start = block.next();
         block.triangles.insert(block.triangles.end(), whole.begin(), whole.end());
         for (std::size_t f = first; f < last; ++f) {
             out_.kept_as[f] = start + static_cast<std::uint32_t>(f - first);
             block.faces_of.values.push_back(static_cast<std::uint32_t>(f));
-            block.faces_of.close();
+            block.faces_of.offsets.push_back(out_.kept_as[f] + 1); // each has one face
         }
     }
 
@@ -250,19 +272,20 @@ private:
         const Triangle& whole = soup_.triangles[part.face];
         const bool is_whole = part.corners[0] == whole[0] && part.corners[1] == whole[1] &&
                               part.corners[2] == whole[2];
-        if (faces.size() == 1 && is_whole)
-            out_.kept_as[part.face] = static_cast<std::uint32_t>(block.triangles.size());
+        if (faces.size() == 1 && is_whole) out_.kept_as[part.face] = block.next();
         block.triangles.push_back(part.corners);
         for (const std::uint32_t f : faces) block.faces_of.values.push_back(f);
-        block.faces_of.close();
+        block.faces_of.offsets.push_back(block.start +
+                                         static_cast<std::uint32_t>(block.faces_of.values.size()));
     }
 
     void append(const Block& block) {
-        const auto offset = static_cast<std::uint32_t>(out_.triangles.size());
-        for (std::size_t f = block.first; f < block.last; ++f)
-            if (out_.kept_as[f] != none) out_.kept_as[f] += offset;
-        out_.triangles.insert(out_.triangles.end(), block.triangles.begin(), block.triangles.end());
-        out_.faces_of.append(block.faces_of);
+        const auto add = [](auto& to, const auto& from, std::ptrdiff_t first) {
+            to.insert(to.end(), from.begin() + first, from.end());
+        };
+        add(out_.triangles, block.triangles, 0);
+        add(out_.faces_of.values, block.faces_of.values, 0);
+        add(out_.faces_of.offsets, block.faces_of.offsets, 1);
     }
 
     static constexpr std::uint32_t none = UINT32_MAX;
@@ -272,6 +295,7 @@ private:
     std::span<const Part> parts_;
     const Run& run_;
     Division& out_;
+    std::vector<Block> blocks_;
     std::unordered_map<Triangle, std::vector<std::uint32_t>, Hash> faces_of_;
     bool any_overlapped_ = false;
 };

@@ -3,7 +3,7 @@
 #include <tuple>
 #include <unordered_map>
 
-#include <terrane/algorithms/rounding_state.hpp>
+#include <terrane/algorithms/point_table.hpp>
 #include <terrane/algorithms/volumes.hpp>
 
 namespace terrane {

@@ -164,11 +164,9 @@ public:
 
     Patches operator()() {
         // Whole surfaces first: nothing in the proof needs them to be connected.
-        patch_of_.assign(surface_of_.begin(), surface_of_.end());
-        const auto last = std::max_element(surface_of_.begin(), surface_of_.end());
-        proven_.assign(last == surface_of_.end() ? 0 : *last + std::size_t{1}, std::nullopt);
-        size_of_.assign(proven_.size(), 0);
-        for (const std::uint32_t p : patch_of_) ++size_of_[p];
+        patch_of_ = surface_of_;
+        count_surfaces();
+        proven_.assign(size_of_.size(), std::nullopt);
         prove();
         size_of_.clear();
         if (is_done()) return {std::move(group_), std::move(axis_)};
@@ -210,6 +208,26 @@ private:
         return std::find(group_.begin(), group_.end(), no_group) == group_.end();
     }
 
+    /// Triangles per surface: labels come in runs.
+    void count_surfaces() {
+        const auto parts = parts_of_ranges<std::vector<std::size_t>>(
+            surface_of_.size(), run_, [&](std::size_t first, std::size_t last) {
+                std::vector<std::size_t> sizes;
+                for (std::size_t t = first; t < last;) {
+                    const std::uint32_t surface = surface_of_[t];
+                    const std::size_t start = t;
+                    while (t < last && surface_of_[t] == surface) ++t;
+                    if (surface >= sizes.size()) sizes.resize(surface + std::size_t{1}, 0);
+                    sizes[surface] += t - start;
+                }
+                return sizes;
+            });
+        for (const auto& sizes : parts) {
+            size_of_.resize(std::max(size_of_.size(), sizes.size()), 0);
+            for (std::size_t s = 0; s < sizes.size(); ++s) size_of_[s] += sizes[s];
+        }
+    }
+
     /// Tries the patches of patch_of_ in all projections.
     void prove() {
         for (const Axis axis : axes) {
@@ -225,8 +243,10 @@ private:
             number[p] = static_cast<std::uint32_t>(axis_.size());
             axis_.push_back(*proven_[p]);
         }
-        for (std::uint32_t t = 0; t < triangles_.size(); ++t)
-            if (group_[t] == no_group) group_[t] = number[patch_of_[t]];
+        for_ranges(triangles_.size(), run_, [&](std::size_t first, std::size_t last) {
+            for (std::size_t t = first; t < last; ++t)
+                if (group_[t] == no_group) group_[t] = number[patch_of_[t]];
+        });
     }
 
     /// The sign of each open triangle in the projection; a patch with a degenerate one is unusable.
@@ -260,13 +280,14 @@ private:
                     is_open(sides[i]) && is_open(sides[i - 1]))
                     sets.join(sides[i].triangle, sides[i - 1].triangle);
         });
-        patch_of_.resize(triangles_.size());
+        component_of_.resize(triangles_.size());
         std::uint32_t patches = 0;
         for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
             if (group_[t] != no_group) continue;
             const std::uint32_t root = sets.find(t);
-            patch_of_[t] = root == t ? patches++ : patch_of_[root];
+            component_of_[t] = root == t ? patches++ : component_of_[root];
         }
+        patch_of_ = component_of_;
         proven_.assign(patches, std::nullopt);
     }
 
@@ -343,13 +364,19 @@ private:
     void try_axis(Axis axis) {
         std::stable_sort(border_.begin(), border_.end(),
                          [](const auto& a, const auto& b) { return a.patch < b.patch; });
+        std::vector<std::span<const BorderEdge>> borders;
         for (std::size_t i = 0, end = 0; i < border_.size(); i = end) {
             const std::uint32_t patch = border_[i].patch;
             while (end < border_.size() && border_[end].patch == patch) ++end;
-            if (!usable_[patch] || is_scattered(patch, end - i)) continue;
-            const std::span edges(border_.data() + i, end - i);
-            if (Border(points_, axis, edges).encloses_once()) proven_[patch] = axis;
+            if (usable_[patch] && !is_scattered(patch, end - i))
+                borders.emplace_back(border_.data() + i, end - i);
         }
+        const auto try_range = [&](std::size_t first, std::size_t last) {
+            for (std::size_t k = first; k < last; ++k)
+                if (Border(points_, axis, borders[k]).encloses_once())
+                    proven_[borders[k].front().patch] = axis;
+        };
+        for_ranges(borders.size(), run_, try_range, 4, 1);
     }
 
     std::span<const Point3> points_;
@@ -362,7 +389,8 @@ private:
     std::vector<std::uint32_t> group_;        ///< the result
     std::vector<Axis> axis_;                  ///< per group
     Unfilled<Sign> turns_;                    ///< per triangle, in the projection being tried
-    std::vector<std::uint32_t> patch_of_;     ///< per triangle without a group
+    std::span<const std::uint32_t> patch_of_; ///< per triangle without a group
+    std::vector<std::uint32_t> component_of_; ///< the same, after whole surfaces
     std::vector<std::optional<Axis>> proven_; ///< per patch
     std::vector<std::size_t> size_of_;        ///< per surface, while they are tried as a whole
     std::vector<bool> usable_;                ///< per patch, in the projection being tried

@@ -173,12 +173,22 @@ private:
     /// Calls visit(r, q) for regions r that have q on the other side of a stop; often the same.
     template <class Visit>
     void for_neighbours(const Regions& out, const Visit& visit) const {
+        // Along a curve the same few come again and again: those seen last are passed over.
+        std::array<std::array<std::uint32_t, 4>, 256> seen{};
         std::vector<std::uint32_t> here;
         for (std::size_t e = 0; e < at_stop_.size(); ++e) {
             here.clear();
             for (const std::uint32_t t : at_stop_[e]) {
                 const auto regions = out.regions_of[t];
                 here.insert(here.end(), regions.begin(), regions.end());
+            }
+            sort_unique(here);
+            std::array<std::uint32_t, 4> key{none, none, none, none};
+            if (here.size() <= key.size()) {
+                std::copy(here.begin(), here.end(), key.begin());
+                auto& last = seen[(key[0] * 31 + key[1] * 7 + key[2] * 3 + key[3]) % seen.size()];
+                if (last == key) continue;
+                last = key;
             }
             for (const std::uint32_t r : here)
                 for (const std::uint32_t q : here)

@@ -128,18 +128,24 @@ private:
 
 void Rounding::to_nearest() {
     const Arrangement& a = arrangement_;
-    both(
-        run_, [&] { state_.triangles = a.triangles; }, [&] { state_.parents_of = a.parents_of; });
-    state_.points.resize(a.vertices.size());
-    state_.move.assign(a.vertices.size(), 0);
-    state_.is_dirty.assign(a.vertices.size(), false);
     const auto first_constructed = static_cast<std::size_t>(
         std::lower_bound(a.vertices.begin(), a.vertices.end(), a.points.input_count()) -
         a.vertices.begin());
-    for_ranges(first_constructed, run_, [&](std::size_t first, std::size_t last) {
-        for (std::size_t v = first; v < last; ++v) state_.points[v] = a.points.input(a.vertices[v]);
-    });
     state_.input_vertices = first_constructed;
+    both(
+        run_,
+        [&] {
+            state_.triangles = a.triangles;
+            state_.parents_of = a.parents_of;
+        },
+        [&] {
+            state_.points.reserve(a.vertices.size());
+            for (std::size_t v = 0; v < first_constructed; ++v)
+                state_.points.push_back(a.points.input(a.vertices[v]));
+            state_.points.resize(a.vertices.size());
+            state_.move.assign(a.vertices.size(), 0);
+            state_.is_dirty.assign(a.vertices.size(), false);
+        });
     struct Nothing {};
     const std::size_t constructed = a.vertices.size() - first_constructed;
     for_blocks<Nothing>(constructed, 1024, run_, [&](std::size_t first, std::size_t last) {

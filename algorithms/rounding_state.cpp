@@ -2,12 +2,10 @@
 #include <terrane/algorithms/rounding_state.hpp>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <map>
 #include <numeric>
 #include <set>
-#include <unordered_map>
 #include <utility>
 
 #include <terrane/algorithms/lost_lines.hpp>
@@ -39,14 +37,6 @@ double distance_bound(const Enclosure& e, const Point3& p) {
         return std::max(std::fabs(e.low[k] - x), std::fabs(e.high[k] - x));
     };
     return length_bound(farther(0, p.x), farther(1, p.y), farther(2, p.z));
-}
-
-std::size_t PointHash::operator()(const Point3& p) const {
-    const auto bits = [](double d) { return std::bit_cast<std::uint64_t>(d + 0.0); }; // -0 is 0
-    std::uint64_t h = bits(p.x) * 0x9e3779b97f4a7c15u;
-    h = (h ^ (h >> 31) ^ bits(p.y)) * 0x9e3779b97f4a7c15u;
-    h = (h ^ (h >> 31) ^ bits(p.z)) * 0x9e3779b97f4a7c15u;
-    return h ^ (h >> 31);
 }
 
 std::vector<std::uint32_t> RoundingState::dirty_triangles(const Run& run) const {
@@ -128,14 +118,10 @@ void RoundingState::find_gaps(const std::vector<bool>& gone) {
 
 /// Equal points get one name: the lowest. Only a dirty point can have become equal to another.
 bool RoundingState::merge_points(const Run& run) {
-    std::unordered_map<Point3, std::uint32_t, PointHash> first;
     std::vector<bool> maybe(std::size_t{1} << 20, false); // by hash: spares most look-ups
-    const auto slot = [&](const Point3& p) { return PointHash{}(p) & (maybe.size() - 1); };
+    const auto slot = [&](const Point3& p) { return hash_of(p) & (maybe.size() - 1); };
     for (std::uint32_t v = 0; v < points.size(); ++v)
-        if (is_dirty[v]) {
-            first.emplace(points[v], none);
-            maybe[slot(points[v])] = true;
-        }
+        if (is_dirty[v]) maybe[slot(points[v])] = true;
     const auto candidates = concatenated(parts_of_ranges<std::vector<std::uint32_t>>(
         points.size(), run, [&](std::size_t begin, std::size_t end) {
             std::vector<std::uint32_t> part;
@@ -143,20 +129,17 @@ bool RoundingState::merge_points(const Run& run) {
                 if (maybe[slot(points[v])]) part.push_back(v);
             return part;
         }));
+    PointTable table(candidates.size());
     std::vector<std::uint32_t> name;
     for (const std::uint32_t v : candidates) {
-        const auto it = first.find(points[v]);
-        if (it == first.end()) continue;
-        if (it->second == none) {
-            it->second = v;
-            is_dirty[v] = true;
-            continue;
-        }
+        const std::uint32_t first = table.enter(points, v);
+        if (first == v) continue;
+        is_dirty[first] = true;
         if (name.empty()) {
             name.resize(points.size());
             std::iota(name.begin(), name.end(), 0u);
         }
-        name[v] = it->second;
+        name[v] = first;
     }
     if (name.empty()) return false;
     for (Triangle& t : triangles)
@@ -175,9 +158,13 @@ bool RoundingState::tidy(const Run& run) {
         return !collinear(points[t[0]], points[t[1]], points[t[2]]);
     };
     found_dirty = dirty_triangles(run);
-    std::vector<std::uint32_t> lost;
-    for (const std::uint32_t t : found_dirty)
-        if (!has_area(triangles[t])) lost.push_back(t);
+    const auto lost = concatenated(parts_of_ranges<std::vector<std::uint32_t>>(
+        found_dirty.size(), run, [&](std::size_t begin, std::size_t end) {
+            std::vector<std::uint32_t> part;
+            for (std::size_t k = begin; k < end; ++k)
+                if (!has_area(triangles[found_dirty[k]])) part.push_back(found_dirty[k]);
+            return part;
+        }));
     collapsed += lost.size();
     if (lost.empty() && !merged_any) return false; // then no two triangles can have become equal
     std::vector<bool> gone(triangles.size(), false);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <terrane/algorithms/lists.hpp>
+#include <terrane/algorithms/point_table.hpp>
 #include <terrane/algorithms/run.hpp>
 #include <terrane/algorithms/search/search.hpp>
 #include <terrane/algorithms/surface.hpp>
@@ -78,10 +79,6 @@ private:
 
 /// At least the distance between the point enclosed and p; in the unit of the points.
 double distance_bound(const Enclosure& e, const Point3& p);
-
-struct PointHash {
-    std::size_t operator()(const Point3& p) const;
-};
 
 template <class Snap>
 void RoundingState::move_into(std::span<const Point3> cells, const Snap& snap) {

@@ -7,40 +7,11 @@
 #include <numeric>
 
 #include <terrane/algorithms/parallel.hpp>
+#include <terrane/algorithms/point_table.hpp>
 #include <terrane/kernel/predicates.hpp>
 
 namespace terrane {
 namespace {
-
-constexpr std::uint32_t none = UINT32_MAX;
-
-std::uint64_t mix(std::uint64_t h, std::uint64_t v) {
-    h = (h ^ v) * 0x9e3779b97f4a7c15u;
-    return h ^ (h >> 29);
-}
-
-std::uint64_t hash(const Point3& p) {
-    const auto bits = [](double d) { return std::bit_cast<std::uint64_t>(d + 0.0); }; // -0 is 0
-    std::uint64_t h = mix(mix(mix(0, bits(p.x)), bits(p.y)), bits(p.z));
-    return mix(h, h >> 32);
-}
-
-// Open addressing: gives the first point that was entered at the same place.
-class FirstIndex {
-public:
-    explicit FirstIndex(std::size_t expected) : slots_(std::bit_ceil(2 * expected + 2), none) {}
-
-    std::uint32_t enter(const std::vector<Point3>& points, std::uint32_t v) {
-        const std::size_t mask = slots_.size() - 1;
-        for (std::size_t s = hash(points[v]) & mask;; s = (s + 1) & mask) {
-            if (slots_[s] == none) return slots_[s] = v;
-            if (points[slots_[s]] == points[v]) return slots_[s];
-        }
-    }
-
-private:
-    std::vector<std::uint32_t> slots_;
-};
 
 // Per input vertex, the first one at the same place. Points are told apart by classes of hashes,
 // eight times as many as points: most are alone in theirs, and only the others are compared.
@@ -52,7 +23,7 @@ public:
         class_of_.resize(points.size());
         for_ranges(points.size(), run, [&](std::size_t begin, std::size_t end) {
             for (std::size_t v = begin; v < end; ++v)
-                class_of_[v] = static_cast<std::uint32_t>(hash(points_[v]) >> shift);
+                class_of_[v] = static_cast<std::uint32_t>(hash_of(points_[v]) >> shift);
         });
     }
 
@@ -69,12 +40,28 @@ public:
                 }
                 return part;
             }));
-        FirstIndex seen(others.size());
-        for (const std::uint32_t v : others) first[v] = seen.enter(points_, v);
+        name_first(others, first);
         return first;
     }
 
 private:
+    // Points of one place are of one class: each thread has classes of its own.
+    void name_first(const std::vector<std::uint32_t>& others, std::vector<std::uint32_t>& first) {
+        constexpr std::size_t few = 8192; // points
+        const std::size_t shares =
+            std::clamp<std::size_t>(others.size() / few, 1, std::max(run_.threads, 1U));
+        for_ranges(
+            shares, run_,
+            [&](std::size_t begin, std::size_t end) {
+                for (std::size_t share = begin; share < end; ++share) {
+                    PointTable seen(others.size());
+                    for (const std::uint32_t v : others)
+                        if (class_of_[v] % shares == share) first[v] = seen.enter(points_, v);
+                }
+            },
+            1, 1);
+    }
+
     // Each thread looks at all points and has classes of its own, in words of its own.
     void find_shared_classes() {
         std::vector<std::uint64_t> taken(words_, 0);

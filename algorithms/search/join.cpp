@@ -13,7 +13,7 @@ using Pairs = std::vector<CandidatePair>;
 using Blocks = std::vector<Pairs>;
 
 constexpr std::size_t most_trees = 8; ///< with more groups than this, one tree holds all
-constexpr std::size_t leaves_per_block = 1024;
+constexpr std::size_t leaves_per_block = 256;
 
 /// What all joins of one search have in common.
 struct Task {
@@ -66,9 +66,9 @@ std::vector<Selection> by_group(const Selection& all, std::span<const std::uint3
 }
 
 Blocks join_groups(const std::vector<Selection>& parts, const Task& task) {
-    std::vector<PackedTree> trees;
-    trees.reserve(parts.size());
-    for (const Selection& p : parts) trees.emplace_back(p);
+    const auto trees =
+        for_blocks<PackedTree>(parts.size(), 1, task.run,
+                               [&](std::size_t k, std::size_t) { return PackedTree(parts[k]); });
     Blocks blocks;
     const auto all = [](std::uint32_t, std::uint32_t) { return true; };
     for (std::size_t a = 0; a < trees.size(); ++a) {

@@ -17,6 +17,7 @@ namespace terrane::search {
 /// of many small ones. Cost: sorting 32-bit keys by digits, then linear.
 class PackedTree {
 public:
+    PackedTree() = default; ///< of nothing; not to be joined
     explicit PackedTree(const Selection& selection);
 
     /// Number of leaves of eight boxes.

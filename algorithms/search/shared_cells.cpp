@@ -69,15 +69,24 @@ struct Blocks {
 /// Per group the box of all boxes of other groups; boxes without group are one more group.
 class Regions {
 public:
-    Regions(const BoxSource& boxes, std::span<const std::uint32_t> groups, const Blocks& blocks) :
-        last_(group_count(groups)) {
-        std::vector<Box> own(last_ + 1, empty_box);
-        for (std::uint32_t k = 0; k < blocks.boxes.size(); ++k)
-            if (blocks.alike[k] != 0)
-                extend(own[place(groups[k * Blocks::size])], blocks.boxes[k]);
-            else
-                Blocks::for_each(k, boxes.size(),
-                                 [&](std::uint32_t i) { extend(own[place(groups[i])], boxes[i]); });
+    Regions(const BoxSource& boxes, std::span<const std::uint32_t> groups, const Blocks& blocks,
+            const Run& run) :
+        last_(group_count(groups, run)) {
+        const auto parts = parts_of_ranges<std::vector<Box>>(
+            blocks.boxes.size(), run, [&](std::size_t first, std::size_t last) {
+                std::vector<Box> own(last_ + 1, empty_box);
+                for (auto k = static_cast<std::uint32_t>(first); k < last; ++k)
+                    if (blocks.alike[k] != 0)
+                        extend(own[place(groups[k * Blocks::size])], blocks.boxes[k]);
+                    else
+                        Blocks::for_each(k, boxes.size(), [&](std::uint32_t i) {
+                            extend(own[place(groups[i])], boxes[i]);
+                        });
+                return own;
+            });
+        std::vector<Box> own = parts.front();
+        for (std::size_t k = 1; k < parts.size(); ++k)
+            for (std::size_t g = 0; g < own.size(); ++g) extend(own[g], parts[k][g]);
         unite_others(own);
     }
 
@@ -88,10 +97,15 @@ public:
 
 private:
     /// Groups numbered sparsely are taken as one that meets itself.
-    static std::size_t group_count(std::span<const std::uint32_t> groups) {
-        std::size_t count = 0;
-        for (const std::uint32_t g : groups)
-            if (g != no_group) count = std::max(count, std::size_t{g} + 1);
+    static std::size_t group_count(std::span<const std::uint32_t> groups, const Run& run) {
+        const auto counts = parts_of_ranges<std::size_t>(
+            groups.size(), run, [&](std::size_t first, std::size_t last) {
+                std::uint32_t most = 0; // one more than the largest, but for no_group
+                for (const std::uint32_t g : groups.subspan(first, last - first))
+                    most = std::max(most, g + 1);
+                return std::size_t{most};
+            });
+        const std::size_t count = *std::max_element(counts.begin(), counts.end());
         return count <= groups.size() ? count : 0;
     }
 
@@ -123,7 +137,7 @@ private:
 /// about one for two boxes.
 class Cells {
 public:
-    Cells(const BoxSource& boxes, const Lattice& lattice) : left_(16 * boxes.size() + 4096) {
+    Cells(const BoxSource& boxes, const Lattice& lattice) {
         std::array<std::uint64_t, 3> sum{};
         const std::size_t step = boxes.size() / 2048 + 1;
         for (std::size_t i = 0; i < boxes.size(); i += step) {
@@ -150,19 +164,19 @@ public:
         return (r.to[0] - r.from[0] + 1) * (r.to[1] - r.from[1] + 1) * (r.to[2] - r.from[2] + 1);
     }
 
-    /// Enters a box of a group; no_group mixes. False, and nothing more is entered, where all boxes
-    /// together cover too many cells.
-    bool enter(const PackedBox& b, std::uint32_t group) {
-        const std::size_t work = covered(b);
-        if (work > left_) return false;
-        left_ -= work;
+    [[nodiscard]] std::size_t row_count() const { return in_.size() / row_; }
+
+    /// Enters a box of a group in rows [first, last); no_group mixes.
+    void enter(const PackedBox& b, std::uint32_t group, std::size_t first, std::size_t last) {
         if (group == empty) group = mixed;
-        any_of(b, [&](std::size_t cell) {
-            std::uint32_t& in = in_[cell];
-            in = in == empty || in == group ? group : mixed;
-            return false;
-        });
-        return true;
+        any_of(
+            b,
+            [&](std::size_t cell) {
+                std::uint32_t& in = in_[cell];
+                in = in == empty || in == group ? group : mixed;
+                return false;
+            },
+            first, last);
     }
 
     [[nodiscard]] bool meets_mixed(const PackedBox& b) const {
@@ -185,45 +199,95 @@ private:
         return r;
     }
 
-    /// Visits the cells until it returns true; says whether it did.
+    /// Visits the cells in rows [first, last) until it returns true; says whether it did.
     template <class Visit>
-    bool any_of(const PackedBox& b, const Visit& visit) const {
+    bool any_of(const PackedBox& b, const Visit& visit, std::size_t first = 0,
+                std::size_t last = SIZE_MAX) const {
         const Range r = range(b);
+        const std::size_t rows = layer_ / row_;
         for (std::size_t z = r.from[2]; z <= r.to[2]; ++z)
-            for (std::size_t y = r.from[1]; y <= r.to[1]; ++y)
+            for (std::size_t y = r.from[1]; y <= r.to[1]; ++y) {
+                const std::size_t at = z * rows + y;
+                if (at < first || at >= last) continue;
                 for (std::size_t x = r.from[0]; x <= r.to[0]; ++x)
-                    if (visit(z * layer_ + y * row_ + x)) return true;
+                    if (visit(at * row_ + x)) return true;
+            }
         return false;
     }
 
     std::array<unsigned, 3> shift_{};
     std::size_t row_ = 1, layer_ = 1;
     std::vector<std::uint32_t> in_; ///< per cell: the group of its boxes, empty or mixed
-    std::size_t left_;              ///< cells that may still be entered
 };
 
 constexpr std::size_t most_cells = 2 * Blocks::size; ///< of a block; with more, box by box
 
-/// Enters all boxes that lie in the region of their group, block by block where one is compact.
-bool enter_all(const BoxSource& boxes, std::span<const std::uint32_t> groups, const Blocks& blocks,
-               const Regions& regions, const Lattice& lattice, Cells& cells) {
-    for (std::uint32_t k = 0; k < blocks.boxes.size(); ++k) {
+/// So many cells may all boxes together cover.
+constexpr std::size_t most_covered(std::size_t boxes) {
+    return 16 * boxes + 4096;
+}
+
+/// Calls visit(packed box, group) for what is to be entered of blocks [first, last): all boxes that
+/// lie in the region of their group, block by block where one is compact.
+template <class Visit>
+void for_entries(const BoxSource& boxes, std::span<const std::uint32_t> groups,
+                 const Blocks& blocks, const Regions& regions, const Lattice& lattice,
+                 const Cells& cells, std::size_t first, std::size_t last, const Visit& visit) {
+    for (auto k = static_cast<std::uint32_t>(first); k < last; ++k) {
         if (blocks.alike[k] != 0) {
             const std::uint32_t group = groups[k * Blocks::size];
             if (!blocks.boxes[k].overlaps(regions.of(group))) continue;
             const PackedBox b = lattice.pack(blocks.boxes[k]);
             if (cells.covered(b) <= most_cells) {
-                if (!cells.enter(b, group)) return false;
+                visit(b, group);
                 continue;
             }
         }
-        bool entered = true;
         Blocks::for_each(k, boxes.size(), [&](std::uint32_t i) {
-            if (entered && boxes[i].overlaps(regions.of(groups[i])))
-                entered = cells.enter(lattice.pack(boxes[i]), groups[i]);
+            if (boxes[i].overlaps(regions.of(groups[i]))) visit(lattice.pack(boxes[i]), groups[i]);
         });
-        if (!entered) return false;
     }
+}
+
+/// Boxes to be entered and their groups.
+struct Entries {
+    std::vector<std::pair<PackedBox, std::uint32_t>> boxes;
+    std::size_t covered = 0; ///< cells
+};
+
+/// Enters what entries(first, last, visit) visits of [0, count): with several threads each has rows
+/// of its own. False where all boxes together cover more cells than `most`.
+template <class Source>
+bool enter_all(std::size_t count, std::size_t most, Cells& cells, const Run& run,
+               const Source& entries) {
+    if (run.threads <= 1) {
+        std::size_t covered = 0;
+        entries(std::size_t{0}, count, [&](const PackedBox& b, std::uint32_t group) {
+            covered += cells.covered(b);
+            if (covered <= most) cells.enter(b, group, 0, cells.row_count());
+        });
+        return covered <= most;
+    }
+    const auto parts =
+        parts_of_ranges<Entries>(count, run, [&](std::size_t first, std::size_t last) {
+            Entries part;
+            entries(first, last, [&](const PackedBox& b, std::uint32_t group) {
+                part.boxes.emplace_back(b, group);
+                part.covered += cells.covered(b);
+            });
+            return part;
+        });
+    std::size_t covered = 0;
+    for (const Entries& part : parts) covered += part.covered;
+    if (covered > most) return false;
+    constexpr std::size_t few = 8; // rows
+    for_ranges(
+        cells.row_count(), run,
+        [&](std::size_t first, std::size_t last) {
+            for (const Entries& part : parts)
+                for (const auto& [box, group] : part.boxes) cells.enter(box, group, first, last);
+        },
+        1, few);
     return true;
 }
 
@@ -281,11 +345,15 @@ Selection select_all(const BoxSource& boxes) {
 Selection select_meeting(const BoxSource& boxes, std::span<const std::uint32_t> groups,
                          const Run& run) {
     const Blocks blocks(boxes, groups, run);
-    const Regions regions(boxes, groups, blocks);
+    const Regions regions(boxes, groups, blocks, run);
     if (is_empty(regions.any())) return {};
     const Lattice lattice(regions.any());
     Cells cells(boxes, lattice);
-    const bool entered = enter_all(boxes, groups, blocks, regions, lattice, cells);
+    const bool entered = enter_all(blocks.boxes.size(), most_covered(boxes.size()), cells, run,
+                                   [&](std::size_t first, std::size_t last, const auto& visit) {
+                                       for_entries(boxes, groups, blocks, regions, lattice, cells,
+                                                   first, last, visit);
+                                   });
     return select(
         boxes, blocks, lattice, entered ? &cells : nullptr,
         [&](std::uint32_t i) -> const Box& { return regions.of(groups[i]); }, run);
@@ -298,9 +366,12 @@ Selection select_near(const BoxSource& boxes, std::span<const std::uint32_t> act
     for (const std::uint32_t i : active) extend(region, boxes[i]);
     const Lattice lattice(region);
     Cells cells(boxes, lattice);
-    bool entered = true;
-    for (const std::uint32_t i : active)
-        entered = entered && cells.enter(lattice.pack(boxes[i]), no_group);
+    const bool entered =
+        enter_all(active.size(), most_covered(boxes.size()), cells, run,
+                  [&](std::size_t first, std::size_t last, const auto& visit) {
+                      for (const std::uint32_t i : active.subspan(first, last - first))
+                          visit(lattice.pack(boxes[i]), no_group);
+                  });
     return select(
         boxes, Blocks(boxes, {}, run), lattice, entered ? &cells : nullptr,
         [&](std::uint32_t) -> const Box& { return region; }, run);
