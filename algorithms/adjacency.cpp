@@ -51,14 +51,16 @@ Adjacency edges_of_new(const Divided& divided, const Labels& old_labels,
                        std::span<const std::uint32_t> near, const std::vector<char>& is_new,
                        const Run& run) {
     // Only they have a number of their own, in the same order.
-    std::vector<std::uint32_t> vertices;
+    const auto vertices = concatenated(parts_of_ranges<std::vector<std::uint32_t>>(
+        is_new.size(), run, [&](std::size_t first, std::size_t last) {
+            std::vector<std::uint32_t> part;
+            for (auto v = static_cast<std::uint32_t>(first); v < last; ++v)
+                if (is_new[v] != 0) part.push_back(v);
+            return part;
+        }));
     Unfilled<std::uint32_t> number_of;
     number_of.resize(is_new.size());
-    for (std::uint32_t v = 0; v < is_new.size(); ++v) {
-        if (is_new[v] == 0) continue;
-        number_of[v] = static_cast<std::uint32_t>(vertices.size());
-        vertices.push_back(v);
-    }
+    for (std::uint32_t k = 0; k < vertices.size(); ++k) number_of[vertices[k]] = k;
     const auto other = static_cast<std::uint32_t>(vertices.size()); // at most one in a triangle
     std::vector<Triangle> corners(near.size());
     Labels labels(near.size());

@@ -13,15 +13,31 @@
 namespace terrane {
 namespace {
 
-struct PairContact {
-    CandidatePair pair;
-    Contact contact;
-};
-
+/// What comes of a range of candidates.
 struct PairBlock {
-    std::vector<PairContact> contacts;
+    std::size_t improper = 0; ///< pairs
+    std::vector<Construction> points;
+    std::array<std::vector<FacePiece>, 2> pieces; ///< of first and of second faces of pairs; ends
+                                                  ///< are indices into points
+    std::vector<std::uint32_t> overlapped;        ///< faces
     std::vector<CandidatePair> near;
     PredicateCounts predicates;
+
+    void add(const CandidatePair& pair, const Contact& c) {
+        ++improper;
+        const auto first_point = static_cast<PointIndex>(points.size());
+        for (unsigned i = 0; i < c.point_count; ++i) points.push_back(c.points[i].how);
+        const std::array faces{pair.first, pair.second};
+        if (c.overlap) overlapped.insert(overlapped.end(), faces.begin(), faces.end());
+        for (unsigned k = 0; k < 2; ++k)
+            for (unsigned n = 0; n < c.piece_count[k]; ++n) {
+                const auto& [ends, support] = c.pieces[k][n];
+                pieces[k].push_back({faces[k],
+                                     {faces[1 - k], support},
+                                     {c.points[ends[0]].place[k], c.points[ends[1]].place[k]},
+                                     {first_point + ends[0], first_point + ends[1]}});
+            }
+    }
 };
 
 bool have_common_vertex(const Triangle& t, const Triangle& u) {
@@ -53,7 +69,7 @@ PairBlock test_pairs(const TriangleSoup& soup, std::span<const CandidatePair> pa
         block.near.push_back(p);
         const auto contact = improper_contact(soup.points, soup.triangles[f], soup.triangles[g],
                                               joined ? Filters::all : Filters::none);
-        if (contact) block.contacts.push_back({p, *contact});
+        if (contact) block.add(p, *contact);
     }
     block.predicates = predicate_counts() - before;
     return block;
@@ -78,15 +94,18 @@ public:
     Collector(const TriangleSoup& soup, Contacts& contacts) :
         table_(static_cast<PointIndex>(soup.points.size())), contacts_(contacts) {}
 
-    void add(const PairContact& found) {
-        const Contact& c = found.contact;
-        for (unsigned i = 0; i < c.point_count; ++i) index_[i] = table_.enter(c.points[i].how);
-        const std::array faces{found.pair.first, found.pair.second};
-        for (unsigned k = 0; k < 2; ++k) {
-            if (c.overlap) contacts_.overlapped[faces[k]] = true;
-            for (unsigned n = 0; n < c.piece_count[k]; ++n)
-                add_piece(c, k, c.pieces[k][n], faces[k], faces[1 - k]);
-        }
+    void add(const PairBlock& block) {
+        index_.clear();
+        for (const Construction& how : block.points) index_.push_back(table_.enter(how));
+        for (const std::uint32_t face : block.overlapped) contacts_.overlapped[face] = true;
+        for (unsigned k = 0; k < 2; ++k)
+            for (FacePiece piece : block.pieces[k]) {
+                for (PointIndex& end : piece.ends) end = index_[end];
+                pieces_[k].push_back(piece);
+            }
+        contacts_.near.insert(contacts_.near.end(), block.near.begin(), block.near.end());
+        contacts_.improper += block.improper;
+        contacts_.predicates += block.predicates;
     }
 
     std::span<const Construction> constructions() const { return table_.constructions(); }
@@ -95,19 +114,10 @@ public:
     }
 
 private:
-    void add_piece(const Contact& c, unsigned k, const ContactPiece& piece, std::uint32_t face,
-                   std::uint32_t other) {
-        const auto place = [&](unsigned e) { return c.points[piece.ends[e]].place[k]; };
-        pieces_[k].push_back({face,
-                              {other, piece.support},
-                              {place(0), place(1)},
-                              {index_[piece.ends[0]], index_[piece.ends[1]]}});
-    }
-
     ConstructionTable table_;
     Contacts& contacts_;
     std::array<std::vector<FacePiece>, 2> pieces_; ///< of first and of second faces of pairs
-    std::array<PointIndex, 9> index_{};
+    std::vector<PointIndex> index_;                ///< of the points of a block
 };
 
 bool on_closed_edge(Place p, unsigned e) {
@@ -134,12 +144,7 @@ Contacts find_contacts(const TriangleSoup& soup, std::vector<Point3> points,
     contacts.candidates = candidates.size();
     contacts.overlapped.assign(soup.triangles.size(), false);
     Collector collector(soup, contacts);
-    for (const PairBlock& block : blocks) {
-        contacts.predicates += block.predicates;
-        contacts.improper += block.contacts.size();
-        for (const PairContact& c : block.contacts) collector.add(c);
-        contacts.near.insert(contacts.near.end(), block.near.begin(), block.near.end());
-    }
+    for (const PairBlock& block : blocks) collector.add(block);
     contacts.points = PointStore(std::move(points));
     contacts.points.append(collector.constructions(), sharing(run));
     contacts.pieces = std::move(collector).pieces();
@@ -153,14 +158,14 @@ PointStore::Share sharing(const Run& run) {
 namespace {
 
 struct Key {
-    double low, high; // around x
+    double x; // the nearest double: where two differ, they are in the order of the points
     PointIndex point;
 };
 
 /// Sorts lexicographically: each share for itself, then all together.
 void sort_keys(const PointStore& store, std::vector<Key>& keys, const Run& run) {
     const auto before = [&](const Key& a, const Key& b) {
-        if (a.high < b.low || b.high < a.low) return a.high < b.low;
+        if (a.x != b.x) return a.x < b.x;
         return store.compare(a.point, b.point) < 0;
     };
     constexpr std::size_t least = 4096; // for a thread
@@ -199,10 +204,7 @@ PointOrder order_points(const TriangleSoup& soup, const Contacts& contacts, cons
 
     std::vector<Key> keys(used.size());
     for_ranges(used.size(), run, [&](std::size_t first, std::size_t last) {
-        for (std::size_t k = first; k < last; ++k) {
-            const Enclosure e = store.enclosure(used[k]);
-            keys[k] = {e.low[0], e.high[0], used[k]};
-        }
+        for (std::size_t k = first; k < last; ++k) keys[k] = {store.nearest(used[k]).x, used[k]};
     });
     sort_keys(store, keys, run);
     const UpwardRounding guard;

@@ -36,7 +36,8 @@ struct InnerSegment {
     Line line{};    ///< the supporting edge, sorted, where is_line
     bool is_line = false;
     std::array<ApproximatePoint, 2> ends{}; ///< in the projection
-    std::array<double, 2> low, high;        ///< box in the projection
+    std::array<double, 2> low, high;        ///< box in the projection, of nearest doubles: where
+                                            ///< these are apart the segments are
 };
 
 /// Whether the construction itself puts the point on the plane or line.
@@ -115,16 +116,11 @@ private:
     }
 
     void set_box(InnerSegment& s) const {
-        const auto k = static_cast<unsigned>(axis_);
-        const std::array<unsigned, 2> kept{(k + 1) % 3, (k + 2) % 3};
-        const Enclosure a = contacts_.points.enclosure(piece(s).ends[0]);
-        const Enclosure b = contacts_.points.enclosure(piece(s).ends[1]);
         for (unsigned i = 0; i < 2; ++i)
             s.ends[i] = contacts_.points.approximate(axis_, piece(s).ends[i]);
-        for (unsigned i = 0; i < 2; ++i) {
-            s.low[i] = std::min(a.low[kept[i]], b.low[kept[i]]);
-            s.high[i] = std::max(a.high[kept[i]], b.high[kept[i]]);
-        }
+        const auto [a, b] = s.ends;
+        s.low = {std::min(a.u, b.u), std::min(a.v, b.v)};
+        s.high = {std::max(a.u, b.u), std::max(a.v, b.v)};
     }
 
     Sign side(const InnerSegment& s, PointIndex p) const {

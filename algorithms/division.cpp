@@ -283,9 +283,12 @@ private:
         const auto add = [](auto& to, const auto& from, std::ptrdiff_t first) {
             to.insert(to.end(), from.begin() + first, from.end());
         };
-        add(out_.triangles, block.triangles, 0);
-        add(out_.faces_of.values, block.faces_of.values, 0);
-        add(out_.faces_of.offsets, block.faces_of.offsets, 1);
+        both(
+            run_, [&] { add(out_.triangles, block.triangles, 0); },
+            [&] {
+                add(out_.faces_of.values, block.faces_of.values, 0);
+                add(out_.faces_of.offsets, block.faces_of.offsets, 1);
+            });
     }
 
     static constexpr std::uint32_t none = UINT32_MAX;

@@ -55,8 +55,11 @@ std::optional<Place> place_from_sides(const Signs& inside) {
 /// Two triangles and what is known of them so far. Index k is 0 for the first, 1 for the second.
 class TrianglePair {
 public:
-    TrianglePair(std::span<const Point3> points, const Triangle& first, const Triangle& second) :
-        points_(points), t_{first, second} {
+    /// What is found goes into `contact`: it is large.
+    TrianglePair(std::span<const Point3> points, const Triangle& first, const Triangle& second,
+                 std::optional<Contact>& contact) :
+        points_(points),
+        t_{first, second}, contact_(contact) {
         for (unsigned i = 0; i < 3; ++i)
             for (unsigned j = 0; j < 3; ++j)
                 if (first[i] == second[j]) {
@@ -67,7 +70,7 @@ public:
     }
 
     [[nodiscard]] bool quickly_apart() const;
-    std::optional<Contact> improper();
+    [[nodiscard]] bool improper();
 
 private:
     const Point3& at(unsigned k, unsigned i) const { return points_[t_[k][i]]; }
@@ -97,8 +100,8 @@ private:
     std::array<Signs, 2> sides_{}; // of the corners of k with respect to the other's plane
     std::array<bool, 2> axis_known_{};
     std::array<Axis, 2> axis_{};
-    std::array<Sign, 2> turn_{};     // of triangle k in its projection
-    std::optional<Contact> contact_; ///< made when the quick tests have failed: it is large
+    std::array<Sign, 2> turn_{}; // of triangle k in its projection
+    std::optional<Contact>& contact_;
 };
 
 Signs TrianglePair::sides(unsigned k) const {
@@ -294,39 +297,41 @@ bool TrianglePair::quickly_apart() const {
     return quickly_beside_edge(0, axis) || quickly_beside_edge(1, axis);
 }
 
-std::optional<Contact> TrianglePair::improper() {
+bool TrianglePair::improper() {
     contact_.emplace();
     sides_[0] = sides(0);
-    if (all_on_one_side(sides_[0])) return std::nullopt;
-    if (shared_count_ == 2 && !all_zero(sides_[0])) return std::nullopt;
+    if (all_on_one_side(sides_[0])) return false;
+    if (shared_count_ == 2 && !all_zero(sides_[0])) return false;
     if (all_zero(sides_[0])) {
         contact_->coplanar = true;
         overlap_in_plane();
-        if (only_shared_corners() && contact_->point_count < 3) return std::nullopt;
+        if (only_shared_corners() && contact_->point_count < 3) return false;
         contact_->overlap = contact_->point_count > 2; // all of them are extreme points
         collect_pieces(0);
         collect_pieces(1);
-        return contact_;
+        return true;
     }
     sides_[1] = sides(1);
-    if (all_on_one_side(sides_[1])) return std::nullopt;
+    if (all_on_one_side(sides_[1])) return false;
     cross_planes(0);
     cross_planes(1);
-    if (only_shared_corners()) return std::nullopt;
+    if (only_shared_corners()) return false;
     ContactPiece piece;
     piece.ends = {0, static_cast<std::uint8_t>(contact_->point_count - 1)};
     contact_->piece_count = {1, 1};
     contact_->pieces[0][0] = contact_->pieces[1][0] = piece;
-    return contact_;
+    return true;
 }
 
 } // namespace
 
 std::optional<Contact> improper_contact(std::span<const Point3> points, const Triangle& first,
                                         const Triangle& second, Filters filters) {
-    TrianglePair pair(points, first, second);
-    if (filters == Filters::all && pair.quickly_apart()) return std::nullopt;
-    return pair.improper();
+    std::optional<Contact> contact;
+    TrianglePair pair(points, first, second, contact);
+    if (filters == Filters::all && pair.quickly_apart()) return contact;
+    if (!pair.improper()) contact.reset();
+    return contact;
 }
 
 Construction line_plane(std::array<std::uint32_t, 2> line, Triangle plane) {

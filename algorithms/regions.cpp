@@ -80,20 +80,20 @@ private:
             surfaces_of_.size(), run_,
             [&](std::size_t first, std::size_t last) {
                 Adjacency::Inner others;
-                const bool alone = surfaces_of_.values.size() == surfaces_of_.size();
-                if (alone && first == 0 && last == surfaces_of_.size()) { // a slot per triangle
+                const auto join_those_within = [&](const auto& slot) {
                     for (const auto& list : inner)
-                        for (const auto& [t, u] : list) sets_.join(t, u);
-                    return others;
-                }
-                for (const auto& list : inner)
-                    for (const auto& [t, u] : list) {
-                        if (t < first || t >= last) continue;
-                        if (u >= first && u < last)
-                            sets_.join(surfaces_of_.offsets[t], surfaces_of_.offsets[u]);
-                        else
-                            others.push_back({t, u});
-                    }
+                        for (const auto& [t, u] : list) {
+                            if (t < first || t >= last) continue;
+                            if (u >= first && u < last)
+                                sets_.join(slot(t), slot(u));
+                            else
+                                others.push_back({t, u});
+                        }
+                };
+                if (surfaces_of_.values.size() == surfaces_of_.size()) // a slot per triangle
+                    join_those_within([](std::uint32_t t) { return t; });
+                else
+                    join_those_within([&](std::uint32_t t) { return surfaces_of_.offsets[t]; });
                 return others;
             },
             1);

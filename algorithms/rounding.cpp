@@ -152,7 +152,7 @@ void Rounding::to_nearest() {
         for (std::size_t k = first; k < last; ++k) {
             const std::size_t v = first_constructed + k;
             state_.points[v] = a.points.nearest(a.vertices[v]);
-            state_.move[v] = distance_bound(a.points.enclosure(a.vertices[v]), state_.points[v]);
+            state_.move[v] = rounding_bound(a.points, a.vertices[v]);
         }
         return Nothing{};
     });
@@ -208,10 +208,14 @@ std::vector<CandidatePair> Rounding::first_contacts() {
     const auto& dirty = state_.found_dirty;
     if (dirty.empty()) return {};
     Patches patches = a.patches;
+    std::uint32_t last = UINT32_MAX; // parts of a face come one after the other
+    Sign last_turn{};
     const auto turn = [&](std::uint32_t t, Axis axis) { // as that of its parent
-        const Triangle& c = a.inputs.corners[a.parents_of[t][0]];
+        const std::uint32_t parent = a.parents_of[t][0];
+        if (parent == last) return last_turn;
+        const Triangle& c = a.inputs.corners[last = parent];
         const auto at = [&](unsigned i) { return a.points.input(c[i]); };
-        return orient2d(axis, at(0), at(1), at(2));
+        return last_turn = orient2d(axis, at(0), at(1), at(2));
     };
     Unclear unclear;
     both(
@@ -279,8 +283,7 @@ bool Rounding::divide_again(std::size_t most_pairs) {
     std::vector<std::uint32_t> name_of(division.points.size());
     for (const PointIndex p : division.ascending) {
         name_of[p] = static_cast<std::uint32_t>(state_.points.size());
-        const Point3 near = division.points.nearest(p);
-        state_.add_point(near, distance_bound(division.points.enclosure(p), near));
+        state_.add_point(division.points.nearest(p), rounding_bound(division.points, p));
     }
     for (Triangle& t : division.triangles)
         for (std::uint32_t& v : t)

@@ -32,6 +32,11 @@ Triangle sorted(Triangle t) {
 
 } // namespace
 
+double rounding_bound(const PointStore& points, PointIndex p) {
+    const auto errors = points.rounding_errors(p);
+    return length_bound(errors[0], errors[1], errors[2]);
+}
+
 double distance_bound(const Enclosure& e, const Point3& p) {
     const auto farther = [&](unsigned k, double x) {
         return std::max(std::fabs(e.low[k] - x), std::fabs(e.high[k] - x));

@@ -77,7 +77,9 @@ private:
                              ///< other triangle contains
 };
 
-/// At least the distance between the point enclosed and p; in the unit of the points.
+/// At least the distance between a point and its nearest doubles; in the unit of the points.
+double rounding_bound(const PointStore& points, PointIndex p);
+/// At least the distance between the point enclosed and p.
 double distance_bound(const Enclosure& e, const Point3& p);
 
 template <class Snap>

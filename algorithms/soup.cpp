@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <numeric>
+#include <optional>
 
 #include <terrane/algorithms/parallel.hpp>
 #include <terrane/algorithms/point_table.hpp>
@@ -17,21 +18,27 @@ namespace {
 // eight times as many as points: most are alone in theirs, and only the others are compared.
 class Places {
 public:
-    Places(const std::vector<Point3>& points, const Run& run) : points_(points), run_(run) {
-        const auto shift = 64 - static_cast<unsigned>(std::bit_width(8 * points.size() + 64));
+    /// Of the vertices of all surfaces, `count` of them.
+    Places(std::span<const Surface> surfaces, std::size_t count, const Run& run) : run_(run) {
+        const auto shift = 64 - static_cast<unsigned>(std::bit_width(8 * count + 64));
         words_ = (std::size_t{1} << (64 - shift)) / 64;
-        class_of_.resize(points.size());
-        for_ranges(points.size(), run, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t v = begin; v < end; ++v)
-                class_of_[v] = static_cast<std::uint32_t>(hash_of(points_[v]) >> shift);
-        });
+        class_of_.resize(count);
+        std::uint32_t* classes = class_of_.data();
+        for (const Surface& s : surfaces) {
+            for_ranges(s.vertices.size(), run, [&](std::size_t begin, std::size_t end) {
+                for (std::size_t v = begin; v < end; ++v)
+                    classes[v] = static_cast<std::uint32_t>(hash_of(s.vertices[v]) >> shift);
+            });
+            classes += s.vertices.size();
+        }
     }
 
-    [[nodiscard]] std::vector<std::uint32_t> first_at_same() {
+    /// `points`: all these vertices.
+    [[nodiscard]] std::vector<std::uint32_t> first_at_same(const std::vector<Point3>& points) {
         find_shared_classes();
-        std::vector<std::uint32_t> first(points_.size());
+        std::vector<std::uint32_t> first(points.size());
         const auto others = concatenated(parts_of_ranges<std::vector<std::uint32_t>>(
-            points_.size(), run_, [&](std::size_t begin, std::size_t end) {
+            points.size(), run_, [&](std::size_t begin, std::size_t end) {
                 std::vector<std::uint32_t> part;
                 for (auto v = static_cast<std::uint32_t>(begin); v < end; ++v) {
                     first[v] = v;
@@ -40,13 +47,14 @@ public:
                 }
                 return part;
             }));
-        name_first(others, first);
+        name_first(points, others, first);
         return first;
     }
 
 private:
     // Points of one place are of one class: each thread has classes of its own.
-    void name_first(const std::vector<std::uint32_t>& others, std::vector<std::uint32_t>& first) {
+    void name_first(const std::vector<Point3>& points, const std::vector<std::uint32_t>& others,
+                    std::vector<std::uint32_t>& first) {
         constexpr std::size_t few = 8192; // points
         const std::size_t shares =
             std::clamp<std::size_t>(others.size() / few, 1, std::max(run_.threads, 1U));
@@ -56,7 +64,7 @@ private:
                 for (std::size_t share = begin; share < end; ++share) {
                     PointTable seen(others.size());
                     for (const std::uint32_t v : others)
-                        if (class_of_[v] % shares == share) first[v] = seen.enter(points_, v);
+                        if (class_of_[v] % shares == share) first[v] = seen.enter(points, v);
                 }
             },
             1, 1);
@@ -80,7 +88,6 @@ private:
             1);
     }
 
-    const std::vector<Point3>& points_;
     const Run& run_;
     std::size_t words_ = 0;
     Unfilled<std::uint32_t> class_of_;  ///< per point
@@ -252,11 +259,17 @@ Soup merge_surfaces(std::span<const Surface> surfaces, const Run& run) {
     }
     soup.first_input_vertex.push_back(static_cast<std::uint32_t>(vertices));
     soup.first_input_triangle.push_back(static_cast<std::uint32_t>(triangles));
-    soup.points.reserve(vertices);
-    for (const Surface& s : surfaces)
-        soup.points.insert(soup.points.end(), s.vertices.begin(), s.vertices.end());
-
-    const auto first = Places(soup.points, run).first_at_same();
+    std::optional<Places> places;
+    both(
+        run,
+        [&] {
+            soup.points.reserve(vertices);
+            for (const Surface& s : surfaces)
+                soup.points.insert(soup.points.end(), s.vertices.begin(), s.vertices.end());
+        },
+        [&] { places.emplace(surfaces, vertices, run); });
+    const auto first = places->first_at_same(soup.points);
+    places.reset();
     name_corners(soup, surfaces, first, run);
     take_triangles(soup, run);
     soup.edges = group_edges(soup.triangles, soup.points.size(), run);

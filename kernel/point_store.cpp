@@ -184,16 +184,20 @@ Enclosure PointStore::enclosure(PointIndex p) const {
     return e;
 }
 
+std::array<double, 3> PointStore::rounding_errors(PointIndex p) const {
+    if (is_input(p)) return {0, 0, 0};
+    const auto& [n, is_exact] = rounded_[p - input_.size()];
+    return {is_exact[0] ? 0 : half_step(n.x), is_exact[1] ? 0 : half_step(n.y),
+            is_exact[2] ? 0 : half_step(n.z)};
+}
+
 ApproximatePoint PointStore::approximate(Axis axis, PointIndex p) const {
     const auto k = static_cast<unsigned>(axis);
     const unsigned u = (k + 1) % 3, v = (k + 2) % 3;
-    const Point3& q = nearest(p);
-    const std::array x{q.x, q.y, q.z};
-    if (is_input(p)) return {x[u], x[v], 0};
-    const auto& is_exact = rounded_[p - input_.size()].is_exact;
-    const double radius =
-        std::max(is_exact[u] ? 0 : half_step(x[u]), is_exact[v] ? 0 : half_step(x[v]));
-    return {x[u], x[v], radius};
+    const Point3& n = nearest(p);
+    const std::array x{n.x, n.y, n.z};
+    const auto errors = rounding_errors(p);
+    return {x[u], x[v], std::max(errors[u], errors[v])};
 }
 
 PointStore::IntervalPoint PointStore::interval(PointIndex p) const {
@@ -213,13 +217,15 @@ Sign PointStore::filtered(const Polynomial& polynomial, P... points) const {
     return exact_sign(polynomial(exact(points)...));
 }
 
+// Rounding to nearest is monotone: where the nearest doubles differ, so do the coordinates.
 std::strong_ordering PointStore::compare(PointIndex p, PointIndex q) const {
     if (p == q) return std::strong_ordering::equal;
-    const Enclosure a = enclosure(p), b = enclosure(q);
+    const Point3 &a = nearest(p), &b = nearest(q);
+    const std::array x{a.x, a.y, a.z}, y{b.x, b.y, b.z};
     for (unsigned k = 0; k < 3; ++k) {
-        if (a.high[k] < b.low[k]) return std::strong_ordering::less;
-        if (a.low[k] > b.high[k]) return std::strong_ordering::greater;
-        if (a.low[k] == a.high[k] && b.low[k] == b.high[k]) continue; // the same double
+        if (x[k] < y[k]) return std::strong_ordering::less;
+        if (x[k] > y[k]) return std::strong_ordering::greater;
+        if (is_double(p, k) && is_double(q, k)) continue;
         ++predicate_counts().exact;
         const ExactPoint e = exact(p), f = exact(q);
         const auto d = polynomial::difference(e, f);

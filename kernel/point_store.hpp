@@ -90,6 +90,9 @@ public:
         return is_input(p) ? input_[p] : rounded_[p - input_.size()].nearest;
     }
 
+    /// How far each coordinate of nearest(p) is at most from that of the point; 0: it is the same.
+    [[nodiscard]] std::array<double, 3> rounding_errors(PointIndex p) const;
+
     // Predicates. The caller holds an UpwardRounding.
     [[nodiscard]] std::strong_ordering compare(PointIndex p, PointIndex q) const;
     [[nodiscard]] bool equal(PointIndex p, PointIndex q) const { return compare(p, q) == 0; }
@@ -109,6 +112,9 @@ private:
         std::array<bool, 3> is_exact; ///< per coordinate: nearest is the point's own
     };
 
+    [[nodiscard]] bool is_double(PointIndex p, unsigned coordinate) const {
+        return is_input(p) || rounded_[p - input_.size()].is_exact[coordinate];
+    }
     [[nodiscard]] IntervalPoint interval(PointIndex p) const;
     [[nodiscard]] const ExactPoint& cached_exact(std::size_t k) const;
     [[nodiscard]] ExactPoint make_exact(const Construction& how) const;
