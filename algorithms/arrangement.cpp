@@ -51,6 +51,7 @@ Lists<std::uint32_t> parents_of_faces(const Soup& soup, const Lists<std::uint32_
 Patches patches_of_faces(Patches of_soup, const Lists<std::uint32_t>& faces_of, const Run& run) {
     Patches patches;
     patches.axis = std::move(of_soup.axis);
+    patches.turn = std::move(of_soup.turn);
     patches.of.resize(faces_of.size());
     for_ranges(faces_of.size(), run, [&](std::size_t first, std::size_t last) {
         for (std::size_t t = first; t < last; ++t)

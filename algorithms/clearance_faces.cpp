@@ -133,6 +133,11 @@ void Faces::collect_parts(const MovedParts& moved, const Run& run) {
 void Faces::number_vertices(const MovedParts& moved) {
     last_at.assign(moved.points.size(), none);
     corners.resize(parts.size());
+    const std::size_t most = parts.size() + 2 * faces.size(); // a triangle's division is a disk
+    vertices.reserve(most);
+    places.reserve(most);
+    face_at.reserve(most);
+    before.reserve(most);
     for (std::uint32_t s = 0; s < faces.size(); ++s) {
         Face& f = faces[s];
         f.vertex = static_cast<std::uint32_t>(vertices.size());

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <optional>
 
@@ -169,7 +170,7 @@ public:
         proven_.assign(size_of_.size(), std::nullopt);
         prove();
         size_of_.clear();
-        if (is_done()) return {std::move(group_), std::move(axis_)};
+        if (is_done()) return {std::move(group_), std::move(axis_), std::move(turn_)};
         label_.assign(surface_of_.begin(), surface_of_.end());
         find_components();
         prove();
@@ -184,7 +185,7 @@ public:
             find_components();
             prove();
         }
-        return {std::move(group_), std::move(axis_)};
+        return {std::move(group_), std::move(axis_), std::move(turn_)};
     }
 
 private:
@@ -197,6 +198,8 @@ private:
                      z = std::fabs(ux * wy - uy * wx);
         return z >= x && z >= y ? 0 : x >= y ? 1 : 2;
     }
+
+    static constexpr unsigned char positive = 1, negative = 2;
 
     [[nodiscard]] bool is_open(const EdgeSides::Side& s) const {
         return group_[s.triangle] == no_group;
@@ -243,10 +246,22 @@ private:
             number[p] = static_cast<std::uint32_t>(axis_.size());
             axis_.push_back(*proven_[p]);
         }
+        // What orientations a group has, a bit for each: most triangles find theirs noted.
+        std::vector<unsigned char> seen(axis_.size(), 0);
         for_ranges(triangles_.size(), run_, [&](std::size_t first, std::size_t last) {
-            for (std::size_t t = first; t < last; ++t)
-                if (group_[t] == no_group) group_[t] = number[patch_of_[t]];
+            for (std::size_t t = first; t < last; ++t) {
+                if (group_[t] != no_group) continue;
+                const std::uint32_t group = group_[t] = number[patch_of_[t]];
+                if (group == no_group) continue;
+                const std::atomic_ref of_group(seen[group]);
+                const unsigned char bit = turns_[t] == Sign::Positive ? positive : negative;
+                if ((of_group.load(std::memory_order_relaxed) & bit) == 0) of_group |= bit;
+            }
         });
+        for (std::size_t g = turn_.size(); g < axis_.size(); ++g)
+            turn_.push_back(seen[g] == positive   ? Sign::Positive
+                            : seen[g] == negative ? Sign::Negative
+                                                  : Sign::Zero);
     }
 
     /// The sign of each open triangle in the projection; a patch with a degenerate one is unusable.
@@ -388,6 +403,7 @@ private:
     std::vector<std::uint32_t> label_;        ///< triangles of one patch have the same
     std::vector<std::uint32_t> group_;        ///< the result
     std::vector<Axis> axis_;                  ///< per group
+    std::vector<Sign> turn_;                  ///< per group: of all its triangles, or Zero
     Unfilled<Sign> turns_;                    ///< per triangle, in the projection being tried
     std::span<const std::uint32_t> patch_of_; ///< per triangle without a group
     std::vector<std::uint32_t> component_of_; ///< the same, after whole surfaces
@@ -405,19 +421,23 @@ Patches prove_patches(std::span<const Point3> points, std::span<const Triangle> 
     return Prover(points, triangles, surface_of, edges, run, turns)();
 }
 
-void confirm_patches(std::span<const Point3> points, std::span<const Triangle> triangles,
-                     const Adjacency& adjacency, std::span<const std::uint32_t> moved,
-                     const std::vector<bool>& is_moved,
-                     const std::function<Sign(std::uint32_t, Axis)>& turn, Patches& patches) {
+std::vector<bool> confirm_patches(std::span<const Point3> points,
+                                  std::span<const Triangle> triangles, const Adjacency& adjacency,
+                                  std::span<const std::uint32_t> moved,
+                                  const std::vector<bool>& is_moved,
+                                  const std::function<Sign(std::uint32_t, Axis)>& turn,
+                                  const Patches& patches) {
     std::vector<bool> holds(patches.axis.size(), true), moved_border(patches.axis.size(), false);
-    const auto orient = [&](std::uint32_t t, Axis axis) {
+    const auto turn_before = [&](std::uint32_t t, std::uint32_t p) {
+        return patches.turn[p] != Sign::Zero ? patches.turn[p] : turn(t, patches.axis[p]);
+    };
+    const auto turn_after = [&](std::uint32_t t, std::uint32_t p) {
         const Triangle& c = triangles[t];
-        return orient2d(axis, points[c[0]], points[c[1]], points[c[2]]);
+        return orient2d(patches.axis[p], points[c[0]], points[c[1]], points[c[2]]);
     };
     for (const std::uint32_t t : moved) {
         const std::uint32_t p = patches.of[t];
-        if (p != no_group && holds[p] && orient(t, patches.axis[p]) != turn(t, patches.axis[p]))
-            holds[p] = false;
+        if (p != no_group && holds[p] && turn_after(t, p) != turn_before(t, p)) holds[p] = false;
     }
     std::vector<BorderEdge> border;
     for (std::size_t e = 0; e < adjacency.edges.size(); ++e) { // inner ones are within one patch
@@ -432,7 +452,7 @@ void confirm_patches(std::span<const Point3> points, std::span<const Triangle> t
             if (same != 1) continue;
             if (is_moved[low] || is_moved[high]) moved_border[p] = true;
             const bool along = runs_along(triangles[t], low, high);
-            const bool positive = turn(t, patches.axis[p]) == Sign::Positive;
+            const bool positive = turn_before(t, p) == Sign::Positive;
             if (along == positive)
                 border.push_back({p, low, high});
             else
@@ -448,8 +468,7 @@ void confirm_patches(std::span<const Point3> points, std::span<const Triangle> t
             holds[p] = Border(points, patches.axis[p], std::span(border.data() + i, end - i))
                            .encloses_once();
     }
-    for (std::uint32_t& p : patches.of)
-        if (p != no_group && !holds[p]) p = no_group;
+    return holds;
 }
 
 } // namespace terrane

@@ -29,6 +29,7 @@ namespace terrane {
 struct Patches {
     std::vector<std::uint32_t> of; ///< per triangle: its patch, or no_group where nothing was shown
     std::vector<Axis> axis;        ///< per patch: the projection in which it is one-to-one
+    std::vector<Sign> turn;        ///< per patch: how all its triangles are oriented there, or Zero
 };
 
 /// `edges` groups the sides of `triangles`; these are distinct, with area, over distinct points.
@@ -39,16 +40,15 @@ Patches prove_patches(std::span<const Point3> points, std::span<const Triangle> 
                       std::span<const std::uint32_t> surface_of, const EdgeSides& edges,
                       const Run& run = {}, std::span<const Sign> turns = {});
 
-/// Shows the same again after some vertices have moved a little; patches for which that fails are
-/// taken out of patches.of. patches.of counts the triangles given here (parts of those for which
-/// it was shown), turn(t) is the sign of triangle t in its patch's projection before the move, and
-/// is_moved says which vertices moved, `moved` lists the triangles at them, `adjacency` was made
-/// with patches.of. Cost: a predicate per triangle with a moved corner, and the borders of the
-/// patches that have a moved vertex on it.
-void confirm_patches(std::span<const Point3> points, std::span<const Triangle> triangles,
-                     const Adjacency& adjacency, std::span<const std::uint32_t> moved,
-                     const std::vector<bool>& is_moved,
-                     const std::function<Sign(std::uint32_t triangle, Axis axis)>& turn,
-                     Patches& patches);
+/// Shows the same again after some vertices have moved a little: per patch, whether it holds.
+/// patches.of counts the triangles given here (parts of those for which it was shown), turn(t) is
+/// the sign of triangle t in its patch's projection before the move, and is_moved says which
+/// vertices moved, `moved` lists the triangles at them, `adjacency` was made with patches.of. Cost:
+/// a predicate per triangle with a moved corner, and the borders of the patches that have a moved
+/// vertex on it.
+std::vector<bool> confirm_patches(
+    std::span<const Point3> points, std::span<const Triangle> triangles, const Adjacency& adjacency,
+    std::span<const std::uint32_t> moved, const std::vector<bool>& is_moved,
+    const std::function<Sign(std::uint32_t triangle, Axis axis)>& turn, const Patches& patches);
 
 } // namespace terrane

@@ -207,7 +207,7 @@ std::vector<CandidatePair> Rounding::first_contacts() {
     const Arrangement& a = arrangement_;
     const auto& dirty = state_.found_dirty;
     if (dirty.empty()) return {};
-    Patches patches = a.patches;
+    std::vector<bool> holds;         // per patch
     std::uint32_t last = UINT32_MAX; // parts of a face come one after the other
     Sign last_turn{};
     const auto turn = [&](std::uint32_t t, Axis axis) { // as that of its parent
@@ -221,8 +221,8 @@ std::vector<CandidatePair> Rounding::first_contacts() {
     both(
         run_,
         [&] {
-            confirm_patches(state_.points, state_.triangles, a.adjacency, dirty, state_.is_dirty,
-                            turn, patches);
+            holds = confirm_patches(state_.points, state_.triangles, a.adjacency, dirty,
+                                    state_.is_dirty, turn, a.patches);
         },
         [&] {
             unclear = find_unclear({a.points.inputs(), a.inputs.corners, a.vertices, state_.points,
@@ -236,14 +236,20 @@ std::vector<CandidatePair> Rounding::first_contacts() {
         for (const CandidatePair& p : unclear.pairs)
             if (improper(p)) pairs.push_back(p);
     }
+    const auto patch_of = [&](std::uint32_t t) {
+        const std::uint32_t p = a.patches.of[t];
+        return p != no_group && holds[p] ? p : no_group;
+    };
     for (const std::uint32_t t : dirty)
-        if (patches.of[t] != a.patches.of[t]) unclear.parts.push_back(t);
+        if (patch_of(t) != a.patches.of[t]) unclear.parts.push_back(t);
     for (const std::uint32_t t : unclear.restless) // two of one patch are known not to meet
-        if (patches.of[t] == no_group) unclear.parts.push_back(t);
+        if (patch_of(t) == no_group) unclear.parts.push_back(t);
     if (unclear.parts.empty()) return pairs;
     sort_unique(unclear.parts);
-    const auto more = candidate_pairs_of({state_.points, state_.triangles}, unclear.parts,
-                                         patches.of, improper, run_);
+    std::vector<std::uint32_t> patches(state_.triangles.size());
+    for (std::uint32_t t = 0; t < patches.size(); ++t) patches[t] = patch_of(t);
+    const auto more = candidate_pairs_of({state_.points, state_.triangles}, unclear.parts, patches,
+                                         improper, run_);
     pairs.insert(pairs.end(), more.begin(), more.end());
     sort_unique(pairs);
     return pairs;

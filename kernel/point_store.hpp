@@ -15,7 +15,7 @@
 //     iff the points are.
 // (4) Points on a line are ordered along it by compare, ascending or descending.
 // (5) nearest is the double that is nearest to each exact coordinate, ties to even; of constructed
-//     points 0 is never -0.
+//     points 0 is never -0. rounding_errors bound how far it is from the coordinate.
 #pragma once
 
 #include <terrane/kernel/config.hpp>

@@ -4,6 +4,7 @@
 #include "../support/claim.hpp"
 #include "../support/effort.hpp"
 #include "../support/points.hpp"
+#include "../support/sheets.hpp"
 #include "../support/soup_laws.hpp"
 
 #include <terrane/algorithms/lost_lines.hpp>
@@ -305,26 +306,25 @@ Surface waves(std::uint32_t n, double height, double phase) {
     return s;
 }
 
-} // namespace
+/// Each triangle with vertices of its own.
+Surface loose(const Surface& s) {
+    Surface apart{s.name, s.role, {}, {}};
+    for (const Triangle& t : s.triangles) {
+        const auto first = static_cast<std::uint32_t>(apart.vertices.size());
+        for (const std::uint32_t v : t) apart.vertices.push_back(s.vertices[v]);
+        apart.triangles.push_back({first, first + 1, first + 2});
+    }
+    return apart;
+}
 
-// Threads share passes over triangles, points and edges only where there are tens of thousands.
-TEST_CASE("rounding: what threads share gives the same as one thread") {
-    std::vector<Surface> surfaces{waves(120, 0.3, 0), waves(110, 0.2, 1), waves(120, 0.3, 0)};
-    surfaces[2].triangles.resize(9000);         // duplicates, and the surface ends within others
-    surfaces[2].triangles.push_back({0, 1, 2}); // on a line: no area
-    surfaces[1].vertices.push_back({0.5, 0.5, 0});
-    surfaces[1].triangles.push_back(
-        {5, 40, static_cast<std::uint32_t>(surfaces[1].vertices.size()) - 1});
-    const auto one = arrange(surfaces);
-    REQUIRE(one);
-    const auto expected = round_to_doubles(one.value());
-    REQUIRE(expected);
-    CHECK(one.value().inputs.duplicates.size() == 9000);
+/// What one thread makes of them, after checking that several make the same.
+Arrangement check_threads_change_nothing(const std::vector<Surface>& surfaces) {
+    Arrangement a = arrange(surfaces).value();
+    const RoundedMesh m = round_to_doubles(a).value();
+    CHECK(m.report.clean);
     for (const unsigned threads : {2U, 3U}) {
         const Run run{.threads = threads, .stop = {}, .progress = {}};
-        const auto several = arrange(surfaces, {}, run);
-        REQUIRE(several);
-        const Arrangement &a = one.value(), &b = several.value();
+        const Arrangement b = arrange(surfaces, {}, run).value();
         CHECK(a.triangles == b.triangles);
         CHECK(a.vertices == b.vertices);
         CHECK(a.parents_of == b.parents_of);
@@ -336,9 +336,9 @@ TEST_CASE("rounding: what threads share gives the same as one thread") {
         CHECK(a.patches.of == b.patches.of);
         CHECK(a.adjacency.edges == b.adjacency.edges);
         CHECK(a.adjacency.triangles_at == b.adjacency.triangles_at);
-        const auto rounded = round_to_doubles(b, {}, run);
-        REQUIRE(rounded);
-        const RoundedMesh &m = expected.value(), &n = rounded.value();
+        CHECK(a.inputs.corners == b.inputs.corners);
+        CHECK(a.patches.turn == b.patches.turn);
+        const RoundedMesh n = round_to_doubles(b, {}, run).value();
         CHECK(m.mesh.vertices == n.mesh.vertices);
         CHECK(m.mesh.triangles == n.mesh.triangles);
         CHECK(m.mesh.regions_of == n.mesh.regions_of);
@@ -350,4 +350,30 @@ TEST_CASE("rounding: what threads share gives the same as one thread") {
             CHECK(m.regions[r].neighbours == n.regions[r].neighbours);
         }
     }
+    return a;
+}
+
+} // namespace
+
+// Threads share passes over triangles, points and edges only where there are tens of thousands.
+TEST_CASE("rounding: what threads share gives the same as one thread") {
+    std::vector<Surface> surfaces{waves(120, 0.3, 0), waves(110, 0.2, 1), waves(120, 0.3, 0)};
+    surfaces[2].triangles.resize(9000);         // duplicates, and the surface ends within others
+    surfaces[2].triangles.push_back({0, 1, 2}); // on a line: no area
+    surfaces[1].vertices.push_back({0.5, 0.5, 0});
+    surfaces[1].triangles.push_back(
+        {5, 40, static_cast<std::uint32_t>(surfaces[1].vertices.size()) - 1});
+    CHECK(check_threads_change_nothing(surfaces).inputs.duplicates.size() == 9000);
+}
+
+TEST_CASE("rounding: threads change nothing where surfaces cross and triangles lie apart") {
+    const auto all = [](int, int) { return true; };
+    const auto wave = [&](double x, double y) { return Point3{x, y, std::sin(x / 9) * 5}; };
+    const auto slope = [&](double x, double y) { return Point3{x, y + 0.3, (x - y) / 11}; };
+    const auto steep = [&](double x, double y) { return Point3{x, 50 + y / 8, y - 60.3}; };
+    const Arrangement one = check_threads_change_nothing(
+        {sheet_of(190, 190, 1, all, wave), loose(sheet_of(150, 150, 1.3, all, slope)),
+         sheet_of(120, 120, 1.5, all, steep)});
+    CHECK(one.triangles.size() > 140'000);
+    CHECK(one.intersection_edges.size() > 1'000);
 }

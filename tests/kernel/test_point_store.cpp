@@ -68,6 +68,24 @@ bool enclosed(const Twins& t, PointIndex p) {
     return true;
 }
 
+/// Whether the errors are no less than half a step between doubles, and 0 only where the enclosure
+/// has no width.
+bool errors_are_bounds(const Twins& t, PointIndex p) {
+    const Enclosure e = t.store.enclosure(p);
+    const Point3& n = t.store.nearest(p);
+    const std::array nearest{n.x, n.y, n.z};
+    const auto errors = t.store.rounding_errors(p);
+    for (unsigned k = 0; k < 3; ++k) {
+        double step = 0; // the larger of the two; none to infinity
+        for (const double end : {e.low[k], e.high[k]})
+            if (std::isfinite(end)) step = std::max(step, std::fabs(end - nearest[k]));
+        if (std::isinf(nearest[k])) step = 0;
+        if (e.low[k] == e.high[k] ? errors[k] != 0 : !(errors[k] > 0 && errors[k] >= step / 2))
+            return false;
+    }
+    return true;
+}
+
 bool has_negative_zero(const Point3& p) {
     const auto is = [](double d) { return d == 0 && std::signbit(d); };
     return is(p.x) || is(p.y) || is(p.z);
@@ -201,11 +219,13 @@ TEST_CASE("point store law 4: points on a line are ordered along it") {
         }
 }
 
-TEST_CASE("point store law 5: nearest is correctly rounded, and enclosures enclose") {
+TEST_CASE(
+    "point store law 5: nearest is correctly rounded, enclosures enclose, errors are bounds") {
     for_twins(46, 500, [](Random&, const Twins& t) {
         for (PointIndex p = 0; p < t.store.size(); ++p) {
             REQUIRE(nearest_is_right(t, p));
             REQUIRE(enclosed(t, p));
+            REQUIRE(errors_are_bounds(t, p));
         }
     });
 }
