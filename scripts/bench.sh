@@ -1,15 +1,18 @@
 #!/bin/sh
 # SPDX-License-Identifier: LGPL-3.0-or-later
 # Builds with benchmarks and prints the table of required speeds: medians, ratios to CGAL and to the
-# floor, all from one run. With --parts the benchmarks of all parts follow. Other arguments:
+# floor, all from one run. With --parts the memory it takes and the benchmarks of all parts follow.
+# Other arguments:
 #   --repeats N   --large   NAME...
 set -eu
 cd "$(dirname "$0")/.."
 parts=
 [ "${1-}" = --parts ] && { parts=1; shift; }
 cmake --preset bench >/dev/null
-cmake --build --preset bench --target terrane_bench terrane_bench_table >/dev/null
+cmake --build --preset bench --target terrane_bench terrane_bench_table \
+    terrane_bench_memory >/dev/null
 echo "load: $(cut -d' ' -f1-3 /proc/loadavg) on $(nproc) cores"
 build/bench/tests/bench/terrane_bench_table "$@"
+[ -z "$parts" ] || build/bench/tests/bench/terrane_bench_memory
 [ -z "$parts" ] || build/bench/tests/bench/terrane_bench --benchmark_repetitions=5 \
     --benchmark_report_aggregates_only=true
