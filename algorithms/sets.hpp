@@ -26,6 +26,7 @@ public:
         return i;
     }
     void join(std::uint32_t a, std::uint32_t b) {
+        if (parent_[a] == parent_[b]) return; // as mostly, once much is joined
         a = find(a);
         b = find(b);
         parent_[std::max(a, b)] = std::min(a, b);

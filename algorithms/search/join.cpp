@@ -33,11 +33,12 @@ void join(const PackedTree& a, const PackedTree& b, const Task& task, Blocks& bl
         a.leaf_count(), leaves_per_block, task.run, [&](std::size_t l, std::size_t end) {
             Pairs pairs;
             for (; l < end; ++l)
-                a.join(static_cast<std::uint32_t>(l), b, [&](std::uint32_t i, std::uint32_t j) {
-                    if (!keep(i, j) || !boxes[i].overlaps(boxes[j])) return;
-                    const CandidatePair pair{std::min(i, j), std::max(i, j)};
-                    if (!filter || filter(pair)) pairs.push_back(pair);
-                });
+                a.join(static_cast<std::uint32_t>(l), b,
+                       [&](std::uint32_t i, std::uint32_t j, bool inside) {
+                           if (!keep(i, j) || !(inside || boxes[i].overlaps(boxes[j]))) return;
+                           const CandidatePair pair{std::min(i, j), std::max(i, j)};
+                           if (!filter || filter(pair)) pairs.push_back(pair);
+                       });
             return pairs;
         });
     std::move(found.begin(), found.end(), std::back_inserter(blocks));

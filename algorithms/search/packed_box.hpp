@@ -27,6 +27,13 @@ struct PackedBox {
     [[nodiscard]] bool overlaps(const PackedBox& o) const {
         return (((o.high - low) & (high - o.low)) & guards) == guards;
     }
+    /// Of boxes that overlap: whether each reaches beyond where the other begins, along all axes.
+    /// Then so do those they were packed from.
+    [[nodiscard]] bool overlaps_inside(const PackedBox& o) const {
+        constexpr std::uint64_t ones =
+            1 | std::uint64_t{1} << field | std::uint64_t{1} << 2 * field;
+        return ((o.high - low - ones) & (high - o.low - ones) & guards) == guards;
+    }
     [[nodiscard]] std::uint32_t low_of(unsigned axis) const {
         return static_cast<std::uint32_t>((low >> (axis * field)) & last);
     }
@@ -41,6 +48,43 @@ struct PackedBox {
     }
     /// Overlaps nothing: each low coordinate is 2^20.
     static constexpr PackedBox none() { return {guards, guards}; }
+};
+
+/// Eight boxes, at first none(), laid out for comparing two of them at once with another.
+class EightBoxes {
+public:
+    EightBoxes() {
+        low_.fill(PackedBox::none().low);
+        high_.fill(PackedBox::none().high);
+    }
+
+    void set(unsigned i, const PackedBox& b) {
+        low_[place(i)] = b.low;
+        high_[place(i)] = b.high;
+    }
+    PackedBox operator[](unsigned i) const { return {low_[place(i)], high_[place(i)]}; }
+
+    /// Bit i: whether box i overlaps q.
+    [[nodiscard]] unsigned overlapping(const PackedBox& q) const {
+        constexpr unsigned bits = PackedBox::bits, field = PackedBox::field;
+        std::array<std::uint64_t, lanes> found{}; // the guards of box k, 3 - k bits below theirs
+        for (unsigned k = 0; k < per_lane; ++k)
+            for (unsigned l = 0; l < lanes; ++l) {
+                const std::uint64_t left =
+                    (q.high - low_[lanes * k + l]) & (high_[lanes * k + l] - q.low);
+                found[l] |= (left & PackedBox::guards) >> (per_lane - 1 - k);
+            }
+        for (std::uint64_t& f : found) // all three
+            f = (f & f >> field & f >> 2 * field) >> (bits + 1 - per_lane) & ((1u << per_lane) - 1);
+        return static_cast<unsigned>(found[0] | found[1] << per_lane);
+    }
+
+private:
+    static constexpr unsigned lanes = 2, per_lane = 4;
+
+    static unsigned place(unsigned i) { return lanes * (i % per_lane) + i / per_lane; }
+
+    std::array<std::uint64_t, std::size_t{lanes} * per_lane> low_{}, high_{};
 };
 
 /// Maps a region onto coordinates 0 .. 2^20 - 1 of each axis; what lies outside goes to the ends.

@@ -83,28 +83,25 @@ private:
     std::array<unsigned, 3> shift_{};
 };
 
-PackedBox box_of(std::span<const PackedBox> boxes) {
+/// The box of the first `count` of eight.
+PackedBox box_of(const EightBoxes& boxes, unsigned count) {
     std::array<std::uint64_t, 3> low{}, high{};
     low.fill(PackedBox::last);
-    for (const PackedBox& b : boxes)
+    for (unsigned i = 0; i < count; ++i)
         for (unsigned k = 0; k < 3; ++k) {
-            low[k] = std::min<std::uint64_t>(low[k], b.low_of(k));
-            high[k] = std::max<std::uint64_t>(high[k], b.high_of(k));
+            low[k] = std::min<std::uint64_t>(low[k], boxes[i].low_of(k));
+            high[k] = std::max<std::uint64_t>(high[k], boxes[i].high_of(k));
         }
     return PackedBox::of(low, high);
 }
 
-/// Of each eight boxes that box which holds them, filled up to a multiple of eight.
-std::vector<PackedBox> boxes_of_eight(std::span<const PackedBox> boxes) {
-    std::vector<PackedBox> level;
-    level.reserve(boxes.size() / 8 + 8);
-    for (std::size_t i = 0; i < boxes.size(); i += 8)
-        level.push_back(box_of(boxes.subspan(i, std::min<std::size_t>(8, boxes.size() - i))));
+/// Of each eight of `count` boxes that box which holds them.
+std::vector<EightBoxes> boxes_of_eight(std::span<const EightBoxes> boxes, std::size_t count) {
+    std::vector<EightBoxes> level(boxes.size() / 8 + 1);
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+        level[i / 8].set(i % 8, box_of(boxes[i], static_cast<unsigned>(
+                                                     std::min<std::size_t>(8, count - 8 * i))));
     return level;
-}
-
-void fill_up(std::vector<PackedBox>& boxes) {
-    boxes.resize((boxes.size() + 7) / 8 * 8, PackedBox::none());
 }
 
 } // namespace
@@ -116,19 +113,17 @@ PackedTree::PackedTree(const Selection& selection) {
     for (std::uint32_t i = 0; i < n; ++i) order[i] = {curve.key(selection.boxes[i]), i};
     sort_by_key(order);
     indices_.reserve(n);
-    auto& boxes = levels_.emplace_back();
-    boxes.reserve(n + 7);
-    for (const Keyed& o : order) {
-        boxes.push_back(selection.boxes[o.position]);
-        indices_.push_back(selection.indices[o.position]);
+    auto& boxes = levels_.emplace_back((n + 7) / 8);
+    for (std::size_t i = 0; i < n; ++i) {
+        boxes[i / 8].set(i % 8, selection.boxes[order[i].position]);
+        indices_.push_back(selection.indices[order[i].position]);
     }
-    leaves_ = static_cast<std::uint32_t>((n + 7) / 8);
+    leaves_ = static_cast<std::uint32_t>(boxes.size());
+    std::size_t count = n;
     do {
-        auto above = boxes_of_eight(levels_.back());
-        fill_up(levels_.back());
-        levels_.push_back(std::move(above));
-    } while (levels_.back().size() > 8);
-    levels_.back().resize(8, PackedBox::none());
+        levels_.push_back(boxes_of_eight(levels_.back(), count));
+        count = (count + 7) / 8;
+    } while (count > 8);
 }
 
 } // namespace terrane::search

@@ -23,25 +23,25 @@ public:
     /// Number of leaves of eight boxes.
     [[nodiscard]] std::uint32_t leaf_count() const { return leaves_; }
 
-    /// Calls report(index here, index there) for all overlapping boxes of a leaf here and of the
-    /// other tree, packed on the same lattice; each pair once. Of pairs within one tree, whatever
-    /// the order, only those that no smaller leaf reports.
+    /// Calls report(index here, index there, inside) for all boxes of a leaf here and of the other
+    /// tree, packed on the same lattice, that overlap; each pair once. inside: their boxes surely
+    /// overlap, not only as packed. Of pairs within one tree, whatever the order, only those that
+    /// no smaller leaf reports.
     template <class Report>
     void join(std::uint32_t leaf, const PackedTree& other, const Report& report) const {
         struct Node {
-            std::uint32_t level, number; ///< children 8 * number .. of levels_[level]
+            std::uint32_t level, number; ///< levels_[level][number]
         };
-        const PackedBox box = levels_[1][leaf];
+        const PackedBox box = box_of_leaf(leaf);
         const std::uint32_t from = &other == this ? leaf : 0;
         std::array<Node, 8 * levels_at_most> stack; // NOLINT: filled as far as used
         unsigned top = 0;
         stack[top++] = {static_cast<std::uint32_t>(other.levels_.size()) - 1, 0};
         while (top > 0) {
             const Node node = stack[--top];
-            const std::uint32_t first = 8 * node.number;
-            unsigned meeting = overlapping(&other.levels_[node.level][first], box);
+            unsigned meeting = other.levels_[node.level][node.number].overlapping(box);
             for (; meeting != 0; meeting &= meeting - 1) {
-                const std::uint32_t child = first + lowest(meeting);
+                const std::uint32_t child = 8 * node.number + lowest(meeting);
                 if ((std::uint64_t{child} + 1) << (3 * (node.level - 1)) <= from) continue;
                 if (node.level == 1)
                     join_leaves(leaf, other, child, report);
@@ -56,33 +56,30 @@ private:
 
     static unsigned lowest(unsigned mask) { return static_cast<unsigned>(std::countr_zero(mask)); }
 
-    /// A bit for each of eight boxes.
-    static unsigned overlapping(const PackedBox* boxes, const PackedBox& q) {
-        unsigned mask = 0;
-        for (unsigned c = 0; c < 8; ++c) mask |= unsigned{boxes[c].overlaps(q)} << c;
-        return mask;
+    [[nodiscard]] PackedBox box_of_leaf(std::uint32_t leaf) const {
+        return levels_[1][leaf / 8][leaf % 8];
     }
 
     template <class Report>
     void join_leaves(std::uint32_t leaf, const PackedTree& other, std::uint32_t other_leaf,
                      const Report& report) const {
-        const PackedBox *here = &levels_[0][8 * std::size_t{leaf}],
-                        *there = &other.levels_[0][8 * std::size_t{other_leaf}];
-        const bool same = here == there;
-        const unsigned ours = overlapping(here, other.levels_[1][other_leaf]);
-        const unsigned theirs = overlapping(there, levels_[1][leaf]);
-        for (unsigned a = ours; a != 0; a &= a - 1) {
+        const EightBoxes &here = levels_[0][leaf], &there = other.levels_[0][other_leaf];
+        const bool same = &here == &there;
+        for (unsigned a = here.overlapping(other.box_of_leaf(other_leaf)); a != 0; a &= a - 1) {
             const unsigned i = lowest(a);
-            for (unsigned b = same ? theirs & (~1u << i) : theirs; b != 0; b &= b - 1)
-                if (here[i].overlaps(there[lowest(b)]))
-                    report(indices_[8 * leaf + i], other.indices_[8 * other_leaf + lowest(b)]);
+            const PackedBox box = here[i];
+            for (unsigned b = there.overlapping(box) & (same ? ~1u << i : ~0u); b != 0;
+                 b &= b - 1) {
+                const unsigned j = lowest(b);
+                report(indices_[8 * leaf + i], other.indices_[8 * other_leaf + j],
+                       box.overlaps_inside(there[j]));
+            }
         }
     }
 
-    std::vector<std::vector<PackedBox>> levels_; ///< the boxes, then boxes of 8 of the level before
-                                                 ///< (one level at least), each filled up to a
-                                                 ///< multiple of 8; the last has 8
-    std::vector<std::uint32_t> indices_;         ///< per box of levels_[0]
+    std::vector<std::vector<EightBoxes>> levels_; ///< the boxes, then boxes of each eight of the
+                                                  ///< level before (once at least), up to one eight
+    std::vector<std::uint32_t> indices_;          ///< per box of levels_[0]
     std::uint32_t leaves_ = 0;
 };
 

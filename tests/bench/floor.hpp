@@ -13,7 +13,8 @@ namespace bench {
 /// large as the largest box, one query by each of the second's. The number of overlapping pairs.
 std::size_t floor_of_search(const Model& m);
 
-/// That, and the output arrays written: points and triangles copied once. A value that depends on
+/// Boxes of all triangles, one counting sort of them into such cells without any query, and the
+/// output arrays written: points and triangles copied, six lists filled. A value that depends on
 /// all.
 std::size_t floor_of_arrange(const Model& m);
 
