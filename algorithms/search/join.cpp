@@ -44,24 +44,26 @@ void join(const PackedTree& a, const PackedTree& b, const Task& task, Blocks& bl
     std::move(found.begin(), found.end(), std::back_inserter(blocks));
 }
 
-void append(Selection& to, const Selection& from, std::size_t k) {
-    to.boxes.push_back(from.boxes[k]);
-    to.indices.push_back(from.indices[k]);
+/// Adds boxes [k, end) of a selection.
+void append(Selection& to, const Selection& from, std::size_t k, std::size_t end) {
+    to.boxes.insert(to.boxes.end(), from.boxes.data() + k, from.boxes.data() + end);
+    to.indices.insert(to.indices.end(), from.indices.data() + k, from.indices.data() + end);
 }
 
 /// The selected boxes by group; none where there are too many groups.
 std::vector<Selection> by_group(const Selection& all, std::span<const std::uint32_t> groups) {
     std::vector<Selection> parts;
     std::vector<std::uint32_t> names;
-    for (std::size_t k = 0; k < all.indices.size(); ++k) {
+    for (std::size_t k = 0, end = 0; k < all.indices.size(); k = end) {
         const std::uint32_t group = groups[all.indices[k]];
+        while (end < all.indices.size() && groups[all.indices[end]] == group) ++end;
         const auto at = std::find(names.begin(), names.end(), group) - names.begin();
         if (static_cast<std::size_t>(at) == names.size()) {
             if (names.size() == most_trees) return {};
             names.push_back(group);
             parts.emplace_back();
         }
-        append(parts[static_cast<std::size_t>(at)], all, k);
+        append(parts[static_cast<std::size_t>(at)], all, k, end);
     }
     return parts;
 }
@@ -145,7 +147,7 @@ std::vector<CandidatePair> active_pairs(const BoxSource& boxes,
     for (std::size_t k = 0; k < selection.indices.size(); ++k) {
         while (next != active.end() && *next < selection.indices[k]) ++next;
         const bool is_active = next != active.end() && *next == selection.indices[k];
-        append(is_active ? chosen : others, selection, k);
+        append(is_active ? chosen : others, selection, k, k + 1);
     }
     const auto parts = groups.empty() ? std::vector<Selection>{} : by_group(chosen, groups);
     Blocks blocks = parts.empty() ? join_all(chosen, task) : join_groups(parts, task);
