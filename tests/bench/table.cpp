@@ -77,8 +77,12 @@ void time_ours(const Model& m, Measured& out) {
 
 void time_two_threads(const Model& m, Measured& out) {
     const Run run{.threads = 2};
-    out.two_threads.time(
-        [&] { (void)round_to_doubles(arrange(m.surfaces, {}, run).value(), {}, run); });
+    std::optional<Result<Arrangement>> exact; // freed outside, as with one thread
+    std::optional<Result<RoundedMesh>> rounded;
+    out.two_threads.time([&] {
+        exact.emplace(arrange(m.surfaces, {}, run));
+        rounded.emplace(round_to_doubles(exact->value(), {}, run));
+    });
 }
 
 template <class Yardstick>
