@@ -5,6 +5,7 @@
 #include "../support/points.hpp"
 
 #include <terrane/algorithms/search/methods.hpp>
+#include <terrane/algorithms/search/packed_box.hpp>
 #include <terrane/algorithms/search/search.hpp>
 
 #include <catch2/catch.hpp>
@@ -270,6 +271,62 @@ TEST_CASE("the mixed search keeps what lies in cells of both") {
     CHECK(kept.size() <= 12);
     CHECK(search::boxes_in_mixed_cells(boxes, Groups(100, 4)).empty());
     CHECK(search::boxes_in_mixed_cells(boxes, Groups(100, no_group)).size() == 100);
+}
+
+TEST_CASE("packed boxes are compared as their coordinates are, one by one and eight at once") {
+    using search::PackedBox;
+    Random random(48);
+    // Few different coordinates, so that many are equal; the ends of the range among them.
+    constexpr std::array<std::uint64_t, 5> values{0, 1, 2, PackedBox::last - 1, PackedBox::last};
+    const auto any = [&] {
+        std::array<std::uint64_t, 3> low{}, high{};
+        for (unsigned k = 0; k < 3; ++k) {
+            low[k] = values[random() % values.size()];
+            high[k] = values[random() % values.size()];
+            if (low[k] > high[k]) std::swap(low[k], high[k]);
+        }
+        return PackedBox::of(low, high);
+    };
+    std::size_t inside = 0;
+    for (int i = 0; i < cases(2000); ++i) {
+        const PackedBox q = any();
+        search::EightBoxes eight;
+        REQUIRE(eight.overlapping(q) == 0);
+        const unsigned count = random() % 9;
+        for (unsigned b = 0; b < count; ++b) eight.set(b, any());
+        const unsigned found = eight.overlapping(q);
+        for (unsigned b = 0; b < 8; ++b) {
+            const PackedBox box = eight[b];
+            bool overlap = b < count, beyond = true;
+            for (unsigned k = 0; k < 3 && b < count; ++k) {
+                const auto reach = std::min(box.high_of(k), q.high_of(k)),
+                           start = std::max(box.low_of(k), q.low_of(k));
+                overlap = overlap && start <= reach;
+                beyond = beyond && box.low_of(k) < q.high_of(k) && q.low_of(k) < box.high_of(k);
+            }
+            REQUIRE(q.overlaps(box) == overlap);
+            REQUIRE(((found >> b) & 1) == (overlap ? 1 : 0));
+            if (!overlap) continue;
+            REQUIRE(q.overlaps_inside(box) == beyond);
+            inside += beyond ? 1 : 0;
+        }
+    }
+    CHECK(inside > 100);
+}
+
+TEST_CASE("searches tell boxes apart that are as near as no lattice shows") {
+    for (unsigned axis = 0; axis < 3; ++axis) {
+        std::vector<Box> boxes(40, Box{{0, 0, 0}, {1, 1, 1}});
+        for (std::size_t i = 0; i < boxes.size(); ++i) { // gaps of 1e-12, every tenth closed
+            boxes[i].low[axis] = static_cast<double>(i) * 2e-12;
+            boxes[i].high[axis] = boxes[i].low[axis] + (i % 10 == 0 ? 2e-12 : 1e-12);
+        }
+        boxes.push_back({{0, 0, 0}, {1, 1, 1}});
+        CHECK(check(boxes) >= 40);
+        Groups groups(boxes.size());
+        for (std::size_t i = 0; i < groups.size(); ++i) groups[i] = i % 2;
+        CHECK(check(boxes, groups) >= 20);
+    }
 }
 
 TEST_CASE("names of searches") {
