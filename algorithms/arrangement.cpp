@@ -18,7 +18,8 @@ namespace terrane {
 namespace {
 
 /// Parents are input triangles: those that became the faces, and their duplicates.
-Lists<std::uint32_t> parents_of_faces(const Soup& soup, const Lists<std::uint32_t>& faces_of) {
+Lists<std::uint32_t> parents_of_faces(const Soup& soup, const Lists<std::uint32_t>& faces_of,
+                                      const Run& run) {
     auto by_first = soup.duplicates;
     std::sort(by_first.begin(), by_first.end(), [](const auto& a, const auto& b) {
         return std::pair{a[1], a[0]} < std::pair{b[1], b[0]};
@@ -27,7 +28,13 @@ Lists<std::uint32_t> parents_of_faces(const Soup& soup, const Lists<std::uint32_
     Lists<std::uint32_t> parents;
     if (by_first.empty()) { // input_of ascends, so the lists stay sorted
         parents = faces_of;
-        for (std::uint32_t& f : parents.values) f = soup.input_of[f];
+        const bool kept_all =
+            soup.input_of.empty() || soup.input_of.back() + 1 == soup.input_of.size();
+        if (kept_all) return parents;
+        for_ranges(parents.values.size(), run, [&](std::size_t first, std::size_t last) {
+            for (std::size_t k = first; k < last; ++k)
+                parents.values[k] = soup.input_of[parents.values[k]];
+        });
         return parents;
     }
     parents.offsets.reserve(faces_of.offsets.size());
@@ -171,8 +178,8 @@ Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
     both(
         run,
         [&] {
-            a.parents_of = parents_of_faces(soup, division.faces_of);
-            a.surfaces_of = surfaces_of_parents(a.inputs, a.parents_of);
+            a.parents_of = parents_of_faces(soup, division.faces_of, run);
+            a.surfaces_of = surfaces_of_parents(a.inputs, a.parents_of, run);
         },
         [&] {
             a.patches = patches_of_faces(std::move(patches), division.faces_of, run);

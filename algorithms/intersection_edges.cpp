@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include <terrane/algorithms/parallel.hpp>
+
 namespace terrane {
 
 std::uint32_t InputTriangles::surface_of(std::uint32_t triangle) const {
@@ -17,22 +19,24 @@ std::uint32_t InputTriangles::first_same(std::uint32_t triangle) const {
 }
 
 Lists<std::uint32_t> surfaces_of_parents(const InputTriangles& inputs,
-                                         const Lists<std::uint32_t>& parents_of) {
+                                         const Lists<std::uint32_t>& parents_of, const Run& run) {
     Lists<std::uint32_t> surfaces;
     if (parents_of.values.size() == parents_of.size()) { // one each
         surfaces.offsets = parents_of.offsets;
         surfaces.values.resize(parents_of.size());
-        std::uint32_t s = 0;
-        for (std::size_t t = 0; t < parents_of.size(); ++t) {
-            const std::uint32_t p = parents_of.values[t];
-            if (p < inputs.first[s] || p >= inputs.first[s + 1]) s = inputs.surface_of(p);
-            surfaces.values[t] = s;
-        }
+        for_ranges(parents_of.size(), run, [&](std::size_t first, std::size_t last) {
+            std::uint32_t s = 0; // mostly that of the triangle before
+            for (std::size_t t = first; t < last; ++t) {
+                const std::uint32_t p = parents_of.values[t];
+                if (p < inputs.first[s] || p >= inputs.first[s + 1]) s = inputs.surface_of(p);
+                surfaces.values[t] = s;
+            }
+        });
         return surfaces;
     }
     surfaces.offsets.reserve(parents_of.offsets.size());
     surfaces.values.reserve(parents_of.values.size());
-    std::uint32_t s = 0; // mostly that of the triangle before
+    std::uint32_t s = 0;
     for (std::size_t t = 0; t < parents_of.size(); ++t) {
         bool any = false;
         for (const std::uint32_t p : parents_of[t]) { // they ascend, so do their surfaces

@@ -10,6 +10,7 @@
 #include <terrane/algorithms/adjacency.hpp>
 #include <terrane/algorithms/lists.hpp>
 #include <terrane/algorithms/mesh.hpp>
+#include <terrane/algorithms/run.hpp>
 
 namespace terrane {
 
@@ -29,7 +30,8 @@ struct InputTriangles {
 
 /// Sorted surfaces of each list of input triangles, each once.
 Lists<std::uint32_t> surfaces_of_parents(const InputTriangles& inputs,
-                                         const Lists<std::uint32_t>& parents_of);
+                                         const Lists<std::uint32_t>& parents_of,
+                                         const Run& run = {});
 
 /// The edges in which more than two triangles meet, or two that differ in the number of distinct
 /// parents they have in some surface (duplicates within one surface count once). Sorted.

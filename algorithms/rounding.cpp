@@ -353,7 +353,7 @@ void Rounding::finish(std::span<const CandidatePair> pairs) {
     if (changed_) {
         Stopwatch watch;
         const InputTriangles& inputs = arrangement_.inputs;
-        mesh.surfaces_of = surfaces_of_parents(inputs, mesh.parents_of);
+        mesh.surfaces_of = surfaces_of_parents(inputs, mesh.parents_of, run_);
         const Adjacency adjacency =
             adjacency_of(group_edges(mesh.triangles, mesh.vertices.size(), run_),
                          labels_of(mesh.surfaces_of, mesh.parents_of));
