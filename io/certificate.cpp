@@ -189,7 +189,10 @@ Result<InputRecord> record_input(const fs::path& path, std::string name, std::si
 std::string certified_name(const fs::path& path, const fs::path& certificate) {
     std::error_code failed;
     const auto folder = certificate == "-" ? fs::path() : certificate.parent_path();
-    const auto relative = fs::proximate(path, folder.empty() ? fs::path(".") : folder, failed);
+    // proximate makes absolute what exists only, and can't compare that with what does not.
+    const auto from = fs::absolute(folder.empty() ? fs::path(".") : folder, failed);
+    const auto to = failed ? path : fs::absolute(path, failed);
+    const auto relative = failed ? path : fs::proximate(to, from, failed);
     return (failed ? path : relative).generic_string();
 }
 

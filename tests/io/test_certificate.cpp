@@ -76,6 +76,9 @@ TEST_CASE("certificate: files are called relative to it") {
     CHECK(certified_name("data/a.obj", "out/c.json") == "../data/a.obj");
     CHECK(certified_name("a.obj", "c.json") == "a.obj");
     CHECK(certified_name("/data/a.obj", "/data/out/c.json") == "../a.obj");
+    // The folder exists, the file does not.
+    const auto here = std::filesystem::current_path().filename();
+    CHECK(certified_name("data/a.obj", "../c.json") == (here / "data/a.obj").generic_string());
 }
 
 TEST_CASE("certificate: inputs are hashed as they are on the disk") {
