@@ -12,8 +12,6 @@
 namespace terrane::cli {
 namespace {
 
-constexpr std::size_t most_pairs = 20; ///< named on the terminal
-
 struct ArrangeCommand {
     FileOptions files;
     ArrangeSettings settings;
@@ -21,7 +19,7 @@ struct ArrangeCommand {
     bool keep_unverified = false;
 };
 
-constexpr auto footer =
+constexpr auto arrange_footer =
     R"(Writes .vtp .obj .ts .ply .off .stl .msh .inp .mesh .poly .smesh; -o may be repeated. The mesh is written only if its
 doubles are conforming, by an exact check of the doubles themselves. Otherwise the pairs of
 triangles in the way are named, and the exit status is 1.
@@ -54,7 +52,7 @@ Result<ExitStatus> arrange_files(const ArrangeCommand& command, Session& session
     print(summary_stream(files), summary(inputs.value(), arranged.value()));
     const Mesh& mesh = arranged.value().rounded.mesh;
     bool clean = arranged.value().rounded.report.clean;
-    if (!clean) print(stderr, offending_pairs(inputs.value(), arranged.value(), most_pairs));
+    if (!clean) print(stderr, offending_pairs(inputs.value(), arranged.value()));
     if (clean) {
         const auto narrow = stl_is_conforming(mesh, files, outputs.value(), session);
         if (!narrow) return narrow.error();
@@ -95,7 +93,7 @@ Command arrange_command(CLI::App& program) {
     add_proof(*app, options->proof);
     add_threads(*app, options->files);
     add_stats(*app, options->files);
-    app->footer(footer);
+    app->footer(arrange_footer);
     return {app, [options] {
                 Session session(options->files.threads);
                 const auto status = arrange_files(*options, session);

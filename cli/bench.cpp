@@ -18,7 +18,7 @@ struct BenchCommand {
     unsigned threads = 1;
 };
 
-constexpr auto footer =
+constexpr auto bench_footer =
     R"(Surfaces as in section 6 of "Efficient geometric reconstruction of complex geological structures"
 (Dassi, Perotto, Formaggia, Ruffo), each method of section 2, and the whole arrangement. In brackets
 what the paper says, measured on a notebook of its day with 2.26 GHz.
@@ -180,7 +180,7 @@ Command bench_command(CLI::App& program) {
         ->type_name("SECONDS");
     paper.add_option("--threads", command->threads, "Threads; 0: all cores (default: 1)")
         ->type_name("N");
-    paper.footer(footer);
+    paper.footer(bench_footer);
     return {&bench, [command] { return bench_paper(*command); }};
 }
 

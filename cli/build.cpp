@@ -29,15 +29,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t most_pairs = 20; ///< named on the terminal
-
 struct BuildCommand {
     std::string project;             ///< the file
     std::string folder;              ///< empty: as the project says
     std::optional<unsigned> threads; ///< none: as the project says
 };
 
-constexpr auto footer =
+constexpr auto build_footer =
     R"(The whole chain from one file: surfaces are read, on request their holes filled as `terrane fill`
 does and horizons put in order as `terrane layer` does, cut by the boundary of the volume of interest
 where there is one, arranged and rounded as `terrane arrange` does, made better on request as `terrane
@@ -110,7 +108,7 @@ public:
         }
         if (auto done = arrange_all(); !done) return done.error();
         if (!arranged_->rounded.report.clean) {
-            print(stderr, offending_pairs(inputs_, *arranged_, most_pairs));
+            print(stderr, offending_pairs(inputs_, *arranged_));
             print(stderr, "terrane: no blocks without a conforming mesh; nothing written\n");
             return ExitStatus::negative;
         }
@@ -405,7 +403,7 @@ Command build_command(CLI::App& program) {
                     "says)")
         ->check(CLI::Range(0U, most_threads).description(""))
         ->type_name("N");
-    app->footer(footer);
+    app->footer(build_footer);
     return {app, [command] {
                 const auto status = build(*command);
                 return status ? status.value() : fail(status.error());

@@ -15,7 +15,7 @@ struct CheckCommand {
     bool json = false, all = false;
 };
 
-constexpr auto footer =
+constexpr auto check_footer =
     R"(Findings: pairs of triangles that meet other than in a shared vertex or edge, triangles without
 area, triangles that repeat another of their surface. All of it is decided exactly. Free borders,
 non-manifold edges and triangles in several surfaces are counted too, but are no findings.
@@ -53,7 +53,7 @@ Command check_command(CLI::App& program) {
     app->add_flag("--json", options->json, "All findings as JSON on standard output");
     app->add_flag("--all", options->all, "List all findings, not only the first of each kind");
     add_threads(*app, options->files);
-    app->footer(footer);
+    app->footer(check_footer);
     return {app, [options] {
                 Session session(options->files.threads);
                 const auto status = check_files(*options, session);

@@ -12,7 +12,7 @@ struct ConvertCommand {
     std::string input, output;
 };
 
-constexpr auto footer =
+constexpr auto convert_footer =
     R"(Nothing is arranged, merged or repaired: the same triangles with the same coordinates, bit by bit.
 Binary STL holds float32 only, which is said. Reads .ts .ml .obj .off .stl .ply, writes .vtp .obj
 .ts .ply .off .stl .msh .inp .mesh .poly .smesh.
@@ -71,7 +71,7 @@ Command convert_command(CLI::App& program) {
     add_reading(*app, options->files);
     add_msh(*app, options->files);
     app->add_flag("--ascii", options->files.ascii, "STL as text, with doubles, not float32");
-    app->footer(footer);
+    app->footer(convert_footer);
     return {app, [options] {
                 Session session(1);
                 const auto status = convert_file(*options, session);

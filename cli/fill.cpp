@@ -18,7 +18,6 @@
 namespace terrane::cli {
 namespace {
 
-constexpr std::size_t most_contacts = 10; ///< on the terminal
 constexpr const char* default_holes = "all";
 constexpr const char* no_smoothing = "none";
 
@@ -32,7 +31,7 @@ struct FillCommand {
     std::string points; ///< empty: none
 };
 
-constexpr auto footer =
+constexpr auto fill_footer =
     R"(Holes are the borders of a surface other than the one round it. A hole whose sides face each other
 with a throw is a gap torn by a fault; gaps are left open unless --bridge-faults. --list says what
 there is, by the numbers that --holes takes.
@@ -133,7 +132,7 @@ Result<bool> fill_and_write(const FillCommand& command, const std::vector<Output
     print(summary_stream(command.files), filled_text(work));
     const auto refused = refusals_text(work);
     print(stderr, refused);
-    const auto contacts = contacts_of_new(work, most_contacts, session);
+    const auto contacts = contacts_of_new(work, session);
     if (!contacts) return contacts.error();
     if (!contacts.value().empty()) {
         print(stderr, "terrane: nothing written: what was invented meets other triangles\n" +
@@ -250,7 +249,7 @@ Command fill_command(CLI::App& program) {
     add_msh(*app, options->files);
     add_threads(*app, options->files);
     add_stats(*app, options->files);
-    app->footer(footer);
+    app->footer(fill_footer);
     return {app, [options] {
                 if (const auto read = read_smoothing(*options); !read) return fail(read.error());
                 Session session(options->files.threads);

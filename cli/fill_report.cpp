@@ -15,7 +15,7 @@
 namespace terrane::cli {
 namespace {
 
-constexpr std::size_t most_listed = 30; ///< holes on the terminal
+constexpr std::size_t most_holes = 30; ///< holes on the terminal
 
 const char* name_of_kind(const BorderLoop& loop) {
     return loop.kind == LoopKind::hole ? "hole" : "fault gap";
@@ -71,12 +71,12 @@ std::string filled_text(const FillWork& work) {
         ++filled;
         points += r.invented;
         area += r.area;
-        if (shown++ >= most_listed) continue;
+        if (shown++ >= most_holes) continue;
         text += fmt::format("hole {}: {} and area {:.6g} invented, {}, from {}\n  {}\n",
                             hole.number, counted(r.invented, "point"), r.area, error_text(r),
                             counted(r.data, "point"), r.model);
     }
-    if (shown > most_listed) text += fmt::format("and {} more\n", shown - most_listed);
+    if (shown > most_holes) text += fmt::format("and {} more\n", shown - most_holes);
     text += fmt::format("filled {} of {}: {} and area {:.6g} invented\n", filled,
                         counted(work.holes.size(), "hole"), counted(points, "point"), area);
     return text;

@@ -15,6 +15,8 @@
 namespace terrane::cli {
 namespace {
 
+constexpr std::size_t contacts_listed = 10;
+
 /// A surface with one hole filled, and the expected errors of its new vertices.
 struct OneFilled {
     Surface surface;
@@ -157,7 +159,7 @@ Status fill_holes(const Inputs& inputs, const std::vector<bool>& chosen, FillWor
     return Done{};
 }
 
-Result<std::string> contacts_of_new(const FillWork& work, std::size_t most, Session& session) {
+Result<std::string> contacts_of_new(const FillWork& work, Session& session) {
     std::string text;
     std::size_t count = 0;
     for (const HoledSurface& s : work.surfaces) {
@@ -168,12 +170,12 @@ Result<std::string> contacts_of_new(const FillWork& work, std::size_t most, Sess
         if (!report) return report.error();
         for (const ImproperContact& c : report.value().contacts) {
             const auto newer = std::max(c.triangles[0], c.triangles[1]);
-            if (newer < s.given_triangles || count++ >= most) continue;
+            if (newer < s.given_triangles || count++ >= contacts_listed) continue;
             text += fmt::format("  {}, hole {}: {} at {}\n", s.label, s.invented[newer],
                                 name_of(c.kind), text_of(c.place));
         }
     }
-    if (count > most) text += fmt::format("  and {} more\n", count - most);
+    if (count > contacts_listed) text += fmt::format("  and {} more\n", count - contacts_listed);
     return text;
 }
 

@@ -81,9 +81,9 @@ std::vector<bool> wanted_holes(const FillWork& work);
 Status fill_holes(const Inputs& inputs, const std::vector<bool>& chosen, FillWork& work,
                   Session& session);
 
-/// Where new triangles meet others improperly within their surface, by exact check: at most `most`
+/// Where new triangles meet others improperly within their surface, by exact check: at most ten
 /// in words, a line each; empty: nowhere.
-Result<std::string> contacts_of_new(const FillWork& work, std::size_t most, Session& session);
+Result<std::string> contacts_of_new(const FillWork& work, Session& session);
 
 /// "hole 2 of top is left open: ...", one line for each that was refused; empty: none.
 std::string refusals_text(const FillWork& work);

@@ -18,8 +18,6 @@
 namespace terrane::cli {
 namespace {
 
-constexpr std::size_t most_pairs = 20; ///< named on the terminal
-
 struct ImproveCommand {
     FileOptions files;
     ArrangeSettings settings;
@@ -29,7 +27,7 @@ struct ImproveCommand {
     std::string histogram;                   ///< empty: none
 };
 
-constexpr auto footer =
+constexpr auto improve_footer =
     R"(The surfaces are arranged and rounded first, as `terrane arrange` does; then triangles are made
 better: smoothed, swapped, collapsed, split, all surfaces together. The mesh stays conforming: each
 step is allowed only where exact predicates show that no triangles meet improperly by it, and the
@@ -124,7 +122,7 @@ Result<ExitStatus> improve_files(const ImproveCommand& command, Session& session
     print(summary_stream(files), summary(inputs.value(), arranged.value()));
     bool clean = arranged.value().rounded.report.clean;
     if (!clean) {
-        print(stderr, offending_pairs(inputs.value(), arranged.value(), most_pairs));
+        print(stderr, offending_pairs(inputs.value(), arranged.value()));
         print(stderr, "terrane: only a conforming mesh can be improved; nothing written\n");
     } else {
         const auto measured =
@@ -211,7 +209,7 @@ Command improve_command(CLI::App& program) {
     add_msh(*app, command->files);
     add_threads(*app, command->files);
     add_stats(*app, command->files);
-    app->footer(footer);
+    app->footer(improve_footer);
     return {app, [command] {
                 Session session(command->files.threads);
                 const auto status = improve_files(*command, session);

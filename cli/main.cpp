@@ -20,7 +20,7 @@ namespace {
 constexpr auto description =
     "Terrane: exact conforming meshes of geological surfaces that cross, touch and overlap.";
 
-constexpr auto footer =
+constexpr auto main_footer =
     R"(Exit status: 0 done; 1 the answer is "no" (findings, or no conforming mesh of doubles); 2 bad
 input or usage, cannot read or write, interrupted; 3 internal, out of memory. Where a file is not
 written completely, it is not written at all.
@@ -62,7 +62,7 @@ ExitStatus run(int argc, char** argv) {
     CLI::App program(description, "terrane");
     program.set_version_flag("--version", std::string("terrane " TERRANE_VERSION "\n") + licence);
     program.require_subcommand(1);
-    program.footer(footer);
+    program.footer(main_footer);
     const std::array commands{
         arrange_command(program), bench_command(program),   build_command(program),
         check_command(program),   convert_command(program), fill_command(program),

@@ -50,8 +50,8 @@ Result<Arranged> arrange_within(Inputs& inputs, std::vector<Surface> boundary,
 /// Surfaces with their triangles, regions and areas; what was set aside; how the rounding went.
 std::string summary(const Inputs& inputs, const Arranged& arranged);
 
-/// The pairs of triangles that the rounding left in improper contact, by name; at most `most`.
-std::string offending_pairs(const Inputs& inputs, const Arranged& arranged, std::size_t most);
+/// The pairs of triangles that the rounding left in improper contact, by name; 20 at most.
+std::string offending_pairs(const Inputs& inputs, const Arranged& arranged);
 
 /// How many flaws the mesh has once its coordinates are float32, as in binary STL; by exact check.
 Result<std::size_t> float32_flaws(const Mesh& mesh, const Run& run);

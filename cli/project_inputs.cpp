@@ -15,10 +15,6 @@
 namespace terrane::cli {
 namespace {
 
-Error at_key(const std::string& source, const std::string& key, std::string sentence) {
-    return {ErrorCode::bad_option, std::move(sentence), source + ": " + key};
-}
-
 std::string names_of(const std::vector<Surface>& surfaces) {
     constexpr std::size_t most = 10;
     std::string text;
@@ -46,9 +42,9 @@ Result<std::vector<Surface>> chosen(std::vector<Surface> surfaces, const Project
 }
 
 /// One entry of "surfaces".
-Result<std::vector<Surface>> surfaces_of(const ProjectSurfaces& entry, const std::string& source,
-                                         const std::string& key,
-                                         std::vector<SurfaceInfo>& as_read) {
+Result<std::vector<Surface>> surfaces_of_entry(const ProjectSurfaces& entry,
+                                               const std::string& source, const std::string& key,
+                                               std::vector<SurfaceInfo>& as_read) {
     ReadOptions options;
     options.depth = entry.depth;
     auto read = read_surfaces(entry.file, std::nullopt, options);
@@ -79,6 +75,10 @@ Result<std::vector<Surface>> boundary_within(const ProjectWithin& within, Sessio
 
 } // namespace
 
+Error at_key(const std::string& source, const std::string& key, std::string sentence) {
+    return {ErrorCode::bad_option, std::move(sentence), source + ": " + key};
+}
+
 Result<ProjectInputs> read_inputs(const Project& project, const std::string& source,
                                   Session& session) {
     Stopwatch watch;
@@ -88,7 +88,8 @@ Result<ProjectInputs> read_inputs(const Project& project, const std::string& sou
     for (std::size_t i = 0; i < project.surfaces.size(); ++i) {
         if (session.stopped()) return Error{ErrorCode::interrupted, "", ""};
         const ProjectSurfaces& entry = project.surfaces[i];
-        auto surfaces = surfaces_of(entry, source, fmt::format("surfaces[{}]", i), read.as_read);
+        auto surfaces =
+            surfaces_of_entry(entry, source, fmt::format("surfaces[{}]", i), read.as_read);
         if (!surfaces) return surfaces.error();
         all.surfaces_of_file.push_back(surfaces.value().size());
         for (const Surface& s : surfaces.value()) {

@@ -12,6 +12,9 @@
 
 namespace terrane::cli {
 
+/// bad_option: what is wrong with this key of the project file `source`.
+Error at_key(const std::string& source, const std::string& key, std::string sentence);
+
 struct ProjectInputs {
     Inputs inputs;
     std::vector<SurfaceInfo> as_read; ///< per surface, as its file calls it

@@ -11,21 +11,16 @@
 #include <terrane/algorithms/stopwatch.hpp>
 #include <terrane/cli/fill_report.hpp>
 #include <terrane/cli/layer_stage.hpp>
+#include <terrane/cli/project_inputs.hpp>
 #include <terrane/cli/roles.hpp>
 
 namespace terrane::cli {
 namespace {
 
-constexpr std::size_t most_contacts = 10; ///< on the terminal
-
 std::vector<std::uint32_t> called(const std::string& name, const Inputs& inputs) {
     std::vector<SurfaceInfo> infos;
     for (const Surface& s : inputs.surfaces) infos.push_back({s.name, s.role});
     return surfaces_called(name, infos, inputs.labels);
-}
-
-Error at_key(const std::string& source, const std::string& key, std::string sentence) {
-    return {ErrorCode::bad_option, std::move(sentence), source + ": " + key};
 }
 
 FillSettings settings_of(const ProjectFill& entry) {
@@ -93,7 +88,7 @@ Status fill(const std::vector<FillTask>& tasks, Inputs& inputs, Mended& mended, 
         return done;
     mended.said += borders_text(work.value()) + filled_text(work.value());
     mended.refused = refusals_text(work.value());
-    const auto contacts = contacts_of_new(work.value(), most_contacts, session);
+    const auto contacts = contacts_of_new(work.value(), session);
     if (!contacts) return contacts.error();
     if (!contacts.value().empty())
         mended.refused += "terrane: what was invented meets other triangles\n" + contacts.value();

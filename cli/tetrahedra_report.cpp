@@ -12,7 +12,7 @@
 namespace terrane::cli {
 namespace {
 
-constexpr std::size_t most_violations = 20;
+constexpr std::size_t most_defects = 20;
 
 struct Comparison {
     std::size_t blocks = 0;
@@ -90,10 +90,10 @@ std::string report_text(const TetrahedraReport& report) {
 std::string violations_text(const TetrahedraReport& report) {
     std::string text;
     const auto& all = report.violations;
-    for (std::size_t i = 0; i < std::min(all.size(), most_violations); ++i)
+    for (std::size_t i = 0; i < std::min(all.size(), most_defects); ++i)
         text += "terrane: " + all[i] + "\n";
-    if (all.size() > most_violations)
-        text += fmt::format("terrane: and {} more\n", all.size() - most_violations);
+    if (all.size() > most_defects)
+        text += fmt::format("terrane: and {} more\n", all.size() - most_defects);
     return text;
 }
 

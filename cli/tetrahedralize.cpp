@@ -26,8 +26,6 @@ namespace terrane::cli {
 
 namespace {
 
-constexpr std::size_t most_pairs = 20; ///< named on the terminal
-
 struct TetrahedralizeCommand {
     FileOptions files;
     ArrangeSettings settings;
@@ -39,7 +37,7 @@ struct TetrahedralizeCommand {
     bool blocks_only = false;
 };
 
-constexpr auto footer =
+constexpr auto tetrahedralize_footer =
     R"(The surfaces are arranged and rounded first, as `terrane arrange` does; where the doubles are not
 a conforming mesh nothing is written, and the exit status is 1. A box round all closes the domain:
 what touches it is region 0, the outside, each further region is a volume that the surfaces enclose.
@@ -152,7 +150,7 @@ Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Se
     if (!arranged) return arranged.error();
     print(summary_stream(files), summary(inputs.value(), arranged.value()));
     if (!arranged.value().rounded.report.clean) {
-        print(stderr, offending_pairs(inputs.value(), arranged.value(), most_pairs));
+        print(stderr, offending_pairs(inputs.value(), arranged.value()));
         print(stderr, "terrane: no tetrahedra without a conforming mesh; nothing written\n");
         const auto status = write_statistics(statistics, files.stats, total.lap());
         if (!status) return status.error();
@@ -232,7 +230,7 @@ Command tetrahedralize_command(CLI::App& program) {
     add_settings(*app, command->settings);
     add_threads(*app, command->files);
     add_stats(*app, command->files);
-    app->footer(footer);
+    app->footer(tetrahedralize_footer);
     return {app, [command] {
                 Session session(command->files.threads);
                 const auto status = tetrahedralize_files(*command, session);

@@ -29,7 +29,7 @@ struct VerifyCommand {
     bool json = false;
 };
 
-constexpr auto footer =
+constexpr auto verify_footer =
     R"(A certificate says how a mesh follows from its input files. It is judged with rational
 arithmetic, by code that shares nothing with what made it. IN are the input files in the order of
 the certificate; without IN they are looked for beside it, under the names that it gives. What
@@ -143,7 +143,7 @@ Command verify_command(CLI::App& program) {
     app->add_option("IN", options->files.inputs, "The input files")->type_name("FILE");
     add_reading(*app, options->files);
     app->add_flag("--json", options->json, "The verdict as JSON");
-    app->footer(footer);
+    app->footer(verify_footer);
     return {app, [options] {
                 const auto status = verify_file(*options);
                 return status ? status.value() : fail(status.error());

@@ -10,8 +10,6 @@
 namespace terrane::cli {
 namespace {
 
-constexpr std::size_t most_pairs = 20; ///< named on the terminal
-
 struct VolumeCommand {
     FileOptions files;
     ArrangeSettings settings;
@@ -20,7 +18,7 @@ struct VolumeCommand {
     std::string part_format = "vtp";
 };
 
-constexpr auto footer =
+constexpr auto volume_footer =
     R"(The surfaces are arranged and rounded first, as `terrane arrange` does; where the doubles are not
 a conforming mesh nothing is written, and the exit status is 1. Blocks are the volumes that the
 surfaces enclose, 1, 2, ...; 0 is the outside. DIR must not exist, or be empty. It gets
@@ -79,7 +77,7 @@ Result<ExitStatus> find_blocks(const VolumeCommand& command, Session& session) {
     print(summary_stream(files), summary(inputs.value(), arranged.value()));
     const bool clean = arranged.value().rounded.report.clean;
     if (!clean) {
-        print(stderr, offending_pairs(inputs.value(), arranged.value(), most_pairs));
+        print(stderr, offending_pairs(inputs.value(), arranged.value()));
         print(stderr, "terrane: no blocks without a conforming mesh; nothing written\n");
     } else {
         const auto model = make_model(arranged.value(), session, statistics);
@@ -112,7 +110,7 @@ Command volume_command(CLI::App& program) {
     add_settings(*app, command->settings);
     add_threads(*app, command->files);
     add_stats(*app, command->files);
-    app->footer(footer);
+    app->footer(volume_footer);
     return {app, [command] {
                 Session session(command->files.threads);
                 const auto status = find_blocks(*command, session);

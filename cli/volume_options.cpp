@@ -17,7 +17,7 @@
 namespace terrane::cli {
 namespace {
 
-constexpr std::size_t most_surfaces = 40; ///< printed
+constexpr std::size_t most_surfaces_cut = 40; ///< printed
 constexpr std::size_t most_borders = 20;
 
 /// Numbers between commas; nothing if it is something else.
@@ -204,7 +204,7 @@ std::string text_of(const VolumeReport& report, const Inputs& inputs) {
             ++outside;
             continue;
         }
-        if (++shown > most_surfaces) continue;
+        if (++shown > most_surfaces_cut) continue;
         text +=
             fmt::format("  {:<{}}  {:>10.4g} of {:>10.4g}, {}", inputs.labels[s], width,
                         cut.area_inside + cut.area_on_boundary, all, counted(cut.pieces, "piece"));
@@ -212,7 +212,8 @@ std::string text_of(const VolumeReport& report, const Inputs& inputs) {
             text += fmt::format("; ends inside along {:.4g}", cut.open_length);
         text += '\n';
     }
-    if (shown > most_surfaces) text += fmt::format("  and {} more\n", shown - most_surfaces);
+    if (shown > most_surfaces_cut)
+        text += fmt::format("  and {} more\n", shown - most_surfaces_cut);
     if (outside > 0) text += fmt::format("  {} outside\n", counted(outside, "surface"));
     for (std::size_t b = 0; b < std::min(report.borders.size(), most_borders); ++b)
         text += fmt::format("  {} ends inside: along {:.4g} at {}\n",
