@@ -2,6 +2,7 @@
 #include <terrane/algorithms/contacts.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -162,26 +163,49 @@ struct Key {
     PointIndex point;
 };
 
-/// Sorts lexicographically: each share for itself, then all together.
+/// Into as many buckets as there are keys, by where their x lies between the lowest and the
+/// highest: a bucket's keys are all before those of the next. The starts of the buckets, and their
+/// end.
+std::vector<std::uint32_t> into_buckets(std::vector<Key>& keys) {
+    const auto [low, high] = std::minmax_element(
+        keys.begin(), keys.end(), [](const Key& a, const Key& b) { return a.x < b.x; });
+    // Halves: their difference is finite.
+    const double start = low->x / 2, length = high->x / 2 - start;
+    const double highest = static_cast<double>(keys.size() - 1);
+    const double scale = highest / length;
+    const std::size_t buckets = std::isfinite(scale) ? keys.size() : 1;
+    const auto bucket_of = [&](const Key& key) {
+        return buckets == 1 ? std::size_t{0}
+                            : static_cast<std::size_t>(
+                                  std::min((key.x / 2 - start) * scale, highest)); // monotone
+    };
+    std::vector<std::uint32_t> ends(buckets + 1, 0);
+    for (const Key& key : keys) ++ends[bucket_of(key) + 1];
+    std::partial_sum(ends.begin(), ends.end(), ends.begin());
+    std::vector<std::uint32_t> next = ends;
+    std::vector<Key> sorted(keys.size());
+    for (const Key& key : keys) sorted[next[bucket_of(key)]++] = key;
+    keys = std::move(sorted);
+    return ends;
+}
+
+/// Sorts lexicographically.
 void sort_keys(const PointStore& store, std::vector<Key>& keys, const Run& run) {
+    if (keys.empty()) return;
+    const auto ends = into_buckets(keys);
+    const auto at = [&](std::size_t bucket) {
+        return keys.begin() + static_cast<std::ptrdiff_t>(ends[bucket]);
+    };
     const auto before = [&](const Key& a, const Key& b) {
         if (a.x != b.x) return a.x < b.x;
         return store.compare(a.point, b.point) < 0;
     };
-    constexpr std::size_t least = 4096; // for a thread
-    const std::size_t shares =
-        std::clamp<std::size_t>(keys.size() / least, 1, std::max(run.threads, 1U));
-    const auto end_of = [&](std::size_t s) {
-        return keys.begin() + static_cast<std::ptrdiff_t>(keys.size() * s / shares);
-    };
     const auto sort = [&](std::size_t first, std::size_t last) {
         const UpwardRounding guard;
-        for (std::size_t s = first; s < last; ++s) std::sort(end_of(s), end_of(s + 1), before);
+        for (std::size_t b = first; b < last; ++b)
+            if (ends[b + 1] - ends[b] > 1) std::sort(at(b), at(b + 1), before);
     };
-    for_ranges(shares, run, sort, 1, 1);
-    const UpwardRounding guard;
-    for (std::size_t s = 1; s < shares; ++s)
-        std::inplace_merge(keys.begin(), end_of(s), end_of(s + 1), before);
+    for_ranges(ends.size() - 1, run, sort, 4, 1024);
 }
 
 } // namespace
@@ -220,7 +244,8 @@ PointOrder order_points(const TriangleSoup& soup, const Contacts& contacts, cons
     std::uint32_t rank = 0;
     for (std::size_t i = 0; i < used.size();) {
         std::size_t end = i + 1;
-        while (end < used.size() && store.equal(used[i], used[end])) ++end;
+        while (end < used.size() && keys[end].x == keys[i].x && store.equal(used[i], used[end]))
+            ++end;
         const PointIndex best =
             *std::min_element(used.begin() + static_cast<std::ptrdiff_t>(i),
                               used.begin() + static_cast<std::ptrdiff_t>(end), stands_before);
