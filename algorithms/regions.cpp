@@ -108,7 +108,7 @@ private:
                                           offsets.begin() - 1);
     }
 
-    /// Slots of one region, one after the other.
+    /// Of one region: triangles one after the other that lie in the same regions.
     struct Stretch {
         std::uint32_t region;
         std::size_t triangles;
@@ -127,21 +127,15 @@ private:
             count, run_, [&](std::size_t first, std::size_t last) {
                 std::vector<Stretch> part;
                 const std::size_t end = std::min(count, cut(last));
-                Stretch open{none, 0, 0};
-                const auto begin = [&](std::uint32_t region) {
-                    if (open.region != none) part.push_back(open);
-                    open = {region, 0, 0};
-                };
-                for (std::size_t t = cut(first); t < end; ++t) {
-                    const double area = area_of(vertices, triangles_[t]);
-                    if (t % block == 0) begin(none);
-                    for (const std::uint32_t r : out.regions_of[t]) {
-                        if (open.region != r) begin(r);
-                        ++open.triangles;
-                        open.area += area;
-                    }
+                for (std::size_t t = cut(first); t < end;) {
+                    const std::size_t block_end = std::min(end, (t / block + 1) * block);
+                    const auto regions = out.regions_of[t];
+                    const std::size_t start = t;
+                    double area = 0;
+                    do area += area_of(vertices, triangles_[t]);
+                    while (++t < block_end && std::ranges::equal(out.regions_of[t], regions));
+                    for (const std::uint32_t r : regions) part.push_back({r, t - start, area});
                 }
-                begin(none);
                 return part;
             });
         for (const auto& part : parts)
