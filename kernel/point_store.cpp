@@ -107,9 +107,20 @@ using TwofoldPoint = std::array<Twofold, 3>;
 /// Under the default rounding mode.
 TwofoldPoint twofold_point(std::span<const Point3> input, const Construction& how) {
     const auto at = [&](std::uint32_t v) -> const Point3& { return input[v]; };
-    const auto h = polynomial::construct<Twofold>(how, at);
     const Point3& base = input[how.v[0]];
-    return {Twofold(base.x) + h.x / h.w, Twofold(base.y) + h.y / h.w, Twofold(base.z) + h.z / h.w};
+    const auto from_base = [&](const Twofold& x, const Twofold& y, const Twofold& z) {
+        return TwofoldPoint{Twofold(base.x) + x, Twofold(base.y) + y, Twofold(base.z) + z};
+    };
+    if (!polynomial::is_on_line(how)) {
+        const auto h = polynomial::construct<Twofold>(how, at);
+        return from_base(h.x / h.w, h.y / h.w, h.z / h.w);
+    }
+    const auto [d, t, w] = polynomial::construct_on_line<Twofold>(how, at);
+    const Twofold share = t / w; // one division for three
+    const auto p = from_base(d.x * share, d.y * share, d.z * share);
+    const auto is_settled = [](const Twofold& x) { return x.is_double() || !x.may_be_double(); };
+    if (is_settled(p[0]) && is_settled(p[1]) && is_settled(p[2])) return p;
+    return from_base(d.x * t / w, d.y * t / w, d.z * t / w); // may show that it is one
 }
 
 #if defined(__x86_64__) && defined(__GNUC__)

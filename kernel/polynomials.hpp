@@ -124,13 +124,19 @@ struct Homogeneous {
     N x, y, z, w; ///< w of any sign, not zero if the construction is defined
 };
 
+/// The point d t / w, relative to the first vertex of a construction.
+template <class N>
+struct OnLine {
+    Vector<N> d;
+    N t, w;
+};
+
 /// Where the line p q meets the plane through r with normal n, relative to p.
 template <class N>
-Homogeneous<N> line_meets_plane(const Coordinates<N, One>& p, const Coordinates<N, One>& q,
-                                const Coordinates<N, One>& r, const Vector<N>& n) {
+OnLine<N> line_meets_plane(const Coordinates<N, One>& p, const Coordinates<N, One>& q,
+                           const Coordinates<N, One>& r, const Vector<N>& n) {
     const auto d = difference(q, p);
-    const N t = dot(n, difference(r, p));
-    return {d.x * t, d.y * t, d.z * t, dot(n, d)};
+    return {d, dot(n, difference(r, p)), dot(n, d)};
 }
 
 /// Normal of the plane that contains direction d and is parallel to `axis`.
@@ -161,18 +167,30 @@ Homogeneous<N> planes_meet(const Coordinates<N, One> (&c)[9]) {
             dot(n3, n12)};
 }
 
+inline bool is_on_line(const Construction& how) {
+    return how.kind == Construction::Kind::line_plane || how.kind == Construction::Kind::line_line;
+}
+
+/// A construction's point where it is_on_line. input(i) gives Point3 of input vertex i.
+template <class N, class Input>
+OnLine<N> construct_on_line(const Construction& how, const Input& input) {
+    const auto at = [&](int i) { return cartesian<N>(input(how.v[static_cast<unsigned>(i)])); };
+    const auto r = at(2);
+    return line_meets_plane(at(0), at(1), r,
+                            how.kind == Construction::Kind::line_plane
+                                ? cross(difference(at(3), r), difference(at(4), r))
+                                : normal_along(how.axis, difference(at(3), r)));
+}
+
 /// A construction's point relative to input[how.v[0]]. input(i) gives Point3 of input vertex i.
 template <class N, class Input>
 Homogeneous<N> construct(const Construction& how, const Input& input) {
     const auto at = [&](int i) { return cartesian<N>(input(how.v[static_cast<unsigned>(i)])); };
     switch (how.kind) {
-    case Construction::Kind::line_plane: {
-        const auto r = at(2);
-        return line_meets_plane(at(0), at(1), r, cross(difference(at(3), r), difference(at(4), r)));
-    }
+    case Construction::Kind::line_plane:
     case Construction::Kind::line_line: {
-        const auto r = at(2);
-        return line_meets_plane(at(0), at(1), r, normal_along(how.axis, difference(at(3), r)));
+        const auto [d, t, w] = construct_on_line<N>(how, input);
+        return {d.x * t, d.y * t, d.z * t, w};
     }
     case Construction::Kind::three_planes: {
         const Coordinates<N, One> c[9] = {at(0), at(1), at(2), at(3), at(4),

@@ -72,6 +72,9 @@ public:
     /// The double that it is, without doubt.
     [[nodiscard]] bool is_double() const { return lo_ == 0 && err_ == 0; }
 
+    /// Whether the true value may be the double nearest to it.
+    [[nodiscard]] bool may_be_double() const { return !(std::fabs(lo_) > err_); }
+
     /// The high part, and how far the true value is from it at most.
     [[nodiscard]] double value() const { return hi_; }
     [[nodiscard]] double error() const { return (std::fabs(lo_) + err_) * (1 + 4 * unit); }

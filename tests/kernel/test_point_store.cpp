@@ -280,6 +280,7 @@ TEST_CASE("one point has many constructions") {
         CHECK(store.equal(11, p));
         CHECK(store.equal(p, 14));
         CHECK(store.nearest(p) == Point3{1, 1, 1});
+        CHECK(store.rounding_errors(p) == std::array{0.0, 0.0, 0.0}); // though the share is 1/3
         CHECK(order(store, 0, p) == -1);
         CHECK(order(store, 12, p) == 1);
     }
