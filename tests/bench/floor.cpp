@@ -90,6 +90,18 @@ std::vector<Box> boxes_of_all(const Model& m) {
     return boxes;
 }
 
+/// So many of them, from the start again behind the last.
+template <class T>
+std::vector<T> resized(const std::vector<T>& from, std::size_t size) {
+    std::vector<T> to;
+    to.reserve(size);
+    while (to.size() < size) {
+        const std::size_t count = std::min(from.size(), size - to.size());
+        to.insert(to.end(), from.begin(), from.begin() + static_cast<std::ptrdiff_t>(count));
+    }
+    return to;
+}
+
 } // namespace
 
 std::size_t floor_of_search(const Model& m) {
@@ -102,15 +114,15 @@ std::size_t floor_of_search(const Model& m) {
     return found;
 }
 
-std::size_t floor_of_arrange(const Model& m) {
+std::size_t floor_of_arrange(const Model& m, const OutputSize& output) {
     const auto boxes = boxes_of_all(m);
     const Cells cells(boxes);
     const Stored stored = sort_into(cells, boxes, boxes.size());
-    const auto points = m.points;
-    const auto triangles = m.triangles;
-    // Parents, surfaces and regions: a list with one entry for each triangle.
+    const auto points = resized(m.points, output.vertices);
+    const auto triangles = resized(m.triangles, output.triangles);
     std::size_t written = points.size() + triangles.size();
-    std::array<std::vector<std::uint32_t>, 6> lists;
+    std::array<std::vector<std::uint32_t>, 6> lists; // offsets and values of parents, surfaces and
+                                                     // regions
     for (auto& list : lists) {
         list.resize(triangles.size());
         for (std::size_t t = 0; t < list.size(); ++t) list[t] = static_cast<std::uint32_t>(t);

@@ -13,9 +13,14 @@ namespace bench {
 /// large as the largest box, one query by each of the second's. The number of overlapping pairs.
 std::size_t floor_of_search(const Model& m);
 
-/// Boxes of all triangles, one counting sort of them into such cells without any query, and the
-/// output arrays written: points and triangles copied, six lists filled. A value that depends on
-/// all.
-std::size_t floor_of_arrange(const Model& m);
+/// How much an arrangement of a model has to write.
+struct OutputSize {
+    std::size_t vertices = 0, triangles = 0;
+};
+
+/// Boxes of all triangles, one counting sort of them into such cells without any query, and output
+/// arrays written: points, triangles, six lists of an entry for each triangle. A value that depends
+/// on all.
+std::size_t floor_of_arrange(const Model& m, const OutputSize& output);
 
 } // namespace bench

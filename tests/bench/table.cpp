@@ -60,7 +60,7 @@ constexpr std::array rows{Row{"pair1_68k", 0.5, 8},         Row{"pair1_680k", 0.
 
 struct Measured {
     Series arrange, round, two_threads, yardstick, floor;
-    std::size_t triangles = 0;
+    OutputSize output;
     bool clean = false, yardstick_fails = false;
 
     [[nodiscard]] double ours() const { return arrange.median() + round.median(); }
@@ -72,7 +72,8 @@ void time_ours(const Model& m, Measured& out) {
     std::optional<Result<RoundedMesh>> rounded;
     out.round.time([&] { rounded.emplace(round_to_doubles(exact->value())); });
     out.clean = rounded->value().report.clean;
-    out.triangles = rounded->value().mesh.triangles.size();
+    const Mesh& mesh = rounded->value().mesh;
+    out.output = {mesh.vertices.size(), mesh.triangles.size()};
 }
 
 void time_two_threads(const Model& m, Measured& out) {
@@ -105,7 +106,7 @@ Measured measure(const Model& m, unsigned repeats, bool with_yardstick) {
         time_ours(m, out);
         time_two_threads(m, out);
         if (yardstick) time_yardstick(*yardstick, out);
-        out.floor.time([&] { floor_of_arrange(m); });
+        out.floor.time([&] { floor_of_arrange(m, out.output); });
     }
     return out;
 }
@@ -124,8 +125,9 @@ std::string ratio(double a, double b, double required) {
 void print(const Row& row, const Measured& m) {
     const double ours = m.ours(), two = m.two_threads.median();
     std::printf("%-16s %9zu %9.4f %9.4f %9.4f %9.4f %9.4f  %-18s %-18s %8.2f  %s\n", row.name,
-                m.triangles, m.arrange.median(), m.round.median(), ours, m.yardstick.median(),
-                m.floor.median(), ratio(ours, m.yardstick.median(), row.of_yardstick).c_str(),
+                m.output.triangles, m.arrange.median(), m.round.median(), ours,
+                m.yardstick.median(), m.floor.median(),
+                ratio(ours, m.yardstick.median(), row.of_yardstick).c_str(),
                 ratio(ours, m.floor.median(), row.of_floor).c_str(), ours / two,
                 m.clean ? "clean" : "IMPROPER");
     std::fflush(stdout);
