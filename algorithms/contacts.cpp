@@ -169,11 +169,11 @@ struct Key {
 std::vector<std::uint32_t> into_buckets(std::vector<Key>& keys) {
     const auto [low, high] = std::minmax_element(
         keys.begin(), keys.end(), [](const Key& a, const Key& b) { return a.x < b.x; });
-    // Halves: their difference is finite.
+    // Halves: of finite numbers their difference is finite. A constructed point may be infinite.
     const double start = low->x / 2, length = high->x / 2 - start;
     const double highest = static_cast<double>(keys.size() - 1);
     const double scale = highest / length;
-    const std::size_t buckets = std::isfinite(scale) ? keys.size() : 1;
+    const std::size_t buckets = scale > 0 && std::isfinite(scale) ? keys.size() : 1;
     const auto bucket_of = [&](const Key& key) {
         return buckets == 1 ? std::size_t{0}
                             : static_cast<std::size_t>(
