@@ -179,22 +179,22 @@ std::vector<std::uint32_t> into_buckets(std::vector<Key>& keys) {
                             : static_cast<std::size_t>(
                                   std::min((key.x / 2 - start) * scale, highest)); // monotone
     };
-    std::vector<std::uint32_t> ends(buckets + 1, 0);
-    for (const Key& key : keys) ++ends[bucket_of(key) + 1];
-    std::partial_sum(ends.begin(), ends.end(), ends.begin());
-    std::vector<std::uint32_t> next = ends;
+    std::vector<std::uint32_t> starts(buckets + 1, 0);
+    for (const Key& key : keys) ++starts[bucket_of(key) + 1];
+    std::partial_sum(starts.begin(), starts.end(), starts.begin());
+    std::vector<std::uint32_t> next = starts;
     std::vector<Key> sorted(keys.size());
     for (const Key& key : keys) sorted[next[bucket_of(key)]++] = key;
     keys = std::move(sorted);
-    return ends;
+    return starts;
 }
 
 /// Sorts lexicographically.
 void sort_keys(const PointStore& store, std::vector<Key>& keys, const Run& run) {
     if (keys.empty()) return;
-    const auto ends = into_buckets(keys);
+    const auto starts = into_buckets(keys);
     const auto at = [&](std::size_t bucket) {
-        return keys.begin() + static_cast<std::ptrdiff_t>(ends[bucket]);
+        return keys.begin() + static_cast<std::ptrdiff_t>(starts[bucket]);
     };
     const auto before = [&](const Key& a, const Key& b) {
         if (a.x != b.x) return a.x < b.x;
@@ -203,9 +203,9 @@ void sort_keys(const PointStore& store, std::vector<Key>& keys, const Run& run) 
     const auto sort = [&](std::size_t first, std::size_t last) {
         const UpwardRounding guard;
         for (std::size_t b = first; b < last; ++b)
-            if (ends[b + 1] - ends[b] > 1) std::sort(at(b), at(b + 1), before);
+            if (starts[b + 1] - starts[b] > 1) std::sort(at(b), at(b + 1), before);
     };
-    for_ranges(ends.size() - 1, run, sort, 4, 1024);
+    for_ranges(starts.size() - 1, run, sort, 4, 1024);
 }
 
 } // namespace

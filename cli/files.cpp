@@ -20,10 +20,6 @@ namespace {
 
 constexpr unsigned most_threads = 1024;
 
-Error usage(std::string sentence, std::string place = {}) {
-    return {ErrorCode::bad_option, std::move(sentence), std::move(place)};
-}
-
 Result<Format> format_of_output(const FileOptions& options, const std::string& path) {
     const std::string& named = !options.output_format.empty() ? options.output_format
                                : path == "-"                  ? options.format
@@ -79,6 +75,10 @@ Status write_with(const AnyMesh& mesh, const Output& output, WriteOptions option
 }
 
 } // namespace
+
+Error usage(std::string sentence, std::string place) {
+    return {ErrorCode::bad_option, std::move(sentence), std::move(place)};
+}
 
 // The folder must be there: it is better to say so before an hour of work than after it.
 Status check_folder(const std::string& path) {

@@ -47,6 +47,9 @@ struct Output {
 
 enum class OutputKind { surfaces, tetrahedra };
 
+/// bad_option: what is wrong with how the program was called; `place`: the option, or a file.
+Error usage(std::string sentence, std::string place = {});
+
 /// What is wrong with the names on the command line, found before any work is done: formats that
 /// do not exist or do not fit, folders that are missing, a standard stream used twice.
 Result<std::vector<Output>> plan_outputs(const FileOptions& options, OutputKind kind);

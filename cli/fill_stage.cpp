@@ -15,7 +15,7 @@
 namespace terrane::cli {
 namespace {
 
-constexpr std::size_t contacts_listed = 10;
+constexpr std::size_t most_contacts = 10; ///< in words
 
 /// A surface with one hole filled, and the expected errors of its new vertices.
 struct OneFilled {
@@ -170,12 +170,12 @@ Result<std::string> contacts_of_new(const FillWork& work, Session& session) {
         if (!report) return report.error();
         for (const ImproperContact& c : report.value().contacts) {
             const auto newer = std::max(c.triangles[0], c.triangles[1]);
-            if (newer < s.given_triangles || count++ >= contacts_listed) continue;
+            if (newer < s.given_triangles || count++ >= most_contacts) continue;
             text += fmt::format("  {}, hole {}: {} at {}\n", s.label, s.invented[newer],
                                 name_of(c.kind), text_of(c.place));
         }
     }
-    if (count > contacts_listed) text += fmt::format("  and {} more\n", count - contacts_listed);
+    if (count > most_contacts) text += fmt::format("  and {} more\n", count - most_contacts);
     return text;
 }
 

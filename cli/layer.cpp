@@ -38,25 +38,20 @@ Examples:
   terrane layer basin.ts --layer top=1 --layer middle=3 --layer base=2 -o basin.vtp
   terrane layer basin.ts --layer top=1 --layer base=2 --min-thickness 5 -o basin.obj)";
 
-Error layer_usage(const std::string& what, const char* option) {
-    return {ErrorCode::bad_option, what, option};
-}
-
 /// The files of the two ways to call it, in files.inputs.
 Status plan_inputs(LayerCommand& command) {
     const bool pair = !command.hard.empty() || !command.soft.empty();
     if (pair) {
         if (command.hard.empty() || command.soft.empty() || command.keep.empty())
-            return layer_usage("needs --hard, --soft and --keep together", "layer");
+            return usage("needs --hard, --soft and --keep together", "layer");
         if (!command.layers.empty() || !command.files.inputs.empty())
-            return layer_usage("takes either --hard and --soft, or files and --layer", "layer");
+            return usage("takes either --hard and --soft, or files and --layer", "layer");
         command.files.inputs = {command.hard, command.soft};
         return Done{};
     }
     if (command.layers.empty() || command.files.inputs.empty())
-        return layer_usage("needs --hard and --soft, or files and --layer for each horizon",
-                           "layer");
-    if (!command.keep.empty()) return layer_usage("goes with --hard and --soft only", "--keep");
+        return usage("needs --hard and --soft, or files and --layer for each horizon", "layer");
+    if (!command.keep.empty()) return usage("goes with --hard and --soft only", "--keep");
     return Done{};
 }
 
@@ -68,12 +63,12 @@ Result<Layer> layer_named(const std::string& text, const Inputs& inputs) {
                           ? std::from_chars_result{text.data(), std::errc::invalid_argument}
                           : std::from_chars(text.data() + at + 1, end, hardness);
     if (read.ec != std::errc{} || read.ptr != end || !std::isfinite(hardness))
-        return layer_usage("needs NAME=HARDNESS, a number: " + text, "--layer");
+        return usage("needs NAME=HARDNESS, a number: " + text, "--layer");
     const std::string name = text.substr(0, at);
     std::vector<std::uint32_t> found;
     for (std::uint32_t s = 0; s < inputs.surfaces.size(); ++s)
         if (inputs.labels[s] == name || inputs.surfaces[s].name == name) found.push_back(s);
-    if (found.empty()) return layer_usage("no surface is called " + name, "--layer");
+    if (found.empty()) return usage("no surface is called " + name, "--layer");
     if (found.size() > 1) // labels are unique
         std::erase_if(found, [&](std::uint32_t s) { return inputs.labels[s] != name; });
     return Layer{found.at(0), hardness};
@@ -84,8 +79,8 @@ Result<std::vector<Layer>> order_of(const LayerCommand& command, const Inputs& i
     if (command.layers.empty()) {
         for (const std::size_t file : {0U, 1U})
             if (inputs.surfaces_of_file[file] != 1)
-                return layer_usage("must hold one surface, or name them with --layer",
-                                   file == 0 ? "--hard" : "--soft");
+                return usage("must hold one surface, or name them with --layer",
+                             file == 0 ? "--hard" : "--soft");
         order = {{1, 0}, {0, 1}};
         if (command.keep == "lower") std::swap(order[0], order[1]);
         return order;

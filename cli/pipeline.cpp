@@ -16,9 +16,9 @@ namespace terrane::cli {
 namespace {
 
 constexpr unsigned most_rounds = 8;
-constexpr std::size_t most_areas = 3; ///< printed per surface
-constexpr std::size_t surfaces_listed = 40;
-constexpr std::size_t pairs_listed = 20;
+constexpr std::size_t most_areas = 3;     ///< printed per surface
+constexpr std::size_t most_surfaces = 40; ///< printed
+constexpr std::size_t most_pairs = 20;    ///< printed
 
 /// What the summary says of one surface.
 struct SurfaceTally {
@@ -47,12 +47,12 @@ std::string surface_table(const Inputs& inputs, const RoundedMesh& rounded) {
     auto text = fmt::format("  {:<{}}  {:>9}  {:>9}  {:>7}  areas of the regions\n", "surface",
                             width, "triangles", "-> output", "regions");
     const auto tallies = tally(inputs, rounded);
-    for (std::size_t s = 0; s < std::min(tallies.size(), surfaces_listed); ++s)
+    for (std::size_t s = 0; s < std::min(tallies.size(), most_surfaces); ++s)
         text += fmt::format("  {:<{}}  {:>9}  {:>9}  {:>7}  {}\n", inputs.labels[s], width,
                             inputs.surfaces[s].triangles.size(), tallies[s].triangles,
                             tallies[s].areas.size(), areas_text(tallies[s].areas));
-    if (tallies.size() > surfaces_listed)
-        text += fmt::format("  and {} more\n", tallies.size() - surfaces_listed);
+    if (tallies.size() > most_surfaces)
+        text += fmt::format("  and {} more\n", tallies.size() - most_surfaces);
     return text;
 }
 
@@ -231,13 +231,13 @@ std::string offending_pairs(const Inputs& inputs, const Arranged& arranged) {
                            triangle_name(parents.front(), first, inputs.labels));
     };
     std::string text;
-    for (std::size_t i = 0; i < std::min(pairs_listed, contacts.size()); ++i) {
+    for (std::size_t i = 0; i < std::min(most_pairs, contacts.size()); ++i) {
         const ImproperContact& c = contacts[i];
         text += fmt::format("  {} and {}: {} at {}\n", name(c.triangles[0]), name(c.triangles[1]),
                             name_of(c.kind), text_of(c.place));
     }
-    if (contacts.size() > pairs_listed)
-        text += fmt::format("  and {} more\n", contacts.size() - pairs_listed);
+    if (contacts.size() > most_pairs)
+        text += fmt::format("  and {} more\n", contacts.size() - most_pairs);
     return text;
 }
 

@@ -76,7 +76,7 @@ Result<std::vector<Surface>> boundary_within(const ProjectWithin& within, Sessio
 } // namespace
 
 Error at_key(const std::string& source, const std::string& key, std::string sentence) {
-    return {ErrorCode::bad_option, std::move(sentence), source + ": " + key};
+    return usage(std::move(sentence), source + ": " + key);
 }
 
 Result<ProjectInputs> read_inputs(const Project& project, const std::string& source,
