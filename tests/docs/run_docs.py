@@ -1,0 +1,209 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Runs the console blocks of the documentation and compares what they print with what is shown.
+
+run_docs.py --program build/release/cli/terrane [--update] [--keep FOLDER] [PAGE.md ...]
+
+Without pages it runs all of docs/. tests/docs/README.md has the rules for pages. --update replaces
+the output that a page shows where it differs from what the commands print.
+"""
+import argparse
+import difflib
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+
+from markdown_pages import PageError, blocks_of, commands_of, needs_of
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SECONDS_PER_COMMAND = 60
+SHELLS = {"sh", "bash", "shell", "zsh", "shell-session"}
+ELISION = "..."
+
+
+def line_matches(expected, actual):
+    """Whether the line is the one shown, where '...' stands for anything."""
+    pattern = ".*".join(re.escape(part) for part in expected.rstrip().split(ELISION))
+    return re.fullmatch(pattern, actual.rstrip()) is not None
+
+
+def output_matches(expected, actual):
+    """Whether the output is the one shown, where a line '...' stands for one line or more."""
+    reachable = {0}  # numbers of actual lines that the expected lines so far can cover
+    for line in expected:
+        if line.strip() == ELISION:
+            reachable = set(range(min(reachable) + 1, len(actual) + 1)) if reachable else set()
+        else:
+            reachable = {n + 1 for n in reachable
+                         if n < len(actual) and line_matches(line, actual[n])}
+    return len(actual) in reachable
+
+
+class Shell:
+    """Runs commands one after the other, as a terminal does: the folder and $? carry over."""
+
+    def __init__(self, program, folder, scratch):
+        self.folder, self.scratch, self.status = folder, scratch, 0
+        binaries = scratch / "bin"
+        binaries.mkdir()
+        (binaries / "terrane").symlink_to(program)
+        self.environment = {"PATH": f"{binaries}:/usr/local/bin:/usr/bin:/bin",
+                            "HOME": str(scratch), "LC_ALL": "C.UTF-8"}
+
+    def run(self, command):
+        """The lines that the command prints on both streams, in the order of a terminal."""
+        after = self.scratch / "folder"
+        script = f"(exit {self.status})\n{command}\nstatus=$?\npwd > {after}\nexit $status"
+        done = subprocess.run(["stdbuf", "-oL", "bash", "--norc", "-c", script], cwd=self.folder,
+                              env=self.environment, stdin=subprocess.DEVNULL, timeout=SECONDS_PER_COMMAND,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
+        self.status = done.returncode
+        if after.exists():
+            self.folder = pathlib.Path(after.read_text().strip())
+        return done.stdout.decode("utf-8", "replace").splitlines()
+
+
+class Tally:
+    """What was run and what went wrong."""
+
+    def __init__(self):
+        self.commands, self.blocks, self.skipped, self.failures = 0, 0, [], []
+
+    def fail(self, place, text):
+        self.failures.append(f"{place}: {text}")
+
+
+def shown_difference(expected, actual):
+    lines = difflib.unified_diff([x.rstrip() for x in expected], [x.rstrip() for x in actual],
+                                 "shown in the page", "printed by the command", lineterm="")
+    return "\n".join("    " + line for line in lines)
+
+
+def run_block(block, page, shell, tally, changes):
+    """Runs the commands of a block; appends (first line, line count, new output) to `changes`."""
+    commands = commands_of(block, page)
+    for index, command in enumerate(commands):
+        place = f"{page}:{command.line}: $ {command.text}"
+        try:
+            actual = shell.run(command.text)
+        except subprocess.TimeoutExpired:
+            tally.fail(place, f"did not end within {SECONDS_PER_COMMAND} s")
+            return
+        tally.commands += 1
+        if not output_matches(command.output, actual):
+            changes.append((command.output_line, len(command.output), actual))
+            tally.fail(place, "prints something else\n" + shown_difference(command.output, actual))
+        asked = index + 1 < len(commands) and "$?" in commands[index + 1].text
+        if shell.status != 0 and not asked:
+            tally.fail(place, f"ends with status {shell.status}")
+
+
+def write_file(block, page, shell):
+    """Makes the file that a block shows, as the reader is told to."""
+    path = (shell.folder / block.argument).resolve()
+    if not path.is_relative_to(shell.scratch.resolve()):
+        raise PageError(f"{page}:{block.line}: {block.argument} is outside of the page's folder")
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text("\n".join(block.lines) + "\n")
+
+
+def looks_like_commands(block):
+    return block.language in SHELLS or (
+        block.language != "console" and any(line.startswith(("$ ", "terrane ")) for line in block.lines))
+
+
+def run_page(path, page, shell, tally):
+    """Runs a page from top to bottom; the changes of output, see run_block."""
+    changes = []
+    for block in blocks_of(path.read_text(), page):
+        if block.directive == "not run":
+            if not block.argument:
+                raise PageError(f"{page}:{block.line}: 'not run' needs a reason")
+            tally.skipped.append(f"{page}:{block.line}: {block.argument}")
+        elif block.directive == "file":
+            write_file(block, page, shell)
+        elif block.language == "console":
+            tally.blocks += 1
+            run_block(block, page, shell, tally, changes)
+        elif looks_like_commands(block):
+            raise PageError(f"{page}:{block.line}: commands belong in a console block, which is run,"
+                            " or after <!-- not run: REASON -->")
+    return changes
+
+
+def prepare(folder):
+    """What a page finds: the data folders of the repository, at the places where they are there."""
+    shutil.copytree(ROOT / "docs" / "data", folder / "docs" / "data")
+    (folder / "tests").mkdir()
+    (folder / "tests" / "data").symlink_to(ROOT / "tests" / "data")
+
+
+def update(path, changes):
+    lines = path.read_text().splitlines()
+    for first, count, output in reversed(changes):
+        lines[first - 1:first - 1 + count] = output
+    path.write_text("\n".join(lines) + "\n")
+
+
+def has_tetgen(program):
+    said = subprocess.run([program, "--version"], capture_output=True, text=True, check=True).stdout
+    return "without TetGen" not in said
+
+
+def run_all(options, tally):
+    known = {"tetgen": has_tetgen(options.program)}
+    for path in options.pages:
+        page = str(path.relative_to(ROOT)) if path.is_relative_to(ROOT) else str(path)
+        try:
+            missing = [x for x in needs_of(path.read_text()) if not known[x]]
+            if missing:
+                tally.skipped.append(f"{page}: the program was built without {missing[0]}")
+                continue
+            if not any(b.language for b in blocks_of(path.read_text(), page)):
+                continue
+            scratch = pathlib.Path(tempfile.mkdtemp(dir=options.keep))
+            folder = scratch / "terrane"
+            folder.mkdir()
+            prepare(folder)
+            started = time.monotonic()
+            before = tally.commands
+            changes = run_page(path, page, Shell(options.program, folder, scratch), tally)
+            print(f"{page}: {tally.commands - before} commands, {time.monotonic() - started:.1f} s")
+            if options.update:
+                update(path, changes)
+            if not options.keep:
+                shutil.rmtree(scratch)
+        except PageError as error:
+            tally.failures.append(str(error))
+        except KeyError as unknown:
+            tally.fail(page, f"nobody knows what it needs: {unknown}")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--program", required=True, type=lambda p: pathlib.Path(p).resolve())
+    parser.add_argument("--update", action="store_true", help="write the true output to the pages")
+    parser.add_argument("--keep", help="folder in which the pages' folders are made and kept")
+    parser.add_argument("pages", nargs="*", type=lambda p: pathlib.Path(p).resolve())
+    options = parser.parse_args()
+    options.pages = options.pages or sorted((ROOT / "docs").rglob("*.md"))
+    if options.keep:
+        os.makedirs(options.keep, exist_ok=True)
+    tally = Tally()
+    run_all(options, tally)
+    for skipped in tally.skipped:
+        print(f"skipped: {skipped}")
+    for failure in tally.failures:
+        print(f"FAILED: {failure}")
+    print(f"{tally.commands} commands in {tally.blocks} blocks run, {len(tally.skipped)} skipped,"
+          f" {len(tally.failures)} failed")
+    return 0 if tally.commands > 0 and not tally.failures else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
