@@ -11,8 +11,8 @@
 #include <gmp.h>
 #include <unistd.h>
 
-#include <terrane/algorithms/memory.hpp>
-#include <terrane/cli/command.hpp>
+#include <terrane/algorithms/core/process_memory.hpp>
+#include <terrane/cli/commands/command.hpp>
 
 namespace terrane::cli {
 namespace {

@@ -7,7 +7,7 @@
 #include "report.hpp"
 #include "shapes.hpp"
 
-#include "../tests/support/corefine_oracle.hpp"
+#include "support/corefine_oracle.hpp"
 
 #include <terrane/kernel/predicates.hpp>
 

@@ -5,7 +5,7 @@
 #include "bytes.hpp"
 #include "report.hpp"
 
-#include "../tests/kernel/point_store_cases.hpp"
+#include "support/point_store_cases.hpp"
 
 #include <terrane/kernel/predicates.hpp>
 

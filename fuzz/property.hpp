@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include <terrane/algorithms/surface.hpp>
+#include <terrane/algorithms/mesh/surface.hpp>
 
 #include "bytes.hpp"
 

@@ -12,12 +12,12 @@
 #include <string_view>
 #include <vector>
 
-#include <terrane/algorithms/check.hpp>
+#include <terrane/algorithms/check/check.hpp>
 #include <terrane/io/files.hpp>
-#include <terrane/io/obj.hpp>
-#include <terrane/io/off.hpp>
-#include <terrane/io/ply.hpp>
-#include <terrane/io/stl.hpp>
+#include <terrane/io/surfaces/obj.hpp>
+#include <terrane/io/surfaces/off.hpp>
+#include <terrane/io/surfaces/ply.hpp>
+#include <terrane/io/surfaces/stl.hpp>
 
 #include "report.hpp"
 

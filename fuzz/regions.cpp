@@ -5,8 +5,8 @@
 #include "property.hpp"
 #include "shapes.hpp"
 
-#include <terrane/algorithms/arrangement.hpp>
-#include <terrane/algorithms/regions.hpp>
+#include <terrane/algorithms/arrangement/arrangement.hpp>
+#include <terrane/algorithms/regions/regions.hpp>
 
 #include <algorithm>
 #include <map>

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include <terrane/algorithms/surface.hpp>
+#include <terrane/algorithms/mesh/surface.hpp>
 
 namespace terrane::fuzz {
 

@@ -6,7 +6,7 @@
 #include "property.hpp"
 #include "shapes.hpp"
 
-#include "../tests/support/soup_laws.hpp"
+#include "support/soup_laws.hpp"
 
 namespace terrane::fuzz {
 

@@ -6,8 +6,8 @@
 #include "property.hpp"
 #include "shapes.hpp"
 
-#include <terrane/algorithms/rounding.hpp>
-#include <terrane/algorithms/tetrahedra.hpp>
+#include <terrane/algorithms/rounding/rounding.hpp>
+#include <terrane/algorithms/tetgen/tetrahedra.hpp>
 
 #include <CGAL/Exact_rational.h>
 

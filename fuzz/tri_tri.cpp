@@ -5,9 +5,9 @@
 #include "property.hpp"
 #include "shapes.hpp"
 
-#include "../tests/support/contact_oracle.hpp"
+#include "support/contact_oracle.hpp"
 
-#include <terrane/algorithms/verify.hpp>
+#include <terrane/algorithms/verify/verify.hpp>
 #include <terrane/kernel/predicates.hpp>
 
 namespace terrane::fuzz {

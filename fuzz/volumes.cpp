@@ -5,12 +5,12 @@
 #include "property.hpp"
 #include "shapes.hpp"
 
-#include <terrane/algorithms/arrangement.hpp>
-#include <terrane/algorithms/volumes.hpp>
+#include <terrane/algorithms/arrangement/arrangement.hpp>
+#include <terrane/algorithms/volumes/volumes.hpp>
 
 #include <random>
 
-#include "../tests/support/volume_oracle.hpp"
+#include "support/volume_oracle.hpp"
 
 namespace terrane::fuzz {
 

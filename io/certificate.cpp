@@ -6,11 +6,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include <terrane/algorithms/digest.hpp>
-#include <terrane/algorithms/sha256.hpp>
-#include <terrane/io/atomic_file.hpp>
-#include <terrane/io/names.hpp>
-#include <terrane/io/text.hpp>
+#include <terrane/algorithms/arrangement/digest.hpp>
+#include <terrane/algorithms/core/sha256.hpp>
+#include <terrane/io/atomic/atomic_file.hpp>
+#include <terrane/io/text/names.hpp>
+#include <terrane/io/text/text.hpp>
 
 namespace terrane {
 

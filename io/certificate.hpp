@@ -43,11 +43,11 @@
 #include <string_view>
 #include <vector>
 
-#include <terrane/algorithms/arrangement.hpp>
-#include <terrane/algorithms/result.hpp>
-#include <terrane/algorithms/rounding.hpp>
-#include <terrane/algorithms/run.hpp>
-#include <terrane/algorithms/surface.hpp>
+#include <terrane/algorithms/arrangement/arrangement.hpp>
+#include <terrane/algorithms/core/result.hpp>
+#include <terrane/algorithms/core/run.hpp>
+#include <terrane/algorithms/mesh/surface.hpp>
+#include <terrane/algorithms/rounding/rounding.hpp>
 
 namespace terrane {
 

@@ -6,10 +6,10 @@
 #include <iterator>
 #include <utility>
 
-#include <terrane/algorithms/parallel.hpp>
-#include <terrane/io/memory.hpp>
-#include <terrane/io/names.hpp>
-#include <terrane/io/text.hpp>
+#include <terrane/algorithms/core/parallel.hpp>
+#include <terrane/io/text/memory.hpp>
+#include <terrane/io/text/names.hpp>
+#include <terrane/io/text/text.hpp>
 #include <terrane/kernel/fraction.hpp>
 
 namespace terrane {

@@ -27,11 +27,11 @@
 #include <string_view>
 #include <vector>
 
-#include <terrane/algorithms/arrangement.hpp>
-#include <terrane/algorithms/lists.hpp>
-#include <terrane/algorithms/mesh.hpp>
-#include <terrane/algorithms/result.hpp>
-#include <terrane/algorithms/run.hpp>
+#include <terrane/algorithms/arrangement/arrangement.hpp>
+#include <terrane/algorithms/core/index_lists.hpp>
+#include <terrane/algorithms/core/result.hpp>
+#include <terrane/algorithms/core/run.hpp>
+#include <terrane/algorithms/mesh/mesh.hpp>
 
 namespace terrane {
 

@@ -4,25 +4,25 @@
 #include <array>
 #include <utility>
 
-#include <terrane/io/abaqus.hpp>
-#include <terrane/io/atomic_file.hpp>
-#include <terrane/io/cps3.hpp>
-#include <terrane/io/esri.hpp>
-#include <terrane/io/gmsh.hpp>
-#include <terrane/io/gmsh22.hpp>
-#include <terrane/io/grid_text.hpp>
-#include <terrane/io/irap.hpp>
-#include <terrane/io/medit.hpp>
-#include <terrane/io/memory.hpp>
-#include <terrane/io/obj.hpp>
-#include <terrane/io/off.hpp>
-#include <terrane/io/ply.hpp>
-#include <terrane/io/points.hpp>
-#include <terrane/io/poly.hpp>
-#include <terrane/io/stl.hpp>
-#include <terrane/io/text.hpp>
-#include <terrane/io/vtk.hpp>
-#include <terrane/io/zmap.hpp>
+#include <terrane/io/atomic/atomic_file.hpp>
+#include <terrane/io/grids/cps3.hpp>
+#include <terrane/io/grids/esri.hpp>
+#include <terrane/io/grids/grid_text.hpp>
+#include <terrane/io/grids/irap.hpp>
+#include <terrane/io/grids/zmap.hpp>
+#include <terrane/io/meshes/abaqus.hpp>
+#include <terrane/io/meshes/gmsh.hpp>
+#include <terrane/io/meshes/gmsh22.hpp>
+#include <terrane/io/meshes/medit.hpp>
+#include <terrane/io/meshes/poly.hpp>
+#include <terrane/io/meshes/vtk.hpp>
+#include <terrane/io/points/points.hpp>
+#include <terrane/io/surfaces/obj.hpp>
+#include <terrane/io/surfaces/off.hpp>
+#include <terrane/io/surfaces/ply.hpp>
+#include <terrane/io/surfaces/stl.hpp>
+#include <terrane/io/text/memory.hpp>
+#include <terrane/io/text/text.hpp>
 
 namespace terrane {
 

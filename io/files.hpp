@@ -10,12 +10,12 @@
 #include <string_view>
 #include <vector>
 
-#include <terrane/algorithms/mesh.hpp>
-#include <terrane/algorithms/result.hpp>
-#include <terrane/io/cell_array.hpp>
-#include <terrane/io/gocad.hpp>
-#include <terrane/io/grid.hpp>
-#include <terrane/io/poly.hpp>
+#include <terrane/algorithms/core/result.hpp>
+#include <terrane/algorithms/mesh/mesh.hpp>
+#include <terrane/io/gocad/gocad.hpp>
+#include <terrane/io/grids/grid.hpp>
+#include <terrane/io/meshes/cell_array.hpp>
+#include <terrane/io/meshes/poly.hpp>
 
 namespace terrane {
 

@@ -11,9 +11,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <terrane/io/atomic_file.hpp>
-#include <terrane/io/memory.hpp>
-#include <terrane/io/names.hpp>
+#include <terrane/io/atomic/atomic_file.hpp>
+#include <terrane/io/text/memory.hpp>
+#include <terrane/io/text/names.hpp>
 
 namespace terrane {
 

@@ -12,9 +12,9 @@
 #include <variant>
 #include <vector>
 
-#include <terrane/algorithms/boundary_surfaces.hpp>
-#include <terrane/algorithms/result.hpp>
-#include <terrane/algorithms/surface.hpp>
+#include <terrane/algorithms/core/result.hpp>
+#include <terrane/algorithms/mesh/surface.hpp>
+#include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
 #include <terrane/io/files.hpp>
 
 namespace terrane {

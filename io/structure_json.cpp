@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <terrane/io/names.hpp>
+#include <terrane/io/text/names.hpp>
 
 namespace terrane {
 namespace {

@@ -38,10 +38,10 @@
 #include <string>
 #include <vector>
 
-#include <terrane/algorithms/free_borders.hpp>
-#include <terrane/algorithms/mesh.hpp>
-#include <terrane/algorithms/sealing.hpp>
-#include <terrane/algorithms/structure.hpp>
+#include <terrane/algorithms/mesh/mesh.hpp>
+#include <terrane/algorithms/sealing/sealing.hpp>
+#include <terrane/algorithms/structure/free_borders.hpp>
+#include <terrane/algorithms/structure/structure.hpp>
 
 namespace terrane {
 

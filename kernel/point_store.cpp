@@ -5,9 +5,9 @@
 #include <limits>
 #include <utility>
 
+#include <terrane/kernel/double_double.hpp>
 #include <terrane/kernel/nearest.hpp>
 #include <terrane/kernel/predicates.hpp>
-#include <terrane/kernel/twofold.hpp>
 
 namespace terrane {
 

@@ -31,7 +31,7 @@
 #include <span>
 #include <vector>
 
-#include <terrane/kernel/approximate.hpp>
+#include <terrane/kernel/ball_filter.hpp>
 #include <terrane/kernel/construction.hpp>
 #include <terrane/kernel/numbers.hpp>
 #include <terrane/kernel/point.hpp>

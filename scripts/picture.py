@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Draws README's picture from what scripts/demo.sh wrote.
 
-    xvfb-run -a scripts/picture.py [out/demo] [scripts/picture/demo.png]
+    xvfb-run -a scripts/picture.py [out/demo] [docs/demo.png]
 
 Left: faults and topography, arranged; the curves in which they cross are black. Right: the
 tetrahedra of a model with two faults, its volumes moved apart, some tetrahedra taken out.
@@ -212,7 +212,7 @@ def write_png(image, path):
 
 def main():
     source = sys.argv[1] if len(sys.argv) > 1 else "out/demo"
-    target = sys.argv[2] if len(sys.argv) > 2 else "scripts/picture/demo.png"
+    target = sys.argv[2] if len(sys.argv) > 2 else "docs/demo.png"
     window = vtk.vtkRenderWindow()
     window.SetOffScreenRendering(1)
     window.SetMultiSamples(8)

@@ -5,7 +5,7 @@
 #include <array>
 #include <utility>
 
-#include <terrane/algorithms/search/join.hpp>
+#include <terrane/algorithms/search/detail/bvh_join.hpp>
 #include <terrane/algorithms/search/methods.hpp>
 
 namespace terrane {

@@ -13,8 +13,8 @@
 #include <string_view>
 #include <vector>
 
-#include <terrane/algorithms/run.hpp>
-#include <terrane/algorithms/surface.hpp>
+#include <terrane/algorithms/core/run.hpp>
+#include <terrane/algorithms/mesh/surface.hpp>
 
 namespace terrane {
 

@@ -9,12 +9,12 @@
 #include <string>
 #include <utility>
 
-#include <terrane/algorithms/arrangement.hpp>
-#include <terrane/algorithms/intersection.hpp>
-#include <terrane/algorithms/memory.hpp>
-#include <terrane/algorithms/rounding.hpp>
-#include <terrane/algorithms/soup.hpp>
-#include <terrane/algorithms/triangulation.hpp>
+#include <terrane/algorithms/arrangement/arrangement.hpp>
+#include <terrane/algorithms/arrangement/soup.hpp>
+#include <terrane/algorithms/core/process_memory.hpp>
+#include <terrane/algorithms/intersection/intersection.hpp>
+#include <terrane/algorithms/rounding/rounding.hpp>
+#include <terrane/algorithms/triangulation/triangulation.hpp>
 #include <terrane/kernel/numbers.hpp>
 #include <terrane/kernel/predicates.hpp>
 

@@ -10,9 +10,9 @@
 #include <cstring>
 #include <string>
 
-#include <terrane/algorithms/fill_kriging.hpp>
-#include <terrane/algorithms/holes.hpp>
-#include <terrane/algorithms/rbf_join.hpp>
+#include <terrane/algorithms/reconstruction/holes/holes.hpp>
+#include <terrane/algorithms/reconstruction/kriging/fill_kriging.hpp>
+#include <terrane/algorithms/reconstruction/rbf/rbf_join.hpp>
 #include <terrane/io/files.hpp>
 
 #include "fill_models.hpp"

@@ -7,7 +7,7 @@
 #include <map>
 #include <random>
 
-#include <terrane/algorithms/triangle_tree.hpp>
+#include <terrane/algorithms/mesh/triangle_tree.hpp>
 
 namespace fill_bench {
 

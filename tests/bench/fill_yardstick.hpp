@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include <terrane/algorithms/surface.hpp>
+#include <terrane/algorithms/mesh/surface.hpp>
 
 namespace fill_bench {
 

@@ -25,13 +25,13 @@
 #include <CGAL/Polygon_mesh_processing/remesh.h>
 #include <CGAL/Surface_mesh.h>
 
-#include <terrane/algorithms/arrangement.hpp>
-#include <terrane/algorithms/check.hpp>
-#include <terrane/algorithms/deviation.hpp>
-#include <terrane/algorithms/improve.hpp>
-#include <terrane/algorithms/improve_features.hpp>
-#include <terrane/algorithms/rounding.hpp>
-#include <terrane/algorithms/vectors.hpp>
+#include <terrane/algorithms/arrangement/arrangement.hpp>
+#include <terrane/algorithms/check/check.hpp>
+#include <terrane/algorithms/mesh/vectors.hpp>
+#include <terrane/algorithms/quality/detail/features.hpp>
+#include <terrane/algorithms/quality/deviation.hpp>
+#include <terrane/algorithms/quality/improve.hpp>
+#include <terrane/algorithms/rounding/rounding.hpp>
 #include <terrane/io/files.hpp>
 
 #include "models.hpp"

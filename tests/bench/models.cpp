@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include <terrane/algorithms/soup.hpp>
-#include <terrane/cli/paper_models.hpp>
+#include <terrane/algorithms/arrangement/soup.hpp>
+#include <terrane/cli/paper/paper_models.hpp>
 #include <terrane/io/files.hpp>
 
 namespace bench {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <terrane/algorithms/mesh/surface.hpp>
 #include <terrane/algorithms/search/search.hpp>
-#include <terrane/algorithms/surface.hpp>
 
 namespace bench {
 

@@ -14,9 +14,9 @@
 #include <string>
 #include <vector>
 
-#include <terrane/algorithms/arrangement.hpp>
-#include <terrane/algorithms/memory.hpp>
-#include <terrane/algorithms/rounding.hpp>
+#include <terrane/algorithms/arrangement/arrangement.hpp>
+#include <terrane/algorithms/core/process_memory.hpp>
+#include <terrane/algorithms/rounding/rounding.hpp>
 
 #include "floor.hpp"
 #include "models.hpp"

@@ -3,8 +3,8 @@
 // What every command of the program keeps to: exit statuses, streams, nothing left behind.
 #include <catch2/catch.hpp>
 
-#include "../support/effort.hpp"
 #include "program.hpp"
+#include "support/effort.hpp"
 
 using namespace program_test;
 

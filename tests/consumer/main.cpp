@@ -4,10 +4,10 @@
 #include <cstdio>
 #include <vector>
 
-#include <terrane/algorithms/arrangement.hpp>
-#include <terrane/algorithms/verify.hpp>
+#include <terrane/algorithms/arrangement/arrangement.hpp>
+#include <terrane/algorithms/verify/verify.hpp>
 #ifdef WITH_TETGEN
-#include <terrane/algorithms/tetrahedra.hpp>
+#include <terrane/algorithms/tetgen/tetrahedra.hpp>
 #endif
 
 int main() {

@@ -9,15 +9,15 @@
 #include <random>
 #include <string>
 
-#include <terrane/io/atomic_file.hpp>
+#include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/files.hpp>
-#include <terrane/io/gmsh.hpp>
-#include <terrane/io/obj.hpp>
-#include <terrane/io/off.hpp>
-#include <terrane/io/ply.hpp>
-#include <terrane/io/stl.hpp>
+#include <terrane/io/meshes/gmsh.hpp>
+#include <terrane/io/surfaces/obj.hpp>
+#include <terrane/io/surfaces/off.hpp>
+#include <terrane/io/surfaces/ply.hpp>
+#include <terrane/io/surfaces/stl.hpp>
 
-#include "samples.hpp"
+#include "support/samples.hpp"
 
 using namespace terrane;
 using namespace terrane::test;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "certificate_cases.hpp"
+#include "support/certificate_cases.hpp"
 
 #include <filesystem>
 #include <fstream>

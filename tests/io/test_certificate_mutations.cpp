@@ -2,7 +2,7 @@
 //
 // The verifier refutes each way to break a certificate that the producer wrote, by the rule that is
 // broken; each text that is no certificate is refused with its place.
-#include "certificate_cases.hpp"
+#include "support/certificate_cases.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "../support/certified_inputs.hpp"
+#include "support/certified_inputs.hpp"
 
-#include <terrane/io/atomic_file.hpp>
+#include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/exact_text.hpp>
 
 #include <catch2/catch.hpp>

@@ -11,11 +11,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <terrane/io/atomic_file.hpp>
+#include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/files.hpp>
-#include <terrane/io/memory.hpp>
+#include <terrane/io/text/memory.hpp>
 
-#include "samples.hpp"
+#include "support/samples.hpp"
 
 using namespace terrane;
 using namespace terrane::test;

@@ -13,7 +13,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "samples.hpp"
+#include "support/samples.hpp"
 
 using namespace terrane;
 using namespace terrane::test;

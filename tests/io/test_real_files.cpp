@@ -2,11 +2,11 @@
 #include <catch2/catch.hpp>
 
 #include <terrane/io/files.hpp>
-#include <terrane/io/obj.hpp>
-#include <terrane/io/off.hpp>
-#include <terrane/io/ply.hpp>
+#include <terrane/io/surfaces/obj.hpp>
+#include <terrane/io/surfaces/off.hpp>
+#include <terrane/io/surfaces/ply.hpp>
 
-#include "samples.hpp"
+#include "support/samples.hpp"
 
 using namespace terrane;
 using namespace terrane::test;

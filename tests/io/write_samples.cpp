@@ -11,7 +11,7 @@
 
 #include <terrane/io/files.hpp>
 
-#include "samples.hpp"
+#include "support/samples.hpp"
 
 using namespace terrane;
 using namespace terrane::test;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // nearest_quotient against integers: no double lies nearer, ties go to even.
-#include "../support/effort.hpp"
-#include "../support/oracle.hpp"
-#include "../support/points.hpp"
+#include "support/effort.hpp"
+#include "support/oracle.hpp"
+#include "support/points.hpp"
 
 #include <terrane/kernel/nearest.hpp>
 

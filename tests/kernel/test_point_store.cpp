@@ -2,7 +2,7 @@
 //
 // The laws of point_store.hpp by number, then all predicates and coordinates against exact
 // integers.
-#include "point_store_cases.hpp"
+#include "support/point_store_cases.hpp"
 
 #include <terrane/kernel/predicates.hpp>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // The laws of predicates.hpp by number, then every predicate against exact integers.
-#include "../support/effort.hpp"
-#include "../support/oracle.hpp"
-#include "../support/points.hpp"
+#include "support/effort.hpp"
+#include "support/oracle.hpp"
+#include "support/points.hpp"
 
 #include <terrane/kernel/numbers.hpp>
 #include <terrane/kernel/predicates.hpp>

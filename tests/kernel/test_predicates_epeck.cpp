@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // The predicates against CGAL's exact kernel, an implementation that neither we nor GMP wrote.
-#include "../support/effort.hpp"
-#include "../support/points.hpp"
+#include "support/effort.hpp"
+#include "support/points.hpp"
 
 #include <terrane/kernel/predicates.hpp>
 

@@ -6,8 +6,8 @@
 #include <sstream>
 #include <string>
 
-#include <terrane/algorithms/arrangement.hpp>
-#include <terrane/algorithms/verify.hpp>
+#include <terrane/algorithms/arrangement/arrangement.hpp>
+#include <terrane/algorithms/verify/verify.hpp>
 
 namespace test_support {
 

@@ -4,9 +4,9 @@
 // points lie on them, by exact integers.
 #pragma once
 
-#include "oracle.hpp"
+#include "support/oracle.hpp"
 
-#include <terrane/algorithms/intersection.hpp>
+#include <terrane/algorithms/intersection/intersection.hpp>
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Exact_rational.h>

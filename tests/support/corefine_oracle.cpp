@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
-#include "corefine_oracle.hpp"
+#include "support/corefine_oracle.hpp"
 
-#include "oracle.hpp"
+#include "support/oracle.hpp"
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

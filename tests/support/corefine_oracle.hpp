@@ -5,7 +5,7 @@
 // surfaces the volumes of the four Booleans. What CGAL asks of its input is tested first.
 #pragma once
 
-#include <terrane/algorithms/arrangement.hpp>
+#include <terrane/algorithms/arrangement/arrangement.hpp>
 
 #include <span>
 #include <string>

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include <catch2/catch.hpp>
-#include <terrane/algorithms/arrangement.hpp>
-#include <terrane/algorithms/volumes.hpp>
+#include <terrane/algorithms/arrangement/arrangement.hpp>
+#include <terrane/algorithms/volumes/volumes.hpp>
 
 namespace test_support {
 

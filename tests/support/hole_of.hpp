@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include <terrane/algorithms/holes.hpp>
+#include <terrane/algorithms/reconstruction/holes/holes.hpp>
 
 namespace test_support {
 

@@ -5,10 +5,10 @@
 // constructions, which name input vertices: the claim is the same, the vertices are the old ones.
 #pragma once
 
-#include "claim.hpp"
+#include "support/claim.hpp"
 
-#include <terrane/algorithms/arrangement.hpp>
-#include <terrane/algorithms/mesh.hpp>
+#include <terrane/algorithms/arrangement/arrangement.hpp>
+#include <terrane/algorithms/mesh/mesh.hpp>
 
 #include <algorithm>
 #include <array>

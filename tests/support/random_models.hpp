@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "points.hpp"
-#include "solids.hpp"
+#include "support/points.hpp"
+#include "support/solids.hpp"
 
 namespace test_support {
 

@@ -9,7 +9,7 @@
 #include <map>
 #include <vector>
 
-#include <terrane/algorithms/surface.hpp>
+#include <terrane/algorithms/mesh/surface.hpp>
 
 namespace test_support {
 

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include <terrane/algorithms/surface.hpp>
+#include <terrane/algorithms/mesh/surface.hpp>
 
 namespace test_support {
 

@@ -4,13 +4,13 @@
 // does not, in a sentence, or nothing. The judge is the independent verifier.
 #pragma once
 
-#include "metamorphic.hpp"
+#include "support/metamorphic.hpp"
 
-#include <terrane/algorithms/check.hpp>
-#include <terrane/algorithms/digest.hpp>
-#include <terrane/algorithms/rounding.hpp>
-#include <terrane/algorithms/verify_certificate.hpp>
-#include <terrane/algorithms/verify_digest.hpp>
+#include <terrane/algorithms/arrangement/digest.hpp>
+#include <terrane/algorithms/check/check.hpp>
+#include <terrane/algorithms/rounding/rounding.hpp>
+#include <terrane/algorithms/verify/detail/digest.hpp>
+#include <terrane/algorithms/verify/verify_certificate.hpp>
 
 #include <string>
 

@@ -21,9 +21,9 @@
 
 #include <gmpxx.h>
 
-#include "oracle.hpp"
-#include <terrane/algorithms/arrangement.hpp>
-#include <terrane/algorithms/volumes.hpp>
+#include "support/oracle.hpp"
+#include <terrane/algorithms/arrangement/arrangement.hpp>
+#include <terrane/algorithms/volumes/volumes.hpp>
 
 namespace test_support {
 

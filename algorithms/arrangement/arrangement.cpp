@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/arrangement/arrangement.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <new>
+#include <stdexcept>
+#include <utility>
+
+#include <terrane/algorithms/arrangement/retriangulation.hpp>
+#include <terrane/algorithms/arrangement/soup.hpp>
+#include <terrane/algorithms/check/check.hpp>
+#include <terrane/algorithms/core/parallel.hpp>
+#include <terrane/algorithms/core/stopwatch.hpp>
+#include <terrane/algorithms/intersection/injective_patches.hpp>
+
+namespace terrane {
+namespace {
+
+/// Parents are input triangles: those that became the faces, and their duplicates.
+Lists<std::uint32_t> parents_of_faces(const Soup& soup, const Lists<std::uint32_t>& faces_of,
+                                      const Run& run) {
+    auto by_first = soup.duplicates;
+    std::sort(by_first.begin(), by_first.end(), [](const auto& a, const auto& b) {
+        return std::pair{a[1], a[0]} < std::pair{b[1], b[0]};
+    });
+    const auto first_before = [](const auto& d, std::uint32_t first) { return d[1] < first; };
+    Lists<std::uint32_t> parents;
+    if (by_first.empty()) { // input_of ascends, so the lists stay sorted
+        parents = faces_of;
+        const bool kept_all =
+            soup.input_of.empty() || soup.input_of.back() + 1 == soup.input_of.size();
+        if (kept_all) return parents;
+        for_ranges(parents.values.size(), run, [&](std::size_t first, std::size_t last) {
+            for (std::size_t k = first; k < last; ++k)
+                parents.values[k] = soup.input_of[parents.values[k]];
+        });
+        return parents;
+    }
+    parents.offsets.reserve(faces_of.offsets.size());
+    parents.values.reserve(faces_of.values.size() + soup.duplicates.size());
+    for (std::size_t t = 0; t < faces_of.size(); ++t) {
+        const auto begin = static_cast<std::ptrdiff_t>(parents.values.size());
+        for (const std::uint32_t f : faces_of[t]) {
+            const std::uint32_t first = soup.input_of[f];
+            parents.values.push_back(first);
+            if (by_first.empty()) continue;
+            auto d = std::lower_bound(by_first.begin(), by_first.end(), first, first_before);
+            for (; d != by_first.end() && (*d)[1] == first; ++d) parents.values.push_back((*d)[0]);
+        }
+        std::sort(parents.values.begin() + begin, parents.values.end());
+        parents.close();
+    }
+    return parents;
+}
+
+/// A triangle is in the patch of its face; in none where it has several faces.
+Patches patches_of_faces(Patches of_soup, const Lists<std::uint32_t>& faces_of, const Run& run) {
+    Patches patches;
+    patches.axis = std::move(of_soup.axis);
+    patches.turn = std::move(of_soup.turn);
+    patches.of.resize(faces_of.size());
+    for_ranges(faces_of.size(), run, [&](std::size_t first, std::size_t last) {
+        for (std::size_t t = first; t < last; ++t)
+            patches.of[t] = faces_of[t].size() == 1 ? of_soup.of[faces_of[t][0]] : no_group;
+    });
+    return patches;
+}
+
+/// Pairs of which one has a constructed point on it, as input triangles.
+std::vector<CandidatePair> neighbours_of_divided(const Soup& soup, const Division& division,
+                                                 const Run& run) {
+    std::vector<char> has_constructed(soup.triangles.size(), 0);
+    const auto inputs = static_cast<PointIndex>(division.points.input_count());
+    for_ranges(division.triangles.size(), run, [&](std::size_t first, std::size_t last) {
+        for (std::size_t t = first; t < last; ++t) {
+            const Triangle& c = division.triangles[t];
+            if (c[0] < inputs && c[1] < inputs && c[2] < inputs) continue;
+            for (const std::uint32_t f : division.faces_of[t])
+                std::atomic_ref(has_constructed[f]).store(1, std::memory_order_relaxed);
+        }
+    });
+    std::vector<CandidatePair> neighbours;
+    for (const CandidatePair& p : division.near)
+        if (has_constructed[p.first] != 0 || has_constructed[p.second] != 0)
+            neighbours.push_back({soup.input_of[p.first], soup.input_of[p.second]});
+    return neighbours;
+}
+
+/// By patch, and by surface where there is none.
+Labels labels_of(const Soup& soup, const Patches& patches, const Run& run) {
+    Labels labels(patches.of.size());
+    const auto count = static_cast<std::uint32_t>(patches.axis.size());
+    for_ranges(labels.size(), run, [&](std::size_t first, std::size_t last) {
+        for (std::size_t t = first; t < last; ++t)
+            labels[t] = patches.of[t] == no_group ? count + soup.surface_of[t] : patches.of[t];
+    });
+    for (const auto& [repeated, first] : soup.duplicates)
+        labels[static_cast<std::size_t>(
+            std::lower_bound(soup.input_of.begin(), soup.input_of.end(), first) -
+            soup.input_of.begin())] = no_label;
+    return labels;
+}
+
+/// Points in use become vertices: input ones by number, constructed ones in lexicographic order.
+/// Returns the vertex of each point.
+std::vector<std::uint32_t> name_vertices(Arrangement& a, std::span<const PointIndex> ascending,
+                                         const Run& run) {
+    const auto inputs = static_cast<PointIndex>(a.points.input_count());
+    constexpr std::uint32_t unused = UINT32_MAX;
+    std::vector<std::uint32_t> vertex_of(a.points.size(), unused);
+    for_ranges(a.triangles.size(), run, [&](std::size_t first, std::size_t last) {
+        for (std::size_t t = first; t < last; ++t)
+            for (const PointIndex p : a.triangles[t])
+                std::atomic_ref(vertex_of[p]).store(0, std::memory_order_relaxed);
+    });
+    a.vertices.reserve(inputs + ascending.size());
+    const auto name = [&](PointIndex p) {
+        if (vertex_of[p] == unused) return;
+        vertex_of[p] = static_cast<std::uint32_t>(a.vertices.size());
+        a.vertices.push_back(p);
+    };
+    for (PointIndex p = 0; p < inputs; ++p) name(p);
+    for (const PointIndex p : ascending) name(p);
+    for_ranges(a.triangles.size(), run, [&](std::size_t first, std::size_t last) {
+        for (std::size_t t = first; t < last; ++t)
+            for (PointIndex& p : a.triangles[t]) p = vertex_of[p];
+    });
+    return vertex_of;
+}
+
+Error interrupted() {
+    return {ErrorCode::interrupted, "stopped on request", ""};
+}
+
+Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
+                                    const ArrangeOptions& options, const Run& run) {
+    const auto report = [&](double share) {
+        if (run.progress) run.progress("arrange", share);
+    };
+    Stopwatch watch;
+    Arrangement a;
+    for (const Surface& s : surfaces) a.surfaces.push_back({s.name, s.role});
+
+    // (a) one soup of distinct points and triangles
+    Soup soup = merge_surfaces(surfaces, run);
+    Patches patches =
+        prove_patches(soup.points, soup.triangles, soup.surface_of, soup.edges, run, soup.turns);
+    a.statistics.seconds_prepare = watch.lap();
+    report(0.1);
+
+    // (b) candidate pairs
+    const auto candidates =
+        candidate_pairs({soup.points, soup.triangles}, patches.of, options.search, run);
+    a.statistics.seconds_search = watch.lap();
+    report(0.3);
+    if (run.stop.stop_requested()) return interrupted();
+
+    // (c) contacts, (d) equal points merged, (e) triangulation of what is touched, (f) one mesh
+    Division division = divide(std::move(soup.points), soup.triangles, candidates, run);
+    if (run.stop.stop_requested()) return interrupted();
+    const DivisionStatistics& d = division.statistics;
+    a.statistics.candidates = candidates.size();
+    a.statistics.improper_contacts = d.improper_contacts;
+    a.statistics.divided = d.divided;
+    a.statistics.constructed_points = division.ascending.size();
+    a.statistics.predicates = d.predicates;
+    a.statistics.seconds_intersect = d.seconds_intersect;
+    a.statistics.seconds_triangulate = d.seconds_triangulate;
+    watch.lap();
+
+    a.inputs = {soup.first_input_triangle, soup.first_input_vertex, std::move(soup.input_corners),
+                soup.duplicates};
+    a.degenerate = soup.degenerate;
+    a.neighbours = neighbours_of_divided(soup, division, run);
+    const Labels labels = labels_of(soup, patches, run);
+    std::vector<std::uint32_t> vertex_of;
+    both(
+        run,
+        [&] {
+            a.parents_of = parents_of_faces(soup, division.faces_of, run);
+            a.surfaces_of = surfaces_of_parents(a.inputs, a.parents_of, run);
+        },
+        [&] {
+            a.patches = patches_of_faces(std::move(patches), division.faces_of, run);
+            a.points = std::move(division.points);
+            a.triangles = std::move(division.triangles);
+            vertex_of = name_vertices(a, division.ascending, run);
+        });
+    report(0.9);
+    a.adjacency = adjacency_after(
+        soup.edges, labels,
+        {a.triangles, division.faces_of, division.kept_as, vertex_of, a.vertices.size()}, run);
+    a.intersection_edges = find_intersection_edges(a.adjacency, a.inputs, a.parents_of);
+    a.statistics.seconds_stitch = d.seconds_stitch + watch.lap();
+    report(1);
+    return a;
+}
+
+} // namespace
+
+Result<Arrangement> arrange(std::span<const Surface> surfaces, const ArrangeOptions& options,
+                            const Run& run) {
+    if (const auto valid = validate(surfaces, run); !valid) return valid.error();
+    try {
+        // In one arena all stages find the threads awake.
+        Result<Arrangement> arranged = Error{};
+        with_threads(run, [&] { arranged = arrange_checked(surfaces, options, run); });
+        return arranged;
+    } catch (const std::bad_alloc&) {
+        return Error{ErrorCode::out_of_memory, "not enough memory for the arrangement", ""};
+    } catch (const std::logic_error& broken) {
+        return Error{ErrorCode::internal, broken.what(), "arrange"};
+    }
+}
+
+} // namespace terrane

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/arrangement/detail/intersection_edges.hpp>
+
+#include <algorithm>
+
+#include <terrane/algorithms/core/parallel.hpp>
+
+namespace terrane {
+
+std::uint32_t InputTriangles::surface_of(std::uint32_t triangle) const {
+    return static_cast<std::uint32_t>(std::upper_bound(first.begin(), first.end(), triangle) -
+                                      first.begin() - 1);
+}
+
+std::uint32_t InputTriangles::first_same(std::uint32_t triangle) const {
+    const auto it = std::lower_bound(duplicates.begin(), duplicates.end(), triangle,
+                                     [](const auto& d, std::uint32_t t) { return d[0] < t; });
+    return it != duplicates.end() && (*it)[0] == triangle ? (*it)[1] : triangle;
+}
+
+Lists<std::uint32_t> surfaces_of_parents(const InputTriangles& inputs,
+                                         const Lists<std::uint32_t>& parents_of, const Run& run) {
+    Lists<std::uint32_t> surfaces;
+    if (parents_of.values.size() == parents_of.size()) { // one each
+        surfaces.offsets = parents_of.offsets;
+        surfaces.values.resize(parents_of.size());
+        for_ranges(parents_of.size(), run, [&](std::size_t first, std::size_t last) {
+            std::uint32_t s = 0; // mostly that of the triangle before
+            for (std::size_t t = first; t < last; ++t) {
+                const std::uint32_t p = parents_of.values[t];
+                if (p < inputs.first[s] || p >= inputs.first[s + 1]) s = inputs.surface_of(p);
+                surfaces.values[t] = s;
+            }
+        });
+        return surfaces;
+    }
+    surfaces.offsets.reserve(parents_of.offsets.size());
+    surfaces.values.reserve(parents_of.values.size());
+    std::uint32_t s = 0;
+    for (std::size_t t = 0; t < parents_of.size(); ++t) {
+        bool any = false;
+        for (const std::uint32_t p : parents_of[t]) { // they ascend, so do their surfaces
+            const bool same = inputs.first[s] <= p && p < inputs.first[s + 1];
+            if (any && same) continue;
+            if (!same) s = inputs.surface_of(p);
+            surfaces.values.push_back(s);
+            any = true;
+        }
+        surfaces.close();
+    }
+    return surfaces;
+}
+
+namespace {
+
+/// What must agree across an edge that is no intersection.
+class Signatures {
+public:
+    Signatures(const InputTriangles& inputs, const Lists<std::uint32_t>& parents_of) :
+        inputs_(inputs), parents_of_(parents_of) {}
+
+    [[nodiscard]] bool agree(std::uint32_t s, std::uint32_t t) const {
+        const auto p = parents_of_[s], q = parents_of_[t];
+        if (p.size() == 1 && q.size() == 1)
+            return p[0] == q[0] || inputs_.surface_of(p[0]) == inputs_.surface_of(q[0]);
+        return signature(p) == signature(q);
+    }
+
+private:
+    /// The surface of each distinct parent.
+    [[nodiscard]] std::vector<std::uint32_t>
+    signature(std::span<const std::uint32_t> parents) const {
+        std::vector<std::array<std::uint32_t, 2>> distinct;
+        for (const std::uint32_t p : parents)
+            distinct.push_back({inputs_.surface_of(p), inputs_.first_same(p)});
+        std::sort(distinct.begin(), distinct.end());
+        distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
+        std::vector<std::uint32_t> surfaces;
+        for (const auto& d : distinct) surfaces.push_back(d[0]);
+        return surfaces;
+    }
+
+    const InputTriangles& inputs_;
+    const Lists<std::uint32_t>& parents_of_;
+};
+
+} // namespace
+
+std::vector<Edge> find_intersection_edges(const Adjacency& adjacency, const InputTriangles& inputs,
+                                          const Lists<std::uint32_t>& parents_of) {
+    const Signatures signatures(inputs, parents_of);
+    std::vector<Edge> found;
+    for (std::size_t e = 0; e < adjacency.edges.size(); ++e) {
+        const auto sides = adjacency.triangles_at[e];
+        if (sides.size() > 2 || (sides.size() == 2 && !signatures.agree(sides[0], sides[1])))
+            found.push_back(adjacency.edges[e]);
+    }
+    return found;
+}
+
+} // namespace terrane

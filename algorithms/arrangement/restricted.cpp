@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/arrangement/restricted.hpp>
+
+#include <algorithm>
+#include <utility>
+
+#include <terrane/algorithms/mesh/edges.hpp>
+
+namespace terrane {
+namespace {
+
+constexpr std::uint32_t unused = UINT32_MAX;
+
+Lists<std::uint32_t> kept_lists(const Lists<std::uint32_t>& lists, const std::vector<bool>& keep) {
+    Lists<std::uint32_t> kept;
+    for (std::size_t t = 0; t < keep.size(); ++t)
+        if (keep[t]) kept.push_back(lists[t]);
+    return kept;
+}
+
+template <class T>
+std::vector<T> kept_values(const std::vector<T>& values, const std::vector<bool>& keep) {
+    std::vector<T> kept;
+    for (std::size_t t = 0; t < keep.size(); ++t)
+        if (keep[t]) kept.push_back(values[t]);
+    return kept;
+}
+
+/// Takes out vertices that no triangle has; the others keep their order.
+void drop_unused_vertices(Arrangement& a) {
+    std::vector<std::uint32_t> name(a.vertices.size(), unused);
+    for (const Triangle& t : a.triangles)
+        for (const std::uint32_t v : t) name[v] = 0;
+    std::vector<PointIndex> vertices;
+    for (std::size_t v = 0; v < name.size(); ++v) {
+        if (name[v] == unused) continue;
+        name[v] = static_cast<std::uint32_t>(vertices.size());
+        vertices.push_back(a.vertices[v]);
+    }
+    a.vertices = std::move(vertices);
+    for (Triangle& t : a.triangles)
+        for (std::uint32_t& v : t) v = name[v];
+}
+
+/// By patch, and by surface where there is none; triangles with several parents have no label.
+Labels labels_of(const Arrangement& a) {
+    const auto patches = static_cast<std::uint32_t>(a.patches.axis.size());
+    Labels labels;
+    labels.reserve(a.triangles.size());
+    for (std::size_t t = 0; t < a.triangles.size(); ++t) {
+        const std::uint32_t patch = a.patches.of[t];
+        const std::uint32_t label = patch != no_group ? patch : patches + a.surfaces_of[t][0];
+        labels.push_back(a.parents_of[t].size() == 1 ? label : no_label);
+    }
+    return labels;
+}
+
+/// Keeps pairs of input triangles both of which have a part.
+void drop_neighbours_without_parts(Arrangement& a) {
+    std::vector<bool> has_part(a.inputs.corners.size(), false);
+    for (const std::uint32_t p : a.parents_of.values) has_part[p] = true;
+    std::erase_if(a.neighbours, [&](const CandidatePair& p) {
+        return !has_part[p.first] || !has_part[p.second];
+    });
+}
+
+} // namespace
+
+Arrangement restricted(Arrangement a, const std::vector<bool>& keep, const Run& run) {
+    if (std::find(keep.begin(), keep.end(), false) == keep.end()) return a;
+    a.whole = false;
+    a.triangles = kept_values(a.triangles, keep);
+    a.patches.of = kept_values(a.patches.of, keep);
+    a.parents_of = kept_lists(a.parents_of, keep);
+    a.surfaces_of = kept_lists(a.surfaces_of, keep);
+    drop_unused_vertices(a);
+    drop_neighbours_without_parts(a);
+    a.adjacency = adjacency_of(group_edges(a.triangles, a.vertices.size(), run), labels_of(a));
+    a.intersection_edges = find_intersection_edges(a.adjacency, a.inputs, a.parents_of);
+    return a;
+}
+
+} // namespace terrane

@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/arrangement/retriangulation.hpp>
+
+#include <algorithm>
+#include <unordered_map>
+#include <utility>
+
+#include <terrane/algorithms/core/parallel.hpp>
+#include <terrane/algorithms/core/stopwatch.hpp>
+#include <terrane/algorithms/triangulation/triangulation.hpp>
+#include <terrane/kernel/predicates.hpp>
+
+namespace terrane {
+namespace {
+
+/// A part of a divided triangle; corners by point.
+struct Part {
+    std::uint32_t face;
+    std::array<PointIndex, 3> corners;
+};
+
+struct PartBlock {
+    std::vector<Part> parts;
+    PredicateCounts predicates;
+};
+
+/// Step (e): gathers what each face must contain and triangulates it.
+class Divider {
+public:
+    Divider(const TriangleSoup& soup, const Contacts& contacts, const PointOrder& order) :
+        soup_(soup), contacts_(contacts), order_(order) {}
+
+    /// One face: its pieces and crossings.
+    void operator()(std::span<const FacePiece> pieces, std::uint32_t first_piece,
+                    std::span<const FaceCrossing> crossings, std::vector<Part>& out) {
+        face_.clear();
+        const std::uint32_t f = pieces.front().face;
+        const Triangle& t = soup_.triangles[f];
+        face_.corners = t;
+        face_.axis = projection_axis(soup_.points[t[0]], soup_.points[t[1]], soup_.points[t[2]]);
+        chains_.assign(pieces.size(), {});
+        for (const FacePiece& p : pieces)
+            for (unsigned e = 0; e < 2; ++e) add_point(p.ends[e], p.place[e]);
+        for (const FaceCrossing& c : crossings) {
+            const PointIndex p = order_.same_as[c.point];
+            face_.inner_points.push_back(p);
+            for (const std::uint32_t k : c.pieces) chains_[k - first_piece].push_back(p);
+        }
+        for (std::size_t k = 0; k < pieces.size(); ++k)
+            if (pieces[k].is_inner_segment())
+                add_chain(pieces[k], static_cast<std::uint32_t>(k), chains_[k]);
+        finish_points();
+        for (const auto& part : triangulate_(contacts_.points, order_.rank, face_))
+            out.push_back({f, part});
+    }
+
+private:
+    bool by_rank(PointIndex a, PointIndex b) const { return order_.rank[a] < order_.rank[b]; }
+
+    void add_point(PointIndex point, Place place) {
+        const PointIndex p = order_.same_as[point];
+        if (is_edge(place)) face_.edge_points[edge_of(place)].push_back(p);
+        if (place == Place::face) face_.inner_points.push_back(p);
+    }
+
+    void sort_unique(std::vector<PointIndex>& points) const {
+        std::sort(points.begin(), points.end(),
+                  [&](PointIndex a, PointIndex b) { return by_rank(a, b); });
+        points.erase(std::unique(points.begin(), points.end()), points.end());
+    }
+
+    void add_chain(const FacePiece& piece, std::uint32_t line, std::vector<PointIndex>& chain) {
+        for (const PointIndex e : piece.ends) chain.push_back(order_.same_as[e]);
+        sort_unique(chain);
+        for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
+            face_.segments.push_back({chain[i], chain[i + 1]});
+            face_.segment_lines.push_back(line);
+        }
+    }
+
+    // Along a line, points are in lexicographic order, forwards or backwards.
+    void finish_points() {
+        for (unsigned e = 0; e < 3; ++e) {
+            sort_unique(face_.edge_points[e]);
+            if (by_rank(face_.corners[(e + 1) % 3], face_.corners[e]))
+                std::reverse(face_.edge_points[e].begin(), face_.edge_points[e].end());
+        }
+        sort_unique(face_.inner_points);
+    }
+
+    const TriangleSoup& soup_;
+    const Contacts& contacts_;
+    const PointOrder& order_;
+    FaceInput face_;
+    std::vector<std::vector<PointIndex>> chains_;
+    FaceTriangulation triangulate_;
+};
+
+std::vector<Part> divide_faces(const TriangleSoup& soup, const Contacts& contacts,
+                               const PointOrder& order, const Run& run,
+                               DivisionStatistics& statistics) {
+    struct Range {
+        std::uint32_t piece, piece_end, crossing, crossing_end;
+    };
+    std::vector<Range> faces;
+    const auto count = [](const auto& v) { return static_cast<std::uint32_t>(v.size()); };
+    for (std::uint32_t p = 0, c = 0; p < count(contacts.pieces);) {
+        Range r{p, p, c, c};
+        const std::uint32_t f = contacts.pieces[p].face;
+        while (r.piece_end < count(contacts.pieces) && contacts.pieces[r.piece_end].face == f)
+            ++r.piece_end;
+        while (r.crossing_end < count(contacts.crossings) &&
+               contacts.crossings[r.crossing_end].face == f)
+            ++r.crossing_end;
+        faces.push_back(r);
+        p = r.piece_end;
+        c = r.crossing_end;
+    }
+    statistics.divided = faces.size();
+    const std::span pieces(contacts.pieces);
+    const std::span crossings(contacts.crossings);
+    const auto blocks =
+        for_blocks<PartBlock>(faces.size(), 64, run, [&](std::size_t first, std::size_t last) {
+            PartBlock block;
+            const PredicateCounts before = predicate_counts();
+            Divider divide(soup, contacts, order);
+            for (std::size_t i = first; i < last; ++i) {
+                const Range& r = faces[i];
+                divide(pieces.subspan(r.piece, r.piece_end - r.piece), r.piece,
+                       crossings.subspan(r.crossing, r.crossing_end - r.crossing), block.parts);
+            }
+            block.predicates = predicate_counts() - before;
+            return block;
+        });
+    std::vector<Part> parts;
+    for (const PartBlock& b : blocks) {
+        parts.insert(parts.end(), b.parts.begin(), b.parts.end());
+        statistics.predicates += b.predicates;
+    }
+    return parts;
+}
+
+/// Step (f): one list of unique triangles, undivided ones included.
+class Stitcher {
+public:
+    Stitcher(const TriangleSoup& soup, const Contacts& contacts, std::span<const Part> parts,
+             const Run& run, Division& out) :
+        soup_(soup),
+        contacts_(contacts), parts_(parts), run_(run), out_(out) {}
+
+    void operator()() {
+        collect_repeated();
+        out_.kept_as.resize(soup_.triangles.size());
+        // Parts that may repeat others are told from them one after the other.
+        const std::size_t count = soup_.triangles.size();
+        if (any_overlapped_)
+            blocks_.push_back(stitch(0, count));
+        else
+            blocks_ = parts_of_ranges<Block>(
+                count, run_,
+                [&](std::size_t first, std::size_t last) { return stitch(first, last); }, 1);
+        out_.triangles = std::move(blocks_.front().triangles);
+        out_.faces_of = std::move(blocks_.front().faces_of);
+        for (std::size_t b = 1; b < blocks_.size(); ++b) append(blocks_[b]);
+    }
+
+private:
+    /// What comes of a range of the soup.
+    struct Block {
+        std::uint32_t start; ///< triangles before
+        std::vector<Triangle> triangles;
+        Lists<std::uint32_t> faces_of; ///< offsets count from the first triangle of all
+
+        [[nodiscard]] std::uint32_t next() const {
+            return start + static_cast<std::uint32_t>(triangles.size());
+        }
+    };
+
+    struct Hash {
+        std::size_t operator()(const Triangle& c) const {
+            const std::uint64_t h = (c[0] * 0x9e3779b97f4a7c15u ^ c[1]) * 0x9e3779b97f4a7c15u;
+            return (h ^ c[2]) * 0x9e3779b97f4a7c15u >> 7;
+        }
+    };
+
+    static Triangle sorted(Triangle c) {
+        std::sort(c.begin(), c.end());
+        return c;
+    }
+
+    /// In the order of the soup; an undivided triangle is its own part (another may have it as
+    /// one).
+    template <class Visit>
+    void for_each_part(std::size_t first, std::size_t last, const Visit& visit) const {
+        const auto before = [](const Part& p, std::size_t face) { return p.face < face; };
+        auto p = std::lower_bound(parts_.begin(), parts_.end(), first, before);
+        for (auto f = static_cast<std::uint32_t>(first); f < last; ++f) {
+            if (p == parts_.end() || p->face != f) visit(Part{f, soup_.triangles[f]});
+            for (; p != parts_.end() && p->face == f; ++p) visit(*p);
+        }
+    }
+
+    // Only triangles that some coplanar one overlaps can have a part in common with another.
+    void collect_repeated() {
+        any_overlapped_ = std::find(contacts_.overlapped.begin(), contacts_.overlapped.end(),
+                                    true) != contacts_.overlapped.end();
+        if (!any_overlapped_) return;
+        for_each_part(0, soup_.triangles.size(), [&](const Part& p) {
+            if (contacts_.overlapped[p.face]) faces_of_[sorted(p.corners)].push_back(p.face);
+        });
+    }
+
+    /// Triangles that come of those before this one, where each has parts of its own.
+    std::uint32_t triangles_before(std::size_t face) const {
+        if (face == 0) return 0;
+        std::size_t count = face;
+        for (std::size_t k = 0; k < parts_.size() && parts_[k].face < face; ++k)
+            if (k == 0 || parts_[k].face != parts_[k - 1].face) --count;
+        const auto before = [](const Part& p, std::size_t f) { return p.face < f; };
+        count += static_cast<std::size_t>(
+            std::lower_bound(parts_.begin(), parts_.end(), face, before) - parts_.begin());
+        return static_cast<std::uint32_t>(count);
+    }
+
+    Block stitch(std::size_t first, std::size_t last) {
+        Block block{triangles_before(first), {}, {}};
+        block.faces_of.offsets.front() = block.start;
+        const std::size_t share = first == 0 ? soup_.triangles.size() : last - first;
+        const std::size_t expected = share + parts_.size();
+        block.triangles.reserve(expected);
+        block.faces_of.values.reserve(expected);
+        block.faces_of.offsets.reserve(expected + 1);
+        if (any_overlapped_) {
+            std::fill(out_.kept_as.begin() + static_cast<std::ptrdiff_t>(first),
+                      out_.kept_as.begin() + static_cast<std::ptrdiff_t>(last), none);
+            for_each_part(first, last, [&](const Part& part) { add_part(part, block); });
+            return block;
+        }
+        const auto before = [](const Part& p, std::size_t face) { return p.face < face; };
+        auto p = std::lower_bound(parts_.begin(), parts_.end(), first, before);
+        for (std::size_t f = first; f < last;) {
+            const std::size_t divided =
+                p == parts_.end() ? last : std::min<std::size_t>(last, p->face);
+            add_whole(f, divided, block);
+            if (divided == last) break; // its parts, if any, are of the next range
+            out_.kept_as[divided] = none;
+            for (; p != parts_.end() && p->face == divided; ++p) add_part(*p, block);
+            f = divided + 1;
+        }
+        return block;
+    }
+
+    /// Undivided triangles, none of which is overlapped.
+    void add_whole(std::size_t first, std::size_t last, Block& block) {
+        const auto whole = soup_.triangles.subspan(first, last - first);
+        const std::uint32_t start = block.next();
+        block.triangles.insert(block.triangles.end(), whole.begin(), whole.end());
+        for (std::size_t f = first; f < last; ++f) {
+            out_.kept_as[f] = start + static_cast<std::uint32_t>(f - first);
+            block.faces_of.values.push_back(static_cast<std::uint32_t>(f));
+            block.faces_of.offsets.push_back(out_.kept_as[f] + 1); // each has one face
+        }
+    }
+
+    void add_part(const Part& part, Block& block) {
+        const std::span<const std::uint32_t> alone(&part.face, 1);
+        const auto faces =
+            contacts_.overlapped[part.face]
+                ? std::span<const std::uint32_t>(faces_of_.find(sorted(part.corners))->second)
+                : alone;
+        if (faces.front() != part.face) return;
+        const Triangle& whole = soup_.triangles[part.face];
+        const bool is_whole = part.corners[0] == whole[0] && part.corners[1] == whole[1] &&
+                              part.corners[2] == whole[2];
+        if (faces.size() == 1 && is_whole) out_.kept_as[part.face] = block.next();
+        block.triangles.push_back(part.corners);
+        for (const std::uint32_t f : faces) block.faces_of.values.push_back(f);
+        block.faces_of.offsets.push_back(block.start +
+                                         static_cast<std::uint32_t>(block.faces_of.values.size()));
+    }
+
+    void append(const Block& block) {
+        const auto add = [](auto& to, const auto& from, std::ptrdiff_t first) {
+            to.insert(to.end(), from.begin() + first, from.end());
+        };
+        both(
+            run_, [&] { add(out_.triangles, block.triangles, 0); },
+            [&] {
+                add(out_.faces_of.values, block.faces_of.values, 0);
+                add(out_.faces_of.offsets, block.faces_of.offsets, 1);
+            });
+    }
+
+    static constexpr std::uint32_t none = UINT32_MAX;
+
+    const TriangleSoup& soup_;
+    const Contacts& contacts_;
+    std::span<const Part> parts_;
+    const Run& run_;
+    Division& out_;
+    std::vector<Block> blocks_;
+    std::unordered_map<Triangle, std::vector<std::uint32_t>, Hash> faces_of_;
+    bool any_overlapped_ = false;
+};
+
+} // namespace
+
+Division divide(std::vector<Point3> points, std::span<const Triangle> triangles,
+                std::span<const CandidatePair> candidates, const Run& run) {
+    Stopwatch watch;
+    Division out;
+    const TriangleSoup soup{points, triangles}; // the points stay where they are when moved
+    Contacts contacts = find_contacts(soup, std::move(points), candidates, run);
+    find_crossings(soup, contacts, run);
+    if (run.stop.stop_requested()) return out;
+    PointOrder order = order_points(soup, contacts, run);
+    out.statistics.improper_contacts = contacts.improper;
+    out.statistics.predicates += contacts.predicates;
+    out.statistics.seconds_intersect = watch.lap();
+
+    const auto parts = divide_faces(soup, contacts, order, run, out.statistics);
+    if (run.stop.stop_requested()) return out;
+    out.statistics.seconds_triangulate = watch.lap();
+
+    Stitcher(soup, contacts, parts, run, out)();
+    out.points = std::move(contacts.points);
+    out.ascending = std::move(order.ascending);
+    out.near = std::move(contacts.near);
+    out.statistics.seconds_stitch = watch.lap();
+    return out;
+}
+
+} // namespace terrane

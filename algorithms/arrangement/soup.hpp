@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Step (a) of the arrangement: all surfaces as one soup of distinct points and distinct triangles.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <terrane/algorithms/core/run.hpp>
+#include <terrane/algorithms/mesh/edges.hpp>
+#include <terrane/algorithms/mesh/surface.hpp>
+#include <terrane/algorithms/search/search.hpp>
+#include <terrane/kernel/sign.hpp>
+
+namespace terrane {
+
+/// Triangles without area and repeated ones are set aside, by number; nothing else changes.
+/// Input vertices and triangles are counted through all surfaces, in order.
+struct Soup {
+    std::vector<Point3> points;            ///< all input vertices
+    Unfilled<Triangle> triangles;          ///< the distinct ones with area; corners are the first
+                                           ///< input vertex with these coordinates
+    Unfilled<Triangle> input_corners;      ///< per input triangle: the same, degenerate or not
+    Unfilled<std::uint32_t> input_of;      ///< per triangle: its input triangle, ascending
+    Unfilled<std::uint32_t> surface_of;    ///< per triangle: the surface of input_of
+    Unfilled<Sign> turns;                  ///< per triangle: its orientation seen along z
+    std::vector<std::uint32_t> degenerate; ///< input triangles without area, ascending
+    std::vector<std::array<std::uint32_t, 2>> duplicates; ///< {input triangle, the first with the
+                                                          ///< same three points}, ascending
+    EdgeSides edges;                                      ///< of the triangles
+    std::vector<std::uint32_t> first_input_triangle;      ///< per surface, and the total at the end
+    std::vector<std::uint32_t> first_input_vertex;        ///< per surface, and the total at the end
+};
+
+/// Cost: linear (hashing), one predicate per triangle.
+Soup merge_surfaces(std::span<const Surface> surfaces, const Run& run = {});
+
+/// Per triangle, its box.
+std::vector<Box> boxes_of(std::span<const Point3> points, std::span<const Triangle> triangles);
+
+} // namespace terrane

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/check/check.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <numeric>
+
+#include <terrane/algorithms/arrangement/soup.hpp>
+#include <terrane/algorithms/core/disjoint_sets.hpp>
+#include <terrane/algorithms/core/parallel.hpp>
+#include <terrane/algorithms/mesh/edges.hpp>
+#include <terrane/kernel/point_store.hpp>
+
+namespace terrane {
+namespace {
+
+std::string place_in(const Surface& s, const char* what, std::size_t k) {
+    return "surface " + s.name + ", " + what + " " + std::to_string(k);
+}
+
+bool is_finite(const Point3& p) {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+
+/// Contacts of one block of pairs.
+std::vector<ImproperContact> contacts_of(const Soup& soup, std::span<const CandidatePair> pairs) {
+    std::vector<ImproperContact> found;
+    for (const CandidatePair& p : pairs) {
+        const auto contact =
+            improper_contact(soup.points, soup.triangles[p.first], soup.triangles[p.second]);
+        if (!contact) continue;
+        ImproperContact c;
+        c.triangles = {soup.input_of[p.first], soup.input_of[p.second]};
+        c.kind = kind_of(*contact);
+        // The last point: common vertices come first.
+        const Construction& how = contact->points[contact->point_count - 1u].how;
+        c.place = nearest(soup.points, how);
+        found.push_back(c);
+    }
+    return found;
+}
+
+/// Borders, non-manifold edges and components, from the distinct triangles with area.
+void describe_edges(const Soup& soup, CheckReport& report) {
+    Sets components(soup.triangles.size());
+    std::vector<std::uint32_t> surfaces;
+    soup.edges.for_each([&](std::uint32_t low, std::uint32_t high, auto sides) {
+        surfaces.clear();
+        for (const auto& s : sides) {
+            components.join(sides[0].triangle, s.triangle);
+            surfaces.push_back(soup.surface_of[s.triangle]);
+        }
+        std::sort(surfaces.begin(), surfaces.end());
+        bool many = false;
+        for (std::size_t i = 0, end = 0; i < surfaces.size(); i = end) {
+            while (end < surfaces.size() && surfaces[end] == surfaces[i]) ++end;
+            if (end - i == 1) ++report.free_border_edges;
+            many = many || end - i > 2;
+        }
+        if (many) report.non_manifold_edges.push_back({soup.points[low], soup.points[high]});
+    });
+    for (std::uint32_t t = 0; t < soup.triangles.size(); ++t)
+        report.components += components.find(t) == t;
+}
+
+void sort_out_duplicates(const Soup& soup, CheckReport& report) {
+    const auto& first = soup.first_input_triangle;
+    const auto surface = [&](std::uint32_t t) {
+        return std::upper_bound(first.begin(), first.end(), t) - first.begin();
+    };
+    for (const auto& d : soup.duplicates)
+        (surface(d[0]) == surface(d[1]) ? report.repeated : report.shared).push_back(d);
+}
+
+std::size_t count_used(const Soup& soup) {
+    std::vector<bool> used(soup.points.size(), false);
+    for (const Triangle& t : soup.triangles)
+        for (const std::uint32_t v : t) used[v] = true;
+    return static_cast<std::size_t>(std::count(used.begin(), used.end(), true));
+}
+
+Result<CheckReport> check_valid(std::span<const Surface> surfaces, const Run& run) {
+    const Soup soup = merge_surfaces(surfaces);
+    CheckReport report;
+    report.surfaces = surfaces.size();
+    report.triangles = soup.first_input_triangle.back();
+    report.first_triangle = soup.first_input_triangle;
+    report.degenerate = soup.degenerate;
+    sort_out_duplicates(soup, report);
+    report.vertices = count_used(soup);
+    describe_edges(soup, report);
+    const auto candidates = candidate_pairs({soup.points, soup.triangles}, {}, Search::automatic);
+    const auto blocks = for_blocks<std::vector<ImproperContact>>(
+        candidates.size(), 16384, run, [&](std::size_t a, std::size_t b) {
+            return contacts_of(soup, std::span(candidates).subspan(a, b - a));
+        });
+    if (run.stop.stop_requested()) return Error{ErrorCode::interrupted, "stopped on request", ""};
+    for (const auto& b : blocks) report.contacts.insert(report.contacts.end(), b.begin(), b.end());
+    return report;
+}
+
+bool along_an_edge(Place p, Place q) {
+    const auto on = [](Place x, unsigned e) {
+        return is_edge(x) ? edge_of(x) == e
+                          : is_corner(x) && (corner_of(x) == e || corner_of(x) == (e + 1) % 3);
+    };
+    return (on(p, 0) && on(q, 0)) || (on(p, 1) && on(q, 1)) || (on(p, 2) && on(q, 2));
+}
+
+ContactKind kind_of_point(const ContactPoint& p) {
+    if (is_edge(p.place[0]) && is_edge(p.place[1])) return ContactKind::edges_cross;
+    const bool face = p.place[0] == Place::face || p.place[1] == Place::face;
+    return face ? ContactKind::vertex_on_face : ContactKind::vertex_on_edge;
+}
+
+/// The first of [0, count) for which it does not hold, or count.
+template <class Holds>
+std::size_t first_without(const Holds& holds, std::size_t count, const Run& run) {
+    const auto firsts =
+        parts_of_ranges<std::size_t>(count, run, [&](std::size_t begin, std::size_t end) {
+            while (begin < end && holds(begin)) ++begin;
+            return begin < end ? begin : count;
+        });
+    return *std::min_element(firsts.begin(), firsts.end());
+}
+
+} // namespace
+
+std::string_view name_of(ContactKind kind) {
+    switch (kind) {
+    case ContactKind::vertex_on_edge:
+        return "vertex on edge";
+    case ContactKind::vertex_on_face:
+        return "vertex on face";
+    case ContactKind::edges_cross:
+        return "edges cross";
+    case ContactKind::edges_overlap:
+        return "edges overlap";
+    case ContactKind::edge_on_face:
+        return "edge on face";
+    case ContactKind::crossing:
+        return "crossing";
+    default:
+        return "coplanar overlap";
+    }
+}
+
+ContactKind kind_of(const Contact& contact) {
+    if (contact.overlap) return ContactKind::coplanar_overlap;
+    const ContactPoint& first = contact.points[0];
+    if (contact.point_count == 1) return kind_of_point(first);
+    const ContactPoint& last = contact.points[contact.point_count - 1u];
+    const bool along0 = along_an_edge(first.place[0], last.place[0]);
+    const bool along1 = along_an_edge(first.place[1], last.place[1]);
+    if (along0 && along1) return ContactKind::edges_overlap;
+    return along0 || along1 ? ContactKind::edge_on_face : ContactKind::crossing;
+}
+
+Status validate(std::span<const Surface> surfaces, const Run& run) {
+    std::size_t vertices = 0, triangles = 0;
+    for (const Surface& s : surfaces) {
+        vertices += s.vertices.size();
+        triangles += s.triangles.size();
+        const auto is_valid = [&](std::size_t v) { return is_finite(s.vertices[v]); };
+        if (const auto v = first_without(is_valid, s.vertices.size(), run); v < s.vertices.size())
+            return Error{ErrorCode::bad_number, "a coordinate is not finite",
+                         place_in(s, "vertex", v)};
+        const auto has_corners = [&](std::size_t t) {
+            const Triangle& c = s.triangles[t];
+            return std::max({c[0], c[1], c[2]}) < s.vertices.size();
+        };
+        if (const auto t = first_without(has_corners, s.triangles.size(), run);
+            t < s.triangles.size())
+            return Error{ErrorCode::bad_index, "a corner names no vertex",
+                         place_in(s, "triangle", t)};
+    }
+    if (vertices >= UINT32_MAX / 2 || triangles >= UINT32_MAX / 4)
+        return Error{ErrorCode::unsupported, "more than 2^30 triangles or 2^31 vertices", ""};
+    return Done{};
+}
+
+Result<CheckReport> check(std::span<const Surface> surfaces, const Run& run) {
+    if (const auto valid = validate(surfaces); !valid) return valid.error();
+    try {
+        return check_valid(surfaces, run);
+    } catch (const std::bad_alloc&) {
+        return Error{ErrorCode::out_of_memory, "not enough memory for the check", ""};
+    }
+}
+
+} // namespace terrane

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/check/conforming.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <terrane/algorithms/check/check.hpp>
+#include <terrane/algorithms/core/parallel.hpp>
+#include <terrane/algorithms/intersection/injective_patches.hpp>
+#include <terrane/algorithms/intersection/intersection.hpp>
+#include <terrane/algorithms/mesh/edges.hpp>
+#include <terrane/kernel/predicates.hpp>
+
+namespace terrane {
+namespace {
+
+Error contact(std::string sentence, std::uint32_t triangle) {
+    return {ErrorCode::improper_contact, std::move(sentence),
+            "triangle " + std::to_string(triangle)};
+}
+
+Status distinct_triangles(std::span<const Triangle> triangles) {
+    std::vector<std::pair<Triangle, std::uint32_t>> sorted;
+    sorted.reserve(triangles.size());
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+        Triangle corners = triangles[t];
+        std::sort(corners.begin(), corners.end());
+        sorted.emplace_back(corners, t);
+    }
+    std::sort(sorted.begin(), sorted.end());
+    for (std::size_t i = 1; i < sorted.size(); ++i)
+        if (sorted[i].first == sorted[i - 1].first)
+            return contact("it repeats triangle " + std::to_string(sorted[i - 1].second),
+                           sorted[i].second);
+    return Done{};
+}
+
+Status distinct_points(std::span<const Point3> points, std::span<const Triangle> triangles) {
+    std::vector<bool> used(points.size(), false);
+    for (const Triangle& t : triangles)
+        for (const std::uint32_t v : t) used[v] = true;
+    std::vector<std::uint32_t> order;
+    for (std::uint32_t v = 0; v < points.size(); ++v)
+        if (used[v]) order.push_back(v);
+    std::sort(order.begin(), order.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return points[a] < points[b]; });
+    for (std::size_t i = 1; i < order.size(); ++i)
+        if (points[order[i]] == points[order[i - 1]])
+            return Error{ErrorCode::improper_contact,
+                         "it is at the place of vertex " + std::to_string(order[i - 1]),
+                         "vertex " + std::to_string(order[i])};
+    return Done{};
+}
+
+/// The first pair of triangles that meets improperly.
+std::optional<CandidatePair> first_contact(std::span<const Point3> points,
+                                           std::span<const Triangle> triangles,
+                                           std::span<const std::uint32_t> label_of,
+                                           const Run& run) {
+    const EdgeSides edges = group_edges(triangles, points.size(), run);
+    const Patches patches = prove_patches(points, triangles, label_of, edges, run);
+    std::vector<std::uint32_t> all(triangles.size());
+    std::iota(all.begin(), all.end(), 0U);
+    const auto improper = [&](const CandidatePair& p) {
+        return improper_contact(points, triangles[p.first], triangles[p.second]).has_value();
+    };
+    const auto pairs = candidate_pairs_of({points, triangles}, all, patches.of, improper, run);
+    return pairs.empty() ? std::nullopt : std::optional(pairs.front());
+}
+
+} // namespace
+
+Status sound_triangles(std::span<const Point3> points, std::span<const Triangle> triangles) {
+    for (std::size_t v = 0; v < points.size(); ++v) {
+        const Point3& p = points[v];
+        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+            return Error{ErrorCode::bad_number, "a coordinate is not finite",
+                         "vertex " + std::to_string(v)};
+    }
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+        const auto& [a, b, c] = triangles[t];
+        if (std::max({a, b, c}) >= points.size())
+            return Error{ErrorCode::bad_index, "a corner names no vertex",
+                         "triangle " + std::to_string(t)};
+        if (collinear(points[a], points[b], points[c])) return contact("it has no area", t);
+    }
+    return Done{};
+}
+
+Status conforming(std::span<const Point3> points, std::span<const Triangle> triangles,
+                  std::span<const std::uint32_t> label_of, const Run& run) {
+    if (auto sound = sound_triangles(points, triangles); !sound) return sound;
+    if (auto distinct = distinct_points(points, triangles); !distinct) return distinct;
+    if (auto distinct = distinct_triangles(triangles); !distinct) return distinct;
+    const auto pair = first_contact(points, triangles, label_of, run);
+    if (run.stop.stop_requested()) return Error{ErrorCode::interrupted, "stopped on request", ""};
+    if (!pair) return Done{};
+    const auto how = improper_contact(points, triangles[pair->first], triangles[pair->second]);
+    return contact("it meets triangle " + std::to_string(pair->second) +
+                       " improperly: " + std::string(name_of(kind_of(*how))),
+                   pair->first);
+}
+
+} // namespace terrane

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+#include <tbb/task_arena.h>
+
+#include <terrane/algorithms/core/run.hpp>
+#include <terrane/kernel/numbers.hpp>
+
+namespace terrane {
+
+/// Carries out work with the threads of the run. Within another such work it has the same ones: an
+/// arena of its own would wait for threads that the outer one holds, and its threads would have to
+/// be woken. Not more than the machine has: TBB would print that it ignores the rest.
+template <class Work>
+void with_threads(const Run& run, const Work& work) {
+    if (run.threads <= 1) return work();
+    const int threads =
+        std::min(static_cast<int>(std::min(run.threads, 4096U)), tbb::info::default_concurrency());
+    if (tbb::this_task_arena::max_concurrency() == threads) return work();
+    tbb::task_arena arena(threads);
+    arena.execute(work);
+}
+
+/// Cuts [0, count) into blocks of fixed size (so the result cannot depend on the threads), makes a
+/// Block for each by work(first, last) and returns them in order. Each block runs under an
+/// UpwardRounding. Stops early, with blocks left empty, when the run is stopped.
+template <class Block, class Work>
+std::vector<Block> for_blocks(std::size_t count, std::size_t block_size, const Run& run,
+                              const Work& work) {
+    std::vector<Block> blocks((count + block_size - 1) / block_size);
+    const auto one = [&](std::size_t b) {
+        if (run.stop.stop_requested()) return;
+        const UpwardRounding guard;
+        blocks[b] = work(b * block_size, std::min(count, (b + 1) * block_size));
+    };
+    if (run.threads <= 1 || blocks.size() <= 1) {
+        for (std::size_t b = 0; b < blocks.size(); ++b) one(b);
+    } else {
+        with_threads(run, [&] { tbb::parallel_for(std::size_t{0}, blocks.size(), one); });
+    }
+    return blocks;
+}
+
+/// Calls work(first, last) for ranges that cut up [0, count), several at a time. What they write
+/// must not depend on where the cuts are. The rounding mode is the default one. `least`: of fewer a
+/// thread costs more than it spares.
+template <class Work>
+void for_ranges(std::size_t count, const Run& run, const Work& work,
+                std::size_t ranges_per_thread = 4, std::size_t least = 8192) {
+    const std::size_t ranges =
+        run.threads <= 1 ? 1 : std::min(ranges_per_thread * run.threads, count / least + 1);
+    if (ranges == 1) return work(std::size_t{0}, count);
+    with_threads(run, [&] {
+        tbb::parallel_for(std::size_t{0}, ranges, [&](std::size_t r) {
+            work(count * r / ranges, count * (r + 1) / ranges);
+        });
+    });
+}
+
+/// The same with a result for each range, in order.
+template <class Part, class Work>
+std::vector<Part> parts_of_ranges(std::size_t count, const Run& run, const Work& work,
+                                  std::size_t ranges_per_thread = 4) {
+    std::vector<std::pair<std::size_t, Part>> parts;
+    std::mutex mutex;
+    const auto one = [&](std::size_t first, std::size_t last) {
+        Part part = work(first, last);
+        const std::lock_guard lock(mutex);
+        parts.emplace_back(first, std::move(part));
+    };
+    for_ranges(count, run, one, ranges_per_thread);
+    std::sort(parts.begin(), parts.end(),
+              [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::vector<Part> sorted;
+    for (auto& [first, part] : parts) sorted.push_back(std::move(part));
+    return sorted;
+}
+
+/// All parts one after the other.
+template <class T>
+std::vector<T> concatenated(std::vector<std::vector<T>> parts) {
+    if (parts.empty()) return {};
+    std::vector<T> all = std::move(parts.front());
+    for (std::size_t p = 1; p < parts.size(); ++p)
+        all.insert(all.end(), parts[p].begin(), parts[p].end());
+    return all;
+}
+
+/// Both, at the same time if threads allow.
+template <class First, class Second>
+void both(const Run& run, const First& first, const Second& second) {
+    if (run.threads <= 1) {
+        first();
+        second();
+        return;
+    }
+    with_threads(run, [&] { tbb::parallel_invoke(first, second); });
+}
+
+} // namespace terrane

@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/intersection/contacts.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include <terrane/algorithms/core/parallel.hpp>
+#include <terrane/algorithms/intersection/detail/construction_table.hpp>
+#include <terrane/kernel/separation_filter.hpp>
+
+namespace terrane {
+namespace {
+
+/// What comes of a range of candidates.
+struct PairBlock {
+    std::size_t improper = 0; ///< pairs
+    std::vector<Construction> points;
+    std::array<std::vector<FacePiece>, 2> pieces; ///< of first and of second faces of pairs; ends
+                                                  ///< are indices into points
+    std::vector<std::uint32_t> overlapped;        ///< faces
+    std::vector<CandidatePair> near;
+    PredicateCounts predicates;
+
+    void add(const CandidatePair& pair, const Contact& c) {
+        ++improper;
+        const auto first_point = static_cast<PointIndex>(points.size());
+        for (unsigned i = 0; i < c.point_count; ++i) points.push_back(c.points[i].how);
+        const std::array faces{pair.first, pair.second};
+        if (c.overlap) overlapped.insert(overlapped.end(), faces.begin(), faces.end());
+        for (unsigned k = 0; k < 2; ++k)
+            for (unsigned n = 0; n < c.piece_count[k]; ++n) {
+                const auto& [ends, support] = c.pieces[k][n];
+                pieces[k].push_back({faces[k],
+                                     {faces[1 - k], support},
+                                     {c.points[ends[0]].place[k], c.points[ends[1]].place[k]},
+                                     {first_point + ends[0], first_point + ends[1]}});
+            }
+    }
+};
+
+bool have_common_vertex(const Triangle& t, const Triangle& u) {
+    return std::any_of(t.begin(), t.end(),
+                       [&](std::uint32_t v) { return v == u[0] || v == u[1] || v == u[2]; });
+}
+
+PairBlock test_pairs(const TriangleSoup& soup, std::span<const CandidatePair> pairs) {
+    PairBlock block;
+    const PredicateCounts before = predicate_counts();
+    const auto at = [&](std::uint32_t t, unsigned i) -> const Point3& {
+        return soup.points[soup.triangles[t][i]];
+    };
+    std::uint32_t last = UINT32_MAX;
+    std::optional<QuickTriangle> first; // pairs come sorted by it
+    for (const CandidatePair& p : pairs) {
+        const auto [f, g] = p;
+        if (f != last) first.emplace(at(f, 0), at(f, 1), at(f, 2));
+        last = f;
+        const bool joined = have_common_vertex(soup.triangles[f], soup.triangles[g]);
+        if (!joined) {
+            if (first->is_beside(at(g, 0), at(g, 1), at(g, 2))) continue;
+            const QuickTriangle second(at(g, 0), at(g, 1), at(g, 2));
+            if (second.is_beside(at(f, 0), at(f, 1), at(f, 2)) ||
+                first->is_beyond(at(g, 0), at(g, 1), at(g, 2)) ||
+                second.is_beyond(at(f, 0), at(f, 1), at(f, 2)))
+                continue;
+        }
+        block.near.push_back(p);
+        const auto contact = improper_contact(soup.points, soup.triangles[f], soup.triangles[g],
+                                              joined ? Filters::all : Filters::none);
+        if (contact) block.add(p, *contact);
+    }
+    block.predicates = predicate_counts() - before;
+    return block;
+}
+
+bool has_lower_face(const FacePiece& a, const FacePiece& b) {
+    return a.face < b.face;
+}
+
+/// By face, those of equal faces in the order of pairs: where a face is the second of a pair before
+/// those where it is the first. These are sorted as they come.
+std::vector<FacePiece> by_face(std::vector<FacePiece> of_first, std::vector<FacePiece> of_second) {
+    std::stable_sort(of_second.begin(), of_second.end(), has_lower_face);
+    std::vector<FacePiece> all(of_first.size() + of_second.size());
+    std::merge(of_second.begin(), of_second.end(), of_first.begin(), of_first.end(), all.begin(),
+               has_lower_face);
+    return all;
+}
+
+class Collector {
+public:
+    Collector(const TriangleSoup& soup, Contacts& contacts) :
+        table_(static_cast<PointIndex>(soup.points.size())), contacts_(contacts) {}
+
+    void add(const PairBlock& block) {
+        index_.clear();
+        for (const Construction& how : block.points) index_.push_back(table_.enter(how));
+        for (const std::uint32_t face : block.overlapped) contacts_.overlapped[face] = true;
+        for (unsigned k = 0; k < 2; ++k)
+            for (FacePiece piece : block.pieces[k]) {
+                for (PointIndex& end : piece.ends) end = index_[end];
+                pieces_[k].push_back(piece);
+            }
+        contacts_.near.insert(contacts_.near.end(), block.near.begin(), block.near.end());
+        contacts_.improper += block.improper;
+        contacts_.predicates += block.predicates;
+    }
+
+    std::span<const Construction> constructions() const { return table_.constructions(); }
+    std::vector<FacePiece> pieces() && {
+        return by_face(std::move(pieces_[0]), std::move(pieces_[1]));
+    }
+
+private:
+    ConstructionTable table_;
+    Contacts& contacts_;
+    std::array<std::vector<FacePiece>, 2> pieces_; ///< of first and of second faces of pairs
+    std::vector<PointIndex> index_;                ///< of the points of a block
+};
+
+bool on_closed_edge(Place p, unsigned e) {
+    if (is_edge(p)) return edge_of(p) == e;
+    return is_corner(p) && (corner_of(p) == e || corner_of(p) == (e + 1) % 3);
+}
+
+} // namespace
+
+bool FacePiece::is_inner_segment() const {
+    if (ends[0] == ends[1]) return false;
+    for (unsigned e = 0; e < 3; ++e)
+        if (on_closed_edge(place[0], e) && on_closed_edge(place[1], e)) return false;
+    return true;
+}
+
+Contacts find_contacts(const TriangleSoup& soup, std::vector<Point3> points,
+                       std::span<const CandidatePair> candidates, const Run& run) {
+    const auto blocks =
+        for_blocks<PairBlock>(candidates.size(), 1024, run, [&](std::size_t a, std::size_t b) {
+            return test_pairs(soup, candidates.subspan(a, b - a));
+        });
+    Contacts contacts;
+    contacts.candidates = candidates.size();
+    contacts.overlapped.assign(soup.triangles.size(), false);
+    Collector collector(soup, contacts);
+    for (const PairBlock& block : blocks) collector.add(block);
+    contacts.points = PointStore(std::move(points));
+    contacts.points.append(collector.constructions(), sharing(run));
+    contacts.pieces = std::move(collector).pieces();
+    return contacts;
+}
+
+PointStore::Share sharing(const Run& run) {
+    return [&run](std::size_t count, const auto& work) { for_ranges(count, run, work, 4, 256); };
+}
+
+namespace {
+
+struct Key {
+    double x; // the nearest double: where two differ, they are in the order of the points
+    PointIndex point;
+};
+
+/// Into as many buckets as there are keys, by where their x lies between the lowest and the
+/// highest: a bucket's keys are all before those of the next. The starts of the buckets, and their
+/// end.
+std::vector<std::uint32_t> into_buckets(std::vector<Key>& keys) {
+    const auto [low, high] = std::minmax_element(
+        keys.begin(), keys.end(), [](const Key& a, const Key& b) { return a.x < b.x; });
+    // Halves: of finite numbers their difference is finite. A constructed point may be infinite.
+    const double start = low->x / 2, length = high->x / 2 - start;
+    const double highest = static_cast<double>(keys.size() - 1);
+    const double scale = highest / length;
+    const std::size_t buckets = scale > 0 && std::isfinite(scale) ? keys.size() : 1;
+    const auto bucket_of = [&](const Key& key) {
+        return buckets == 1 ? std::size_t{0}
+                            : static_cast<std::size_t>(
+                                  std::min((key.x / 2 - start) * scale, highest)); // monotone
+    };
+    std::vector<std::uint32_t> starts(buckets + 1, 0);
+    for (const Key& key : keys) ++starts[bucket_of(key) + 1];
+    std::partial_sum(starts.begin(), starts.end(), starts.begin());
+    std::vector<std::uint32_t> next = starts;
+    std::vector<Key> sorted(keys.size());
+    for (const Key& key : keys) sorted[next[bucket_of(key)]++] = key;
+    keys = std::move(sorted);
+    return starts;
+}
+
+/// Sorts lexicographically.
+void sort_keys(const PointStore& store, std::vector<Key>& keys, const Run& run) {
+    if (keys.empty()) return;
+    const auto starts = into_buckets(keys);
+    const auto at = [&](std::size_t bucket) {
+        return keys.begin() + static_cast<std::ptrdiff_t>(starts[bucket]);
+    };
+    const auto before = [&](const Key& a, const Key& b) {
+        if (a.x != b.x) return a.x < b.x;
+        return store.compare(a.point, b.point) < 0;
+    };
+    const auto sort = [&](std::size_t first, std::size_t last) {
+        const UpwardRounding guard;
+        for (std::size_t b = first; b < last; ++b)
+            if (starts[b + 1] - starts[b] > 1) std::sort(at(b), at(b + 1), before);
+    };
+    for_ranges(starts.size() - 1, run, sort, 4, 1024);
+}
+
+} // namespace
+
+PointOrder order_points(const TriangleSoup& soup, const Contacts& contacts, const Run& run) {
+    const PointStore& store = contacts.points;
+    const auto inputs = static_cast<PointIndex>(store.input_count());
+    std::vector<PointIndex> used;
+    std::vector<bool> is_used(inputs, false);
+    const auto use = [&](PointIndex p) {
+        if (p >= inputs || is_used[p]) return;
+        is_used[p] = true;
+        used.push_back(p);
+    };
+    for (const FacePiece& p : contacts.pieces) {
+        for (const PointIndex c : soup.triangles[p.face]) use(c);
+        for (const PointIndex e : p.ends) use(e);
+    }
+    for (PointIndex p = inputs; p < store.size(); ++p) used.push_back(p);
+
+    std::vector<Key> keys(used.size());
+    for_ranges(used.size(), run, [&](std::size_t first, std::size_t last) {
+        for (std::size_t k = first; k < last; ++k) keys[k] = {store.nearest(used[k]).x, used[k]};
+    });
+    sort_keys(store, keys, run);
+    const UpwardRounding guard;
+    for (std::size_t i = 0; i < keys.size(); ++i) used[i] = keys[i].point;
+    PointOrder order;
+    order.same_as.resize(store.size());
+    std::iota(order.same_as.begin(), order.same_as.end(), PointIndex{0});
+    order.rank.assign(store.size(), 0);
+    const auto stands_before = [&](PointIndex a, PointIndex b) {
+        if (a < inputs || b < inputs) return a < b;
+        return store.construction(a) < store.construction(b);
+    };
+    std::uint32_t rank = 0;
+    for (std::size_t i = 0; i < used.size();) {
+        std::size_t end = i + 1;
+        while (end < used.size() && keys[end].x == keys[i].x && store.equal(used[i], used[end]))
+            ++end;
+        const PointIndex best =
+            *std::min_element(used.begin() + static_cast<std::ptrdiff_t>(i),
+                              used.begin() + static_cast<std::ptrdiff_t>(end), stands_before);
+        for (; i < end; ++i) {
+            order.same_as[used[i]] = best;
+            order.rank[used[i]] = rank;
+        }
+        if (best >= inputs) order.ascending.push_back(best);
+        ++rank;
+    }
+    return order;
+}
+
+} // namespace terrane

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Where the segments inside one triangle cross: points of three planes (or lines).
+#include <algorithm>
+
+#include <terrane/algorithms/core/parallel.hpp>
+#include <terrane/algorithms/intersection/contacts.hpp>
+#include <terrane/algorithms/intersection/detail/construction_table.hpp>
+#include <terrane/kernel/predicates.hpp>
+
+namespace terrane {
+namespace {
+
+using Line = std::array<std::uint32_t, 2>;
+
+struct NewCrossing {
+    std::uint32_t face;
+    std::array<std::uint32_t, 2> pieces;
+    Construction how;
+};
+
+struct CrossingBlock {
+    std::vector<NewCrossing> crossings;
+    PredicateCounts predicates;
+};
+
+Triangle sorted(Triangle t) {
+    std::sort(t.begin(), t.end());
+    return t;
+}
+
+/// An inner segment with what the tests need.
+struct InnerSegment {
+    std::uint32_t piece;
+    Triangle plane; ///< of the supporting triangle, sorted
+    Line line{};    ///< the supporting edge, sorted, where is_line
+    bool is_line = false;
+    std::array<ApproximatePoint, 2> ends{}; ///< in the projection
+    std::array<double, 2> low, high;        ///< box in the projection, of nearest doubles: where
+                                            ///< these are apart the segments are
+};
+
+/// Whether the construction itself puts the point on the plane or line.
+bool is_on_by_name(const Construction& how, const InnerSegment& s) {
+    const auto in_plane = [&](std::uint32_t v) {
+        return std::find(s.plane.begin(), s.plane.end(), v) != s.plane.end();
+    };
+    const auto carries = [&](std::uint32_t a, std::uint32_t b) {
+        return s.is_line ? Line{a, b} == s.line : in_plane(a) && in_plane(b);
+    };
+    switch (how.kind) {
+    case Construction::Kind::input:
+        return s.is_line ? how.v[0] == s.line[0] || how.v[0] == s.line[1] : in_plane(how.v[0]);
+    case Construction::Kind::line_line:
+        return carries(how.v[0], how.v[1]) || carries(how.v[2], how.v[3]);
+    case Construction::Kind::line_plane:
+        return carries(how.v[0], how.v[1]) ||
+               (!s.is_line && Triangle{how.v[2], how.v[3], how.v[4]} == s.plane);
+    default:
+        return !s.is_line && (Triangle{how.v[0], how.v[1], how.v[2]} == s.plane ||
+                              Triangle{how.v[3], how.v[4], how.v[5]} == s.plane ||
+                              Triangle{how.v[6], how.v[7], how.v[8]} == s.plane);
+    }
+}
+
+bool have_common_end(const FacePiece& a, const FacePiece& b) {
+    return a.ends[0] == b.ends[0] || a.ends[0] == b.ends[1] || a.ends[1] == b.ends[0] ||
+           a.ends[1] == b.ends[1];
+}
+
+/// All crossings in one face.
+class FaceSweep {
+public:
+    FaceSweep(const TriangleSoup& soup, const Contacts& contacts, std::vector<NewCrossing>& out) :
+        soup_(soup), contacts_(contacts), out_(out) {}
+
+    /// Pieces [first, last) of one face.
+    void operator()(std::uint32_t first, std::uint32_t last) {
+        collect(first, last);
+        if (segments_.size() < 2) return;
+        std::sort(segments_.begin(), segments_.end(), [](const auto& a, const auto& b) {
+            return std::pair{a.low[0], a.piece} < std::pair{b.low[0], b.piece};
+        });
+        for (std::size_t i = 0; i < segments_.size(); ++i)
+            for (std::size_t j = i + 1;
+                 j < segments_.size() && segments_[j].low[0] <= segments_[i].high[0]; ++j)
+                test(segments_[i], segments_[j]);
+    }
+
+private:
+    const FacePiece& piece(const InnerSegment& s) const { return contacts_.pieces[s.piece]; }
+
+    void collect(std::uint32_t first, std::uint32_t last) {
+        segments_.clear();
+        face_ = contacts_.pieces[first].face;
+        for (std::uint32_t p = first; p < last; ++p)
+            if (contacts_.pieces[p].is_inner_segment()) segments_.push_back(describe(p));
+        if (segments_.size() < 2) return;
+        const Triangle& t = soup_.triangles[face_];
+        axis_ = projection_axis(soup_.points[t[0]], soup_.points[t[1]], soup_.points[t[2]]);
+        for (InnerSegment& s : segments_) set_box(s);
+    }
+
+    InnerSegment describe(std::uint32_t p) const {
+        const Support& support = contacts_.pieces[p].support;
+        const Triangle& t = soup_.triangles[support.other];
+        InnerSegment s{};
+        s.piece = p;
+        s.plane = sorted(t);
+        s.is_line = !support.is_plane();
+        if (s.is_line) {
+            s.line = {t[support.edge], t[(support.edge + 1) % 3]};
+            std::sort(s.line.begin(), s.line.end());
+        }
+        return s;
+    }
+
+    void set_box(InnerSegment& s) const {
+        for (unsigned i = 0; i < 2; ++i)
+            s.ends[i] = contacts_.points.approximate(axis_, piece(s).ends[i]);
+        const auto [a, b] = s.ends;
+        s.low = {std::min(a.u, b.u), std::min(a.v, b.v)};
+        s.high = {std::max(a.u, b.u), std::max(a.v, b.v)};
+    }
+
+    Sign side(const InnerSegment& s, PointIndex p) const {
+        const PointStore& store = contacts_.points;
+        if (is_on_by_name(store.construction(p), s)) return Sign::Zero;
+        if (s.is_line) return store.orient2d(axis_, s.line[0], s.line[1], p);
+        return store.side_of_plane(s.plane[0], s.plane[1], s.plane[2], p);
+    }
+
+    /// Whether the ends of the other segment lie strictly on both sides of the line of s.
+    bool separates(const InnerSegment& s, const InnerSegment& of) const {
+        const auto quick_a = quick_orient2d(s.ends[0], s.ends[1], of.ends[0]);
+        const auto quick_b = quick_orient2d(s.ends[0], s.ends[1], of.ends[1]);
+        if (quick_a && quick_b) return *quick_a != *quick_b;
+        const Sign a = side(s, piece(of).ends[0]);
+        return a != Sign::Zero && side(s, piece(of).ends[1]) == -a;
+    }
+
+    void test(const InnerSegment& a, const InnerSegment& b) {
+        if (a.high[1] < b.low[1] || b.high[1] < a.low[1]) return;
+        if (have_common_end(piece(a), piece(b))) return; // two of one curve, mostly nearly in line
+        if (!separates(a, b) || !separates(b, a)) return;
+        out_.push_back(
+            {face_, {std::min(a.piece, b.piece), std::max(a.piece, b.piece)}, crossing(a, b)});
+    }
+
+    Construction crossing(const InnerSegment& a, const InnerSegment& b) const {
+        if (a.is_line && b.is_line) return line_line(soup_.points, a.line, b.line);
+        if (a.is_line) return line_plane(a.line, b.plane);
+        if (b.is_line) return line_plane(b.line, a.plane);
+        return three_planes(soup_.triangles[face_], a.plane, b.plane);
+    }
+
+    const TriangleSoup& soup_;
+    const Contacts& contacts_;
+    std::vector<NewCrossing>& out_;
+    std::vector<InnerSegment> segments_;
+    std::uint32_t face_ = 0;
+    Axis axis_ = Axis::z;
+};
+
+} // namespace
+
+void find_crossings(const TriangleSoup& soup, Contacts& contacts, const Run& run) {
+    std::vector<std::uint32_t> starts; // of each face's pieces
+    for (std::uint32_t p = 0; p < contacts.pieces.size(); ++p)
+        if (p == 0 || contacts.pieces[p].face != contacts.pieces[p - 1].face) starts.push_back(p);
+    const std::size_t faces = starts.size();
+    starts.push_back(static_cast<std::uint32_t>(contacts.pieces.size()));
+
+    const auto blocks =
+        for_blocks<CrossingBlock>(faces, 64, run, [&](std::size_t first, std::size_t last) {
+            CrossingBlock block;
+            const PredicateCounts before = predicate_counts();
+            FaceSweep sweep(soup, contacts, block.crossings);
+            for (std::size_t f = first; f < last; ++f) sweep(starts[f], starts[f + 1]);
+            block.predicates = predicate_counts() - before;
+            return block;
+        });
+
+    // Some crossings have names that contacts have given already (two edges of coplanar triangles).
+    ConstructionTable table(static_cast<PointIndex>(soup.points.size()));
+    for (PointIndex p = static_cast<PointIndex>(soup.points.size()); p < contacts.points.size();
+         ++p)
+        table.enter(contacts.points.construction(p));
+    const std::size_t known = table.constructions().size();
+    for (const CrossingBlock& block : blocks) {
+        contacts.predicates += block.predicates;
+        for (const NewCrossing& c : block.crossings)
+            contacts.crossings.push_back({c.face, c.pieces, table.enter(c.how)});
+    }
+    contacts.points.append(table.constructions().subspan(known), sharing(run));
+}
+
+} // namespace terrane

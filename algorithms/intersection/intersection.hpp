@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Step (c) of the arrangement: how two triangles meet, exactly. The answer is combinatorial: which
+// open simplex of the one meets which of the other; coordinates come later, by name.
+// Source: the paper's triangle-triangle test made complete; orientation tests as in Devillers and
+// Guigue (2002).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include <terrane/algorithms/mesh/surface.hpp>
+#include <terrane/kernel/construction.hpp>
+#include <terrane/kernel/point.hpp>
+
+namespace terrane {
+
+/// Where on a closed triangle a point lies: corner i, the open edge i (from corner i to i + 1), or
+/// the open face.
+enum class Place : std::uint8_t { corner0, corner1, corner2, edge0, edge1, edge2, face };
+
+constexpr bool is_corner(Place p) {
+    return p <= Place::corner2;
+}
+constexpr bool is_edge(Place p) {
+    return p >= Place::edge0 && p <= Place::edge2;
+}
+constexpr unsigned corner_of(Place p) {
+    return static_cast<unsigned>(p);
+}
+constexpr unsigned edge_of(Place p) {
+    return static_cast<unsigned>(p) - 3;
+}
+
+/// A point that two triangles share.
+struct ContactPoint {
+    Construction how;             ///< of kind input where it is a vertex of one of them
+    std::array<Place, 2> place{}; ///< on the first and on the second triangle
+};
+
+/// A point or a segment that two triangles share.
+struct ContactPiece {
+    std::array<std::uint8_t, 2> ends{}; ///< indices into points; equal for a point
+    /// The line it lies on in the plane of triangle k: the plane of the other triangle (3), or,
+    /// where the two are coplanar, edge 0..2 of the other triangle.
+    std::uint8_t support = 3;
+};
+
+/// What two triangles share, their common vertices included, as points and the segments between
+/// them.
+struct Contact {
+    bool coplanar = false;
+    bool overlap = false; ///< coplanar and the common part has an area
+    std::uint8_t point_count = 0;
+    std::array<std::uint8_t, 2> piece_count{}; ///< pieces to draw in triangle 0 and in triangle 1
+    std::array<ContactPoint, 9> points{};      ///< pairwise distinct constructions
+    std::array<std::array<ContactPiece, 3>, 2> pieces{}; ///< not coplanar: one, the same for both;
+                                                         ///< coplanar: per edge of the other one
+};
+
+/// What is tried before exact tests; never changes a result. `none`: for pairs that were filtered
+/// before.
+enum class Filters { all, none };
+
+/// How two triangles meet, if they share more than the hull of their common vertices.
+/// Triangles are given by vertices: equal indices are equal points and different ones differ; each
+/// has an area; they do not have all three vertices in common.
+/// Cost: nothing on the heap; most pairs take one to six orient3d.
+std::optional<Contact> improper_contact(std::span<const Point3> points, const Triangle& first,
+                                        const Triangle& second, Filters filters = Filters::all);
+
+// Constructions in canonical form (see construction.hpp); vertices by index.
+Construction line_plane(std::array<std::uint32_t, 2> line, Triangle plane);
+Construction three_planes(Triangle first, Triangle second, Triangle third);
+Construction line_line(std::span<const Point3> points, std::array<std::uint32_t, 2> first,
+                       std::array<std::uint32_t, 2> second);
+
+} // namespace terrane

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/layers/detail/vertical_order.hpp>
+
+#include <utility>
+
+namespace terrane {
+namespace {
+
+constexpr auto right = Sign::Negative, left = Sign::Positive;
+
+Sign turn(const PointStore& points, PointIndex a, PointIndex b, PointIndex c) {
+    return points.orient2d(Axis::z, a, b, c);
+}
+
+/// Whether an edge of s has all of t on its right, or on it.
+bool is_apart(const PointStore& points, const UprightTriangle& s, const UprightTriangle& t) {
+    for (unsigned i = 0; i < 3; ++i) {
+        bool apart = true;
+        for (unsigned j = 0; j < 3 && apart; ++j)
+            apart = turn(points, s[i], s[(i + 1) % 3], t[j]) != left;
+        if (apart) return true;
+    }
+    return false;
+}
+
+bool is_over(const PointStore& points, const UprightTriangle& t, PointIndex p) {
+    for (unsigned i = 0; i < 3; ++i)
+        if (turn(points, t[i], t[(i + 1) % 3], p) == right) return false;
+    return true;
+}
+
+/// From the corners of s over or under t, the first that is not on it.
+Sign side_of_corners(const PointStore& points, const UprightTriangle& s, const UprightTriangle& t) {
+    for (const PointIndex p : s)
+        if (is_over(points, t, p))
+            if (const Sign side = points.orient3d(t[0], t[1], t[2], p); side != Sign::Zero)
+                return side;
+    return Sign::Zero;
+}
+
+/// The side of s where edges a b of s and c d of t cross in the projection; Zero where they don't.
+Sign side_of_edges(const PointStore& points, PointIndex a, PointIndex b, PointIndex c,
+                   PointIndex d) {
+    const Sign c_side = turn(points, a, b, c), d_side = turn(points, a, b, d);
+    if (c_side * d_side != Sign::Negative) return Sign::Zero;
+    if (turn(points, c, d, a) * turn(points, c, d, b) != Sign::Negative) return Sign::Zero;
+    if (c_side == right) std::swap(c, d);
+    // a, b, c turn left: where d is above their plane, c d passes above a b.
+    return -points.orient3d(a, b, c, d);
+}
+
+} // namespace
+
+std::optional<UprightTriangle> seen_along_z(const PointStore& points, UprightTriangle corners) {
+    const Sign side = turn(points, corners[0], corners[1], corners[2]);
+    if (side == Sign::Zero) return std::nullopt;
+    if (side == right) std::swap(corners[1], corners[2]);
+    return corners;
+}
+
+bool overlap_along_z(const PointStore& points, const UprightTriangle& s, const UprightTriangle& t) {
+    return !is_apart(points, s, t) && !is_apart(points, t, s);
+}
+
+Sign above_along_z(const PointStore& points, const UprightTriangle& s, const UprightTriangle& t) {
+    if (const Sign side = side_of_corners(points, s, t); side != Sign::Zero) return side;
+    if (const Sign side = side_of_corners(points, t, s); side != Sign::Zero) return -side;
+    for (unsigned i = 0; i < 3; ++i)
+        for (unsigned j = 0; j < 3; ++j)
+            if (const Sign side = side_of_edges(points, s[i], s[(i + 1) % 3], t[j], t[(j + 1) % 3]);
+                side != Sign::Zero)
+                return side;
+    return Sign::Zero;
+}
+
+} // namespace terrane

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/mesh/adjacency.hpp>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include <terrane/algorithms/core/parallel.hpp>
+
+namespace terrane {
+namespace {
+
+constexpr std::uint32_t none = UINT32_MAX;
+
+bool is_inner(std::uint32_t label, std::uint32_t other) {
+    return label == other && label != no_label;
+}
+
+void add_edge(Adjacency& a, const Edge& edge, std::span<const std::uint32_t> triangles) {
+    a.edges.push_back(edge);
+    a.triangles_at.push_back(triangles);
+}
+
+/// Marks the vertices of triangles without counterpart in the old mesh in `is_new`; returns these
+/// triangles and all that may share an edge with one: ascending.
+std::vector<std::uint32_t> triangles_near_new(const Divided& divided, std::vector<char>& is_new,
+                                              const Run& run) {
+    const std::size_t count = divided.triangles.size();
+    std::vector<char> is_kept(count, 0);
+    for_ranges(divided.kept_as.size(), run, [&](std::size_t first, std::size_t last) {
+        for (std::size_t f = first; f < last; ++f)
+            if (divided.kept_as[f] != none) is_kept[divided.kept_as[f]] = 1;
+    });
+    for (std::size_t t = 0; t < count; ++t)
+        if (is_kept[t] == 0)
+            for (const std::uint32_t v : divided.triangles[t]) is_new[v] = 1;
+    return concatenated(parts_of_ranges<std::vector<std::uint32_t>>(
+        count, run, [&](std::size_t first, std::size_t last) {
+            std::vector<std::uint32_t> part;
+            for (auto t = static_cast<std::uint32_t>(first); t < last; ++t) {
+                const Triangle& c = divided.triangles[t];
+                if (is_kept[t] == 0 || is_new[c[0]] + is_new[c[1]] + is_new[c[2]] > 1)
+                    part.push_back(t);
+            }
+            return part;
+        }));
+}
+
+/// All edges between vertices of new triangles, for both ends of which is_new holds.
+Adjacency edges_of_new(const Divided& divided, const Labels& old_labels,
+                       std::span<const std::uint32_t> near, const std::vector<char>& is_new,
+                       const Run& run) {
+    // Only they have a number of their own, in the same order.
+    const auto vertices = concatenated(parts_of_ranges<std::vector<std::uint32_t>>(
+        is_new.size(), run, [&](std::size_t first, std::size_t last) {
+            std::vector<std::uint32_t> part;
+            for (auto v = static_cast<std::uint32_t>(first); v < last; ++v)
+                if (is_new[v] != 0) part.push_back(v);
+            return part;
+        }));
+    Unfilled<std::uint32_t> number_of;
+    number_of.resize(is_new.size());
+    for (std::uint32_t k = 0; k < vertices.size(); ++k) number_of[vertices[k]] = k;
+    const auto other = static_cast<std::uint32_t>(vertices.size()); // at most one in a triangle
+    std::vector<Triangle> corners(near.size());
+    Labels labels(near.size());
+    for_ranges(near.size(), run, [&](std::size_t first, std::size_t last) {
+        for (std::size_t k = first; k < last; ++k) {
+            const Triangle& c = divided.triangles[near[k]];
+            for (unsigned i = 0; i < 3; ++i)
+                corners[k][i] = is_new[c[i]] != 0 ? number_of[c[i]] : other;
+            const auto faces = divided.faces_of[near[k]];
+            labels[k] = faces.size() == 1 ? old_labels[faces[0]] : no_label;
+        }
+    });
+    Adjacency a;
+    Adjacency::Inner& inner = a.inner.emplace_back();
+    std::vector<std::uint32_t> triangles;
+    group_edges(corners, vertices.size() + 1, run)
+        .for_each([&](std::uint32_t low, std::uint32_t high, auto sides) {
+            if (high == other) return;
+            triangles.clear();
+            for (const auto& s : sides) triangles.push_back(near[s.triangle]);
+            if (sides.size() == 2 && is_inner(labels[sides[0].triangle], labels[sides[1].triangle]))
+                inner.push_back({triangles[0], triangles[1]});
+            else
+                add_edge(a, {vertices[low], vertices[high]}, triangles);
+        });
+    return a;
+}
+
+/// Adds edges that are all behind these.
+void append(Adjacency& a, Adjacency b) {
+    std::move(b.inner.begin(), b.inner.end(), std::back_inserter(a.inner));
+    a.edges.insert(a.edges.end(), b.edges.begin(), b.edges.end());
+    for (std::size_t e = 0; e < b.edges.size(); ++e) a.triangles_at.push_back(b.triangles_at[e]);
+}
+
+/// Adds edges of another part of the mesh.
+void merge(Adjacency& a, Adjacency b) {
+    std::move(b.inner.begin(), b.inner.end(), std::back_inserter(a.inner));
+    if (b.edges.empty()) return;
+    Adjacency all;
+    for (std::size_t i = 0, j = 0; i < a.edges.size() || j < b.edges.size();) {
+        const bool first = j == b.edges.size() || (i < a.edges.size() && a.edges[i] < b.edges[j]);
+        all.edges.push_back(first ? a.edges[i] : b.edges[j]);
+        all.triangles_at.push_back(first ? a.triangles_at[i++] : b.triangles_at[j++]);
+    }
+    a.edges = std::move(all.edges);
+    a.triangles_at = std::move(all.triangles_at);
+}
+
+} // namespace
+
+Labels labels_of(const Lists<std::uint32_t>& surfaces_of, const Lists<std::uint32_t>& parents_of) {
+    Labels labels;
+    labels.reserve(surfaces_of.size());
+    for (std::size_t t = 0; t < surfaces_of.size(); ++t)
+        labels.push_back(parents_of[t].size() == 1 ? surfaces_of[t][0] : no_label);
+    return labels;
+}
+
+Adjacency adjacency_of(const EdgeSides& edges, const Labels& labels) {
+    Adjacency a;
+    Adjacency::Inner& inner = a.inner.emplace_back();
+    inner.reserve(edges.sides.size() / 2);
+    std::vector<std::uint32_t> triangles;
+    edges.for_each([&](std::uint32_t low, std::uint32_t high, auto sides) {
+        if (sides.size() == 2 && is_inner(labels[sides[0].triangle], labels[sides[1].triangle])) {
+            inner.push_back({sides[0].triangle, sides[1].triangle});
+            return;
+        }
+        triangles.clear();
+        for (const auto& s : sides) triangles.push_back(s.triangle);
+        add_edge(a, {low, high}, triangles);
+    });
+    return a;
+}
+
+Adjacency adjacency_after(const EdgeSides& old, const Labels& old_labels, const Divided& divided,
+                          const Run& run) {
+    std::vector<char> is_new(divided.vertex_count, 0);
+    const auto near = triangles_near_new(divided, is_new, run);
+    const auto kept_edges = [&](std::size_t first, std::size_t last) {
+        Adjacency a;
+        Adjacency::Inner& inner = a.inner.emplace_back();
+        inner.reserve((old.starts[last] - old.starts[first]) / 2);
+        std::vector<std::uint32_t> triangles;
+        old.for_each(first, last, [&](std::uint32_t low, std::uint32_t high, auto sides) {
+            const std::uint32_t named = divided.named_as[low];
+            // All triangles at an edge between two vertices of new ones are near.
+            if (is_new[named] != 0 && is_new[divided.named_as[high]] != 0) return;
+            const auto kept = [&](std::size_t i) { return divided.kept_as[sides[i].triangle]; };
+            if (sides.size() == 2 &&
+                is_inner(old_labels[sides[0].triangle], old_labels[sides[1].triangle])) {
+                inner.push_back({kept(0), kept(1)});
+                return;
+            }
+            triangles.clear();
+            for (std::size_t i = 0; i < sides.size(); ++i) triangles.push_back(kept(i));
+            add_edge(a, {named, divided.named_as[high]}, triangles);
+        });
+        return a;
+    };
+    auto parts = parts_of_ranges<Adjacency>(old.starts.size() - 1, run, kept_edges);
+    Adjacency all = std::move(parts.front());
+    for (std::size_t k = 1; k < parts.size(); ++k) append(all, std::move(parts[k]));
+    merge(all, edges_of_new(divided, old_labels, near, is_new, run));
+    return all;
+}
+
+} // namespace terrane

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <terrane/algorithms/core/run.hpp>
+#include <terrane/algorithms/core/uninitialized_vector.hpp>
+#include <terrane/algorithms/mesh/mesh.hpp>
+
+namespace terrane {
+
+/// The sides of all triangles, grouped by edge.
+struct EdgeSides {
+    struct Side {
+        std::uint32_t high; ///< larger vertex of the edge
+        std::uint32_t triangle;
+
+        friend auto operator<=>(const Side&, const Side&) = default;
+    };
+    std::vector<std::uint32_t>
+        starts;           ///< per vertex, and the total: sides whose smaller vertex it is
+    Unfilled<Side> sides; ///< by smaller vertex, then larger vertex, then triangle
+
+    /// Calls visit(low, high, sides of this edge) for each edge, ascending.
+    template <class Visit>
+    void for_each(const Visit& visit) const {
+        for_each(0, starts.size() - 1, visit);
+    }
+
+    /// The same for edges whose lower vertex is in [first, last).
+    template <class Visit>
+    void for_each(std::size_t first, std::size_t last, const Visit& visit) const {
+        for (auto low = static_cast<std::uint32_t>(first); low < last; ++low)
+            for (std::uint32_t i = starts[low]; i < starts[low + 1];) {
+                std::uint32_t end = i + 1;
+                while (end < starts[low + 1] && sides[end].high == sides[i].high) ++end;
+                visit(low, sides[i].high, std::span(sides).subspan(i, end - i));
+                i = end;
+            }
+    }
+};
+
+/// Whether the corners of a triangle that has the edge run from `from` to `to`.
+inline bool runs_along(const Triangle& t, std::uint32_t from, std::uint32_t to) {
+    return t[0] == from ? t[1] == to : t[1] == from ? t[2] == to : t[0] == to;
+}
+
+/// Cost: linear (a counting sort by the smaller vertex). No corner may repeat within a triangle.
+EdgeSides group_edges(std::span<const Triangle> triangles, std::size_t vertex_count,
+                      const Run& run = {});
+
+} // namespace terrane

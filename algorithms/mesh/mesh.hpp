@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <terrane/algorithms/core/index_lists.hpp>
+#include <terrane/algorithms/mesh/surface.hpp>
+
+namespace terrane {
+
+/// Two vertices, the lower index first.
+using Edge = std::array<std::uint32_t, 2>;
+
+struct SurfaceInfo {
+    std::string name;
+    Role role = Role::unknown;
+
+    friend bool operator==(const SurfaceInfo&, const SurfaceInfo&) = default;
+};
+
+/// One mesh of several surfaces, with doubles: what writers write and TetGen gets.
+/// A triangle may belong to several surfaces (where they coincide).
+struct Mesh {
+    std::vector<SurfaceInfo> surfaces; ///< order of the input
+    std::vector<Point3> vertices;      ///< unit of the input
+    std::vector<Triangle> triangles;   ///< indices into vertices
+    Lists<std::uint32_t> surfaces_of;  ///< per triangle: indices into surfaces, sorted, >= 1
+    Lists<std::uint32_t> regions_of;   ///< per triangle, parallel to surfaces_of: region of the
+                                       ///< mesh (numbered through all surfaces); or no list at all
+    Lists<std::uint32_t> parents_of;   ///< per triangle: input triangles that contain it, counted
+                                       ///< through all surfaces, sorted, >= 1; or no list at all
+    std::vector<Edge> intersection_edges; ///< sorted, unique
+};
+
+/// Tetrahedra that honour the triangles of a mesh.
+struct TetrahedralMesh {
+    std::vector<SurfaceInfo> surfaces; ///< of the mesh it was made from, then "box" last
+                                       ///< where a box was added
+    std::vector<Point3> vertices;      ///< unit of the input
+    std::vector<std::array<std::uint32_t, 4>>
+        tetrahedra;                           ///< positively oriented: orient3d(0,1,2,3) > 0
+    std::vector<std::uint32_t> region_of;     ///< per tetrahedron: 0 is the outside (touches
+                                              ///< the box), then the blocks (volumes.hpp)
+    std::vector<Triangle> faces;              ///< faces of tetrahedra that lie on a surface
+    std::vector<std::uint32_t> face_triangle; ///< per face: triangle of the mesh it is part of,
+                                              ///< or UINT32_MAX on the box
+    Lists<std::uint32_t> surfaces_of;         ///< per face: indices into surfaces, sorted, >= 1
+    std::vector<std::array<std::uint32_t, 2>>
+        twins; ///< pairs of faces, in front of and behind a cut (split_nodes.hpp): corner by
+               ///< corner at the same place; none: nodes are not split
+    std::uint32_t region_count = 0; ///< with the outside
+};
+
+} // namespace terrane

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <terrane/algorithms/mesh/surface.hpp>
+
+namespace terrane {
+
+/// Finds the triangle nearest to a point, in floating point: a tree of boxes, halved at the median.
+/// The points must outlive it.
+class TriangleTree {
+public:
+    TriangleTree(std::span<const Point3> points, std::vector<Triangle> triangles);
+
+    /// Distance to the nearest triangle if it is less than `bound`, else `bound`.
+    /// Cost: about O(log n) where the bound or the distance is small against the tree.
+    [[nodiscard]] double distance(const Point3& p, double bound) const;
+
+    struct Near {
+        Point3 place{};
+        double distance = 0;
+        Triangle triangle{}; ///< on which it lies
+    };
+    /// The nearest point on the triangles if it is nearer than `bound`. Cost: the same.
+    [[nodiscard]] std::optional<Near> nearest(const Point3& p, double bound) const;
+
+private:
+    /// Calls visit(triangle) for those that may be nearer than `bound`, which it may lower.
+    template <class Visit>
+    void for_near(const Point3& p, const double& bound, const Visit& visit) const;
+
+    struct Node {
+        Point3 low, high;
+        std::uint32_t first = 0, last = 0; ///< triangles of the node
+        std::uint32_t left = 0, right = 0; ///< children; 0: a leaf
+    };
+
+    std::uint32_t build(std::uint32_t first, std::uint32_t last);
+    void fit(Node& node) const;
+
+    std::span<const Point3> points_;
+    std::vector<Triangle> triangles_;
+    std::vector<Node> nodes_;
+};
+
+/// Distance from p to the box, in floating point; 0 inside.
+double distance_to_box(const Point3& p, const Point3& low, const Point3& high);
+
+/// Distance from p to the triangle, in floating point.
+double distance_to_triangle(const Point3& p, const Point3& a, const Point3& b, const Point3& c);
+
+/// The point of the triangle that is nearest to p, in floating point.
+Point3 nearest_on_triangle(const Point3& p, const Point3& a, const Point3& b, const Point3& c);
+} // namespace terrane

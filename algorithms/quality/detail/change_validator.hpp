@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// What may be done to the mesh. Private to improve.
+//
+// Guarantee: where the mesh was conforming, it is so after a change that was allowed, and the added
+// triangles are within the bound of their sheet as it was. Improper contacts are excluded
+// (1) among triangles of one proven patch (patches.hpp), by its reason: a change inside of it keeps
+//     the sum of borders, so it stays one-to-one in its projection if all added triangles are wound
+//     as it is there, by exact predicates; a change of a curve moves borders, see
+//     improve_borders.hpp;
+// (2) between triangles that follow what is alone in the input and other sheets;
+// (3) else by exact tests against all triangles whose boxes overlap.
+// A change sweeps the tetrahedra from the corner that all added triangles have to the removed ones.
+// Where a vertex of another triangle is in one of them, by exact predicates, the change is not
+// allowed: no piece comes to lie on the other side of a sheet by it.
+// Triangles that are not added under (1) belong to no patch until they are grouped again: what is
+// left of a patch that was one-to-one is so. A sheet that is one patch as a whole stays so: changes
+// of its curves by which that is not shown are not made. Cost: a look at the cells of a grid that
+// the change meets, and a pair test per pair of boxes; nothing where (1) and (2) hold and the sheet
+// is one patch: such triangles are not in the grid.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <tbb/enumerable_thread_specific.h>
+
+#include <terrane/algorithms/core/run.hpp>
+#include <terrane/algorithms/quality/detail/borders.hpp>
+#include <terrane/algorithms/quality/detail/grid.hpp>
+#include <terrane/algorithms/quality/detail/reference_surface.hpp>
+#include <terrane/algorithms/quality/detail/working_mesh.hpp>
+#include <terrane/kernel/plane_filter.hpp>
+#include <terrane/kernel/sign.hpp>
+
+namespace terrane::improving {
+
+/// Why changes were not made.
+struct Refusals {
+    std::size_t contact = 0;   ///< triangles would have met improperly
+    std::size_t deviation = 0; ///< not shown to be within the bound
+    std::size_t shape = 0;     ///< turned over, or without area
+};
+
+enum class Verdict : std::uint8_t { allowed, contact, deviation, shape };
+
+/// Where a change is.
+struct Reach {
+    /// A proven patch whose border is changed.
+    struct Border {
+        std::uint32_t patch = 0;
+        Axis axis{}; ///< along which it is projected
+    };
+    GridBox around{};        ///< of what is added and what is removed
+    std::uint32_t patch = 0; ///< of all that is added, or no_group
+    bool is_free = false; ///< nothing that is added can meet anything, by patch and what it follows
+    std::vector<Border> borders; ///< where a curve is changed
+
+    /// Whether what was allowed before the other change is so after it; they share no vertex.
+    [[nodiscard]] bool is_apart(const Reach& other) const {
+        for (const Border& b : borders)
+            for (const Border& c : other.borders)
+                if (b.patch == c.patch && around.overlaps_along(b.axis, other.around)) return false;
+        return is_free || other.is_free || !around.overlaps(other.around) ||
+               (patch != no_group && patch == other.patch);
+    }
+};
+
+/// What the guard has found out about a change.
+struct Judgement {
+    std::vector<std::uint32_t> hints;   ///< per added triangle
+    std::vector<char> alone;            ///< per added: all that it follows is
+    std::vector<std::uint32_t> patches; ///< per added, or no_group
+    std::vector<GridBox> boxes;         ///< per added
+    Reach reach{};
+};
+
+class Guard {
+public:
+    /// What is named must outlive it.
+    Guard(WorkMesh& mesh, const Reference& reference) :
+        mesh_(mesh), reference_(reference), borders_(mesh) {}
+
+    /// Proves patches anew. To be called first, and when many triangles have left theirs.
+    /// Renumbers triangles.
+    void group_again(const Run& run);
+
+    /// Whether all triangles are in one proven patch: a change to them costs little.
+    [[nodiscard]] bool in_one_patch(std::span<const std::uint32_t> triangles) const;
+
+    /// Whether the change is allowed to the mesh as it is. Several threads may ask at the same
+    /// time.
+    Verdict judge(const Change& change, Judgement& judgement);
+    /// Carries out what is allowed to the mesh as it is.
+    void carry_out(const Change& change, const Judgement& judgement);
+
+    /// Of all changes judged.
+    [[nodiscard]] Refusals refusals() const;
+    /// How many triangles have left their patch since they were grouped.
+    [[nodiscard]] std::size_t ungrouped() const { return ungrouped_; }
+
+private:
+    /// What each thread has to itself.
+    struct Bench {
+        struct Tetrahedron {
+            std::array<Point3, 4> corners; ///< positively oriented
+            Box box;
+        };
+        Reference::Search search;
+        Borders::Search border_search;
+        std::vector<QuickPlane> planes;       ///< of the added triangles
+        Point3 top{};                         ///< of what the change sweeps
+        std::vector<Tetrahedron> swept;       ///< by it
+        std::vector<std::uint32_t> not_swept; ///< per vertex: the last change that had it, or
+                                              ///< was looked at for it
+        std::vector<std::uint32_t> seen;      ///< per triangle: the last change that saw it
+        std::uint32_t change = 0;
+        Refusals refusals;
+    };
+
+    void find_whole_sheets();
+    void fill_grid();
+    Verdict verdict_on(const Change& change, Judgement& judgement, Bench& bench);
+    [[nodiscard]] Corners corners_of(const Change& change, const Triangle& t) const;
+    [[nodiscard]] bool shapes_hold(const Change& change, std::uint32_t patch) const;
+    bool bounds_hold(const Change& change, Judgement& judgement, Bench& bench) const;
+    void box_added(const Change& change, Judgement& judgement) const;
+    void find_reach(const Change& change, Judgement& judgement) const;
+    [[nodiscard]] bool is_beside(const QuickPlane& plane, const Triangle& t,
+                                 const Triangle& other) const;
+    [[nodiscard]] bool meet(const Change& change, const Triangle& t, const Triangle& other) const;
+    void sweep(const Change& change, Bench& bench) const;
+    [[nodiscard]] bool is_swept(const Triangle& t, Bench& bench) const;
+    bool meets_properly(const Change& change, const Judgement& judgement, Bench& bench) const;
+    [[nodiscard]] Sign turn_of(const Change& change, const Triangle& t, std::uint32_t patch) const;
+    [[nodiscard]] bool are_wound(const Change& change, std::uint32_t patch) const;
+    bool find_patches(const Change& change, Judgement& judgement, Bench& bench) const;
+    /// Nothing can meet it, by its patch and by what it follows: it is not in the grid.
+    [[nodiscard]] bool is_quiet(std::uint32_t t) const {
+        return mesh_.alone[t] != 0 && is_whole_[mesh_.sheet_of[t]] != 0;
+    }
+    [[nodiscard]] bool is_free(const Change& change, const Judgement& judgement) const;
+    void leave_patches(const Change& change, const Judgement& judgement);
+
+    WorkMesh& mesh_;
+    const Reference& reference_;
+
+    std::vector<std::uint32_t> patch_of_; ///< per triangle, or no_group
+    std::vector<Axis> axis_;              ///< per patch
+    std::vector<Sign> turn_;              ///< per patch: of all its triangles there
+    std::vector<char> is_whole_;  ///< per sheet: all its triangles are in one patch, and stay there
+    std::vector<GridBox> box_of_; ///< per triangle
+    Borders borders_;
+    Grid grid_;
+    std::size_t ungrouped_ = 0;
+
+    tbb::enumerable_thread_specific<Bench> benches_;
+    std::vector<std::uint32_t> numbers_; ///< of what it adds
+};
+
+} // namespace terrane::improving

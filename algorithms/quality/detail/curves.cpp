@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Operations on curves: each vertex stays on its curve as it was.
+#include <terrane/algorithms/quality/detail/operations.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include <terrane/algorithms/quality/detail/windows.hpp>
+
+namespace terrane::improving {
+namespace {
+
+constexpr double least_gain = 1e-2; ///< share of the sum of 1 / q that a move must take away
+
+/// An edge of a curve, in its direction.
+struct CurveEdge {
+    std::uint32_t curve = 0, from = 0, to = 0;
+};
+
+std::vector<CurveEdge> curve_edges(const WorkMesh& mesh, const std::vector<Curve>& curves) {
+    std::vector<CurveEdge> edges;
+    for (std::uint32_t v = 0; v < mesh.kinds.size(); ++v) {
+        if (mesh.kinds[v] != VertexKind::curve) continue;
+        edges.push_back({mesh.curve_of[v], mesh.along[v][0], v});
+        if (mesh.kinds[mesh.along[v][1]] == VertexKind::corner)
+            edges.push_back({mesh.curve_of[v], v, mesh.along[v][1]});
+    }
+    const std::size_t inner = edges.size();
+    for (const auto& [ends, c] : mesh.direct())
+        edges.push_back({c, curves[c].vertices.front(), curves[c].vertices.back()});
+    // A hash map has no order of its own.
+    std::sort(edges.begin() + static_cast<std::ptrdiff_t>(inner), edges.end(),
+              [](const auto& a, const auto& b) { return a.curve < b.curve; });
+    return edges;
+}
+
+/// Where an end of an edge is on the curve.
+std::array<double, 2> places_of(const Workshop& shop, const CurveEdge& e) {
+    return {shop.mesh.place_at(shop.curves, e.curve, e.from, e.to),
+            shop.mesh.kinds[e.from] == VertexKind::corner &&
+                    shop.mesh.kinds[e.to] == VertexKind::corner
+                ? shop.curves[e.curve].at.back()
+                : shop.mesh.place_at(shop.curves, e.curve, e.to, e.from)};
+}
+
+bool propose_curve_split(Workshop& shop, const CurveEdge& e, Proposal& proposal) {
+    const WorkMesh& mesh = shop.mesh;
+    const auto [from, to] = places_of(shop, e);
+    proposal.at = from + (to - from) / 2;
+    if (!chord_follows(shop, e.curve, from, proposal.at) ||
+        !chord_follows(shop, e.curve, proposal.at, to))
+        return false;
+    Change& change = proposal.change;
+    change.clear();
+    change.on_border = true;
+    mesh.triangles_at(e.from, e.to, change.removed);
+    set_facing(mesh, change);
+    const std::uint32_t m = mesh.next_vertex();
+    change.placed = m;
+    change.place = point_on(shop, e.curve, proposal.at);
+    change.kind = VertexKind::curve;
+    change.size = mesh.wanted_length(e.from, e.to);
+    for (const std::uint32_t t : change.removed) {
+        change.add(with(mesh.triangles[t], e.to, m), t);
+        change.add(with(mesh.triangles[t], e.from, m), t);
+    }
+    return shop.guard.judge(change, proposal.judgement) == Verdict::allowed;
+}
+
+void after_split(WorkMesh& mesh, const CurveEdge& e, const Proposal& proposal) {
+    const std::uint32_t m = proposal.change.placed;
+    mesh.curve_of[m] = e.curve;
+    mesh.place_on[m] = proposal.at;
+    mesh.along[m] = {e.from, e.to};
+    const bool from_inner = mesh.kinds[e.from] == VertexKind::curve;
+    const bool to_inner = mesh.kinds[e.to] == VertexKind::curve;
+    if (from_inner) mesh.along[e.from][1] = m;
+    if (to_inner) mesh.along[e.to][0] = m;
+    if (!from_inner && !to_inner) mesh.drop_direct(e.from, e.to);
+}
+
+/// Of 1 / q of the triangles as they will be.
+double badness_of_added(const WorkMesh& mesh, const Change& change) {
+    double sum = 0;
+    for (const Triangle& t : change.added)
+        sum += 1 / shape_of(change.point(mesh.points, t[0]), change.point(mesh.points, t[1]),
+                            change.point(mesh.points, t[2]));
+    return sum;
+}
+
+bool propose_slide_to(Workshop& shop, std::uint32_t v, double at, Proposal& proposal) {
+    const WorkMesh& mesh = shop.mesh;
+    const std::uint32_t curve = mesh.curve_of[v];
+    const auto [before, after] = mesh.along[v];
+    if (!chord_follows(shop, curve, mesh.place_at(shop.curves, curve, before, v), at) ||
+        !chord_follows(shop, curve, at, mesh.place_at(shop.curves, curve, after, v)))
+        return false;
+    proposal.at = at;
+    Change& change = proposal.change;
+    look_at(mesh, v, change);
+    change.on_border = true;
+    change.place = mesh.points[v];
+    const double before_it = badness_of_added(mesh, change);
+    change.place = point_on(shop, curve, at);
+    if (!(badness_of_added(mesh, change) < before_it * (1 - least_gain))) return false;
+    set_facing(mesh, change);
+    return shop.guard.judge(change, proposal.judgement) == Verdict::allowed;
+}
+
+/// Halfway between its neighbours, or half of the way there.
+bool propose_slide(Workshop& shop, std::uint32_t v, Proposal& proposal) {
+    const WorkMesh& mesh = shop.mesh;
+    if (mesh.kinds[v] != VertexKind::curve) return false;
+    const std::uint32_t curve = mesh.curve_of[v];
+    const double from = mesh.place_at(shop.curves, curve, mesh.along[v][0], v);
+    const double to = mesh.place_at(shop.curves, curve, mesh.along[v][1], v);
+    const double middle = from + (to - from) / 2, here = mesh.place_on[v];
+    if (std::fabs(middle - here) < 0.05 * (to - from)) return false;
+    return propose_slide_to(shop, v, middle, proposal) ||
+           propose_slide_to(shop, v, here + (middle - here) / 2, proposal);
+}
+
+/// Into the nearer neighbour on the curve, where that is short.
+bool propose_curve_collapse(Workshop& shop, std::uint32_t v, Proposal& proposal) {
+    const WorkMesh& mesh = shop.mesh;
+    if (mesh.kinds[v] != VertexKind::curve) return false;
+    const auto [before, after] = mesh.along[v];
+    const double back = mesh.edge_length(v, before), on = mesh.edge_length(v, after);
+    const std::uint32_t kept = back < on ? before : after;
+    const double wanted = mesh.wanted_length(v, kept);
+    return std::min(back, on) < short_share * wanted && back + on < long_share * wanted &&
+           propose_collapse(shop, {v, kept}, 2 * wanted, least_shape, proposal);
+}
+
+std::vector<std::uint32_t> curve_vertices(const WorkMesh& mesh) {
+    std::vector<std::uint32_t> vertices;
+    for (std::uint32_t v = 0; v < mesh.kinds.size(); ++v)
+        if (mesh.kinds[v] == VertexKind::curve) vertices.push_back(v);
+    return vertices;
+}
+
+} // namespace
+
+Point3 point_on(const Workshop& shop, std::uint32_t curve, double at) {
+    const Curve& c = shop.curves[curve];
+    const auto after = std::upper_bound(c.at.begin() + 1, c.at.end() - 1, at);
+    const auto i = static_cast<std::size_t>(after - c.at.begin());
+    const Point3 &a = shop.points[c.vertices[i - 1]], &b = shop.points[c.vertices[i]];
+    const double piece = c.at[i] - c.at[i - 1];
+    const double share = piece > 0 ? std::clamp((at - c.at[i - 1]) / piece, 0.0, 1.0) : 0;
+    return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y), a.z + share * (b.z - a.z)};
+}
+
+bool chord_follows(const Workshop& shop, std::uint32_t curve, double from, double to) {
+    const Curve& c = shop.curves[curve];
+    const Point3 a = point_on(shop, curve, from), b = point_on(shop, curve, to);
+    const Point3 d = minus(b, a);
+    const double square = dot(d, d);
+    auto i =
+        static_cast<std::size_t>(std::upper_bound(c.at.begin(), c.at.end(), from) - c.at.begin());
+    for (; i < c.at.size() && c.at[i] < to; ++i) {
+        const Point3 w = minus(shop.points[c.vertices[i]], a);
+        const double share = square > 0 ? std::clamp(dot(w, d) / square, 0.0, 1.0) : 0;
+        const Point3 off{w.x - share * d.x, w.y - share * d.y, w.z - share * d.z};
+        if (!(std::sqrt(dot(off, off)) + shop.reference.rounding() <= shop.curve_bound[curve]))
+            return false;
+    }
+    return true;
+}
+
+std::size_t split_curves(Workshop& shop) {
+    std::size_t count = 0;
+    for (unsigned round = 0; round < 32 && !shop.run.stop.stop_requested(); ++round) {
+        std::vector<CurveEdge> edges = curve_edges(shop.mesh, shop.curves);
+        std::erase_if(edges, [&](const CurveEdge& e) {
+            const auto [from, to] = places_of(shop, e);
+            return !(to - from > long_share * shop.mesh.wanted_length(e.from, e.to));
+        });
+        const std::size_t more = in_windows(
+            shop, edges,
+            [&](const CurveEdge& e, Proposal& p) { return propose_curve_split(shop, e, p); },
+            [&](const CurveEdge& e, const Proposal& p, bool is_made) {
+                if (is_made) after_split(shop.mesh, e, p);
+            });
+        if (more == 0) break;
+        shop.splits += more;
+        count += more;
+    }
+    return count;
+}
+
+std::size_t collapse_curves(Workshop& shop) {
+    const std::size_t count = in_windows(
+        shop, curve_vertices(shop.mesh),
+        [&](std::uint32_t v, Proposal& p) { return propose_curve_collapse(shop, v, p); },
+        [&](std::uint32_t, const Proposal& p, bool is_made) {
+            if (is_made) after_collapse(shop.mesh, p);
+        });
+    shop.collapses += count;
+    return count;
+}
+
+std::size_t slide_curves(Workshop& shop) {
+    const std::size_t count = in_windows(
+        shop, curve_vertices(shop.mesh),
+        [&](std::uint32_t v, Proposal& p) { return propose_slide(shop, v, p); },
+        [&](std::uint32_t v, const Proposal& p, bool is_made) {
+            if (is_made) shop.mesh.place_on[v] = p.at;
+        });
+    shop.moves += count;
+    return count;
+}
+
+} // namespace terrane::improving

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/quality/detail/sizes.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <queue>
+#include <utility>
+
+#include <terrane/algorithms/mesh/vectors.hpp>
+
+namespace terrane::improving {
+namespace {
+
+constexpr double least_share = 0.125; ///< of the wanted length, where a surface is curved
+constexpr double bound_share = 0.05;  ///< of the wanted length
+
+Point3 normal_of(const Mesh& mesh, const Triangle& t) {
+    return cross(minus(mesh.vertices[t[1]], mesh.vertices[t[0]]),
+                 minus(mesh.vertices[t[2]], mesh.vertices[t[0]]));
+}
+
+/// Edges of equilateral triangles of the same number and area.
+std::vector<double> automatic_lengths(const Mesh& mesh) {
+    std::vector<double> area(mesh.surfaces.size(), 0);
+    std::vector<std::size_t> count(mesh.surfaces.size(), 0);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+        for (const std::uint32_t s : mesh.surfaces_of[t]) {
+            area[s] += length(normal_of(mesh, mesh.triangles[t])) / 2;
+            ++count[s];
+        }
+    for (std::size_t s = 0; s < area.size(); ++s)
+        if (count[s] > 0)
+            area[s] = std::sqrt(area[s] / static_cast<double>(count[s]) * 4 / std::sqrt(3.0));
+    return area;
+}
+
+std::vector<double> lengths_of_surfaces(const Mesh& mesh, const ImproveOptions& options) {
+    std::vector<double> lengths(mesh.surfaces.size(), options.edge_length);
+    for (std::size_t s = 0; s < options.edge_length_of.size(); ++s)
+        if (options.edge_length_of[s] > 0) lengths[s] = options.edge_length_of[s];
+    if (std::find(lengths.begin(), lengths.end(), 0.0) == lengths.end()) return lengths;
+    const auto automatic = automatic_lengths(mesh);
+    for (std::size_t s = 0; s < lengths.size(); ++s)
+        if (lengths[s] == 0) lengths[s] = automatic[s];
+    return lengths;
+}
+
+/// Shorter where the normals of neighbours turn much on the way from middle to middle.
+void bend(const Mesh& mesh, const Features& features, double turn, std::vector<double>& sizes) {
+    const std::vector<double> before = sizes;
+    for (std::uint32_t t = 0; t < features.triangles.size(); ++t)
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::uint32_t u = features.across[t][i];
+            if (u == none || u < t) continue;
+            const Triangle &a = features.triangles[t], &b = features.triangles[u];
+            const Point3 n = normal_of(mesh, a), m = normal_of(mesh, b);
+            const double angle = std::atan2(length(cross(n, m)), dot(n, m));
+            const Point3 along = minus(mesh.vertices[a[(i + 1) % 3]], mesh.vertices[a[i]]);
+            const double base = length(along);
+            const double way = (length(n) + length(m)) / (3 * base); // a third of both heights
+            if (!(angle > 0) || !(way > 0)) continue;
+            const double wanted = turn * way / angle;
+            for (const std::uint32_t v : a)
+                sizes[v] = std::min(sizes[v], std::max(wanted, least_share * before[v]));
+            for (const std::uint32_t v : b)
+                sizes[v] = std::min(sizes[v], std::max(wanted, least_share * before[v]));
+        }
+}
+
+/// No wanted length is larger than that of a neighbour and `growth` times the way to it.
+void limit_growth(const Mesh& mesh, const Features& features, double growth,
+                  std::vector<double>& sizes) {
+    std::vector<std::vector<std::uint32_t>> next(sizes.size());
+    for (const Triangle& t : features.triangles)
+        for (std::size_t i = 0; i < 3; ++i) {
+            next[t[i]].push_back(t[(i + 1) % 3]);
+            next[t[(i + 1) % 3]].push_back(t[i]);
+        }
+    using Entry = std::pair<double, std::uint32_t>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
+    for (std::uint32_t v = 0; v < sizes.size(); ++v)
+        if (!next[v].empty()) front.emplace(sizes[v], v);
+    while (!front.empty()) {
+        const auto [size, v] = front.top();
+        front.pop();
+        if (size > sizes[v]) continue;
+        for (const std::uint32_t u : next[v]) {
+            const double most = size + growth * length(minus(mesh.vertices[u], mesh.vertices[v]));
+            if (!(most < sizes[u])) continue;
+            sizes[u] = most;
+            front.emplace(most, u);
+        }
+    }
+}
+
+} // namespace
+
+Sizes find_sizes(const Mesh& mesh, const Features& features, const ImproveOptions& options) {
+    const auto lengths = lengths_of_surfaces(mesh, options);
+    constexpr double endless = std::numeric_limits<double>::infinity();
+    Sizes out;
+    out.bound_of.assign(features.first_of.size(), 0);
+    std::vector<double> of_sheets(features.first_of.size(), endless);
+    for (std::size_t s = 0; s < of_sheets.size(); ++s) {
+        for (const std::uint32_t surface : mesh.surfaces_of[features.first_of[s]])
+            of_sheets[s] = std::min(of_sheets[s], lengths[surface]);
+        out.bound_of[s] =
+            options.max_deviation > 0 ? options.max_deviation : bound_share * of_sheets[s];
+    }
+    out.of_vertices.assign(mesh.vertices.size(), endless);
+    for (std::uint32_t t = 0; t < features.triangles.size(); ++t)
+        for (const std::uint32_t v : features.triangles[t])
+            out.of_vertices[v] = std::min(out.of_vertices[v], of_sheets[features.sheet_of[t]]);
+    if (options.curve_length > 0)
+        for (std::uint32_t v = 0; v < out.of_vertices.size(); ++v)
+            if (features.kinds[v] == VertexKind::curve || features.kinds[v] == VertexKind::corner)
+                out.of_vertices[v] = std::min(out.of_vertices[v], options.curve_length);
+    if (options.turn > 0)
+        bend(mesh, features, options.turn * std::acos(-1.0) / 180, out.of_vertices);
+    limit_growth(mesh, features, options.growth, out.of_vertices);
+    return out;
+}
+
+} // namespace terrane::improving

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// How long edges should be. Private to improve.
+#pragma once
+
+#include <vector>
+
+#include <terrane/algorithms/quality/detail/features.hpp>
+#include <terrane/algorithms/quality/improve.hpp>
+
+namespace terrane::improving {
+
+struct Sizes {
+    std::vector<double> of_vertices; ///< per vertex: wanted length of edges there
+    std::vector<double> bound_of;    ///< per sheet: largest deviation
+};
+
+/// options.edge_length_of has one element per surface, or none.
+Sizes find_sizes(const Mesh& mesh, const Features& features, const ImproveOptions& options);
+
+} // namespace terrane::improving

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Smoothing by trapezium drawing.
+#include <terrane/algorithms/quality/detail/operations.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <terrane/algorithms/quality/detail/windows.hpp>
+
+namespace terrane::improving {
+namespace {
+
+constexpr double least_gain = 1e-2;   ///< share of the sum of 1 / q that a move must take away
+constexpr double shake_share = 0.2;   ///< of the wanted length
+constexpr double square_shape = 0.86; ///< q of half a square is 0.83
+
+/// Where trapezium drawing puts the vertex.
+Point3 drawn(const WorkMesh& mesh, std::uint32_t v) {
+    const Point3& p = mesh.points[v];
+    Point3 sum{};
+    for (const std::uint32_t t : mesh.star[v]) {
+        const Triangle& c = mesh.triangles[t];
+        const std::size_t i = c[0] == v ? 0 : c[1] == v ? 1 : 2;
+        const Point3 &a = mesh.points[c[(i + 1) % 3]], &b = mesh.points[c[(i + 2) % 3]];
+        const Point3 base = minus(b, a);
+        const Point3 to_middle{(a.x + b.x) / 2 - p.x, (a.y + b.y) / 2 - p.y, (a.z + b.z) / 2 - p.z};
+        const double square = dot(base, base);
+        const double share = square > 0 ? dot(to_middle, base) / square : 0;
+        sum = {sum.x + share * base.x, sum.y + share * base.y, sum.z + share * base.z};
+    }
+    const auto count = static_cast<double>(mesh.star[v].size());
+    return {p.x + sum.x / count, p.y + sum.y / count, p.z + sum.z / count};
+}
+
+/// The mean of the neighbours.
+Point3 centre(const WorkMesh& mesh, std::uint32_t v) {
+    Point3 sum{};
+    for (const std::uint32_t t : mesh.star[v])
+        for (const std::uint32_t c : mesh.triangles[t])
+            if (c != v)
+                sum = {sum.x + mesh.points[c].x, sum.y + mesh.points[c].y,
+                       sum.z + mesh.points[c].z};
+    const auto count = 2 * static_cast<double>(mesh.star[v].size());
+    return {sum.x / count, sum.y / count, sum.z / count};
+}
+
+/// Sum of 1 / q, and the largest of them.
+struct Badness {
+    double sum = 0, largest = 0;
+};
+
+/// q of a triangle at v, were that at p.
+double shape_with(const WorkMesh& mesh, const Triangle& t, std::uint32_t v, const Point3& p) {
+    const auto at = [&](std::uint32_t c) -> const Point3& { return c == v ? p : mesh.points[c]; };
+    return shape_of(at(t[0]), at(t[1]), at(t[2]));
+}
+
+/// With the vertex at p.
+Badness badness_at(const WorkMesh& mesh, std::uint32_t v, const Point3& p) {
+    Badness badness;
+    for (const std::uint32_t t : mesh.star[v]) {
+        const double one = 1 / shape_with(mesh, mesh.triangles[t], v, p);
+        badness.sum += one;
+        badness.largest = std::max(badness.largest, one);
+    }
+    return badness;
+}
+
+constexpr double endless = std::numeric_limits<double>::infinity();
+
+/// Whether both would be less than the limits with the vertex at p; none of 1 / q is less than 1.
+bool is_below(const WorkMesh& mesh, std::uint32_t v, const Point3& p, const Badness& limits) {
+    auto left = static_cast<double>(mesh.star[v].size());
+    double sum = 0;
+    for (const std::uint32_t t : mesh.star[v]) {
+        const double one = 1 / shape_with(mesh, mesh.triangles[t], v, p);
+        sum += one;
+        left -= 1;
+        if (!(sum + left < limits.sum && one < limits.largest)) return false;
+    }
+    return true;
+}
+
+/// Whether it may move, after look_at, to the place on the surface above or below `to`, and comes
+/// below the limits there.
+bool propose_move(const Workshop& shop, const Point3& to, const Badness& limits,
+                  Proposal& proposal) {
+    const WorkMesh& mesh = shop.mesh;
+    Change& change = proposal.change;
+    const std::uint32_t v = change.placed;
+    if (!is_below(mesh, v, to, limits)) return false; // mostly
+    if (change.facing.empty()) set_facing(mesh, change);
+    const auto place =
+        shop.reference.above(to, change.facing[0].second, mesh.hint_of[change.removed[0]]);
+    if (!place || !is_below(mesh, v, place->point, limits)) return false;
+    change.place = place->point;
+    return shop.guard.judge(change, proposal.judgement) == Verdict::allowed;
+}
+
+Point3 between(const Point3& a, const Point3& b, double share) {
+    return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y), a.z + share * (b.z - a.z)};
+}
+
+bool propose_smoothing(const Workshop& shop, std::uint32_t v, Proposal& proposal) {
+    const WorkMesh& mesh = shop.mesh;
+    proposal.is_looked_at = mesh.changed_since(v, shop.smoothed_at[v]);
+    if (!proposal.is_looked_at) return false;
+    look_at(mesh, v, proposal.change);
+    const Point3 &from = mesh.points[v], to = drawn(mesh, v);
+    const Badness better{badness_at(mesh, v, from).sum * (1 - least_gain), endless};
+    // A triangle slides the vertex along its base only, which is half of a way on the mean.
+    return propose_move(shop, between(from, to, 2.0), better, proposal) ||
+           propose_move(shop, between(from, to, 1.0), better, proposal) ||
+           propose_move(shop, between(from, centre(mesh, v), 0.5), better, proposal);
+}
+
+/// From where it is in eight directions in the plane across the normal, by steps that are halved:
+/// the last place on the way that was better than those before.
+bool propose_lift(const Workshop& shop, std::uint32_t v, double below, Proposal& proposal) {
+    const WorkMesh& mesh = shop.mesh;
+    proposal.is_looked_at =
+        mesh.changed_since(v, shop.lifted_at[v]) &&
+        std::any_of(mesh.star[v].begin(), mesh.star[v].end(),
+                    [&](std::uint32_t t) { return shape_of(mesh, mesh.triangles[t]) < below; });
+    if (!proposal.is_looked_at) return false;
+    look_at(mesh, v, proposal.change);
+    set_facing(mesh, proposal.change);
+    Point3 n = proposal.change.facing[0].second;
+    const double size = std::sqrt(dot(n, n));
+    if (!(size > 0)) return false;
+    n = {n.x / size, n.y / size, n.z / size};
+    Point3 u = std::fabs(n.x) < 0.6 ? cross(n, {1, 0, 0}) : cross(n, {0, 1, 0});
+    const double across = std::sqrt(dot(u, u));
+    u = {u.x / across, u.y / across, u.z / across};
+    const Point3 w = cross(n, u);
+    bool moves = false;
+    Point3 p = mesh.points[v];
+    Judgement of_p;
+    double largest = badness_at(mesh, v, p).largest, step = mesh.sizes[v] / 4;
+    for (unsigned halving = 0; halving < 4; ++halving, step /= 2)
+        for (unsigned k = 0; k < 8; ++k) {
+            const double angle = k * std::acos(-1.0) / 4;
+            const double c = step * std::cos(angle), s = step * std::sin(angle);
+            const Point3 to{p.x + c * u.x + s * w.x, p.y + c * u.y + s * w.y,
+                            p.z + c * u.z + s * w.z};
+            if (!propose_move(shop, to, {endless, largest * (1 - least_gain)}, proposal)) continue;
+            p = proposal.change.place;
+            std::swap(of_p, proposal.judgement);
+            largest = badness_at(mesh, v, p).largest;
+            moves = true;
+        }
+    proposal.change.place = p;
+    std::swap(of_p, proposal.judgement);
+    return moves;
+}
+
+/// Each coordinate in [-1, 1), from the number alone.
+Point3 scattered(std::uint32_t v) {
+    std::uint64_t h = v * 0x9E3779B97F4A7C15ULL;
+    const auto next = [&] {
+        h ^= h >> 31U;
+        h *= 0xBF58476D1CE4E5B9ULL;
+        h ^= h >> 29U;
+        return static_cast<double>(h >> 11U) * 0x1p-52 - 1;
+    };
+    const double x = next(), y = next(), z = next();
+    return {x, y, z};
+}
+
+/// Inner vertices: those in one patch, and the rest.
+std::array<std::vector<std::uint32_t>, 2> inner_vertices(const Workshop& shop) {
+    std::array<std::vector<std::uint32_t>, 2> lists;
+    for (std::uint32_t v = 0; v < shop.mesh.kinds.size(); ++v) {
+        const WorkMesh::Star& star = shop.mesh.star[v];
+        if (shop.mesh.kinds[v] == VertexKind::inner)
+            lists[shop.guard.in_one_patch({star.data(), star.size()}) ? 0 : 1].push_back(v);
+    }
+    return lists;
+}
+
+} // namespace
+
+void look_at(const WorkMesh& mesh, std::uint32_t v, Change& change) {
+    change.clear();
+    change.in_place = true;
+    change.placed = v;
+    change.removed.assign(mesh.star[v].begin(), mesh.star[v].end());
+    for (const std::uint32_t t : change.removed) change.add(mesh.triangles[t], t);
+}
+
+std::size_t smooth(Workshop& shop) {
+    ++shop.mesh.now;
+    shop.smoothed_at.resize(shop.mesh.kinds.size(), 0);
+    std::size_t count = 0;
+    for (const std::vector<std::uint32_t>& vertices : inner_vertices(shop))
+        count += in_windows(
+            shop, vertices,
+            [&](std::uint32_t v, Proposal& p) { return propose_smoothing(shop, v, p); },
+            [&](std::uint32_t v, const Proposal& p, bool is_made) {
+                // What changes in the window comes after it.
+                if (p.is_looked_at) shop.smoothed_at[v] = is_made ? 0 : shop.mesh.now;
+            });
+    shop.moves += count;
+    return count;
+}
+
+std::size_t shake(Workshop& shop) {
+    const WorkMesh& mesh = shop.mesh;
+    const auto propose = [&](std::uint32_t v, Proposal& proposal) {
+        if (!std::all_of(mesh.star[v].begin(), mesh.star[v].end(), [&](std::uint32_t t) {
+                return shape_of(mesh, mesh.triangles[t]) < square_shape;
+            }))
+            return false;
+        look_at(mesh, v, proposal.change);
+        const double size = shake_share * mesh.sizes[v];
+        const Point3& p = mesh.points[v];
+        const auto off = scattered(v);
+        return propose_move(shop, {p.x + size * off.x, p.y + size * off.y, p.z + size * off.z},
+                            {endless, 2}, proposal);
+    };
+    std::size_t count = 0;
+    for (const std::vector<std::uint32_t>& vertices : inner_vertices(shop))
+        count += in_windows(shop, vertices, propose, nothing_more);
+    shop.moves += count;
+    return count;
+}
+
+std::size_t lift_worst(Workshop& shop, double below) {
+    ++shop.mesh.now;
+    shop.lifted_at.resize(shop.mesh.kinds.size(), 0);
+    std::size_t count = 0;
+    for (const std::vector<std::uint32_t>& vertices : inner_vertices(shop))
+        count += in_windows(
+            shop, vertices,
+            [&](std::uint32_t v, Proposal& p) { return propose_lift(shop, v, below, p); },
+            [&](std::uint32_t v, const Proposal& p, bool is_made) {
+                if (p.is_looked_at) shop.lifted_at[v] = is_made ? 0 : shop.mesh.now;
+            });
+    shop.moves += count;
+    return count;
+}
+
+} // namespace terrane::improving

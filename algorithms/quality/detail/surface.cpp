@@ -1,0 +1,424 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Splitting, collapsing and swapping of edges within sheets.
+#include <terrane/algorithms/quality/detail/operations.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+
+#include <terrane/algorithms/mesh/edges.hpp>
+#include <terrane/algorithms/quality/detail/windows.hpp>
+
+namespace terrane::improving {
+namespace {
+
+constexpr double least_even_cosine = -0.35; ///< of angles that evening out may make
+
+/// 1, 2, ... for ratios from 1, each of four classes up to 2, and so on: edges of a class are taken
+/// in the order of their vertices, as what lies together costs less to get.
+double length_class(double ratio) {
+    return 1.0 + std::ilogb(ratio * ratio * (ratio * ratio));
+}
+
+/// What list(t, items) adds for each triangle in use, in their order.
+template <class Item, class List>
+std::vector<Item> from_triangles(const Workshop& shop, const List& list) {
+    const WorkMesh& mesh = shop.mesh;
+    const auto of_range = [&](std::size_t first, std::size_t last) {
+        std::vector<Item> items;
+        for (auto t = static_cast<std::uint32_t>(first); t < last; ++t)
+            if (mesh.in_use(t)) list(t, items);
+        return items;
+    };
+    return concatenated(
+        parts_of_ranges<std::vector<Item>>(mesh.triangles.size(), shop.run, of_range));
+}
+
+/// Inner edges with the lower vertex first, each once, from the triangles in their order.
+template <class Wanted>
+std::vector<std::pair<double, Edge>> inner_edges(const Workshop& shop, const Wanted& wanted) {
+    using Measured = std::pair<double, Edge>;
+    const WorkMesh& mesh = shop.mesh;
+    return from_triangles<Measured>(shop, [&](std::uint32_t t, std::vector<Measured>& edges) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::uint32_t a = mesh.triangles[t][i], b = mesh.triangles[t][(i + 1) % 3];
+            if (a > b) continue; // the neighbour has it the other way round
+            const double measure = wanted(a, b);
+            if (measure > 0 && mesh.curve_at(a, b) == none) edges.push_back({measure, {a, b}});
+        }
+    });
+}
+
+/// The edges of each class, the highest first.
+std::vector<std::vector<Edge>> by_class(const std::vector<std::pair<double, Edge>>& edges) {
+    std::map<double, std::vector<Edge>, std::greater<>> classes;
+    for (const auto& [measure, e] : edges) classes[measure].push_back(e);
+    std::vector<std::vector<Edge>> lists;
+    for (auto& [measure, list] : classes) lists.push_back(std::move(list));
+    return lists;
+}
+
+/// Why edges are swapped.
+enum class Aim : std::uint8_t { angles, evenness };
+
+/// By how much the square of what a vertex has too few or too many edges grows with one more, or
+/// with one less.
+int unevenness(const WorkMesh& mesh, std::uint32_t v, int change) {
+    if (mesh.kinds[v] != VertexKind::inner) return 0;
+    return 2 * change * (static_cast<int>(mesh.star[v].size()) - 6) + 1;
+}
+
+/// Whether a swap of the edge (a, b) of a triangle, across from c, can be worth it. In a plane, a
+/// swap makes the sums of the angles at both ends of the edge angles of new triangles: the largest
+/// angle gets smaller only where that is across from the edge and larger than both sums, so obtuse,
+/// as these four are 360 degrees in all. What evenness gains is the sum of what it is seen to gain
+/// from the two triangles: one of them has half or more.
+bool promises(const WorkMesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c, Aim aim) {
+    if (aim == Aim::evenness)
+        return unevenness(mesh, a, -1) + unevenness(mesh, b, -1) + 2 * unevenness(mesh, c, 1) < 0;
+    const Point3& p = mesh.points[c];
+    return dot(minus(mesh.points[a], p), minus(mesh.points[b], p)) < 0;
+}
+
+/// Inner edges as their triangles have them that promise something, where a triangle at them has
+/// changed at this time or later, and some more.
+std::vector<Edge> edges_to_swap(const Workshop& shop, std::uint32_t time, Aim aim) {
+    const WorkMesh& mesh = shop.mesh;
+    std::vector<char> is_near(mesh.points.size(), 0);
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+        if (mesh.in_use(t) && mesh.changed_at[t] >= time)
+            for (const std::uint32_t v : mesh.triangles[t]) is_near[v] = 1;
+    return from_triangles<Edge>(shop, [&](std::uint32_t t, std::vector<Edge>& edges) {
+        const Triangle& c = mesh.triangles[t];
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::uint32_t a = c[i], b = c[(i + 1) % 3];
+            if (is_near[a] != 0 && is_near[b] != 0 && promises(mesh, a, b, c[(i + 2) % 3], aim) &&
+                mesh.curve_at(a, b) == none)
+                edges.push_back({a, b});
+        }
+    });
+}
+
+/// Whether splitting the edge is allowed, unless one of its triangles has changed since then.
+bool propose_edge_split(Workshop& shop, const Edge& e, std::uint32_t since, Proposal& proposal) {
+    const WorkMesh& mesh = shop.mesh;
+    const auto [a, b] = e;
+    Change& change = proposal.change;
+    change.clear();
+    mesh.triangles_at(a, b, change.removed);
+    if (change.removed.size() != 2) return false;
+    if (mesh.changed_at[change.removed[0]] >= since || mesh.changed_at[change.removed[1]] >= since)
+        return false;
+    set_facing(mesh, change);
+    const Point3 &p = mesh.points[a], &q = mesh.points[b];
+    const Point3 middle{p.x + (q.x - p.x) / 2, p.y + (q.y - p.y) / 2, p.z + (q.z - p.z) / 2};
+    const std::uint32_t m = mesh.next_vertex();
+    change.placed = m;
+    change.kind = VertexKind::inner;
+    change.size = mesh.wanted_length(a, b);
+    for (const std::uint32_t t : change.removed) {
+        change.add(with(mesh.triangles[t], b, m), t);
+        change.add(with(mesh.triangles[t], a, m), t);
+    }
+    const auto above =
+        shop.reference.above(middle, change.facing[0].second, mesh.hint_of[change.removed[0]]);
+    if (above) {
+        change.place = above->point;
+        if (shop.guard.judge(change, proposal.judgement) == Verdict::allowed) return true;
+    }
+    change.place = middle;
+    return shop.guard.judge(change, proposal.judgement) == Verdict::allowed;
+}
+
+/// The largest angle of a triangle, as the least cosine.
+double least_cosine(const WorkMesh& mesh, const Triangle& t) {
+    double least = 1;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Point3 u = minus(mesh.points[t[(i + 1) % 3]], mesh.points[t[i]]);
+        const Point3 w = minus(mesh.points[t[(i + 2) % 3]], mesh.points[t[i]]);
+        const double size = std::sqrt(dot(u, u) * dot(w, w));
+        least = std::min(least, size > 0 ? dot(u, w) / size : -1);
+    }
+    return least;
+}
+
+/// The edge is one of edges_to_swap.
+bool propose_swap(Workshop& shop, const Edge& e, Aim aim, Proposal& proposal) {
+    const WorkMesh& mesh = shop.mesh;
+    const auto [a, b] = e;
+    Change& change = proposal.change;
+    change.clear();
+    mesh.triangles_at(a, b, change.removed);
+    if (change.removed.size() != 2) return false;
+    if (!runs_along(mesh.triangles[change.removed[0]], a, b))
+        std::swap(change.removed[0], change.removed[1]);
+    const std::uint32_t t = change.removed[0], u = change.removed[1];
+    const Triangle &first = mesh.triangles[t], &second = mesh.triangles[u];
+    const std::uint32_t c = opposite(first, a, b), d = opposite(second, a, b);
+    if (a > b && promises(mesh, b, a, d, aim)) return false; // it is in the list as (b, a), too
+    double least = least_even_cosine;
+    if (aim == Aim::evenness) {
+        if (unevenness(mesh, a, -1) + unevenness(mesh, b, -1) + unevenness(mesh, c, 1) +
+                unevenness(mesh, d, 1) >=
+            0)
+            return false;
+    } else {
+        least = 1e-6 + std::min(least_cosine(mesh, first), least_cosine(mesh, second));
+    }
+    const Triangle left{c, a, d}, right{d, b, c};
+    if (!(least_cosine(mesh, left) > least) || !(least_cosine(mesh, right) > least)) return false;
+    if (mesh.are_neighbours(c, d)) return false;
+    set_facing(mesh, change);
+    change.add(left, t);
+    change.add(right, u);
+    return shop.guard.judge(change, proposal.judgement) == Verdict::allowed;
+}
+
+std::size_t swap_those(Workshop& shop, std::uint32_t changed_since, Aim aim) {
+    const std::size_t count = in_windows(
+        shop, edges_to_swap(shop, changed_since, aim),
+        [&](const Edge& e, Proposal& p) { return propose_swap(shop, e, aim, p); }, nothing_more);
+    shop.swaps += count;
+    return count;
+}
+
+/// Whether the collapse keeps the mesh what it is but for its division.
+bool keeps_topology(const WorkMesh& mesh, std::uint32_t gone, std::uint32_t kept, Proposal& p) {
+    mesh.neighbours(gone, p.of_gone);
+    mesh.neighbours(kept, p.of_kept);
+    p.common.clear();
+    p.across.clear();
+    std::set_intersection(p.of_gone.begin(), p.of_gone.end(), p.of_kept.begin(), p.of_kept.end(),
+                          std::back_inserter(p.common));
+    for (const std::uint32_t t : p.at_edge)
+        p.across.push_back(opposite(mesh.triangles[t], gone, kept));
+    std::sort(p.across.begin(), p.across.end());
+    if (p.common != p.across) return false;
+    const auto is_across = [&](std::uint32_t v) {
+        return std::binary_search(p.across.begin(), p.across.end(), v);
+    };
+    for (const Triangle& t : p.change.added) {
+        unsigned count = 0;
+        for (const std::uint32_t v : t) count += is_across(v);
+        if (count == 2) return false; // it might be there already
+    }
+    return true;
+}
+
+/// On a curve: the neighbour on the other side, and whether the new edge follows the curve.
+bool curve_allows(const Workshop& shop, std::uint32_t gone, std::uint32_t kept,
+                  std::uint32_t& other) {
+    const WorkMesh& mesh = shop.mesh;
+    const std::uint32_t curve = mesh.curve_of[gone];
+    const auto [before, after] = mesh.along[gone];
+    if (before == after || (kept != before && kept != after)) return false;
+    other = kept == before ? after : before;
+    return chord_follows(shop, curve, mesh.place_at(shop.curves, curve, before, gone),
+                         mesh.place_at(shop.curves, curve, after, gone));
+}
+
+/// One of the two ends of a short edge into the other, unless nothing there has changed since then.
+bool propose_edge_collapse(Workshop& shop, const Edge& e, std::uint32_t since, Proposal& proposal) {
+    const WorkMesh& mesh = shop.mesh;
+    const auto [a, b] = e;
+    if (mesh.kinds[a] == VertexKind::unused || mesh.kinds[b] == VertexKind::unused) return false;
+    const double wanted = mesh.wanted_length(a, b);
+    if (!mesh.changed_since(a, since) && !mesh.changed_since(b, since)) return false;
+    if (!(mesh.edge_length(a, b) < short_share * wanted) || !mesh.are_neighbours(a, b) ||
+        mesh.curve_at(a, b) != none)
+        return false;
+    const auto into = [&](std::uint32_t gone, std::uint32_t kept) {
+        return mesh.kinds[gone] == VertexKind::inner &&
+               propose_collapse(shop, {gone, kept}, long_share * wanted, least_shape, proposal);
+    };
+    return into(a, b) || into(b, a);
+}
+
+/// One of the ends of the shortest edge into the other, or of that which is next.
+bool propose_collapse_at(Workshop& shop, const Triangle& c, Proposal& proposal) {
+    const WorkMesh& mesh = shop.mesh;
+    std::array<std::pair<double, std::size_t>, 3> by_length;
+    for (std::size_t i = 0; i < 3; ++i) by_length[i] = {mesh.edge_length(c[i], c[(i + 1) % 3]), i};
+    std::sort(by_length.begin(), by_length.end());
+    for (std::size_t k = 0; k < 2; ++k) { // the longest would make a long one
+        const std::uint32_t a = c[by_length[k].second], b = c[(by_length[k].second + 1) % 3];
+        const double longest = 2 * mesh.wanted_length(a, b);
+        const bool on_curve = mesh.curve_at(a, b) != none;
+        const auto into = [&](std::uint32_t gone, std::uint32_t kept) {
+            const bool fits = mesh.kinds[gone] == VertexKind::inner ||
+                              (on_curve && mesh.kinds[gone] == VertexKind::curve);
+            return fits && propose_collapse(shop, {gone, kept}, longest, 1.0, proposal);
+        };
+        if (into(a, b) || into(b, a)) return true;
+    }
+    return false;
+}
+
+} // namespace
+
+bool propose_collapse(Workshop& shop, const Edge& gone_kept, double longest, double least,
+                      Proposal& proposal) {
+    const WorkMesh& mesh = shop.mesh;
+    const auto [gone, kept] = gone_kept;
+    if (mesh.kinds[gone] == VertexKind::corner) return false;
+    const bool on_curve = mesh.kinds[gone] == VertexKind::curve;
+    proposal.gone = gone;
+    proposal.kept = kept;
+    if (on_curve && !curve_allows(shop, gone, kept, proposal.other)) return false;
+    Change& change = proposal.change;
+    change.clear();
+    change.on_border = on_curve;
+    change.removed.assign(mesh.star[gone].begin(), mesh.star[gone].end());
+    proposal.at_edge.clear();
+    double longest_added = 0;
+    for (const std::uint32_t t : change.removed) {
+        const Triangle& corners = mesh.triangles[t];
+        if (has(corners, kept)) {
+            // All that a sheet has between the two edges of the curve must not vanish.
+            if (on_curve && opposite(corners, gone, kept) == proposal.other) return false;
+            proposal.at_edge.push_back(t);
+            continue;
+        }
+        change.add(with(corners, gone, kept), t);
+        for (const std::uint32_t v : corners) {
+            if (v == gone) continue;
+            longest = std::max(longest, mesh.edge_length(v, gone)); // no longer than it was
+            longest_added = std::max(longest_added, mesh.edge_length(v, kept));
+        }
+    }
+    if (change.added.empty() || longest_added > longest) return false;
+    double worst = 1;
+    for (const Triangle& t : change.added) worst = std::min(worst, shape_of(mesh, t));
+    if (!(worst > least)) {
+        double worst_before = 1;
+        for (const std::uint32_t t : change.removed)
+            worst_before = std::min(worst_before, shape_of(mesh, mesh.triangles[t]));
+        if (!(worst > worst_before)) return false;
+    }
+    if (!keeps_topology(mesh, gone, kept, proposal)) return false;
+    set_facing(mesh, change);
+    return shop.guard.judge(change, proposal.judgement) == Verdict::allowed;
+}
+
+void after_collapse(WorkMesh& mesh, const Proposal& proposal) {
+    const auto gone = proposal.gone, kept = proposal.kept;
+    mesh.kinds[gone] = VertexKind::unused;
+    if (!proposal.change.on_border) return;
+    const std::uint32_t curve = mesh.curve_of[gone], other = proposal.other;
+    const auto [before, after] = mesh.along[gone];
+    const bool inner_before = mesh.kinds[before] == VertexKind::curve;
+    const bool inner_after = mesh.kinds[after] == VertexKind::curve;
+    if (inner_before) mesh.along[before][1] = after;
+    if (inner_after) mesh.along[after][0] = before;
+    if (!inner_before && !inner_after) mesh.set_direct(kept, other, curve);
+}
+
+double shape_of(const Point3& a, const Point3& b, const Point3& c) {
+    const Point3 u = minus(b, a), v = minus(c, b), w = minus(a, c);
+    const Point3 n = cross(u, v);
+    const double lu = std::sqrt(dot(u, u)), lv = std::sqrt(dot(v, v)), lw = std::sqrt(dot(w, w));
+    const double size = lu * lv * lw * (lu + lv + lw);
+    return size > 0 ? 4 * dot(n, n) / size : 0;
+}
+
+void set_facing(const WorkMesh& mesh, Change& change) {
+    for (const std::uint32_t t : change.removed) {
+        const std::uint32_t sheet = mesh.sheet_of[t];
+        auto at = std::find_if(change.facing.begin(), change.facing.end(),
+                               [&](const auto& f) { return f.first == sheet; });
+        if (at == change.facing.end())
+            at = change.facing.insert(change.facing.end(), {sheet, Point3{}});
+        const Point3 n = mesh.normal(mesh.triangles[t]);
+        at->second = {at->second.x + n.x, at->second.y + n.y, at->second.z + n.z};
+    }
+}
+
+std::size_t split_edges(Workshop& shop) {
+    const WorkMesh& mesh = shop.mesh;
+    std::size_t count = 0;
+    for (unsigned round = 0; round < 32 && !shop.run.stop.stop_requested(); ++round) {
+        const auto classes = by_class(inner_edges(shop, [&](std::uint32_t a, std::uint32_t b) {
+            const double ratio = mesh.edge_length(a, b) / mesh.wanted_length(a, b);
+            return ratio > long_share ? length_class(ratio) : 0;
+        }));
+        std::size_t more = 0;
+        const std::uint32_t since = ++shop.mesh.now;
+        for (const std::vector<Edge>& edges : classes)
+            more += in_windows(
+                shop, edges,
+                [&](const Edge& e, Proposal& p) { return propose_edge_split(shop, e, since, p); },
+                nothing_more);
+        if (more == 0) break;
+        shop.splits += more;
+        count += more;
+        // Halves of slivers are slivers: swapped and collapsed, they are not halved again and
+        // again.
+        if (20 * more < mesh.triangles.size()) continue;
+        swap_edges(shop);
+        collapse_edges(shop);
+    }
+    return count;
+}
+
+std::size_t collapse_edges(Workshop& shop) {
+    const WorkMesh& mesh = shop.mesh;
+    std::size_t count = 0;
+    const auto classes = by_class(inner_edges(shop, [&](std::uint32_t a, std::uint32_t b) {
+        const double ratio = mesh.edge_length(a, b) / mesh.wanted_length(a, b);
+        return ratio < short_share ? length_class(1 / std::max(ratio, 1e-70)) : 0;
+    }));
+    const std::uint32_t since = shop.collapsed_at; // what was tried then in vain is no better now
+    shop.collapsed_at = ++shop.mesh.now;
+    for (const std::vector<Edge>& edges : classes)
+        count += in_windows(
+            shop, edges,
+            [&](const Edge& e, Proposal& p) { return propose_edge_collapse(shop, e, since, p); },
+            [&](const Edge&, const Proposal& p, bool is_made) {
+                if (is_made) after_collapse(shop.mesh, p);
+            });
+    shop.collapses += count;
+    return count;
+}
+
+std::size_t collapse_bad(Workshop& shop, double below) {
+    using Triangles = std::vector<std::uint32_t>;
+    const WorkMesh& mesh = shop.mesh;
+    const auto is_bad = [&](std::uint32_t t) {
+        return mesh.in_use(t) && shape_of(mesh, mesh.triangles[t]) < below;
+    };
+    const auto bad = from_triangles<std::uint32_t>(shop, [&](std::uint32_t t, Triangles& list) {
+        if (is_bad(t)) list.push_back(t);
+    });
+    const std::size_t count = in_windows(
+        shop, bad,
+        [&](std::uint32_t t, Proposal& p) {
+            return is_bad(t) && propose_collapse_at(shop, mesh.triangles[t], p);
+        },
+        [&](std::uint32_t, const Proposal& p, bool is_made) {
+            if (is_made) after_collapse(shop.mesh, p);
+        });
+    shop.collapses += count;
+    return count;
+}
+
+std::size_t even_out(Workshop& shop) {
+    const std::size_t count = swap_those(shop, shop.evened_at, Aim::evenness);
+    shop.evened_at = ++shop.mesh.now;
+    return count;
+}
+
+std::size_t swap_edges(Workshop& shop) {
+    std::size_t count = 0;
+    for (unsigned round = 0; round < 6 && !shop.run.stop.stop_requested(); ++round) {
+        const std::uint32_t since = shop.swapped_at;
+        shop.swapped_at = ++shop.mesh.now;
+        const std::size_t more = swap_those(shop, since, Aim::angles);
+        count += more;
+        if (100 * more < shop.mesh.triangles.size()) break;
+    }
+    return count;
+}
+
+} // namespace terrane::improving

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/quality/deviation.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <queue>
+#include <vector>
+
+#include <terrane/algorithms/core/parallel.hpp>
+#include <terrane/algorithms/mesh/triangle_tree.hpp>
+
+namespace terrane {
+namespace {
+
+constexpr double endless = std::numeric_limits<double>::infinity();
+using Corners = std::array<Point3, 3>;
+
+Point3 weighted(const Corners& t, double a, double b, double c) {
+    return {a * t[0].x + b * t[1].x + c * t[2].x, a * t[0].y + b * t[1].y + c * t[2].y,
+            a * t[0].z + b * t[1].z + c * t[2].z};
+}
+
+double apart(const Point3& a, const Point3& b) {
+    return std::hypot(b.x - a.x, b.y - a.y, b.z - a.z);
+}
+
+Corners corners_of(const Surface& s, const Triangle& t) {
+    return {s.vertices[t[0]], s.vertices[t[1]], s.vertices[t[2]]};
+}
+
+/// A part of a triangle; no point of it is farther than `most`.
+struct Part {
+    double most = 0;
+    Corners corners;
+
+    friend bool operator<(const Part& a, const Part& b) { return a.most < b.most; }
+};
+
+/// The distance is 1-Lipschitz: from the middle, no point is farther than its reach.
+Part part_of(const TriangleTree& tree, const Corners& c, double& least) {
+    const Point3 middle = weighted(c, 1.0 / 3, 1.0 / 3, 1.0 / 3);
+    const double reach = std::max({apart(middle, c[0]), apart(middle, c[1]), apart(middle, c[2])});
+    const double there = tree.distance(middle, endless);
+    least = std::max(least, there);
+    return {there + reach, c};
+}
+
+} // namespace
+
+double sampled_distance(const Surface& from, const Surface& to, const Run& run) {
+    if (to.triangles.empty()) return from.triangles.empty() ? 0 : endless;
+    const TriangleTree tree(to.vertices, to.triangles);
+    constexpr std::array<std::array<double, 3>, 13> weights{{{1, 0, 0},
+                                                             {0, 1, 0},
+                                                             {0, 0, 1},
+                                                             {0.5, 0.5, 0},
+                                                             {0, 0.5, 0.5},
+                                                             {0.5, 0, 0.5},
+                                                             {1.0 / 3, 1.0 / 3, 1.0 / 3},
+                                                             {0.6, 0.2, 0.2},
+                                                             {0.2, 0.6, 0.2},
+                                                             {0.2, 0.2, 0.6},
+                                                             {0.1, 0.45, 0.45},
+                                                             {0.45, 0.1, 0.45},
+                                                             {0.45, 0.45, 0.1}}};
+    const auto parts = parts_of_ranges<double>(
+        from.triangles.size(), run, [&](std::size_t first, std::size_t last) {
+            double largest = 0;
+            for (std::size_t t = first; t < last; ++t)
+                for (const auto& w : weights) {
+                    const Point3 p =
+                        weighted(corners_of(from, from.triangles[t]), w[0], w[1], w[2]);
+                    largest = std::max(largest, tree.distance(p, endless));
+                }
+            return largest;
+        });
+    return parts.empty() ? 0 : *std::max_element(parts.begin(), parts.end());
+}
+
+double distance_bound(const Surface& from, const Surface& to, double tolerance, const Run& run) {
+    if (to.triangles.empty()) return from.triangles.empty() ? 0 : endless;
+    const TriangleTree tree(to.vertices, to.triangles);
+    std::priority_queue<Part> front;
+    double least = 0;
+    for (const Triangle& t : from.triangles) front.push(part_of(tree, corners_of(from, t), least));
+    while (!front.empty() && front.top().most > least + tolerance && !run.stop.stop_requested()) {
+        const Corners c = front.top().corners;
+        front.pop();
+        const Corners m{weighted(c, 0.5, 0.5, 0), weighted(c, 0, 0.5, 0.5),
+                        weighted(c, 0.5, 0, 0.5)};
+        for (const Corners& quarter :
+             {Corners{c[0], m[0], m[2]}, Corners{m[0], c[1], m[1]}, Corners{m[2], m[1], c[2]}, m}) {
+            const Part part = part_of(tree, quarter, least);
+            if (part.most > least + tolerance) front.push(part);
+        }
+    }
+    // What was dropped on the way was no farther than that.
+    return std::max(least + tolerance, front.empty() ? 0 : front.top().most);
+}
+
+Surface surface_of_mesh(const Mesh& mesh, std::uint32_t surface) {
+    Surface out;
+    out.name = mesh.surfaces[surface].name;
+    out.role = mesh.surfaces[surface].role;
+    std::vector<std::uint32_t> name_of(mesh.vertices.size(), UINT32_MAX);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const auto list = mesh.surfaces_of[t];
+        if (!std::binary_search(list.begin(), list.end(), surface)) continue;
+        Triangle corners = mesh.triangles[t];
+        for (std::uint32_t& v : corners) {
+            if (name_of[v] == UINT32_MAX) {
+                name_of[v] = static_cast<std::uint32_t>(out.vertices.size());
+                out.vertices.push_back(mesh.vertices[v]);
+            }
+            v = name_of[v];
+        }
+        out.triangles.push_back(corners);
+    }
+    return out;
+}
+
+std::vector<Deviation> deviations_of(const Mesh& before, const Mesh& after, const Run& run) {
+    std::vector<Deviation> all;
+    for (std::uint32_t s = 0; s < before.surfaces.size(); ++s) {
+        if (run.stop.stop_requested()) break;
+        const Surface old = surface_of_mesh(before, s), now = surface_of_mesh(after, s);
+        all.push_back({sampled_distance(now, old, run), sampled_distance(old, now, run)});
+    }
+    return all;
+}
+
+} // namespace terrane

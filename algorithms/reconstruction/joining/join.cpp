@@ -1,0 +1,428 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/reconstruction/joining/join.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <new>
+#include <numeric>
+#include <optional>
+#include <string>
+
+#include <terrane/algorithms/arrangement/soup.hpp>
+#include <terrane/algorithms/check/check.hpp>
+#include <terrane/algorithms/core/disjoint_sets.hpp>
+#include <terrane/algorithms/core/parallel.hpp>
+#include <terrane/algorithms/intersection/intersection.hpp>
+#include <terrane/algorithms/mesh/triangle_tree.hpp>
+#include <terrane/algorithms/mesh/vectors.hpp>
+#include <terrane/algorithms/reconstruction/joining/detail/curve.hpp>
+#include <terrane/algorithms/reconstruction/joining/disk_mesh.hpp>
+#include <terrane/kernel/point_store.hpp>
+
+namespace terrane {
+namespace {
+
+std::string text_of(const Point3& p) {
+    return "(" + std::to_string(p.x) + ", " + std::to_string(p.y) + ", " + std::to_string(p.z) +
+           ")";
+}
+
+/// The lowest vertex with the same coordinates, for vertices with those of the loop; else itself.
+class LoopNames {
+public:
+    LoopNames(const Surface& surface, std::span<const std::uint32_t> loop) : surface_(surface) {
+        for (std::uint32_t i = 0; i < loop.size(); ++i)
+            at_.emplace_back(surface.vertices[loop[i]], i);
+        std::sort(at_.begin(), at_.end());
+    }
+    /// Where in the loop the vertex is.
+    [[nodiscard]] std::optional<std::uint32_t> operator()(std::uint32_t vertex) const {
+        const Point3& p = surface_.vertices[vertex];
+        const auto found = std::lower_bound(at_.begin(), at_.end(), std::pair(p, 0U));
+        if (found == at_.end() || found->first != p) return std::nullopt;
+        return found->second;
+    }
+
+private:
+    const Surface& surface_;
+    std::vector<std::pair<Point3, std::uint32_t>> at_;
+};
+
+/// The border as points and normals, and the surface's own edges between its points.
+struct Border {
+    BorderLine line;
+    std::vector<Edge> chords; ///< edges of the surface between places in the loop that do not
+                              ///< follow one another, the lower first; sorted
+    double median_edge = 0;
+};
+
+Point3 unit(const Point3& a) {
+    const double size = length(a);
+    return size > 0 ? Point3{a.x / size, a.y / size, a.z / size} : Point3{};
+}
+
+/// Per border edge the normal of the triangle beside it, turned so that the surface is on the left;
+/// the chords on the way.
+Result<std::vector<Point3>> edge_normals(const Surface& surface, const LoopNames& names,
+                                         std::size_t n, std::vector<Edge>& chords) {
+    std::vector<Point3> normals(n);
+    for (const Triangle& t : surface.triangles)
+        for (unsigned k = 0; k < 3; ++k) {
+            const auto from = names(t[k]), to = names(t[(k + 1) % 3]);
+            if (!from || !to) continue;
+            const bool along = *to == (*from + 1) % n, against = *from == (*to + 1) % n;
+            if (!along && !against) {
+                chords.push_back({std::min(*from, *to), std::max(*from, *to)});
+                continue;
+            }
+            const Point3 &a = surface.vertices[t[k]], &b = surface.vertices[t[(k + 1) % 3]],
+                         &c = surface.vertices[t[(k + 2) % 3]];
+            const Point3 normal = unit(cross(minus(b, a), minus(c, a)));
+            normals[along ? *from : *to] = along ? normal : Point3{-normal.x, -normal.y, -normal.z};
+        }
+    sort_unique(chords);
+    for (std::size_t i = 0; i < n; ++i)
+        if (normals[i] == Point3{})
+            return Error{ErrorCode::bad_option, "the loop has an edge that is none of the surface",
+                         "edge " + std::to_string(i) + " of the loop"};
+    return normals;
+}
+
+Result<Border> border_of(const Surface& surface, const BorderLoop& loop) {
+    const std::size_t n = loop.vertices.size();
+    if (n < 3) return Error{ErrorCode::bad_option, "a loop needs three vertices", ""};
+    for (const std::uint32_t v : loop.vertices)
+        if (v >= surface.vertices.size())
+            return Error{ErrorCode::bad_index, "the loop names no vertex", std::to_string(v)};
+    Border border;
+    const LoopNames names(surface, loop.vertices);
+    const auto normals = edge_normals(surface, names, n, border.chords);
+    if (!normals) return normals.error();
+    std::vector<double> lengths;
+    for (std::size_t i = 0; i < n; ++i) {
+        const Point3 &a = normals.value()[(i + n - 1) % n], &b = normals.value()[i];
+        const Point3 normal = unit({a.x + b.x, a.y + b.y, a.z + b.z});
+        const Point3& p = surface.vertices[loop.vertices[i]];
+        if (normal == Point3{})
+            return Error{ErrorCode::not_closed, "the surface is folded back at its border",
+                         "vertex " + std::to_string(loop.vertices[i]) + " " + text_of(p)};
+        border.line.points.push_back(p);
+        border.line.normals.push_back(normal);
+        border.line.vertices.push_back(loop.vertices[i]);
+        lengths.push_back(length(minus(surface.vertices[loop.vertices[(i + 1) % n]], p)));
+    }
+    std::nth_element(lengths.begin(), lengths.begin() + static_cast<std::ptrdiff_t>(n / 2),
+                     lengths.end());
+    border.median_edge = lengths[n / 2];
+    return border;
+}
+
+/// The borders that an inner part ends at, one after the other.
+struct BorderPoints {
+    std::vector<Point3> points;
+    std::vector<std::uint32_t> vertices; ///< per point: of the surface
+    std::vector<std::uint32_t> next;     ///< per point: the next in its loop
+    std::vector<std::uint32_t> before;   ///< per point: the one before
+    std::vector<Edge> chords;            ///< see Border; places here
+};
+
+BorderPoints border_points(std::span<const Border> borders, const InnerPart& part) {
+    BorderPoints all;
+    for (const std::uint32_t b : part.borders) {
+        const BorderLine& line = borders[b].line;
+        const auto first = static_cast<std::uint32_t>(all.points.size()),
+                   n = static_cast<std::uint32_t>(line.points.size());
+        for (std::uint32_t i = 0; i < n; ++i) {
+            all.points.push_back(line.points[i]);
+            all.vertices.push_back(line.vertices[i]);
+            all.next.push_back(first + (i + 1) % n);
+            all.before.push_back(first + (i + n - 1) % n);
+        }
+        for (const Edge& e : borders[b].chords) all.chords.push_back({first + e[0], first + e[1]});
+    }
+    return all;
+}
+
+/// Step (5): the rows between the border and what stays of the filling.
+class Rows {
+public:
+    Rows(const BorderPoints& border, const InnerPart& part, double clearance) :
+        border_(border), part_(part), clearance_(clearance),
+        mesh_(part.points, part.triangles, taken_edges()), movable_(part.points.size(), false) {
+        for (std::size_t v = 0; v < part.filling.size(); ++v) movable_[v] = true;
+    }
+
+    Result<DiskMesh> operator()(JoinReport& report) {
+        for (std::size_t i = 0; i < part_.corners.size(); ++i)
+            mesh_.move(part_.corners[i], border_.points[i]);
+        if (const auto done = straighten(); !done) return done.error();
+        report.given_way = make_room();
+        mesh_.improve(near_border());
+        return mesh_;
+    }
+
+private:
+    [[nodiscard]] std::vector<Edge> taken_edges() const {
+        std::vector<Edge> taken;
+        for (const Edge& e : border_.chords) {
+            const std::uint32_t a = part_.corners[e[0]], b = part_.corners[e[1]];
+            taken.push_back({std::min(a, b), std::max(a, b)});
+        }
+        std::sort(taken.begin(), taken.end());
+        return taken;
+    }
+
+    /// Takes out what the line has between the border's vertices. Where one can't go, others before
+    /// it may make it possible; at last vertices of the filling beside it give way.
+    Status straighten() {
+        std::vector<std::uint32_t> left = part_.between;
+        while (!left.empty()) {
+            const std::size_t before = left.size();
+            std::erase_if(left, [&](std::uint32_t v) { return mesh_.remove(v); });
+            if (left.size() < before) continue;
+            bool changed = false;
+            for (const std::uint32_t v : left)
+                for (const std::uint32_t w : mesh_.neighbours(v))
+                    changed = (movable_[w] && mesh_.is_alive(w) && mesh_.remove(w)) || changed;
+            if (!changed)
+                return Error{ErrorCode::improper_contact,
+                             "the filling can't be brought to the border without folding",
+                             text_of(part_.points[left[0]])};
+        }
+        return Done{};
+    }
+
+    [[nodiscard]] double median_filling_edge() const {
+        std::vector<double> lengths;
+        for (const Triangle& t : part_.triangles)
+            for (unsigned k = 0; k < 3; ++k)
+                if (movable_[t[k]] && movable_[t[(k + 1) % 3]])
+                    lengths.push_back(
+                        length(minus(part_.points[t[k]], part_.points[t[(k + 1) % 3]])));
+        if (lengths.empty()) return std::numeric_limits<double>::infinity();
+        const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+        std::nth_element(lengths.begin(), middle, lengths.end());
+        return *middle;
+    }
+
+    /// Distance to border edge i as a share of what must be kept.
+    [[nodiscard]] bool too_near(const Point3& p, std::size_t i, double filling_edge) const {
+        const Point3 &a = border_.points[i], &b = border_.points[border_.next[i]];
+        const double room = clearance_ * std::min(length(minus(b, a)), filling_edge);
+        return distance_to_triangle(p, a, b, b) < room;
+    }
+
+    /// Vertices of the filling too near to the border give way. Only neighbours of the border can
+    /// be: where one goes, those behind it become its neighbours.
+    std::size_t make_room() {
+        const double filling_edge = median_filling_edge();
+        const std::size_t n = part_.corners.size();
+        std::size_t gone = 0;
+        for (bool changed = true; changed;) {
+            changed = false;
+            for (std::size_t i = 0; i < n; ++i)
+                for (const std::uint32_t w : mesh_.neighbours(part_.corners[i])) {
+                    if (!movable_[w] || !mesh_.is_alive(w)) continue;
+                    const Point3& p = mesh_.points()[w];
+                    if (!too_near(p, i, filling_edge) &&
+                        !too_near(p, border_.before[i], filling_edge))
+                        continue;
+                    if (!mesh_.remove(w)) continue;
+                    changed = true;
+                    ++gone;
+                }
+        }
+        return gone;
+    }
+
+    [[nodiscard]] std::vector<std::uint32_t> near_border() const {
+        std::vector<std::uint32_t> vertices;
+        for (const std::uint32_t c : part_.corners)
+            for (const std::uint32_t w : mesh_.neighbours(c)) vertices.push_back(w);
+        vertices.insert(vertices.end(), part_.corners.begin(), part_.corners.end());
+        sort_unique(vertices);
+        return vertices;
+    }
+
+    const BorderPoints& border_;
+    const InnerPart& part_;
+    double clearance_;
+    DiskMesh mesh_;
+    std::vector<bool> movable_; ///< per point: it is the filling's own
+};
+
+/// The surface with the new triangles after its own.
+Joined append(const Surface& surface, const BorderPoints& border, const InnerPart& part,
+              const DiskMesh& mesh) {
+    Joined joined;
+    joined.surface = surface;
+    std::vector<std::uint32_t> name(part.points.size(), UINT32_MAX);
+    for (std::size_t i = 0; i < part.corners.size(); ++i)
+        name[part.corners[i]] = border.vertices[i];
+    for (std::uint32_t v = 0; v < part.filling.size(); ++v) {
+        if (!mesh.is_alive(v)) continue;
+        name[v] = static_cast<std::uint32_t>(joined.surface.vertices.size());
+        joined.surface.vertices.push_back(part.points[v]);
+        joined.filling_vertices.push_back(part.filling[v]);
+    }
+    for (const Triangle& t : mesh.triangles()) {
+        const auto& p = mesh.points();
+        joined.surface.triangles.push_back({name[t[0]], name[t[1]], name[t[2]]});
+        joined.report.area += length(cross(minus(p[t[1]], p[t[0]]), minus(p[t[2]], p[t[0]]))) / 2;
+    }
+    joined.report.new_vertices = joined.filling_vertices.size();
+    joined.report.new_triangles = joined.surface.triangles.size() - surface.triangles.size();
+    return joined;
+}
+
+/// By exact predicates: no new triangle is degenerate, repeats one, or meets another improperly.
+Status check_new(const Surface& surface, std::size_t old_triangles, const Run& run) {
+    const Soup soup = merge_surfaces(std::span(&surface, 1), run);
+    const auto place = [&](std::uint32_t t) {
+        return text_of(surface.vertices[surface.triangles[t][0]]);
+    };
+    for (const std::uint32_t t : soup.degenerate)
+        if (t >= old_triangles)
+            return Error{ErrorCode::improper_contact, "a new triangle has no area", place(t)};
+    for (const auto& d : soup.duplicates)
+        if (d[0] >= old_triangles)
+            return Error{ErrorCode::improper_contact, "a new triangle repeats another",
+                         place(d[0])};
+    std::vector<std::uint32_t> active;
+    for (std::uint32_t t = 0; t < soup.triangles.size(); ++t)
+        if (soup.input_of[t] >= old_triangles) active.push_back(t);
+    const auto pairs = candidate_pairs_of({soup.points, soup.triangles}, active, {}, {}, run);
+    using Found = std::vector<Point3>;
+    const auto blocks =
+        for_blocks<Found>(pairs.size(), 16384, run, [&](std::size_t a, std::size_t b) {
+            Found found;
+            for (std::size_t i = a; i < b && found.empty(); ++i) {
+                const auto contact = improper_contact(soup.points, soup.triangles[pairs[i].first],
+                                                      soup.triangles[pairs[i].second]);
+                if (contact)
+                    found.push_back(
+                        nearest(soup.points, contact->points[contact->point_count - 1U].how));
+            }
+            return found;
+        });
+    if (run.stop.stop_requested()) return Error{ErrorCode::interrupted, "stopped on request", ""};
+    for (const Found& found : blocks)
+        if (!found.empty())
+            return Error{ErrorCode::improper_contact, "a new triangle meets another one improperly",
+                         text_of(found[0])};
+    return Done{};
+}
+
+/// All steps, with one width of the strip. borders: of the hole, then of what may be islands.
+Result<Joined> join_with(const Surface& surface, std::span<const Border> borders,
+                         const Surface& filling, double strip, const JoinOptions& options,
+                         const Run& run) {
+    std::vector<BorderLine> lines;
+    for (const Border& b : borders) lines.push_back(b.line);
+    const auto part = cut_inner_part(lines, filling, strip, options.search, run);
+    if (!part) return part.error();
+    const BorderPoints border = border_points(borders, part.value());
+    JoinReport report;
+    const auto mesh = Rows(border, part.value(), options.clearance)(report);
+    if (!mesh) return mesh.error();
+    Joined joined = append(surface, border, part.value(), mesh.value());
+    joined.report.strip = strip;
+    joined.report.given_way = report.given_way;
+    joined.report.islands = part.value().borders.size() - 1;
+    joined.report.curve_vertices = part.value().corners.size() + part.value().between.size();
+    joined.report.inside_triangles = part.value().triangles.size();
+    for (std::size_t i = 0; i < border.points.size(); ++i)
+        joined.report.largest_step =
+            std::max(joined.report.largest_step,
+                     length(minus(part.value().points[part.value().corners[i]], border.points[i])));
+    if (const auto good = check_new(joined.surface, surface.triangles.size(), run); !good)
+        return good.error();
+    return joined;
+}
+
+/// The widths of the strip to try: the curve is one line only where the strip is wide enough to
+/// reach the filling and too narrow to reach anything else.
+std::vector<double> widths(const Border& border, const JoinOptions& options) {
+    if (options.strip > 0) return {options.strip};
+    const double half = border.median_edge / 2;
+    return {half, half / 8, 2 * half, 1.4 * half, 4 * half};
+}
+
+/// Outer borders of other parts whose boxes overlap the loop's, made wider by its longest side: an
+/// island need not be as flat as the border. What the filling does not pass through is no island.
+std::vector<BorderLoop> islands_near(const Surface& surface, const BorderLoop& loop,
+                                     std::span<const BorderLoop> loops) {
+    const auto box = [&](const BorderLoop& l) {
+        Box b{{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
+        for (const std::uint32_t v : l.vertices) {
+            const Point3& p = surface.vertices[v];
+            const std::array<double, 3> x{p.x, p.y, p.z};
+            for (std::size_t k = 0; k < 3; ++k) {
+                b.low[k] = std::min(b.low[k], x[k]);
+                b.high[k] = std::max(b.high[k], x[k]);
+            }
+        }
+        return b;
+    };
+    Box around = box(loop);
+    double longest = 0;
+    for (std::size_t k = 0; k < 3; ++k) longest = std::max(longest, around.high[k] - around.low[k]);
+    for (std::size_t k = 0; k < 3; ++k) {
+        around.low[k] -= longest;
+        around.high[k] += longest;
+    }
+    std::vector<BorderLoop> islands;
+    for (const BorderLoop& l : loops) {
+        const bool valid = std::all_of(l.vertices.begin(), l.vertices.end(), [&](std::uint32_t v) {
+            return v < surface.vertices.size();
+        });
+        if (valid && l.kind == LoopKind::outer && l.part != loop.part && around.overlaps(box(l)))
+            islands.push_back(l);
+    }
+    return islands;
+}
+
+Result<Joined> join_valid(const Surface& surface, const BorderLoop& loop, const Surface& filling,
+                          const JoinOptions& options, const Run& run) {
+    const auto border = border_of(surface, loop);
+    if (!border) return border.error();
+    std::vector<Border> borders{border.value()};
+    for (const BorderLoop& other : islands_near(surface, loop, options.loops)) {
+        auto island = border_of(surface, other);
+        if (!island) return island.error();
+        borders.push_back(std::move(island).value());
+    }
+    std::optional<Error> first;
+    const auto tries = widths(border.value(), options);
+    for (std::size_t i = 0; i < tries.size(); ++i) {
+        if (run.progress)
+            run.progress("join", static_cast<double>(i) / static_cast<double>(tries.size()));
+        auto joined = join_with(surface, borders, filling, tries[i], options, run);
+        if (joined) return joined;
+        const ErrorCode code = joined.error().code;
+        if (code != ErrorCode::not_closed && code != ErrorCode::improper_contact)
+            return joined.error();
+        if (!first) first = joined.error();
+    }
+    return *first;
+}
+
+} // namespace
+
+Result<Joined> join_filling(const Surface& surface, const BorderLoop& loop, const Surface& filling,
+                            const JoinOptions& options, const Run& run) {
+    const std::array<Surface, 2> both{surface, filling};
+    if (const auto valid = validate(both); !valid) return valid.error();
+    if (!(options.strip >= 0) || !std::isfinite(options.strip))
+        return Error{ErrorCode::bad_option, "the width of the strip is no length", ""};
+    if (!(options.clearance >= 0 && options.clearance < 1))
+        return Error{ErrorCode::bad_option, "clearance is a share, from 0 to less than 1", ""};
+    try {
+        return join_valid(surface, loop, filling, options, run);
+    } catch (const std::bad_alloc&) {
+        return Error{ErrorCode::out_of_memory, "not enough memory", ""};
+    }
+}
+
+} // namespace terrane

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/reconstruction/kriging/detail/choice.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+namespace terrane::detail {
+namespace {
+
+constexpr std::size_t most_validated = 150;
+constexpr std::size_t patches = 5;
+// Shares of what the best one so far misses, that may be left by one which can go astray far from
+// data: without a nugget, with a steeper trend, and smooth without end.
+constexpr double worth_no_nugget = 0.8;
+constexpr double worth_degree_2 = 0.8;
+constexpr double worth_gaussian = 0.5;
+constexpr double worth_noisy_gaussian = 0.9; ///< the same, where most of what is missed is noise
+constexpr double mostly_noise = 0.3;         ///< share of the mean square
+constexpr std::size_t least_data = 20;       ///< with fewer nothing is chosen by what is missed
+constexpr std::array all_models{VariogramModel::spherical, VariogramModel::exponential,
+                                VariogramModel::power, VariogramModel::gaussian};
+
+/// At most so many, evenly.
+std::vector<Point3> thinned(std::span<const Point3> data) {
+    const auto count = std::min(data.size(), most_validated);
+    std::vector<Point3> result;
+    for (std::size_t k = 0; k < count; ++k) result.push_back(data[k * data.size() / count]);
+    return result;
+}
+
+/// Data, and for each of some patches the data nearest to its middle first.
+class Patches {
+public:
+    explicit Patches(std::span<const Point3> all) : data_(thinned(all)) {
+        for (std::size_t b = 0; b < patches; ++b) {
+            const Point3 middle = data_[(2 * b + 1) * data_.size() / (2 * patches)];
+            const auto off = [&](const Point3& p) {
+                return std::hypot(p.x - middle.x, p.y - middle.y);
+            };
+            auto& order = sorted_.emplace_back(data_);
+            std::stable_sort(order.begin(), order.end(),
+                             [&](const Point3& p, const Point3& q) { return off(p) < off(q); });
+        }
+    }
+
+    [[nodiscard]] BlockValidation validate(const Variogram& variogram, unsigned degree) const {
+        BlockValidation result;
+        const auto left_out = std::max<std::size_t>(data_.size() / 10, 1);
+        double errors = 0, expected = 0;
+        for (const auto& order : sorted_) {
+            const std::span<const Point3> all(order);
+            const Kriging kriging(all.subspan(left_out), variogram, degree);
+            for (std::size_t k = 0; k < left_out; ++k) {
+                const Estimate e = kriging.at(order[k].x, order[k].y);
+                errors += (e.value - order[k].z) * (e.value - order[k].z);
+                expected += e.deviation * e.deviation + variogram.nugget;
+                ++result.count;
+            }
+        }
+        result.error = std::sqrt(errors / static_cast<double>(result.count));
+        result.expected = std::sqrt(expected / static_cast<double>(result.count));
+        return result;
+    }
+
+    [[nodiscard]] std::size_t size() const { return data_.size(); }
+
+private:
+    std::vector<Point3> data_;
+    std::vector<std::vector<Point3>> sorted_; ///< per patch
+};
+
+/// Of all that is tried, what misses least.
+class Chooser {
+public:
+    Chooser(std::span<const Point3> data, std::span<const std::array<std::uint32_t, 2>> close,
+            double longest) :
+        patches_(data) {
+        for (unsigned degree = 1; degree <= 2; ++degree)
+            bins_.push_back(experimental_variogram(residuals(data, degree), close, longest));
+    }
+
+    /// Takes what misses enough less than the best one so far.
+    void attempt(unsigned degree, const FitOptions& options) {
+        double share = share_for(degree, options);
+        Variogram variogram = fit_variogram(bins_[degree - 1], options);
+        const bool smooth = variogram.model == VariogramModel::gaussian && options.most_nugget == 0;
+        for (int stretched = 0; stretched < (smooth ? 3 : 1); ++stretched) {
+            const auto blocks = patches_.validate(variogram, degree);
+            if (best_.blocks.count == 0 || blocks.error < share * best_.blocks.error) {
+                best_ = {variogram, degree, blocks};
+                options_ = options;
+                share = 1;
+            }
+            variogram.range *= 2; // the same near h = 0
+            variogram.sill *= 4;
+        }
+    }
+
+    /// The best one again, turned and stretched.
+    void attempt_anisotropy() {
+        FitOptions options = options_;
+        options.anisotropy = true;
+        attempt(best_.degree, options);
+    }
+
+    [[nodiscard]] bool few() const { return patches_.size() < least_data; }
+    [[nodiscard]] const ModelChoice& best() const { return best_; }
+
+private:
+    [[nodiscard]] double share_for(unsigned degree, const FitOptions& options) const {
+        double share = 1;
+        if (options.most_nugget == 0 && best_.variogram.nugget > 0) share *= worth_no_nugget;
+        if (degree > best_.degree) share *= worth_degree_2;
+        if (options.model == VariogramModel::gaussian &&
+            best_.variogram.model != VariogramModel::gaussian) {
+            const double noise = mostly_noise * best_.blocks.error * best_.blocks.error;
+            share *= options.most_nugget > noise ? worth_noisy_gaussian : worth_gaussian;
+        }
+        return share;
+    }
+
+    Patches patches_;
+    std::vector<std::vector<VariogramBin>> bins_; ///< by degree - 1
+    ModelChoice best_;
+    FitOptions options_;
+};
+
+} // namespace
+
+ModelChoice choose_model(std::span<const Point3> data,
+                         std::span<const std::array<std::uint32_t, 2>> close, double longest,
+                         double noise, const FitOptions& options) {
+    Chooser chooser(data, close, longest);
+    FitOptions fit = options;
+    fit.anisotropy = false;
+    const unsigned highest = chooser.few() ? 1 : 2;
+    for (const auto model : all_models) {
+        if (options.model && *options.model != model) continue;
+        fit.model = model;
+        for (const bool noisy : {true, false})
+            for (unsigned degree = 1; degree <= highest; ++degree) {
+                fit.most_nugget = noisy ? std::min(noise, options.most_nugget) : 0;
+                chooser.attempt(degree, fit);
+            }
+    }
+    if (options.anisotropy && !chooser.few()) chooser.attempt_anisotropy();
+    ModelChoice best = chooser.best();
+    if (best.blocks.expected > 0 && best.blocks.error > 0) {
+        const double factor = best.blocks.error / best.blocks.expected;
+        best.variogram.sill *= factor * factor;
+        best.variogram.nugget *= factor * factor;
+    }
+    return best;
+}
+
+} // namespace terrane::detail

@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/reconstruction/kriging/fill_kriging.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <terrane/algorithms/mesh/edges.hpp>
+#include <terrane/algorithms/reconstruction/holes/flatness.hpp>
+#include <terrane/algorithms/reconstruction/kriging/detail/choice.hpp>
+#include <terrane/algorithms/reconstruction/kriging/detail/data.hpp>
+#include <terrane/kernel/predicates.hpp>
+
+namespace terrane {
+namespace {
+
+using detail::HoleData;
+
+constexpr std::size_t most_places = 20'000;
+constexpr std::size_t most_validated = 400;
+constexpr std::size_t most_sags = 256;
+
+Error interrupted() {
+    return {ErrorCode::interrupted, "interrupted", ""};
+}
+
+/// The loop, and the outer borders of other parts that lie within it.
+std::vector<const BorderLoop*> loops_within(const Surface& surface, const BorderLoop& loop,
+                                            std::span<const BorderLoop> all) {
+    std::vector<const BorderLoop*> result{&loop};
+    for (const BorderLoop& other : all) {
+        if (other.kind != LoopKind::outer || other.part == loop.part) continue;
+        const Point3& p = surface.vertices[other.vertices[0]];
+        if (detail::is_inside(surface.vertices, loop.vertices, p.x, p.y)) result.push_back(&other);
+    }
+    return result;
+}
+
+double median_edge(const std::vector<Point3>& points, const Polygon& polygon) {
+    std::vector<double> lengths;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const Point3 &a = points[polygon[i]], &b = points[polygon[(i + 1) % polygon.size()]];
+        lengths.push_back(std::hypot(b.x - a.x, b.y - a.y));
+    }
+    const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+    std::nth_element(lengths.begin(), middle, lengths.end());
+    return *middle;
+}
+
+/// How far apart points can be and still count for the variogram: half the extent of the data.
+double longest_pair(const std::vector<Point3>& points) {
+    Point3 low = points[0], high = low;
+    for (const Point3& p : points) {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), 0};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), 0};
+    }
+    return std::hypot(high.x - low.x, high.y - low.y) / 2;
+}
+
+/// Each border edge has the surface on one side and the filling on the other.
+Status check_sides(const HoleData& data, std::span<const Point3> points,
+                   std::span<const Triangle> triangles) {
+    std::map<std::array<std::uint32_t, 2>, std::uint32_t> third_of;
+    for (const Triangle& t : triangles)
+        for (unsigned i = 0; i < 3; ++i) third_of[{t[i], t[(i + 1) % 3]}] = t[(i + 2) % 3];
+    std::size_t edge = 0;
+    for (const Polygon& polygon : data.borders)
+        for (std::size_t i = 0; i < polygon.size(); ++i, ++edge) {
+            const auto a = polygon[i], b = polygon[(i + 1) % polygon.size()];
+            const auto along = third_of.find({a, b}), against = third_of.find({b, a});
+            const auto found = along != third_of.end() ? along : against;
+            const Point3 &p = points[a], &q = points[b];
+            const Sign filled = found == third_of.end()
+                                    ? Sign::Zero
+                                    : orient2d(Axis::z, p, q, points[found->second]);
+            const Point3& inner = data.points[data.inner_of[edge]];
+            if (filled * orient2d(Axis::z, p, q, inner) != Sign::Negative)
+                return Error{ErrorCode::unsupported,
+                             "the surface is no graph z = f(x, y) next to the hole: it reaches "
+                             "into the hole, seen from above; --method rbf can fill it",
+                             fmt::format("({}, {}, {})", p.x, p.y, p.z)};
+        }
+    return Done{};
+}
+
+/// The filling without heights of what is invented, and without vertices that are in no triangle.
+struct FlatFilling {
+    std::vector<Point3> points; ///< the border's first
+    std::size_t border = 0;
+    std::vector<Triangle> triangles; ///< front up
+};
+
+Result<FlatFilling> mesh_of(const HoleData& data, double mesh_size, const Run& run) {
+    FlatFilling flat;
+    for (const Polygon& polygon : data.borders) flat.border += polygon.size();
+    std::vector<Point3> points(data.points.begin(),
+                               data.points.begin() + static_cast<std::ptrdiff_t>(flat.border));
+    const auto places = detail::places_within(points, data.borders, mesh_size, most_places);
+    points.insert(points.end(), places.begin(), places.end());
+    auto triangles = triangulate_inside(points, data.borders, run);
+    if (!triangles) {
+        if (triangles.error().code != ErrorCode::improper_contact) return triangles.error();
+        Error error = triangles.error();
+        error.code = ErrorCode::unsupported;
+        error.sentence = "the hole can't be filled as z = f(x, y): " + error.sentence +
+                         "; --method rbf can fill it";
+        return error;
+    }
+    std::vector<std::uint32_t> number(points.size(), UINT32_MAX);
+    for (std::uint32_t i = 0; i < flat.border; ++i) number[i] = i;
+    flat.points.assign(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(flat.border));
+    for (Triangle t : triangles.value()) {
+        for (auto& v : t) {
+            if (number[v] == UINT32_MAX) {
+                number[v] = static_cast<std::uint32_t>(flat.points.size());
+                flat.points.push_back(points[v]);
+            }
+            v = number[v];
+        }
+        flat.triangles.push_back(t);
+    }
+    if (const auto status = check_sides(data, flat.points, flat.triangles); !status)
+        return status.error();
+    return flat;
+}
+
+/// Gives what is invented its heights. Per vertex its deviation, 0 on the borders.
+std::vector<double> set_heights(FlatFilling& flat, const Kriging& kriging, const Run& run) {
+    const auto estimates = kriging.at(std::span(flat.points).subspan(flat.border), run);
+    std::vector<double> deviation(flat.points.size(), 0);
+    for (std::size_t i = 0; i < estimates.size(); ++i) {
+        flat.points[flat.border + i].z = estimates[i].value;
+        deviation[flat.border + i] = estimates[i].deviation;
+    }
+    return deviation;
+}
+
+/// Whether a filling of smaller triangles would be nearer to the truth.
+bool is_too_flat(const FlatFilling& flat, const Kriging& kriging, double mesh_size,
+                 const Run& run) {
+    const auto edges = detail::some_inner_edges(flat.triangles, flat.points.size(), most_sags);
+    std::vector<Point3> places;
+    for (const auto& [a, b] : edges) {
+        const Point3 &p = flat.points[a], &q = flat.points[b];
+        places.insert(places.end(), {p, q, detail::middle_of(p, q)});
+    }
+    const auto estimates = kriging.at(places, run);
+    std::vector<double> sags, expected;
+    for (std::size_t i = 0; i < estimates.size(); i += 3) {
+        const Estimate* e = &estimates[i]; // noise of the data on the border does not count
+        sags.push_back(e[2].value - (e[0].value + e[1].value) / 2);
+        expected.push_back(e[2].deviation);
+    }
+    return detail::flatness_outweighs(sags, expected, mesh_size);
+}
+
+double area_of(const Surface& s) {
+    double sum = 0;
+    for (const Triangle& t : s.triangles) {
+        const Point3 &a = s.vertices[t[0]], &b = s.vertices[t[1]], &c = s.vertices[t[2]];
+        const double ux = b.x - a.x, uy = b.y - a.y, uz = b.z - a.z;
+        const double vx = c.x - a.x, vy = c.y - a.y, vz = c.z - a.z;
+        sum += std::hypot(uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx) / 2;
+    }
+    return sum;
+}
+
+/// All data at the borders; of the others as many as make `Kriging::most_at_once`, spread evenly
+/// through the rings. All, where that would leave too few.
+std::vector<Point3> thinned(const HoleData& data, std::size_t border) {
+    const auto& all = data.points;
+    if (all.size() <= Kriging::most_at_once || 2 * border > Kriging::most_at_once) return all;
+    std::vector<Point3> kept(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(border));
+    const auto count = Kriging::most_at_once - border, others = all.size() - border;
+    for (std::size_t k = 0; k < count; ++k) kept.push_back(all[border + k * others / count]);
+    return kept;
+}
+
+Kriging model_of(const HoleData& data, std::size_t border, const FitOptions& options,
+                 FillReport& report) {
+    const auto choice = detail::choose_model(data.points, data.edges, longest_pair(data.points),
+                                             data.noise, options);
+    Kriging kriging(thinned(data, border), choice.variogram, choice.degree);
+    const auto single = kriging.validate(most_validated);
+    report.data = data.points.size();
+    report.validated_error = choice.blocks.error;
+    report.model = fmt::format(
+        "trend of degree {}, {}; patches of data left out are missed by {:.4g}, single ones by "
+        "{:.4g}",
+        choice.degree, description(choice.variogram), choice.blocks.error, single.error);
+    return kriging;
+}
+
+} // namespace
+
+Result<Filling> fill_by_kriging(const Surface& surface, const BorderLoop& loop,
+                                const KrigingOptions& options, const Run& run) {
+    if (options.rings < 1 || !(options.mesh_size >= 0) || !std::isfinite(options.mesh_size))
+        return Error{ErrorCode::bad_option, "rings and mesh size must be positive", ""};
+    // 1. the data, and whether they are a graph
+    const auto loops = loops_within(surface, loop, options.loops);
+    auto found = detail::data_round(surface, loops, options.rings);
+    if (!found) return found.error();
+    const HoleData& data = found.value();
+    const double area = detail::signed_area(data.points, data.borders[0]);
+    double mesh_size =
+        options.mesh_size > 0 ? options.mesh_size : median_edge(data.points, data.borders[0]);
+    if (area == 0 || !(mesh_size > 0))
+        return Error{ErrorCode::nothing_to_do, "the hole has no area, seen from above",
+                     fmt::format("({}, {}, {})", loop.centre.x, loop.centre.y, loop.centre.z)};
+    if (run.stop.stop_requested()) return interrupted();
+    // 2. the mesh in the plane
+    auto flat = mesh_of(data, mesh_size, run);
+    if (!flat) return flat.error();
+    const auto border = flat.value().border;
+    // 3. heights
+    Filling filling;
+    const Kriging kriging = model_of(data, border, options.variogram, filling.report);
+    filling.deviation = set_heights(flat.value(), kriging, run);
+    for (int halvings = 0; options.mesh_size == 0 && halvings < detail::most_halvings; ++halvings) {
+        if (4 * (flat.value().points.size() - border) > most_places || run.stop.stop_requested() ||
+            !is_too_flat(flat.value(), kriging, mesh_size, run))
+            break;
+        mesh_size /= 2;
+        flat = mesh_of(data, mesh_size, run);
+        if (!flat) return flat.error();
+        filling.deviation = set_heights(flat.value(), kriging, run);
+    }
+    if (run.stop.stop_requested()) return interrupted();
+    filling.surface = {surface.name, surface.role, std::move(flat.value().points),
+                       std::move(flat.value().triangles)};
+    filling.exact_border = true;
+    if (area > 0) // the surface on the left of a loop that runs the other way: its front is down
+        for (Triangle& t : filling.surface.triangles) std::swap(t[1], t[2]);
+    filling.report.invented = filling.surface.vertices.size() - border;
+    filling.report.area = area_of(filling.surface);
+    const double squares = std::inner_product(filling.deviation.begin(), filling.deviation.end(),
+                                              filling.deviation.begin(), 0.0);
+    filling.report.expected_error =
+        squares == 0 ? 0 : std::sqrt(squares / static_cast<double>(filling.report.invented));
+    return filling;
+}
+
+Surface joined(const Surface& surface, const Filling& filling) {
+    Surface result = surface;
+    std::map<Point3, std::uint32_t> known; // vertices of the filling's border: the lowest equal one
+    for (const Point3& p : filling.surface.vertices) known.emplace(p, UINT32_MAX);
+    for (std::uint32_t v = 0; v < surface.vertices.size(); ++v)
+        if (const auto at = known.find(surface.vertices[v]); at != known.end())
+            at->second = std::min(at->second, v);
+    std::vector<std::uint32_t> number;
+    for (const Point3& p : filling.surface.vertices) {
+        auto& v = known.at(p);
+        if (v == UINT32_MAX) {
+            v = static_cast<std::uint32_t>(result.vertices.size());
+            result.vertices.push_back(p);
+        }
+        number.push_back(v);
+    }
+    for (const Triangle& t : filling.surface.triangles)
+        result.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
+    return result;
+}
+
+} // namespace terrane

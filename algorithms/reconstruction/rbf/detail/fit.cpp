@@ -1,0 +1,461 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/reconstruction/rbf/detail/fit.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <terrane/algorithms/core/parallel.hpp>
+#include <terrane/algorithms/mesh/triangle_tree.hpp>
+#include <terrane/algorithms/mesh/vectors.hpp>
+#include <terrane/algorithms/reconstruction/rbf/detail/error.hpp>
+
+namespace terrane {
+namespace {
+
+constexpr double graph = 0.5; ///< least cosine of a slope that can be seen as a height
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+
+Point3 along(const Point3& p, double d, const Point3& direction) {
+    return {p.x + d * direction.x, p.y + d * direction.y, p.z + d * direction.z};
+}
+
+/// Centres that step (2) starts with.
+std::size_t start_size(const RbfOptions& options) {
+    return std::max<std::size_t>(10, options.most_centres / 4);
+}
+
+/// What all forms have in common.
+struct Start {
+    /// `tree`: of the data's triangles.
+    Start(const HoleData& data, const TriangleTree& tree, const RbfOptions& options) :
+        centres(well_spread(data.points, start_size(options),
+                            std::vector<bool>(data.points.size(), true))),
+        offset(options.offset > 0 ? options.offset : std::max(data.radius / 20, data.edge / 2)),
+        surface(tree) {
+        for (const std::uint32_t i : centres) {
+            double least = std::numeric_limits<double>::infinity();
+            for (const std::uint32_t j : centres)
+                if (j != i) least = std::min(least, length(minus(data.points[i], data.points[j])));
+            spacing = std::max(spacing, least);
+        }
+    }
+
+    std::vector<std::uint32_t> centres; ///< a well-spread quarter of those allowed
+    double spacing = 0;                 ///< none of them is farther from its nearest one
+    double offset;                      ///< of constraints off the surface
+    const TriangleTree& surface;
+};
+
+class Fitter {
+public:
+    Fitter(const HoleData& data, const Start& start, const RbfForm& form, const RbfOptions& options,
+           RbfReport& report, const Run& run) :
+        data_(data),
+        start_(start), form_(form), options_(options), report_(report), run_(run) {}
+
+    /// Without step (4) unless `whole`.
+    Result<Implicit> operator()(bool whole) {
+        report_.data = data_.points.size();
+        choose_start();
+        if (options_.smoothing || form_.smoothed) return smoothed(whole);
+        Implicit f;
+        for (;;) {
+            if (run_.stop.stop_requested())
+                return Error{ErrorCode::interrupted, "stopped on request", ""};
+            auto fit = fit_rbf(points_, values_, {form_.polynomial, 0}, run_);
+            if (!fit) return fit.error();
+            f.smooth = std::move(fit.value().function);
+            if (run_.progress)
+                run_.progress("rbf", 0.5 * static_cast<double>(centres_) /
+                                         static_cast<double>(options_.most_centres));
+            // Of many data some tell first where centres are wanted.
+            if (add_missed(errors_of(f, some()))) continue;
+            if (!whole) return f;
+            fit = fit_rbf(points_, values_, {form_.polynomial}, run_);
+            if (!fit) return fit.error();
+            f.smooth = std::move(fit.value().function);
+            report_.solution = fit.value().solution;
+            report_.centres = centres_;
+            auto errors = errors_of(f);
+            if (some() > 1 && add_missed(errors)) continue;
+            make_up(f, std::move(errors));
+            return f;
+        }
+    }
+
+    /// Without refinement and step (4).
+    Result<Implicit> quick() {
+        choose_start();
+        if (options_.smoothing) return smoothed(false);
+        Implicit f;
+        auto fit = fit_rbf(points_, values_, {form_.polynomial, 0}, run_);
+        if (!fit) return fit.error();
+        f.smooth = std::move(fit.value().function);
+        return f;
+    }
+
+private:
+    /// Step (2): centres, with constraints off the surface.
+    void choose_start() {
+        is_centre_.assign(data_.points.size(), false);
+        for (const std::uint32_t i : start_.centres) add_centre(i);
+        // Near to noisy data constraints would say less of how steep f is than the noise does.
+        const bool noisy = form_.along_axis && (form_.smoothed || options_.smoothing);
+        const double d = noisy && !(options_.offset > 0) ? std::max(start_.offset, data_.radius / 4)
+                                                         : start_.offset;
+        report_.offset = d;
+        for (const std::uint32_t i : start_.centres)
+            for (const double side : {-1.0, 1.0}) add_offset(i, side * d);
+        spacing_ = start_.spacing;
+    }
+
+    void add_centre(std::uint32_t i) {
+        is_centre_[i] = true;
+        points_.push_back(data_.points[i]);
+        values_.push_back(0);
+        ++centres_;
+    }
+
+    /// f = d at a distance d, if the surface is no nearer there than it is to be expected; else
+    /// less of it.
+    void add_offset(std::uint32_t i, double d) {
+        const Point3& normal = data_.normals[i];
+        if (normal == Point3{}) return;
+        constexpr double enough = 0.95; // the surface may curve towards the point a little
+        constexpr int halvings = 3;
+        const Point3 direction = form_.along_axis ? form_.polynomial.axes[2] : normal;
+        if (dot(direction, normal) < graph) return;
+        const double share = enough * dot(direction, normal);
+        for (int k = 0; k < halvings; ++k, d /= 2) {
+            const Point3 p = along(data_.points[i], d, direction);
+            if (start_.surface.distance(p, std::fabs(d)) < share * std::fabs(d)) continue;
+            points_.push_back(p);
+            values_.push_back(d);
+            ++report_.offsets;
+            return;
+        }
+    }
+
+    /// Steps (3) and (4) where data may be missed: all of them, or as many as are enough, have
+    /// their say in the weights of the centres of step (2).
+    Result<Implicit> smoothed(bool whole) {
+        constexpr std::size_t most_data = 6000;
+        std::vector<Point3> points(points_.begin(), points_.end());
+        std::vector<double> values(values_.begin(), values_.end());
+        const std::size_t count = std::min(most_data, data_.points.size());
+        for (std::size_t k = 0; k < count; ++k) {
+            const std::size_t i = k * data_.points.size() / count;
+            if (is_centre_[i]) continue; // it is there already
+            points.push_back(data_.points[i]);
+            values.push_back(0);
+        }
+        auto fit = smooth_rbf(points_, points, values, form_.polynomial,
+                              options_.smoothing.value_or(0), run_);
+        if (!fit) return fit.error();
+        Implicit f;
+        f.smooth = std::move(fit.value().function);
+        f.nugget = fit.value().nugget;
+        report_.centres = centres_;
+        report_.freedom = fit.value().freedom;
+        if (!whole) return f;
+        if (!options_.smoothing) {
+            make_up(f, errors_of(f));
+            return f;
+        }
+        note_errors(errors_of(f));
+        report_.missed = report_.largest_error;
+        return f;
+    }
+
+    /// At each `step`th datum; 0 at the others.
+    [[nodiscard]] std::vector<double> errors_of(const Implicit& f, std::size_t step = 1) const {
+        std::vector<double> errors(data_.points.size(), 0);
+        for_ranges((errors.size() + step - 1) / step, run_, [&](std::size_t a, std::size_t b) {
+            for (std::size_t i = a; i < b; ++i) errors[i * step] = f(data_.points[i * step]);
+        });
+        return errors;
+    }
+
+    /// The step at which errors at data say enough for a trial, or for more centres.
+    [[nodiscard]] std::size_t some() const {
+        constexpr std::size_t enough = 20'000;
+        return std::max<std::size_t>(1, data_.points.size() / enough);
+    }
+
+    [[nodiscard]] double tolerance() const {
+        return options_.tolerance > 0 ? options_.tolerance : data_.edge / 1000;
+    }
+
+    /// Step (3): the data missed most become centres, no two of them near each other. False where
+    /// none is missed by too much, or there are centres enough.
+    bool add_missed(const std::vector<double>& errors) {
+        std::vector<std::uint32_t> missed;
+        for (std::uint32_t i = 0; i < errors.size(); ++i)
+            if (!is_centre_[i] && std::fabs(errors[i]) > tolerance()) missed.push_back(i);
+        if (missed.empty() || centres_ >= options_.most_centres) return false;
+        std::sort(missed.begin(), missed.end(), [&](std::uint32_t a, std::uint32_t b) {
+            const double x = std::fabs(errors[a]), y = std::fabs(errors[b]);
+            return x > y || (x == y && a < b);
+        });
+        const std::size_t most = std::min(options_.most_centres, 2 * centres_) - centres_;
+        std::vector<std::uint32_t> taken;
+        for (const std::uint32_t i : missed) {
+            if (taken.size() == most) break;
+            const bool crowded = std::any_of(taken.begin(), taken.end(), [&](std::uint32_t j) {
+                return length(minus(data_.points[i], data_.points[j])) < spacing_ / 2;
+            });
+            if (!crowded) taken.push_back(i);
+        }
+        for (const std::uint32_t i : taken) add_centre(i);
+        spacing_ /= 2;
+        return true;
+    }
+
+    void note_errors(const std::vector<double>& errors) {
+        double most = 0, squares = 0;
+        for (const double e : errors) {
+            most = std::max(most, std::fabs(e));
+            squares += e * e;
+        }
+        report_.largest_error = most;
+        report_.rms_error = std::sqrt(squares / static_cast<double>(errors.size()));
+    }
+
+    /// Step (4), where step (3) left errors: those of f so far, per datum.
+    void make_up(Implicit& f, std::vector<double> errors) {
+        note_errors(errors);
+        report_.missed = report_.largest_error;
+        if (report_.missed <= tolerance()) return;
+        auto wanted = errors;
+        for (double& e : wanted) e = -e;
+        f.rest = RbfPatches(data_.points, wanted);
+        report_.patches = f.rest.size();
+        for_ranges(errors.size(), run_, [&](std::size_t a, std::size_t b) {
+            for (std::size_t i = a; i < b; ++i) errors[i] += f.rest(data_.points[i]);
+        });
+        note_errors(errors);
+    }
+
+    const HoleData& data_;
+    const Start& start_;
+    const RbfForm& form_;
+    const RbfOptions& options_;
+    RbfReport& report_;
+    const Run& run_;
+    std::vector<Point3> points_; ///< of the constraints
+    std::vector<double> values_;
+    std::vector<bool> is_centre_; ///< per datum
+    std::size_t centres_ = 0;
+    double spacing_ = 0;
+};
+
+LeftOut leave_out(const HoleData& data) {
+    const double most = *std::max_element(data.distances.begin(), data.distances.end());
+    LeftOut result;
+    result.width = std::max(std::min(data.radius / 4, most / 3), 1.5 * data.edge);
+    HoleData& kept = result.kept;
+    std::vector<std::uint32_t> name(data.points.size(), UINT32_MAX);
+    for (std::uint32_t i = 0; i < data.points.size(); ++i) {
+        if (data.distances[i] < result.width) {
+            result.points.push_back(i);
+            continue;
+        }
+        name[i] = static_cast<std::uint32_t>(kept.points.size());
+        kept.points.push_back(data.points[i]);
+        kept.normals.push_back(data.normals[i]);
+        kept.distances.push_back(data.distances[i]);
+    }
+    for (const Triangle& t : data.triangles)
+        if (name[t[0]] != UINT32_MAX && name[t[1]] != UINT32_MAX && name[t[2]] != UINT32_MAX)
+            kept.triangles.push_back({name[t[0]], name[t[1]], name[t[2]]});
+    kept.edge = data.edge;
+    kept.radius = data.radius;
+    constexpr std::size_t most_judged = 1000; // say as much as all of them
+    const std::size_t count = result.points.size();
+    for (std::size_t k = 0; k < std::min(count, most_judged); ++k)
+        result.points[k] = result.points[k * count / std::min(count, most_judged)];
+    result.points.resize(std::min(count, most_judged));
+    return result;
+}
+
+double rms(const std::vector<double>& values) {
+    double squares = 0;
+    for (const double v : values) squares += v * v;
+    return std::sqrt(squares / static_cast<double>(values.size()));
+}
+
+/// What a form misses of what was left out.
+struct Trial {
+    double missed = no_number; ///< root mean square; NaN for no fit
+    double nugget = 0;
+};
+
+/// The data left out, and what all trials share.
+struct Trials {
+    Trials(const HoleData& all, const RbfOptions& given) :
+        data(all), left(leave_out(all)), tree(left.kept.points, left.kept.triangles),
+        options(fewer(given)), start(left.kept, tree, options) {}
+
+    /// Enough to tell forms apart.
+    static RbfOptions fewer(RbfOptions options) {
+        const std::size_t enough = options.smoothing ? 400 : 800;
+        options.most_centres = std::min<std::size_t>(4 * options.most_centres, enough);
+        return options;
+    }
+
+    const HoleData& data;
+    LeftOut left;
+    TriangleTree tree; ///< of the others
+    RbfOptions options;
+    Start start;
+};
+
+/// `quick`: without step (3).
+Result<Trial> try_form(const Trials& trials, const RbfForm& form, bool quick, const Run& run) {
+    RbfReport unused;
+    const HoleData& data = trials.data;
+    Fitter fitter(trials.left.kept, trials.start, form, trials.options, unused, run);
+    const auto f = quick ? fitter.quick() : fitter(false);
+    if (run.stop.stop_requested()) return Error{ErrorCode::interrupted, "stopped on request", ""};
+    if (!f) return Trial{};
+    std::vector<double> missed;
+    for (const std::uint32_t i : trials.left.points) {
+        const double slope = length(f.value().smooth.gradient(data.points[i]));
+        missed.push_back(f.value()(data.points[i]) / std::max(slope, 0.1));
+    }
+    return Trial{rms(missed), f.value().nugget};
+}
+
+/// Axes along and across the hole: the last along the mean normal of its border.
+std::array<Point3, 3> axes_of(const HoleData& data) {
+    Point3 n;
+    for (std::size_t i = 0; i < data.next.size(); ++i) n = along(n, 1, data.normals[i]);
+    const double size = length(n);
+    if (!(size > 0.1 * static_cast<double>(data.next.size()))) return RbfPolynomial{}.axes;
+    n = {n.x / size, n.y / size, n.z / size};
+    const Point3 other = std::fabs(n.x) < 0.7 ? Point3{1, 0, 0} : Point3{0, 1, 0};
+    Point3 u = cross(other, n);
+    const double length_u = length(u);
+    u = {u.x / length_u, u.y / length_u, u.z / length_u};
+    return {u, cross(n, u), n};
+}
+
+/// The cosine of the angle to the axis that all normals but the worst twentieth keep: noise tilts
+/// some, a fold many.
+double steepest_slope(const HoleData& data, const Point3& axis) {
+    std::vector<double> cosines;
+    for (const Point3& n : data.normals)
+        if (!(n == Point3{})) cosines.push_back(dot(n, axis));
+    if (cosines.empty()) return 0;
+    const auto worst = cosines.begin() + static_cast<std::ptrdiff_t>(cosines.size() / 20);
+    std::nth_element(cosines.begin(), worst, cosines.end());
+    return *worst;
+}
+
+/// Those worth a trial, by rising degree. Along the axis only where the data are a graph over its
+/// plane, along normals only where they are steep, and then with polynomials in space last.
+std::vector<RbfForm> forms_for(const HoleData& data, const RbfOptions& options) {
+    RbfForm form;
+    form.polynomial.axes = axes_of(data);
+    const double steepest = steepest_slope(data, form.polynomial.axes[2]);
+    constexpr double steep = 0.7;
+    const std::size_t centres = std::min(data.points.size(), start_size(options));
+    std::vector<RbfForm> forms;
+    for (const unsigned degree : {1U, 2U, 3U, 4U, 6U, 8U}) {
+        form.polynomial.degree = options.degree > 0 ? options.degree : degree;
+        if (degree > 1 && 3 * form.polynomial.terms() > centres) break;
+        form.along_axis = true;
+        if (steepest > graph) forms.push_back(form);
+        form.along_axis = false;
+        if (steepest < steep) forms.push_back(form);
+        if (options.degree > 0) break;
+    }
+    if (!(steepest < steep) || options.degree > 0) return forms;
+    form.along_axis = false;
+    form.polynomial.in_space = true;
+    for (const unsigned degree : {2U, 3U, 4U, 5U, 6U}) {
+        form.polynomial.degree = degree;
+        if (form.polynomial.terms() < centres) forms.push_back(form);
+    }
+    return forms;
+}
+
+/// The share of the other's misses that a form may have to be preferred to it: what is less plain
+/// must be the better.
+double needed(const RbfPolynomial& form, const RbfPolynomial& other) {
+    if (form.in_space && !other.in_space) return 0.75;
+    return form.degree == other.degree ? 1 : 0.9;
+}
+
+} // namespace
+
+std::vector<std::uint32_t> well_spread(const std::vector<Point3>& points, std::size_t count,
+                                       const std::vector<bool>& of) {
+    const auto first = std::find(of.begin(), of.end(), true);
+    if (first == of.end() || count == 0) return {};
+    std::vector<std::uint32_t> chosen{static_cast<std::uint32_t>(first - of.begin())};
+    std::vector<double> distance(points.size(), std::numeric_limits<double>::infinity());
+    while (chosen.size() < count) {
+        std::uint32_t farthest = chosen[0];
+        for (std::uint32_t i = 0; i < points.size(); ++i) {
+            if (!of[i]) continue;
+            const Point3 d = minus(points[i], points[chosen.back()]);
+            distance[i] = std::min(distance[i], dot(d, d));
+            if (distance[i] > distance[farthest]) farthest = i;
+        }
+        if (!(distance[farthest] > 0)) break;
+        chosen.push_back(farthest);
+    }
+    return chosen;
+}
+
+Result<Implicit> fit_hole(const HoleData& data, const TriangleTree& tree, const RbfForm& form,
+                          const RbfOptions& options, RbfReport& report, const Run& run) {
+    return Fitter(data, Start(data, tree, options), form, options, report, run)(true);
+}
+
+Result<RbfChoice> choose_form(const HoleData& data, const RbfOptions& options, const Run& run) {
+    const auto forms = forms_for(data, options);
+    RbfChoice best{forms[0], no_number, no_number};
+    const Trials trials(data, options);
+    const HoleData& kept = trials.left.kept;
+    if (kept.points.size() < 10 || trials.left.points.empty()) return best;
+    Trial least;
+    const auto consider = [&](const RbfForm& form, const Trial& trial, double share) {
+        if (!std::isfinite(trial.missed)) return;
+        if (std::isfinite(least.missed) && !(trial.missed < share * least.missed)) return;
+        best.form = form;
+        least = trial;
+    };
+    constexpr double much = 0.75;   // for what takes roughness for noise, see needed()
+    constexpr double exact = 1e-12; // radii: nothing to be gained
+    for (const RbfForm& form : forms) {
+        if (least.missed < exact * data.radius) break;
+        const auto trial = try_form(trials, form, true, run);
+        if (!trial) return trial.error();
+        consider(form, trial.value(), needed(form.polynomial, best.form.polynomial));
+    }
+    if (!options.smoothing &&
+        !(least.missed < exact * data.radius)) { // in earnest, and with noise kept out of the hole
+        for (const bool smoothed : {false, true}) {
+            RbfForm form = best.form;
+            form.smoothed = smoothed;
+            const auto trial = try_form(trials, form, false, run);
+            if (!trial) return trial.error();
+            if (!smoothed) least = trial.value();
+            consider(form, trial.value(), much);
+        }
+    }
+    best.validated = least.missed;
+    if (!std::isfinite(best.validated)) return best;
+    std::vector<Point3> places;
+    for (const std::uint32_t i : trials.left.points) places.push_back(data.points[i]);
+    const RbfError error(kept, best.form.polynomial, trials.left.width, least.nugget);
+    const double foreseen = rms(error.at(places, least.nugget > 0, run));
+    if (foreseen > 0) best.expected = best.validated / foreseen;
+    return best;
+}
+
+} // namespace terrane

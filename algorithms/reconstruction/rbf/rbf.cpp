@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/reconstruction/rbf/rbf.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <new>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <terrane/algorithms/mesh/edges.hpp>
+#include <terrane/algorithms/mesh/triangle_tree.hpp>
+#include <terrane/algorithms/mesh/vectors.hpp>
+#include <terrane/algorithms/reconstruction/holes/flatness.hpp>
+#include <terrane/algorithms/reconstruction/rbf/detail/data.hpp>
+#include <terrane/algorithms/reconstruction/rbf/detail/error.hpp>
+#include <terrane/algorithms/reconstruction/rbf/detail/fit.hpp>
+#include <terrane/algorithms/reconstruction/rbf/detail/zero_level.hpp>
+
+namespace terrane {
+namespace {
+
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+
+/// The least edge length of a filling of equilateral triangles with as many vertices as are
+/// allowed.
+double least_size(const BorderLoop& loop, const RbfOptions& options) {
+    const double per_vertex = std::sqrt(3.0) / 2; // area, in squares of the edge
+    return std::sqrt(loop.area / (per_vertex * static_cast<double>(options.most_vertices)));
+}
+
+/// The edges at which the data end, but for the border of the hole, as triangles without area.
+std::vector<Triangle> rim_of(const HoleData& data) {
+    std::vector<Triangle> rim;
+    group_edges(data.triangles, data.points.size())
+        .for_each([&](std::uint32_t low, std::uint32_t high, auto sides) {
+            const bool of_hole =
+                high < data.next.size() && (data.next[low] == high || data.next[high] == low);
+            if (sides.size() == 1 && !of_hole) rim.push_back({low, high, high});
+        });
+    return rim;
+}
+
+/// What lies under the surface away from the border, or beyond where the data end.
+class Outside {
+public:
+    /// `tree`: of the data's triangles.
+    Outside(const HoleData& data, const TriangleTree& tree, double size) :
+        points_(data.points), size_(size), surface_(tree), rim_(data.points, rim_of(data)),
+        border_(data.points, border_edges(data)) {}
+
+    /// `ahead`: the direction to which the level at p faces. Not from several threads: what is
+    /// learned of one point serves those near it.
+    template <class Ahead>
+    [[nodiscard]] bool operator()(const Point3& p, const Ahead& ahead) {
+        const auto known = inside_.find(cell_of(p));
+        if (known != inside_.end() && length(minus(p, known->second.centre)) < known->second.radius)
+            return false;
+        const double margin = 3 * size_, under = 1.5 * size_;
+        const double border = border_.distance(p, std::numeric_limits<double>::infinity());
+        if (border < margin) return false;
+        const auto surface = surface_.nearest(p, border);
+        const double distance = surface ? surface->distance : border;
+        // Beyond the data the nearest of them is on their rim.
+        if (distance >= under) {
+            const double rim = rim_.distance(p, std::numeric_limits<double>::infinity());
+            // No distance changes faster than p does.
+            constexpr double sure = 0.99; // more than rounding can take
+            const double radius = sure * std::min(distance - under, (rim - distance) / 2);
+            if (radius > 0) inside_.insert_or_assign(cell_of(p), Ball{p, radius});
+            if (rim > distance) return false;
+        }
+        if (!surface) return false;
+        // Another limb of a fold may be as near, but it faces the other way.
+        return dot(normal_of(surface->triangle), ahead(p)) > 0;
+    }
+
+private:
+    static std::vector<Triangle> border_edges(const HoleData& data) {
+        std::vector<Triangle> edges;
+        for (std::uint32_t i = 0; i < data.next.size(); ++i)
+            edges.push_back({i, data.next[i], data.next[i]});
+        return edges;
+    }
+
+    struct Ball {
+        Point3 centre{};
+        double radius = 0;
+    };
+    using Cell = std::array<double, 3>; ///< whole numbers
+
+    [[nodiscard]] Cell cell_of(const Point3& p) const {
+        const double width = 12 * size_;
+        return {std::floor(p.x / width), std::floor(p.y / width), std::floor(p.z / width)};
+    }
+
+    [[nodiscard]] Point3 normal_of(const Triangle& t) const {
+        return cross(minus(points_[t[1]], points_[t[0]]), minus(points_[t[2]], points_[t[0]]));
+    }
+
+    std::span<const Point3> points_;
+    double size_;
+    const TriangleTree& surface_;
+    TriangleTree rim_, border_;
+    std::map<Cell, Ball> inside_; ///< per cell the last ball of which no point is outside
+};
+
+/// Step (5).
+Result<Surface> mesh_zero_level(const Implicit& f, const HoleData& data, const TriangleTree& tree,
+                                double size, const Run& run) {
+    Outside outside(data, tree, size);
+    ZeroLevelOptions options;
+    options.size = size;
+    options.seeds = std::span(data.points).first(data.next.size());
+    const SpaceFunction function{[&](const Point3& p) { return f(p); },
+                                 [&](const Point3& p) { return f.smooth.gradient(p); }};
+    options.leave = [&](const Point3& p) { return outside(p, function.gradient); };
+    return zero_level(function, options, run);
+}
+
+/// Per place the expected error; 0 over the surface.
+std::vector<double> deviation_at(std::span<const Point3> places, const HoleData& data,
+                                 const RbfChoice& choice, double nugget, const Run& run) {
+    std::vector<double> deviation(places.size(), no_number);
+    if (!std::isfinite(choice.expected)) return deviation;
+    const RbfError error(data, choice.form.polynomial, 0, nugget);
+    deviation = error.at(places, false, run);
+    for (double& d : deviation) d *= choice.expected;
+    return deviation;
+}
+
+/// The level over the hole, as far as it is meshed.
+struct Level {
+    const Implicit& f;
+    const HoleData& data;
+    const TriangleTree& tree; ///< of the data's triangles
+    const RbfChoice& choice;
+};
+
+/// Whether the triangles cut corners at the border: the level there is farther from them than a
+/// quarter of their size.
+bool cuts_corners(const Surface& mesh, const Level& level, double size) {
+    const TriangleTree tree(mesh.vertices, mesh.triangles);
+    const auto border = std::span(level.data.points).first(level.data.next.size());
+    return std::any_of(border.begin(), border.end(), [&](const Point3& p) {
+        const Point3 g = level.f.smooth.gradient(p);
+        const double step = -level.f(p) / dot(g, g);
+        const Point3 on{p.x + step * g.x, p.y + step * g.y, p.z + step * g.z};
+        return tree.distance(on, size) > size / 4;
+    });
+}
+
+/// Whether a filling of smaller triangles would be nearer to the truth.
+bool is_too_flat(const Surface& mesh, const Level& level, double size, const Run& run) {
+    constexpr std::size_t most = 1024;
+    const RbfFunction& f = level.f.smooth; // patches fade away over less than an edge
+    std::vector<Point3> middles;
+    std::vector<double> sags;
+    for (const auto& [a, b] :
+         detail::some_inner_edges(mesh.triangles, mesh.vertices.size(), most)) {
+        const Point3 &p = mesh.vertices[a], &q = mesh.vertices[b], m = detail::middle_of(p, q);
+        if (level.tree.distance(m, size / 2) < size / 2) continue; // over the surface
+        sags.push_back((f(m) - (f(p) + f(q)) / 2) / length(f.gradient(m)));
+        middles.push_back(m);
+    }
+    return detail::flatness_outweighs(
+        sags, deviation_at(middles, level.data, level.choice, level.f.nugget, run), size);
+}
+
+/// The same, with edges as long as those of the border, or half or a quarter of that where the
+/// surface turns too sharply for them or is known better than they can show; and no more vertices
+/// than are allowed.
+Result<Surface> mesh_to_size(const Level& level, const BorderLoop& loop, const RbfOptions& options,
+                             double& size, const Run& run) {
+    const double least = least_size(loop, options);
+    size = options.size > 0 ? options.size : std::max(level.data.edge, least);
+    auto mesh = mesh_zero_level(level.f, level.data, level.tree, size, run);
+    if (options.size > 0) return mesh;
+    for (int halvings = 0; halvings < detail::most_halvings && size / 2 >= least; ++halvings) {
+        if (!mesh || !(cuts_corners(mesh.value(), level, size) ||
+                       is_too_flat(mesh.value(), level, size, run)))
+            break;
+        auto finer = mesh_zero_level(level.f, level.data, level.tree, size / 2, run);
+        // It may be too large for them.
+        if (!finer && finer.error().code != ErrorCode::interrupted) break;
+        size /= 2;
+        mesh = std::move(finer);
+    }
+    return mesh;
+}
+
+double area_of(const Surface& s) {
+    double sum = 0;
+    for (const Triangle& t : s.triangles)
+        sum += length(cross(minus(s.vertices[t[1]], s.vertices[t[0]]),
+                            minus(s.vertices[t[2]], s.vertices[t[0]]))) /
+               2;
+    return sum;
+}
+
+std::string describe(const RbfReport& r, const RbfForm& form, bool smoothed) {
+    const auto start = fmt::format(
+        "degree {}{}, {} of {} data are centres, {} constraints {:.4g} off the surface {}; ",
+        form.polynomial.degree, form.polynomial.in_space ? " in space" : "", r.centres, r.data,
+        r.offsets, r.offset, form.along_axis ? "across the hole" : "along normals");
+    if (smoothed)
+        return start + fmt::format("smoothed with {:.0f} degrees of freedom; data missed by {:.2g} "
+                                   "at most, {} patches, then by {:.2g}",
+                                   r.freedom, r.missed, r.patches, r.largest_error);
+    return start + fmt::format("condition {:.2g}, residual {:.2g} after {} refinements; data "
+                               "missed by {:.2g} at most, {} patches, then by {:.2g}",
+                               r.solution.condition, r.solution.residual, r.solution.refinements,
+                               r.missed, r.patches, r.largest_error);
+}
+
+/// Root mean square over the vertices that are off the surface: over the hole.
+double mean_over_hole(const Filling& filling, const TriangleTree& tree, double size) {
+    double squares = 0;
+    std::size_t count = 0;
+    for (std::size_t v = 0; v < filling.deviation.size(); ++v) {
+        if (tree.distance(filling.surface.vertices[v], size / 2) < size / 2) continue;
+        squares += filling.deviation[v] * filling.deviation[v];
+        ++count;
+    }
+    return count == 0 ? no_number : std::sqrt(squares / static_cast<double>(count));
+}
+
+Status validate_options(const RbfOptions& o) {
+    const auto bad = [](const char* what) { return Error{ErrorCode::bad_option, what, ""}; };
+    const auto length_or_zero = [](double x) { return x >= 0 && std::isfinite(x); };
+    if (!length_or_zero(o.reach)) return bad("the reach of the data is no number of radii");
+    if (o.most_centres < 10 || o.most_centres > 2000) return bad("centres: 10 to 2000");
+    if (!length_or_zero(o.offset) || !length_or_zero(o.tolerance) || !length_or_zero(o.size))
+        return bad("offset, tolerance and size are lengths");
+    if (o.degree > 8) return bad("the degree of the polynomial is 1 to 8, or 0 for the best");
+    if (o.smoothing && !length_or_zero(*o.smoothing)) return bad("smoothing is a length");
+    if (o.most_vertices < 1) return bad("at least one vertex");
+    return Done{};
+}
+
+Result<Filling> fill_valid(const Surface& surface, const BorderLoop& loop,
+                           const RbfOptions& options, RbfReport& report, const Run& run) {
+    const auto data = data_round(surface, loop, options.loops,
+                                 {options.reach, options.rings, options.long_edges});
+    if (!data) return data.error();
+    const auto choice = choose_form(data.value(), options, run);
+    if (!choice) return choice.error();
+    const RbfForm& form = choice.value().form;
+    report.degree = form.polynomial.degree;
+    const TriangleTree tree(data.value().points, data.value().triangles);
+    const auto f = fit_hole(data.value(), tree, form, options, report, run);
+    if (!f) return f.error();
+    const Level level{f.value(), data.value(), tree, choice.value()};
+    auto mesh = mesh_to_size(level, loop, options, report.size, run);
+    if (!mesh) return mesh.error();
+    Filling filling;
+    filling.surface = std::move(mesh).value();
+    filling.surface.name = surface.name;
+    filling.surface.role = surface.role;
+    filling.deviation =
+        deviation_at(filling.surface.vertices, data.value(), choice.value(), f.value().nugget, run);
+    filling.report.data = report.data;
+    filling.report.invented = filling.surface.vertices.size();
+    filling.report.area = area_of(filling.surface);
+    filling.report.expected_error = mean_over_hole(filling, tree, report.size);
+    filling.report.validated_error = choice.value().validated;
+    filling.report.model = describe(report, form, form.smoothed || options.smoothing.has_value());
+    if (options.long_edges) filling.report.model += "; with points on long edges";
+    if (run.stop.stop_requested()) return Error{ErrorCode::interrupted, "stopped on request", ""};
+    return filling;
+}
+
+} // namespace
+
+Result<Filling> fill_by_rbf(const Surface& surface, const BorderLoop& loop,
+                            const RbfOptions& options, RbfReport& report, const Run& run) {
+    report = {};
+    if (const auto good = validate_options(options); !good) return good.error();
+    try {
+        return fill_valid(surface, loop, options, report, run);
+    } catch (const std::bad_alloc&) {
+        return Error{ErrorCode::out_of_memory, "not enough memory", ""};
+    }
+}
+
+Result<Filling> fill_by_rbf(const Surface& surface, const BorderLoop& loop,
+                            const RbfOptions& options, const Run& run) {
+    RbfReport report;
+    return fill_by_rbf(surface, loop, options, report, run);
+}
+
+} // namespace terrane

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/regions/regions.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include <terrane/algorithms/core/disjoint_sets.hpp>
+#include <terrane/algorithms/core/parallel.hpp>
+
+namespace terrane {
+namespace {
+
+constexpr std::uint32_t none = UINT32_MAX;
+
+double area_of(std::span<const Point3> v, const Triangle& t) {
+    const Point3 &a = v[t[0]], &b = v[t[1]], &c = v[t[2]];
+    const double ux = b.x - a.x, uy = b.y - a.y, uz = b.z - a.z;
+    const double wx = c.x - a.x, wy = c.y - a.y, wz = c.z - a.z;
+    const double x = uy * wz - uz * wy, y = uz * wx - ux * wz, z = ux * wy - uy * wx;
+    const double squared = x * x + y * y + z * z;
+    // Range of the type, no tolerance: below, squares that matter may have underflown.
+    const bool in_range = squared > std::numeric_limits<double>::min() * 0x1p+100 &&
+                          squared <= std::numeric_limits<double>::max();
+    return 0.5 * (in_range ? std::sqrt(squared) : std::hypot(x, y, z));
+}
+
+/// A slot is a triangle in one of its surfaces.
+class Diffusion {
+public:
+    Diffusion(std::span<const Triangle> triangles, const Lists<std::uint32_t>& surfaces_of,
+              std::span<const Edge> stops, const Run& run) :
+        triangles_(triangles),
+        surfaces_of_(surfaces_of), stops_(stops), run_(run), sets_(surfaces_of.values.size()) {}
+
+    /// Spreads over all edges that are no stops; lists the sides of the others.
+    void spread(const Adjacency& adjacency) {
+        spread_within(adjacency.inner);
+        auto stop = stops_.begin();
+        for (std::size_t e = 0; e < adjacency.edges.size(); ++e) {
+            const auto sides = adjacency.triangles_at[e];
+            while (stop != stops_.end() && *stop < adjacency.edges[e]) ++stop;
+            if (stop != stops_.end() && *stop == adjacency.edges[e])
+                at_stop_.push_back(sides);
+            else if (sides.size() == 2)
+                join(sides[0], sides[1]);
+        }
+    }
+
+    Regions number(std::span<const Point3> vertices) {
+        Regions out;
+        const auto& surfaces = surfaces_of_;
+        const auto& first_slot = sets_.flattened();
+        auto order = first_slots(first_slot); // of regions, by surface then by triangle
+        std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+            return surfaces.values[a] < surfaces.values[b];
+        });
+        std::vector<std::uint32_t> number_of(surfaces.values.size());
+        for (const std::uint32_t s : order) {
+            number_of[s] = static_cast<std::uint32_t>(out.regions.size());
+            out.regions.push_back({surfaces.values[s], triangle_of(s), 0, 0, {}});
+        }
+        out.regions_of.offsets = surfaces.offsets;
+        auto& region_of = out.regions_of.values;
+        region_of.resize(surfaces.values.size());
+        for_ranges(region_of.size(), run_, [&](std::size_t first, std::size_t last) {
+            for (std::size_t s = first; s < last; ++s) region_of[s] = number_of[first_slot[s]];
+        });
+        measure(vertices, out);
+        find_neighbours(out);
+        return out;
+    }
+
+private:
+    /// Each range of triangles has its own sets, so threads do not disturb each other; what joins
+    /// two ranges comes after.
+    void spread_within(const std::vector<Adjacency::Inner>& inner) {
+        const auto crossing = parts_of_ranges<Adjacency::Inner>(
+            surfaces_of_.size(), run_,
+            [&](std::size_t first, std::size_t last) {
+                Adjacency::Inner others;
+                const auto join_those_within = [&](const auto& slot) {
+                    for (const auto& list : inner)
+                        for (const auto& [t, u] : list) {
+                            if (t < first || t >= last) continue;
+                            if (u >= first && u < last)
+                                sets_.join(slot(t), slot(u));
+                            else
+                                others.push_back({t, u});
+                        }
+                };
+                if (surfaces_of_.values.size() == surfaces_of_.size()) // a slot per triangle
+                    join_those_within([](std::uint32_t t) { return t; });
+                else
+                    join_those_within([&](std::uint32_t t) { return surfaces_of_.offsets[t]; });
+                return others;
+            },
+            1);
+        for (const auto& part : crossing)
+            for (const auto& [t, u] : part)
+                sets_.join(surfaces_of_.offsets[t], surfaces_of_.offsets[u]);
+    }
+
+    [[nodiscard]] std::uint32_t triangle_of(std::uint32_t slot) const {
+        const auto& offsets = surfaces_of_.offsets;
+        return static_cast<std::uint32_t>(std::upper_bound(offsets.begin(), offsets.end(), slot) -
+                                          offsets.begin() - 1);
+    }
+
+    /// Of one region: triangles one after the other that lie in the same regions.
+    struct Stretch {
+        std::uint32_t region;
+        std::size_t triangles;
+        double area;
+    };
+
+    /// Counts and areas. The last digits of a sum depend on its order: stretches end at multiples
+    /// of a fixed number of triangles and are added up one after the other.
+    void measure(std::span<const Point3> vertices, Regions& out) const {
+        constexpr std::size_t block = 4096;
+        const std::size_t count = triangles_.size();
+        const auto cut = [&](std::size_t t) {
+            return t == count ? t : (t + block - 1) / block * block;
+        };
+        const auto parts = parts_of_ranges<std::vector<Stretch>>(
+            count, run_, [&](std::size_t first, std::size_t last) {
+                std::vector<Stretch> part;
+                const std::size_t end = std::min(count, cut(last));
+                for (std::size_t t = cut(first); t < end;) {
+                    const std::size_t block_end = std::min(end, (t / block + 1) * block);
+                    const auto regions = out.regions_of[t];
+                    const std::size_t start = t;
+                    double area = 0;
+                    do area += area_of(vertices, triangles_[t]);
+                    while (++t < block_end && std::ranges::equal(out.regions_of[t], regions));
+                    for (const std::uint32_t r : regions) part.push_back({r, t - start, area});
+                }
+                return part;
+            });
+        for (const auto& part : parts)
+            for (const Stretch& s : part) {
+                out.regions[s.region].triangles += s.triangles;
+                out.regions[s.region].area += s.area;
+            }
+    }
+
+    // Two triangles of an edge that is no stop lie in the same surfaces.
+    void join(std::uint32_t t, std::uint32_t u) {
+        const std::uint32_t a = surfaces_of_.offsets[t], b = surfaces_of_.offsets[u];
+        const auto n = surfaces_of_[t].size();
+        for (std::uint32_t k = 0; k < n; ++k) sets_.join(a + k, b + k);
+    }
+
+    /// Those that stand for themselves, ascending.
+    [[nodiscard]] std::vector<std::uint32_t>
+    first_slots(const std::vector<std::uint32_t>& first_slot) const {
+        return concatenated(parts_of_ranges<std::vector<std::uint32_t>>(
+            first_slot.size(), run_, [&](std::size_t first, std::size_t last) {
+                std::vector<std::uint32_t> part;
+                for (auto s = static_cast<std::uint32_t>(first); s < last; ++s)
+                    if (first_slot[s] == s) part.push_back(s);
+                return part;
+            }));
+    }
+
+    /// Calls visit(r, q) for regions r that have q on the other side of a stop; often the same.
+    template <class Visit>
+    void for_neighbours(const Regions& out, const Visit& visit) const {
+        // Along a curve the same few come again and again: those seen last are passed over.
+        std::array<std::array<std::uint32_t, 4>, 256> seen{};
+        std::vector<std::uint32_t> here;
+        for (std::size_t e = 0; e < at_stop_.size(); ++e) {
+            here.clear();
+            for (const std::uint32_t t : at_stop_[e]) {
+                const auto regions = out.regions_of[t];
+                here.insert(here.end(), regions.begin(), regions.end());
+            }
+            sort_unique(here);
+            std::array<std::uint32_t, 4> key{none, none, none, none};
+            if (here.size() <= key.size()) {
+                std::copy(here.begin(), here.end(), key.begin());
+                auto& last = seen[(key[0] * 31 + key[1] * 7 + key[2] * 3 + key[3]) % seen.size()];
+                if (last == key) continue;
+                last = key;
+            }
+            for (const std::uint32_t r : here)
+                for (const std::uint32_t q : here)
+                    if (q != r) visit(r, q);
+        }
+    }
+
+    void find_neighbours(Regions& out) const {
+        std::vector<std::size_t> end(out.regions.size() + 1, 0); // counted one place ahead
+        for_neighbours(out, [&](std::uint32_t r, std::uint32_t) { ++end[r + 1]; });
+        std::partial_sum(end.begin(), end.end(), end.begin());
+        std::vector<std::uint32_t> found(end.back());
+        for_neighbours(out, [&](std::uint32_t r, std::uint32_t q) { found[end[r]++] = q; });
+        for_ranges(out.regions.size(), run_, [&](std::size_t first, std::size_t last) {
+            for (std::size_t r = first; r < last; ++r) {
+                const auto at = [&](std::size_t k) {
+                    return found.begin() + static_cast<std::ptrdiff_t>(k);
+                };
+                const auto begin = at(r == 0 ? 0 : end[r - 1]);
+                std::sort(begin, at(end[r]));
+                out.regions[r].neighbours.assign(begin, std::unique(begin, at(end[r])));
+            }
+        });
+    }
+
+    std::span<const Triangle> triangles_;
+    const Lists<std::uint32_t>& surfaces_of_;
+    std::span<const Edge> stops_;
+    const Run& run_;
+    Sets sets_;
+    Lists<std::uint32_t> at_stop_; ///< per stop: the triangles at it
+};
+
+} // namespace
+
+Regions find_regions(std::span<const Point3> vertices, std::span<const Triangle> triangles,
+                     const Lists<std::uint32_t>& surfaces_of, const Adjacency& adjacency,
+                     std::span<const Edge> intersection_edges, const Run& run) {
+    Diffusion diffusion(triangles, surfaces_of, intersection_edges, run);
+    diffusion.spread(adjacency);
+    return diffusion.number(vertices);
+}
+
+} // namespace terrane

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// The regions into which intersection edges divide each surface.
+// Guarantees: each triangle of a surface is in exactly one of its regions; two triangles are in the
+// same one iff a path over edges that are no intersections joins them. Numbers are by surface, then
+// by lowest triangle.
+// Cost: linear. Source: the paper, section 3, step 2b (diffusion over edges, stopped at the curve).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <terrane/algorithms/core/index_lists.hpp>
+#include <terrane/algorithms/core/run.hpp>
+#include <terrane/algorithms/mesh/adjacency.hpp>
+#include <terrane/algorithms/mesh/mesh.hpp>
+
+namespace terrane {
+
+struct Region {
+    std::uint32_t surface = 0;
+    std::uint32_t first_triangle = 0; ///< the lowest
+    std::size_t triangles = 0;
+    double area = 0;                       ///< squared unit; in floating point
+    std::vector<std::uint32_t> neighbours; ///< regions of any surface across an intersection edge,
+                                           ///< ascending
+};
+
+struct Regions {
+    Lists<std::uint32_t> regions_of; ///< per triangle, parallel to surfaces_of
+    std::vector<Region> regions;
+};
+
+/// `intersection_edges` are sorted, none of them is an inner edge.
+Regions find_regions(std::span<const Point3> vertices, std::span<const Triangle> triangles,
+                     const Lists<std::uint32_t>& surfaces_of, const Adjacency& adjacency,
+                     std::span<const Edge> intersection_edges, const Run& run = {});
+
+} // namespace terrane

@@ -1,0 +1,409 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/rounding/detail/separation.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <tbb/enumerable_thread_specific.h>
+
+#include <terrane/algorithms/core/disjoint_sets.hpp>
+#include <terrane/algorithms/core/parallel.hpp>
+#include <terrane/algorithms/intersection/intersection.hpp>
+#include <terrane/algorithms/mesh/vectors.hpp>
+#include <terrane/algorithms/rounding/detail/separation_faces.hpp>
+
+namespace terrane {
+namespace {
+
+using namespace clearance;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// Where a vertex is: a part that leaves a plane to one side is above or below with all corners that
+// do not rest on it.
+constexpr std::uint8_t rests = 0, above = 1, below = 2, neither = 3;
+constexpr std::uint8_t unknown = 0xff;
+
+/// Of the parts of two faces at their common vertices.
+struct Common {
+    std::uint32_t first = none; ///< the first of the two faces
+    Sizes sizes;
+};
+
+struct Scratch {
+    std::vector<Common> common;                 ///< per face, with the first of a group of pairs
+    std::vector<std::uint8_t> sides;            ///< per vertex of a face
+    std::vector<std::uint8_t> beyond;           ///< per vertex: see edges_before, or unknown
+    std::vector<std::uint32_t> low;             ///< vertices that are not clearly above or below
+    std::vector<std::uint32_t> left, left_back; ///< entries of Faces::parts without proof
+    std::vector<Box> boxes;                     ///< of left_back
+};
+
+struct Found {
+    std::vector<CandidatePair> pairs;
+    std::vector<std::uint32_t> parts;
+};
+
+double most_of(std::span<const double> moves) {
+    return moves.empty() ? 0 : *std::max_element(moves.begin(), moves.end());
+}
+
+/// The interval that a face has on the line in which its plane meets another one.
+struct Cut {
+    double low = infinity, high = -infinity; ///< no end lies farther out
+    double least_sine = 1;                   ///< of the angles of crossed edges with the line
+    bool is_certain = false;                 ///< the face has points on both sides of the line
+    bool is_usable = true;
+};
+
+class Prover {
+public:
+    Prover(const MovedParts& moved, std::span<const CandidatePair> meeting, const Run& run) :
+        moved_(moved), meeting_(meeting), move_(most_of(moved.moves)),
+        faces_(moved, meeting, move_, run) {}
+
+    [[nodiscard]] Unclear operator()(const Run& run);
+
+private:
+    /// Parts of f are to be told clear of g.
+    struct Pair {
+        std::uint32_t f_slot, g_slot;
+        const Face &f, &g;
+        double d; ///< the margin
+        Functional height;
+        std::array<Functional, 3> beyond;
+    };
+
+    [[nodiscard]] double margin(const Face& f, const Face& g) const;
+    [[nodiscard]] Pair pair_of(std::uint32_t f_slot, std::uint32_t g_slot) const;
+    [[nodiscard]] Cut cut(std::uint32_t f_slot, std::uint32_t g_slot, const Point3& origin,
+                          const Point3& line) const;
+    void add_restless(const Face& f, std::vector<std::uint32_t>& parts) const;
+    void find_common(std::uint32_t g_slot, std::vector<Common>& common) const;
+    [[nodiscard]] bool is_clear_as_a_whole(std::uint32_t f_slot, std::uint32_t g_slot,
+                                           const Common& common) const;
+    void test_group(std::size_t first, std::size_t last, Scratch& scratch, Found& found) const;
+    [[nodiscard]] bool is_clear(const Pair& pair, const Triangle& part) const;
+    bool find_sides(const Pair& pair, Scratch& scratch) const;
+    void find_left(const Pair& pair, Scratch& scratch, std::vector<std::uint32_t>& left) const;
+    void add_pairs(Scratch& scratch, Found& found) const;
+
+    const MovedParts& moved_;
+    std::span<const CandidatePair> meeting_;
+    double move_; ///< d: the most
+    Faces faces_;
+};
+
+/// a^2 >= 64 d l; also false where anything has underflown.
+bool is_calm(const Sizes& s, double d) {
+    return s.altitude > smallest_area && s.altitude * s.altitude >= 64 * d * s.longest;
+}
+
+/// Parts of it that may meet another one of it improperly.
+void Prover::add_restless(const Face& f, std::vector<std::uint32_t>& parts) const {
+    if (f.part_end - f.part == 1) return;
+    const auto calm = [&](std::uint32_t v) { return is_calm(faces_.sizes[v], 4 * move_); };
+    for (std::uint32_t e = f.part; e < f.part_end; ++e) {
+        const Triangle& c = faces_.corners[e];
+        if (!std::all_of(c.begin(), c.end(), calm)) parts.push_back(faces_.parts[e]);
+    }
+}
+
+/// d of the lemma for parts of f and the functionals of g, with room for errors in both directions.
+double Prover::margin(const Face& f, const Face& g) const {
+    return 4 * (move_ + (f.extent + g.extent) * g.functional_error);
+}
+
+Prover::Pair Prover::pair_of(std::uint32_t f_slot, std::uint32_t g_slot) const {
+    const Face &f = faces_.faces[f_slot], &g = faces_.faces[g_slot];
+    return {
+        f_slot, g_slot, f, g, margin(f, g), g.height(), {g.beyond(0), g.beyond(1), g.beyond(2)}};
+}
+
+/// Where f is cut by the plane of g: an edge between corners on both sides is crossed at one place,
+/// as exactly as their heights are known. Near a corner that may be on the plane the line may cross
+/// either edge. An edge may lie on the line only if both faces have its ends.
+Cut Prover::cut(std::uint32_t f_slot, std::uint32_t g_slot, const Point3& origin,
+                const Point3& line) const {
+    const Face &f = faces_.faces[f_slot], &g = faces_.faces[g_slot];
+    const Functional height = g.height();
+    const double d = margin(f, g);
+    std::array<double, 3> h{}, at{};
+    std::array<int, 3> side{};
+    for (unsigned i = 0; i < 3; ++i) {
+        h[i] = height(f.corners[i]);
+        at[i] = dot(minus(f.corners[i], origin), line);
+        side[i] = h[i] > d ? 1 : h[i] < -d ? -1 : 0;
+    }
+    const auto is_common = [&](unsigned i) {
+        return f.corner_at[i] != none && faces_.has(g_slot, f.corner_at[i]);
+    };
+    Cut cut;
+    const auto include = [&](double place, double error) {
+        cut.low = std::min(cut.low, place - error);
+        cut.high = std::max(cut.high, place + error);
+    };
+    for (unsigned i = 0; i < 3; ++i) {
+        const unsigned j = (i + 1) % 3;
+        if (side[i] * side[j] > 0) continue;
+        if (side[i] == 0 && side[j] == 0) {
+            cut.is_usable = cut.is_usable && is_common(i) && is_common(j);
+            continue;
+        }
+        const Point3 e = minus(f.corners[j], f.corners[i]);
+        const double size = length(e), rise = std::fabs(h[j] - h[i]);
+        cut.least_sine = std::min(cut.least_sine, length(cross(e, line)) / size);
+        cut.is_certain = cut.is_certain || side[i] * side[j] < 0;
+        include(at[i] + h[i] / (h[i] - h[j]) * (at[j] - at[i]), 4 * size * d / rise);
+    }
+    return cut;
+}
+
+/// Cases (1) and (2) of the lemma. Sines and directions are off by a thousandth at most; what they
+/// lead to is taken half or twice as large.
+bool Prover::is_clear_as_a_whole(std::uint32_t f_slot, std::uint32_t g_slot,
+                                 const Common& common) const {
+    constexpr double least_edge_sine = 0x1p-7;
+    const Face &f = faces_.faces[f_slot], &g = faces_.faces[g_slot];
+    const Point3 across = cross(f.normal, g.normal);
+    const double sine = length(across);
+    if (!(sine > 1024 * (f.functional_error + g.functional_error))) return false;
+    const Point3 line{across.x / sine, across.y / sine, across.z / sine};
+    const Cut on_f = cut(f_slot, g_slot, f.corners[0], line);
+    const Cut on_g = cut(g_slot, f_slot, f.corners[0], line);
+    const double least = std::min(on_f.least_sine, on_g.least_sine), s = sine / 2;
+    if (!on_f.is_usable || !on_g.is_usable || !(least > least_edge_sine)) return false;
+    if (common.first == g_slot) {
+        const double k = s / (2 + 2 / least);
+        return is_calm(common.sizes, 2 * move_ / k);
+    }
+    if (!on_f.is_certain || !on_g.is_certain) return false;
+    const double gap = std::max(on_g.low - on_f.high, on_f.low - on_g.high) / 2;
+    return gap * s / (1 + 4 / least) > 4 * move_;
+}
+
+/// What the other corners must rise to when a part leaves g at a vertex; infinite where g is not
+/// calm.
+double least_rise(const Sizes& there, double longest, double d) {
+    const double l = std::max(there.longest, longest);
+    if (!is_calm({there.altitude, l}, d)) return infinity;
+    const double ratio = l / there.altitude;
+    return 128 * d * ratio * ratio;
+}
+
+/// Where a part passes the end of a line on which faces cross, it has corners above and below. So
+/// the distance e beyond the edge there is turned round it, into the height h, until two corners
+/// are equally far. Corners `before` the edge must all rise by that.
+template <class Leaves>
+bool leaves_turned(const std::array<double, 3>& e, const std::array<double, 3>& h,
+                   const std::array<bool, 3>& before, double least, const Leaves& leaves) {
+    bool up = true, down = true;
+    for (unsigned i = 0; i < 3; ++i)
+        if (before[i]) {
+            up = up && h[i] > least;
+            down = down && h[i] < -least;
+        }
+    for (unsigned i = 0; i < 3 && (up || down); ++i) {
+        const unsigned j = (i + 1) % 3;
+        const double across = h[j] - h[i], along = e[i] - e[j];
+        const double size = std::copysign(std::sqrt(across * across + along * along), across);
+        const double c = across / size, s = along / size;
+        if (leaves(c * e[0] + s * h[0], c * e[1] + s * h[1], c * e[2] + s * h[2])) return true;
+    }
+    return false;
+}
+
+/// Case (3) or (4) of the lemma for a part of f, by any of the functionals.
+bool Prover::is_clear(const Pair& pair, const Triangle& part) const {
+    const double d = pair.d;
+    std::array<Point3, 3> at;
+    std::array<bool, 3> on{}; // it is a vertex of g
+    std::array<std::uint32_t, 3> there{};
+    double longest = infinity;
+    for (unsigned i = 0; i < 3; ++i) {
+        there[i] = faces_.find(pair.g_slot, faces_.vertices[part[i]]);
+        on[i] = there[i] != none;
+        at[i] = faces_.places[part[i]];
+        longest = std::min(longest, faces_.sizes[part[i]].longest); // its own is in all three
+    }
+    double least = d; // what corners off g must rise above
+    for (unsigned i = 0; i < 3; ++i)
+        if (on[i]) least = std::max(least, least_rise(faces_.sizes[there[i]], longest, d));
+    if (std::isinf(least)) return false;
+    const auto leaves = [&](double a, double b, double c) {
+        const bool rests_a = on[0] && std::fabs(a) <= d / 2,
+                   rests_b = on[1] && std::fabs(b) <= d / 2,
+                   rests_c = on[2] && std::fabs(c) <= d / 2;
+        return (rests_a || a > least) && (rests_b || b > least) && (rests_c || c > least) &&
+               !(rests_a && rests_b && rests_c);
+    };
+    const Functional& height = pair.height;
+    const std::array<double, 3> h{height(at[0]), height(at[1]), height(at[2])};
+    if (leaves(h[0], h[1], h[2]) || leaves(-h[0], -h[1], -h[2])) return true;
+    for (const Functional& u : pair.beyond) {
+        const std::array<double, 3> e{u(at[0]), u(at[1]), u(at[2])};
+        if (leaves(e[0], e[1], e[2])) return true;
+        std::array<bool, 3> before{};
+        for (unsigned i = 0; i < 3; ++i)
+            before[i] = e[i] <= least && !(on[i] && std::fabs(e[i]) <= d / 2);
+        if (leaves_turned(e, h, before, least, leaves)) return true;
+    }
+    return false;
+}
+
+/// Where the vertices of f are: above the plane of g, below it, resting on a vertex of g in it, or
+/// neither. True if what rises at all rises enough for whatever rests.
+bool Prover::find_sides(const Pair& pair, Scratch& scratch) const {
+    const std::uint32_t first = pair.f.vertex, count = pair.f.vertex_end - first;
+    auto& sides = scratch.sides;
+    auto& low = scratch.low;
+    sides.resize(count);
+    low.resize(count);
+    const Point3* place = faces_.places.data() + first;
+    const Functional height = pair.height;
+    const double d = pair.d;
+    double least_lift = infinity, most_rise = 0;
+    std::uint32_t lows = 0; // no branches: they would be foretold badly
+    for (std::uint32_t k = 0; k < count; ++k) {
+        const double u = height(place[k]), lift = std::fabs(u);
+        sides[k] = static_cast<std::uint8_t>(neither - (u > d ? below : 0) - (u < -d ? above : 0));
+        least_lift = std::min(least_lift, lift > d ? lift : least_lift);
+        low[lows] = k;
+        lows += lift > d ? 0 : 1;
+    }
+    for (std::uint32_t n = 0; n < lows; ++n) {
+        const std::uint32_t k = low[n];
+        const std::uint32_t there = faces_.find(pair.g_slot, faces_.vertices[first + k]);
+        if (there == none || !(std::fabs(height(place[k])) <= d / 2)) continue;
+        sides[k] = rests;
+        most_rise = std::max(most_rise,
+                             least_rise(faces_.sizes[there], faces_.sizes[first + k].longest, d));
+    }
+    return least_lift > most_rise;
+}
+
+/// The edges of g beyond which p lies by more than d: a bit for each.
+std::uint8_t edges_before(const std::array<Functional, 3>& beyond, const Point3& p, double d) {
+    unsigned edges = 0;
+    for (unsigned j = 0; j < 3; ++j)
+        if (beyond[j](p) > d) edges |= 1u << j;
+    return static_cast<std::uint8_t>(edges);
+}
+
+/// The parts of f that may meet parts of g improperly. Most lie on one side of its plane, or leave
+/// it at vertices of both.
+void Prover::find_left(const Pair& pair, Scratch& scratch, std::vector<std::uint32_t>& left) const {
+    left.clear();
+    const bool all_leave = find_sides(pair, scratch);
+    const std::uint32_t first = pair.f.vertex;
+    const auto& sides = scratch.sides;
+    const auto is_doubtful = [&](const Triangle& c) {
+        const unsigned i = sides[c[0] - first], j = sides[c[1] - first], k = sides[c[2] - first];
+        const unsigned together = i | j | k;
+        const bool both_sides = together == neither || together == rests;
+        const bool any_rests = i == rests || j == rests || k == rests;
+        return both_sides || (any_rests && !all_leave);
+    };
+    scratch.beyond.assign(sides.size(), unknown);
+    const auto beyond = [&](std::uint32_t v) {
+        std::uint8_t& edges = scratch.beyond[v - first];
+        if (edges == unknown) edges = edges_before(pair.beyond, faces_.places[v], pair.d);
+        return edges;
+    };
+    for (std::uint32_t e = pair.f.part; e < pair.f.part_end; ++e) {
+        const Triangle& c = faces_.corners[e];
+        if (is_doubtful(c) && (beyond(c[0]) & beyond(c[1]) & beyond(c[2])) == 0 &&
+            !is_clear(pair, c))
+            left.push_back(e);
+    }
+}
+
+/// Few pairs are listed where their boxes overlap; where they are many, the parts of the smaller
+/// side.
+void Prover::add_pairs(Scratch& scratch, Found& found) const {
+    const auto &f = scratch.left, &g = scratch.left_back;
+    if (f.empty() || g.empty()) return;
+    constexpr std::size_t few = 4096;
+    if (f.size() * g.size() > few) {
+        for (const std::uint32_t e : f.size() < g.size() ? f : g)
+            found.parts.push_back(faces_.parts[e]);
+        return;
+    }
+    const BoxSource boxes(moved_.points, moved_.parts);
+    scratch.boxes.clear();
+    for (const std::uint32_t h : g) scratch.boxes.push_back(boxes[faces_.parts[h]]);
+    for (const std::uint32_t e : f) {
+        const std::uint32_t a = faces_.parts[e];
+        const Box box = boxes[a];
+        for (std::size_t k = 0; k < g.size(); ++k) {
+            const std::uint32_t b = faces_.parts[g[k]];
+            if (box.overlaps(scratch.boxes[k]) && a != b)
+                found.pairs.push_back({std::min(a, b), std::max(a, b)});
+        }
+    }
+}
+
+/// Sizes of the parts of g and of each other face at the vertices that both have.
+void Prover::find_common(std::uint32_t g_slot, std::vector<Common>& common) const {
+    common.resize(faces_.faces.size());
+    const Face& g = faces_.faces[g_slot];
+    for (std::uint32_t v = g.vertex; v < g.vertex_end; ++v)
+        for (std::uint32_t w = faces_.last_at[faces_.vertices[v]]; w != none;
+             w = faces_.before[w]) {
+            Common& c = common[faces_.face_at[w]];
+            if (c.first != g_slot) c = {g_slot, {}};
+            c.sizes.add(faces_.sizes[v]);
+            c.sizes.add(faces_.sizes[w]);
+        }
+}
+
+/// Pairs with the same first face.
+void Prover::test_group(std::size_t first, std::size_t last, Scratch& scratch, Found& found) const {
+    const std::uint32_t g = faces_.slot_of[meeting_[first].first];
+    find_common(g, scratch.common);
+    for (std::size_t i = first; i < last; ++i) {
+        const std::uint32_t f = faces_.slot_of[meeting_[i].second];
+        if (is_clear_as_a_whole(f, g, scratch.common[f])) continue;
+        find_left(pair_of(f, g), scratch, scratch.left);
+        if (scratch.left.empty()) continue;
+        find_left(pair_of(g, f), scratch, scratch.left_back);
+        add_pairs(scratch, found);
+    }
+}
+
+Unclear Prover::operator()(const Run& run) {
+    std::vector<std::size_t> groups; // first pairs, and the end
+    for (std::size_t i = 0; i < meeting_.size(); ++i)
+        if (i == 0 || meeting_[i].first != meeting_[i - 1].first) groups.push_back(i);
+    groups.push_back(meeting_.size());
+    tbb::enumerable_thread_specific<Scratch> scratch;
+    const auto blocks =
+        for_blocks<Found>(groups.size() - 1, 16, run, [&](std::size_t first, std::size_t last) {
+            Found found;
+            for (std::size_t i = first; i < last; ++i)
+                test_group(groups[i], groups[i + 1], scratch.local(), found);
+            return found;
+        });
+    Unclear all;
+    for (const Found& b : blocks) {
+        all.pairs.insert(all.pairs.end(), b.pairs.begin(), b.pairs.end());
+        all.parts.insert(all.parts.end(), b.parts.begin(), b.parts.end());
+    }
+    for (const Face& f : faces_.faces) add_restless(f, all.restless);
+    sort_unique(all.pairs);
+    sort_unique(all.parts);
+    sort_unique(all.restless);
+    return all;
+}
+
+} // namespace
+
+Unclear find_unclear(const MovedParts& moved, std::span<const CandidatePair> meeting,
+                     const Run& run) {
+    return Prover(moved, meeting, run)(run);
+}
+
+} // namespace terrane

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/rounding/detail/state.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
+#include <utility>
+
+#include <terrane/algorithms/core/parallel.hpp>
+#include <terrane/algorithms/rounding/detail/collapsed_triangles.hpp>
+#include <terrane/kernel/predicates.hpp>
+
+namespace terrane {
+namespace {
+
+constexpr std::uint32_t none = UINT32_MAX;
+
+// The few roundings of a distance, in any mode, are covered by the last factor.
+double length_bound(double x, double y, double z) {
+    const double most = std::max({x, y, z});
+    if (most == 0 || std::isinf(most)) return most; // not 0 / 0 and not inf / inf
+    const double u = x / most, v = y / most, w = z / most;
+    return most * std::sqrt(u * u + v * v + w * w) * (1 + 0x1p-48);
+}
+
+Triangle sorted(Triangle t) {
+    std::sort(t.begin(), t.end());
+    return t;
+}
+
+} // namespace
+
+double rounding_bound(const PointStore& points, PointIndex p) {
+    const auto errors = points.rounding_errors(p);
+    return length_bound(errors[0], errors[1], errors[2]);
+}
+
+double distance_bound(const Enclosure& e, const Point3& p) {
+    const auto farther = [&](unsigned k, double x) {
+        return std::max(std::fabs(e.low[k] - x), std::fabs(e.high[k] - x));
+    };
+    return length_bound(farther(0, p.x), farther(1, p.y), farther(2, p.z));
+}
+
+std::vector<std::uint32_t> RoundingState::dirty_triangles(const Run& run) const {
+    return concatenated(parts_of_ranges<std::vector<std::uint32_t>>(
+        triangles.size(), run, [&](std::size_t first, std::size_t last) {
+            std::vector<std::uint32_t> dirty;
+            for (auto t = static_cast<std::uint32_t>(first); t < last; ++t) {
+                const Triangle& c = triangles[t];
+                if (is_dirty[c[0]] || is_dirty[c[1]] || is_dirty[c[2]]) dirty.push_back(t);
+            }
+            return dirty;
+        }));
+}
+
+void RoundingState::only_dirty(std::span<const CandidatePair> improper) {
+    is_dirty.assign(points.size(), false);
+    for (const CandidatePair& p : improper)
+        for (const std::uint32_t t : {p.first, p.second})
+            for (const std::uint32_t v : triangles[t]) is_dirty[v] = true;
+}
+
+void RoundingState::add_point(const Point3& p, double moved) {
+    points.push_back(p);
+    move.push_back(moved);
+    is_dirty.push_back(true);
+    largest_move_ = std::max(largest_move_, moved);
+}
+
+void RoundingState::move_point(std::size_t v, const Point3& to) {
+    const Point3& from = points[v];
+    const double d =
+        length_bound(std::fabs(to.x - from.x), std::fabs(to.y - from.y), std::fabs(to.z - from.z));
+    points[v] = to;
+    move[v] = (move[v] + d) * (1 + 0x1p-52);
+    is_dirty[v] = true;
+    largest_move_ = std::max(largest_move_, d);
+}
+
+void RoundingState::end_round() {
+    if (deviation == 0 && largest_move_ == 0)
+        for (const double m : move) largest_move_ = std::max(largest_move_, m);
+    const double most = std::exchange(largest_move_, 0) + std::exchange(largest_gap_, 0);
+    deviation = (deviation + most) * (1 + 0x1p-51);
+}
+
+/// A triangle that lost its area is now a line. Where no triangle that stays has this line as an
+/// edge (or both its halves), its points are up to half its length from the mesh.
+void RoundingState::find_gaps(const std::vector<bool>& gone) {
+    std::set<Side> lines; // all sides of triangles that go, then: not kept
+    std::vector<bool> concerned(points.size(), false);
+    const auto side = [](const Triangle& t, unsigned i) { return side_of(t, i); };
+    for (std::uint32_t t = 0; t < triangles.size(); ++t)
+        if (gone[t])
+            for (unsigned i = 0; i < 3; ++i) {
+                lines.insert(side(triangles[t], i));
+                concerned[triangles[t][i]] = true;
+            }
+    for (std::uint32_t t = 0; t < triangles.size(); ++t)
+        if (!gone[t])
+            for (unsigned i = 0; i < 3; ++i)
+                if (concerned[triangles[t][i]]) lines.erase(side(triangles[t], i));
+    const auto length = [&](const Side& l) {
+        const Point3 &p = points[l[0]], &q = points[l[1]];
+        return length_bound(std::fabs(p.x - q.x), std::fabs(p.y - q.y), std::fabs(p.z - q.z));
+    };
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+        if (!gone[t]) continue;
+        // The longest side spans the line; the two others together do so, too.
+        std::array<double, 3> open{};
+        for (unsigned i = 0; i < 3; ++i)
+            open[i] = lines.contains(side(triangles[t], i)) ? length(side(triangles[t], i)) : 0;
+        unsigned longest = 0;
+        for (unsigned i = 1; i < 3; ++i)
+            if (length(side(triangles[t], i)) > length(side(triangles[t], longest))) longest = i;
+        const double others = std::max(open[(longest + 1) % 3], open[(longest + 2) % 3]);
+        largest_gap_ = std::max(largest_gap_, std::min(open[longest], others) / 2);
+    }
+}
+
+/// Equal points get one name: the lowest. Only a dirty point can have become equal to another.
+bool RoundingState::merge_points(const Run& run) {
+    std::vector<bool> maybe(std::size_t{1} << 20, false); // by hash: spares most look-ups
+    const auto slot = [&](const Point3& p) { return hash_of(p) & (maybe.size() - 1); };
+    for (std::uint32_t v = 0; v < points.size(); ++v)
+        if (is_dirty[v]) maybe[slot(points[v])] = true;
+    const auto candidates = concatenated(parts_of_ranges<std::vector<std::uint32_t>>(
+        points.size(), run, [&](std::size_t begin, std::size_t end) {
+            std::vector<std::uint32_t> part;
+            for (auto v = static_cast<std::uint32_t>(begin); v < end; ++v)
+                if (maybe[slot(points[v])]) part.push_back(v);
+            return part;
+        }));
+    PointTable table(candidates.size());
+    std::vector<std::uint32_t> name;
+    for (const std::uint32_t v : candidates) {
+        const std::uint32_t first = table.enter(points, v);
+        if (first == v) continue;
+        is_dirty[first] = true;
+        if (name.empty()) {
+            name.resize(points.size());
+            std::iota(name.begin(), name.end(), 0u);
+        }
+        name[v] = first;
+    }
+    if (name.empty()) return false;
+    for (Triangle& t : triangles)
+        for (std::uint32_t& v : t) {
+            if (name[v] == v) continue;
+            move[name[v]] = std::max(move[name[v]], move[v]);
+            v = name[v];
+        }
+    return true;
+}
+
+bool RoundingState::tidy(const Run& run) {
+    const bool merged_any = merge_points(run);
+    const auto has_area = [&](const Triangle& t) {
+        if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return false;
+        return !collinear(points[t[0]], points[t[1]], points[t[2]]);
+    };
+    found_dirty = dirty_triangles(run);
+    const auto lost = concatenated(parts_of_ranges<std::vector<std::uint32_t>>(
+        found_dirty.size(), run, [&](std::size_t begin, std::size_t end) {
+            std::vector<std::uint32_t> part;
+            for (std::size_t k = begin; k < end; ++k)
+                if (!has_area(triangles[found_dirty[k]])) part.push_back(found_dirty[k]);
+            return part;
+        }));
+    collapsed += lost.size();
+    if (lost.empty() && !merged_any) return false; // then no two triangles can have become equal
+    std::vector<bool> gone(triangles.size(), false);
+    for (const std::uint32_t t : lost) gone[t] = true;
+    if (!lost.empty()) find_gaps(gone);
+    const LostLines lines(points, triangles, lost);
+    join_equal(found_dirty, gone);
+    if (!lost.empty() && divide_sides(lines)) {
+        gone.assign(triangles.size(), false);
+        join_equal(dirty_triangles(run), gone);
+    }
+    return true;
+}
+
+/// Divides triangles at the points of lost lines inside their sides. Those points are dirty then,
+/// as the corners between which they lie may be. True if there are any.
+bool RoundingState::divide_sides(const LostLines& lines) {
+    std::vector<Triangle> fresh;
+    Lists<std::uint32_t> faces_of;
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+        const auto within = lines.within(triangles[t]);
+        const std::size_t first = fresh.size();
+        divide_at(triangles[t], within, fresh);
+        for (std::size_t k = first; k < fresh.size(); ++k) faces_of.push_back(std::array{t});
+        for (const auto& side : within)
+            for (const std::uint32_t v : side) is_dirty[v] = true;
+    }
+    if (fresh.size() == triangles.size()) return false;
+    replace_triangles(std::move(fresh), faces_of);
+    return true;
+}
+
+/// Drops what is gone, and of equal triangles all but the first, which gets their parents.
+void RoundingState::join_equal(std::span<const std::uint32_t> dirty, std::vector<bool>& gone) {
+    std::map<Triangle, std::uint32_t> seen; // by sorted corners
+    std::map<std::uint32_t, std::vector<std::uint32_t>> extra;
+    for (const std::uint32_t t : dirty) {
+        if (gone[t]) continue;
+        const auto [it, fresh] = seen.emplace(sorted(triangles[t]), t);
+        if (fresh) continue;
+        gone[t] = true;
+        auto& list = extra[it->second];
+        list.insert(list.end(), parents_of[t].begin(), parents_of[t].end());
+    }
+    Lists<std::uint32_t> parents;
+    parents.offsets.reserve(parents_of.offsets.size());
+    parents.values.reserve(parents_of.values.size());
+    std::size_t kept = 0;
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+        if (gone[t]) continue;
+        triangles[kept++] = triangles[t];
+        const auto more = extra.find(t);
+        if (more == extra.end()) {
+            parents.push_back(parents_of[t]);
+            continue;
+        }
+        auto& list = more->second;
+        list.insert(list.end(), parents_of[t].begin(), parents_of[t].end());
+        std::sort(list.begin(), list.end());
+        list.erase(std::unique(list.begin(), list.end()), list.end());
+        parents.push_back(list);
+    }
+    triangles.resize(kept);
+    parents_of = std::move(parents);
+}
+
+void RoundingState::replace_triangles(std::vector<Triangle> fresh,
+                                      const Lists<std::uint32_t>& faces_of) {
+    Lists<std::uint32_t> parents;
+    parents.offsets.reserve(fresh.size() + 1);
+    std::vector<std::uint32_t> list;
+    for (std::size_t t = 0; t < fresh.size(); ++t) {
+        list.clear();
+        for (const std::uint32_t f : faces_of[t])
+            list.insert(list.end(), parents_of[f].begin(), parents_of[f].end());
+        std::sort(list.begin(), list.end());
+        list.erase(std::unique(list.begin(), list.end()), list.end());
+        parents.push_back(list);
+    }
+    triangles = std::move(fresh);
+    parents_of = std::move(parents);
+}
+
+void RoundingState::drop_unused_points() {
+    std::vector<std::uint32_t> name(points.size(), none);
+    for (const Triangle& t : triangles)
+        for (const std::uint32_t v : t) name[v] = 0;
+    std::uint32_t kept = 0;
+    for (std::size_t v = 0; v < points.size(); ++v) {
+        if (name[v] == none) continue;
+        name[v] = kept;
+        points[kept++] = points[v];
+    }
+    merged += points.size() - kept;
+    points.resize(kept);
+    for (Triangle& t : triangles)
+        for (std::uint32_t& v : t) v = name[v];
+}
+
+} // namespace terrane

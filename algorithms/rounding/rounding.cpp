@@ -1,0 +1,579 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/rounding/rounding.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <new>
+#include <optional>
+#include <stdexcept>
+#include <unordered_set>
+#include <utility>
+
+#include <terrane/algorithms/arrangement/retriangulation.hpp>
+#include <terrane/algorithms/arrangement/soup.hpp>
+#include <terrane/algorithms/core/disjoint_sets.hpp>
+#include <terrane/algorithms/core/parallel.hpp>
+#include <terrane/algorithms/core/stopwatch.hpp>
+#include <terrane/algorithms/rounding/detail/separation.hpp>
+#include <terrane/algorithms/rounding/detail/state.hpp>
+#include <terrane/kernel/predicates.hpp>
+
+namespace terrane {
+namespace {
+
+/// A power of two per axis; all multiples of it below 2^53 are doubles.
+struct SnapGrid {
+    std::array<double, 3> step{};
+
+    [[nodiscard]] Point3 snap(const Point3& p) const {
+        return {snap(p.x, step[0]), snap(p.y, step[1]), snap(p.z, step[2])};
+    }
+
+private:
+    // Division and multiplication by a power of two are exact; the cell of a multiple is itself.
+    static double snap(double x, double s) { return s > 0 ? std::nearbyint(x / s) * s : x; }
+};
+
+/// Sizes of cells, in binary digits of the last place of the largest coordinate on each axis.
+/// First what crosses is snapped where it lies, with fine grids, so that as little as possible
+/// moves. That is enough for single mishaps; sheets that are nearly coplanar over an area multiply
+/// under it (touching_ridges_turned), so where the contacts do not shrink to a quarter in a round,
+/// the input triangles concerned are snapped instead and arranged anew: at once where contacts are
+/// crowded from the start (coplanar_half_turned), since fine rounds only multiply them.
+constexpr std::array fine_digits{4, 8, 12};
+constexpr std::array coarse_digits{16, 20, 24, 28, 32};
+constexpr std::size_t many = 1024;    ///< fewer contacts are no crowd
+constexpr std::size_t crowded = 8;    ///< fewer triangles per contact are one
+constexpr std::size_t multiplied = 8; ///< so many times the contacts: snapping made it worse
+constexpr unsigned widenings = 3;     ///< how often more input triangles join before a coarser grid
+
+SnapGrid grid_of_digits(std::span<const Point3> points, int digits) {
+    std::array<double, 3> largest{};
+    for (const Point3& p : points) {
+        largest[0] = std::max(largest[0], std::fabs(p.x));
+        largest[1] = std::max(largest[1], std::fabs(p.y));
+        largest[2] = std::max(largest[2], std::fabs(p.z));
+    }
+    SnapGrid grid;
+    for (unsigned k = 0; k < 3; ++k)
+        if (largest[k] > 0) {
+            const int ulp = std::ilogb(largest[k]) - 52;
+            grid.step[k] = std::ldexp(1.0, std::max(ulp + digits, -1074));
+        }
+    return grid;
+}
+
+/// Input triangles that have parts in the arrangement, but none that names them; ascending.
+std::vector<std::uint32_t> vanished(const Arrangement& a, const Lists<std::uint32_t>& parents_of) {
+    std::vector<bool> present(a.inputs.first.back(), false);
+    for (const std::uint32_t p : parents_of.values) present[p] = true;
+    std::vector<std::uint32_t> result;
+    for (const std::uint32_t p : a.parents_of.values)
+        if (!present[p]) result.push_back(p);
+    sort_unique(result);
+    return result;
+}
+
+class Rounding {
+public:
+    /// Crowded contacts are left as they are unless `even_crowded`.
+    Rounding(const Arrangement& a, const RoundingOptions& options, bool even_crowded,
+             const Run& run) :
+        arrangement_(a),
+        options_(options), even_crowded_(even_crowded), run_(run) {}
+
+    Result<RoundedMesh> operator()() {
+        to_nearest();
+        auto pairs = first_contacts();
+        state_.only_dirty(pairs);
+        find_first_regions();
+        out_.report.naive_contacts = pairs.size();
+        left_crowded_ = !even_crowded_ && pairs.size() >= many &&
+                        crowded * pairs.size() > arrangement_.triangles.size();
+        if (!pairs.empty() && !left_crowded_) repair(pairs);
+        if (run_.stop.stop_requested())
+            return Error{ErrorCode::interrupted, "stopped on request", ""};
+        finish(pairs);
+        return std::move(out_);
+    }
+
+    /// Whether contacts were left as they are since they were crowded.
+    [[nodiscard]] bool left_crowded() const { return left_crowded_; }
+
+private:
+    void repair(std::vector<CandidatePair>& pairs);
+    void to_nearest();
+    [[nodiscard]] PairFilter is_improper() const;
+    std::vector<CandidatePair> first_contacts();
+    std::vector<CandidatePair> contacts();
+    bool snap_round(std::span<const CandidatePair> pairs, const SnapGrid& grid);
+    void snap_corners(std::span<const CandidatePair> pairs, const SnapGrid& grid);
+    bool divide_again(std::size_t most_pairs);
+    void find_first_regions();
+    void finish(std::span<const CandidatePair> pairs);
+    void report_moves();
+    void report_vanished();
+
+    const Arrangement& arrangement_;
+    const RoundingOptions& options_;
+    const bool even_crowded_;
+    const Run& run_;
+    RoundingState state_;
+    bool left_crowded_ = false;
+    bool changed_ = false;           ///< the triangles are no longer those of the arrangement
+    std::optional<Regions> regions_; ///< while the triangles are those of the arrangement
+    RoundedMesh out_;
+};
+
+void Rounding::to_nearest() {
+    const Arrangement& a = arrangement_;
+    const auto first_constructed = static_cast<std::size_t>(
+        std::lower_bound(a.vertices.begin(), a.vertices.end(), a.points.input_count()) -
+        a.vertices.begin());
+    state_.input_vertices = first_constructed;
+    both(
+        run_,
+        [&] {
+            state_.triangles = a.triangles;
+            state_.parents_of = a.parents_of;
+        },
+        [&] {
+            state_.points.reserve(a.vertices.size());
+            for (std::size_t v = 0; v < first_constructed; ++v)
+                state_.points.push_back(a.points.input(a.vertices[v]));
+            state_.points.resize(a.vertices.size());
+            state_.move.assign(a.vertices.size(), 0);
+            state_.is_dirty.assign(a.vertices.size(), false);
+        });
+    struct Nothing {};
+    const std::size_t constructed = a.vertices.size() - first_constructed;
+    for_blocks<Nothing>(constructed, 1024, run_, [&](std::size_t first, std::size_t last) {
+        for (std::size_t k = first; k < last; ++k) {
+            const std::size_t v = first_constructed + k;
+            state_.points[v] = a.points.nearest(a.vertices[v]);
+            state_.move[v] = rounding_bound(a.points, a.vertices[v]);
+        }
+        return Nothing{};
+    });
+    for (std::size_t v = first_constructed; v < a.vertices.size(); ++v)
+        state_.is_dirty[v] = state_.move[v] > 0;
+    state_.end_round();
+    changed_ = state_.tidy(run_);
+}
+
+/// Rounds of local snapping, as long as they help; the mesh with fewest contacts stays.
+void Rounding::repair(std::vector<CandidatePair>& pairs) {
+    for (const int digits : fine_digits) {
+        if (out_.report.rounds == options_.max_rounds || run_.stop.stop_requested()) return;
+        ++out_.report.rounds;
+        const RoundingState before = state_;
+        if (!snap_round(pairs, grid_of_digits(state_.points, digits))) {
+            state_ = before;
+            return;
+        }
+        auto left = contacts();
+        const bool helps = 4 * left.size() <= pairs.size();
+        if (left.size() < pairs.size())
+            pairs = std::move(left);
+        else
+            state_ = before;
+        if (pairs.empty() || !helps) return;
+    }
+}
+
+PairFilter Rounding::is_improper() const {
+    return [this](const CandidatePair& p) {
+        return improper_contact(state_.points, state_.triangles[p.first],
+                                state_.triangles[p.second])
+            .has_value();
+    };
+}
+
+/// The pairs that meet improperly. Two triangles without a dirty corner never do.
+std::vector<CandidatePair> Rounding::contacts() {
+    const auto dirty = state_.dirty_triangles(run_);
+    if (dirty.empty()) return {};
+    auto pairs =
+        candidate_pairs_of({state_.points, state_.triangles}, dirty, {}, is_improper(), run_);
+    state_.only_dirty(pairs);
+    return pairs;
+}
+
+/// The same right after rounding to nearest. Only what is not clear from patches that still project
+/// one-to-one and from the faces' distances needs a test.
+std::vector<CandidatePair> Rounding::first_contacts() {
+    if (changed_) return contacts();
+    const Arrangement& a = arrangement_;
+    const auto& dirty = state_.found_dirty;
+    if (dirty.empty()) return {};
+    std::vector<bool> holds;         // per patch
+    std::uint32_t last = UINT32_MAX; // parts of a face come one after the other
+    Sign last_turn{};
+    const auto turn = [&](std::uint32_t t, Axis axis) { // as that of its parent
+        const std::uint32_t parent = a.parents_of[t][0];
+        if (parent == last) return last_turn;
+        const Triangle& c = a.inputs.corners[last = parent];
+        const auto at = [&](unsigned i) { return a.points.input(c[i]); };
+        return last_turn = orient2d(axis, at(0), at(1), at(2));
+    };
+    Unclear unclear;
+    both(
+        run_,
+        [&] {
+            holds = confirm_patches(state_.points, state_.triangles, a.adjacency, dirty,
+                                    state_.is_dirty, turn, a.patches);
+        },
+        [&] {
+            unclear = find_unclear({a.points.inputs(), a.inputs.corners, a.vertices, state_.points,
+                                    state_.move, state_.triangles, a.parents_of},
+                                   a.neighbours, run_);
+        });
+    const auto improper = is_improper();
+    std::vector<CandidatePair> pairs;
+    {
+        const UpwardRounding guard;
+        for (const CandidatePair& p : unclear.pairs)
+            if (improper(p)) pairs.push_back(p);
+    }
+    const auto patch_of = [&](std::uint32_t t) {
+        const std::uint32_t p = a.patches.of[t];
+        return p != no_group && holds[p] ? p : no_group;
+    };
+    for (const std::uint32_t t : dirty)
+        if (patch_of(t) != a.patches.of[t]) unclear.parts.push_back(t);
+    for (const std::uint32_t t : unclear.restless) // two of one patch are known not to meet
+        if (patch_of(t) == no_group) unclear.parts.push_back(t);
+    if (unclear.parts.empty()) return pairs;
+    sort_unique(unclear.parts);
+    std::vector<std::uint32_t> patches(state_.triangles.size());
+    for (std::uint32_t t = 0; t < patches.size(); ++t) patches[t] = patch_of(t);
+    const auto more = candidate_pairs_of({state_.points, state_.triangles}, unclear.parts, patches,
+                                         improper, run_);
+    pairs.insert(pairs.end(), more.begin(), more.end());
+    sort_unique(pairs);
+    return pairs;
+}
+
+/// False if snapping made so many more contacts that dividing them is not worth it.
+bool Rounding::snap_round(std::span<const CandidatePair> pairs, const SnapGrid& grid) {
+    changed_ = true;
+    snap_corners(pairs, grid);
+    state_.tidy(run_);
+    if (!divide_again(multiplied * pairs.size())) return false;
+    state_.end_round();
+    state_.tidy(run_);
+    return true;
+}
+
+void Rounding::snap_corners(std::span<const CandidatePair> pairs, const SnapGrid& grid) {
+    std::vector<std::uint32_t> corners;
+    for (const CandidatePair& p : pairs)
+        for (const std::uint32_t t : {p.first, p.second})
+            corners.insert(corners.end(), state_.triangles[t].begin(), state_.triangles[t].end());
+    std::vector<Point3> cells;
+    for (const std::uint32_t v : corners) cells.push_back(grid.snap(state_.points[v]));
+    state_.move_into(cells, [&](const Point3& p) { return grid.snap(p); });
+}
+
+/// What still crosses is divided, exactly; the new points go to the nearest doubles, which are much
+/// finer than the grid: so most of them stay clear of each other. False, and nothing divided, for
+/// more pairs than most_pairs.
+bool Rounding::divide_again(std::size_t most_pairs) {
+    const auto pairs = contacts();
+    if (pairs.size() > most_pairs) return false;
+    if (pairs.empty()) return true;
+    Division division = divide(state_.points, state_.triangles, pairs, run_);
+    if (run_.stop.stop_requested()) return true;
+    const auto first_new = static_cast<std::uint32_t>(state_.points.size());
+    std::vector<std::uint32_t> name_of(division.points.size());
+    for (const PointIndex p : division.ascending) {
+        name_of[p] = static_cast<std::uint32_t>(state_.points.size());
+        state_.add_point(division.points.nearest(p), rounding_bound(division.points, p));
+    }
+    for (Triangle& t : division.triangles)
+        for (std::uint32_t& v : t)
+            if (v >= first_new) v = name_of[v];
+    state_.replace_triangles(std::move(division.triangles), division.faces_of);
+    return true;
+}
+
+void Rounding::report_moves() {
+    RoundingReport& r = out_.report;
+    r.deviation = state_.deviation;
+    for (std::size_t v = 0; v < state_.points.size(); ++v) {
+        const double m = state_.move[v];
+        r.max_move = std::max(r.max_move, m);
+        const double decade = m > 0 ? std::floor(std::log10(m)) + 24 : 0;
+        ++r.moves[static_cast<std::size_t>(m > 0 ? std::clamp(decade, 1.0, 31.0) : 0)];
+        if (v < state_.input_vertices &&
+            state_.points[v] != arrangement_.points.input(arrangement_.vertices[v]))
+            ++r.moved_input_vertices;
+    }
+    r.merged_vertices = state_.merged;
+    r.collapsed_triangles = state_.collapsed;
+}
+
+void Rounding::report_vanished() {
+    if (changed_) out_.report.vanished = vanished(arrangement_, state_.parents_of);
+}
+
+/// As long as triangles only move, the regions stay those of the arrangement.
+void Rounding::find_first_regions() {
+    if (changed_) return;
+    Stopwatch watch;
+    const Arrangement& a = arrangement_;
+    regions_ = find_regions(state_.points, state_.triangles, a.surfaces_of, a.adjacency,
+                            a.intersection_edges, run_);
+    out_.report.seconds_regions = watch.lap();
+}
+
+void Rounding::finish(std::span<const CandidatePair> pairs) {
+    out_.report.clean = pairs.empty();
+    both(
+        run_, [&] { report_moves(); },
+        [&] {
+            if (!changed_) out_.mesh.surfaces_of = arrangement_.surfaces_of;
+        });
+    report_vanished();
+    if (changed_) state_.drop_unused_points();
+    for (const CandidatePair& p : pairs) {
+        const auto contact =
+            improper_contact(state_.points, state_.triangles[p.first], state_.triangles[p.second]);
+        out_.report.contacts.push_back(
+            {{p.first, p.second},
+             kind_of(*contact),
+             nearest(state_.points, contact->points[contact->point_count - 1u].how)});
+    }
+    Mesh& mesh = out_.mesh;
+    mesh.surfaces = arrangement_.surfaces;
+    mesh.vertices = std::move(state_.points);
+    mesh.triangles = std::move(state_.triangles);
+    mesh.parents_of = std::move(state_.parents_of);
+    if (changed_) {
+        Stopwatch watch;
+        const InputTriangles& inputs = arrangement_.inputs;
+        mesh.surfaces_of = surfaces_of_parents(inputs, mesh.parents_of, run_);
+        const Adjacency adjacency =
+            adjacency_of(group_edges(mesh.triangles, mesh.vertices.size(), run_),
+                         labels_of(mesh.surfaces_of, mesh.parents_of));
+        mesh.intersection_edges = find_intersection_edges(adjacency, inputs, mesh.parents_of);
+        regions_ = find_regions(mesh.vertices, mesh.triangles, mesh.surfaces_of, adjacency,
+                                mesh.intersection_edges, run_);
+        out_.report.seconds_regions = watch.lap();
+    } else {
+        mesh.intersection_edges = arrangement_.intersection_edges;
+    }
+    mesh.regions_of = std::move(regions_->regions_of);
+    out_.regions = std::move(regions_->regions);
+}
+
+} // namespace
+
+namespace {
+
+/// Input vertices moved to a grid where their triangles cannot be rounded otherwise.
+class SnappedInput {
+public:
+    explicit SnappedInput(const Arrangement& a) :
+        arrangement_(a), chosen_(a.points.input_count(), false) {}
+
+    /// Chooses the corners of all parents of the triangles in contact. False if no corner is new.
+    bool choose(const RoundedMesh& rounded) {
+        bool any = false;
+        for (const ImproperContact& c : rounded.report.contacts)
+            for (const std::uint32_t t : c.triangles)
+                for (const std::uint32_t parent : rounded.mesh.parents_of[t])
+                    for (const std::uint32_t v : arrangement_.inputs.corners[parent]) {
+                        any = any || !chosen_[v];
+                        chosen_[v] = true;
+                    }
+        return any;
+    }
+
+    /// The surfaces with the chosen vertices, and all that share their cells, on the grid.
+    std::vector<Surface> surfaces(int digits) {
+        const auto inputs = arrangement_.points.inputs();
+        const SnapGrid grid = grid_of_digits(inputs, digits);
+        std::unordered_set<Point3, PointHash> cells;
+        for (std::size_t v = 0; v < inputs.size(); ++v)
+            if (chosen_[v]) cells.insert(grid.snap(inputs[v]));
+        std::vector<Surface> out;
+        moved_ = 0;
+        largest_ = 0;
+        const InputTriangles& in = arrangement_.inputs;
+        for (std::size_t s = 0; s + 1 < in.first.size(); ++s) {
+            Surface& surface = out.emplace_back();
+            for (std::uint32_t v = in.first_vertex[s]; v < in.first_vertex[s + 1]; ++v)
+                surface.vertices.push_back(place(inputs[v], grid, cells));
+        }
+        // Corners count through all surfaces and may name a vertex of an earlier one with the same
+        // coordinates: each triangle gets its own corners' coordinates back.
+        for (std::size_t s = 0; s + 1 < in.first.size(); ++s)
+            for (std::uint32_t t = in.first[s]; t < in.first[s + 1]; ++t)
+                out[s].triangles.push_back(own_corners(s, corners_of(t), out));
+        return out;
+    }
+
+    [[nodiscard]] double largest_move() const { return largest_; }
+    [[nodiscard]] std::size_t moved() const { return moved_; }
+
+private:
+    Point3 place(const Point3& p, const SnapGrid& grid,
+                 const std::unordered_set<Point3, PointHash>& cells) {
+        const Point3 cell = grid.snap(p);
+        if (cell == p || !cells.contains(cell)) return p;
+        ++moved_;
+        largest_ = std::max(largest_, distance_bound({{p.x, p.y, p.z}, {p.x, p.y, p.z}}, cell));
+        return cell;
+    }
+
+    /// What has no area must not get one from the grid: all its corners become the first.
+    [[nodiscard]] Triangle corners_of(std::uint32_t t) const {
+        const Triangle& c = arrangement_.inputs.corners[t];
+        const auto& degenerate = arrangement_.degenerate;
+        if (!std::binary_search(degenerate.begin(), degenerate.end(), t)) return c;
+        return {c[0], c[0], c[0]};
+    }
+
+    /// Corners as indices into surface s; vertices of other surfaces are added to it.
+    Triangle own_corners(std::size_t s, Triangle corners, std::vector<Surface>& surfaces) const {
+        const auto& first = arrangement_.inputs.first_vertex;
+        for (std::uint32_t& v : corners) {
+            if (v >= first[s] && v < first[s + 1]) {
+                v -= first[s];
+                continue;
+            }
+            const auto owner = static_cast<std::size_t>(
+                std::upper_bound(first.begin(), first.end(), v) - first.begin() - 1);
+            surfaces[s].vertices.push_back(surfaces[owner].vertices[v - first[owner]]);
+            v = static_cast<std::uint32_t>(surfaces[s].vertices.size() - 1);
+        }
+        return corners;
+    }
+
+    const Arrangement& arrangement_;
+    std::vector<bool> chosen_; ///< per input vertex
+    double largest_ = 0;
+    std::size_t moved_ = 0;
+};
+
+/// The largest distance between exact vertices and those of a mesh with the same triangles; 0 for
+/// another mesh: its vertices have no exact points of their own.
+double largest_distance(const Arrangement& a, const Mesh& mesh) {
+    double largest = 0;
+    if (mesh.triangles != a.triangles) return largest;
+    for (std::size_t v = 0; v < std::min(a.vertices.size(), mesh.vertices.size()); ++v)
+        largest =
+            std::max(largest, distance_bound(a.points.enclosure(a.vertices[v]), mesh.vertices[v]));
+    return largest;
+}
+
+/// What the snapped input moved, on top of what its rounding did. Where surfaces cross at a small
+/// angle, their intersection moves farther than their corners.
+void add_to_report(const SnappedInput& snapped, const Arrangement& a, const RoundingReport& first,
+                   RoundedMesh& rounded) {
+    RoundingReport& report = rounded.report;
+    report.naive_contacts = first.naive_contacts;
+    report.max_move = std::max((report.max_move + snapped.largest_move()) * (1 + 0x1p-52),
+                               largest_distance(a, rounded.mesh));
+    report.deviation =
+        std::max((report.deviation + snapped.largest_move()) * (1 + 0x1p-52), report.max_move);
+    report.moved_input_vertices += snapped.moved();
+    report.vanished = vanished(a, rounded.mesh.parents_of);
+}
+
+std::vector<std::size_t> regions_per_surface(std::size_t surfaces,
+                                             std::span<const Region> regions) {
+    std::vector<std::size_t> count(surfaces, 0);
+    for (const Region& r : regions) ++count[r.surface];
+    return count;
+}
+
+/// Compares with the regions of the exact surfaces.
+void report_lost_regions(const Arrangement& a, RoundedMesh& rounded) {
+    std::vector<Point3> places;
+    for (const PointIndex v : a.vertices) places.push_back(a.points.nearest(v));
+    const auto exact =
+        find_regions(places, a.triangles, a.surfaces_of, a.adjacency, a.intersection_edges);
+    const auto before = regions_per_surface(a.surfaces.size(), exact.regions);
+    const auto after = regions_per_surface(a.surfaces.size(), rounded.regions);
+    for (std::uint32_t s = 0; s < before.size(); ++s)
+        if (after[s] < before[s]) rounded.report.lost_regions.push_back({s, before[s], after[s]});
+}
+
+/// The arrangement of the snapped input becomes one of the input as it was: triangles that have the
+/// same points only since they were snapped are two.
+void name_input(const Arrangement& a, Arrangement& snapped) {
+    snapped.surfaces = a.surfaces;
+    snapped.inputs.duplicates = a.inputs.duplicates;
+    snapped.intersection_edges =
+        find_intersection_edges(snapped.adjacency, snapped.inputs, snapped.parents_of);
+}
+
+/// Whether an error has nothing to do with the surfaces.
+bool is_external(ErrorCode code) {
+    return code == ErrorCode::interrupted || code == ErrorCode::out_of_memory;
+}
+
+/// Arranges the input anew with snapped vertices, ever coarser, until the doubles are conforming.
+Result<RoundedMesh> snap_input(const Arrangement& a, RoundedMesh first,
+                               const RoundingOptions& options, const Run& run) {
+    SnappedInput snapped(a);
+    snapped.choose(first);
+    unsigned rounds = first.report.rounds;
+    for (const int digits : coarse_digits)
+        for (unsigned w = 0; w < widenings && rounds < options.max_rounds; ++w) {
+            auto again = arrange(snapped.surfaces(digits), {}, run);
+            if (!again) return again.error();
+            name_input(a, again.value());
+            if (a.restrict_again) {
+                again = a.restrict_again(std::move(again).value(), run);
+                if (!again && is_external(again.error().code)) return again.error();
+                if (!again) return first; // too coarse: a boundary is no longer closed
+            }
+            auto rounded = Rounding(again.value(), options, true, run)();
+            if (!rounded) return rounded;
+            ++rounds;
+            if (rounded.value().report.clean) {
+                add_to_report(snapped, a, first.report, rounded.value());
+                rounded.value().report.rounds += rounds;
+                return rounded;
+            }
+            if (!snapped.choose(rounded.value())) break;
+        }
+    return first;
+}
+
+Result<RoundedMesh> round_all(const Arrangement& a, const RoundingOptions& options,
+                              const Run& run) {
+    // Arranged anew, the input gets back what was taken out.
+    const bool may_snap_input = (a.whole || a.restrict_again) && options.max_rounds > 0;
+    Rounding where_it_lies(a, options, !may_snap_input, run);
+    auto rounded = where_it_lies();
+    const auto is_unclean = [&] { return rounded && !rounded.value().report.clean; };
+    if (is_unclean() && may_snap_input)
+        rounded = snap_input(a, std::move(rounded).value(), options, run);
+    if (is_unclean() && where_it_lies.left_crowded()) rounded = Rounding(a, options, true, run)();
+    if (rounded && (rounded.value().report.collapsed_triangles > 0 ||
+                    !rounded.value().report.vanished.empty()))
+        report_lost_regions(a, rounded.value());
+    return rounded;
+}
+
+} // namespace
+
+Result<RoundedMesh> round_to_doubles(const Arrangement& arrangement, const RoundingOptions& options,
+                                     const Run& run) {
+    try {
+        Result<RoundedMesh> rounded = Error{};
+        with_threads(run, [&] { rounded = round_all(arrangement, options, run); });
+        return rounded;
+    } catch (const std::bad_alloc&) {
+        return Error{ErrorCode::out_of_memory, "not enough memory for the rounding", ""};
+    } catch (const std::logic_error& broken) {
+        return Error{ErrorCode::internal, broken.what(), "rounding"};
+    }
+}
+
+} // namespace terrane

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/sealing/border_extension.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include <terrane/algorithms/core/disjoint_sets.hpp>
+#include <terrane/algorithms/mesh/edges.hpp>
+#include <terrane/algorithms/mesh/vectors.hpp>
+#include <terrane/kernel/predicates.hpp>
+
+namespace terrane {
+namespace {
+
+Point3 plus(const Point3& a, const Point3& b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+Point3 times(double f, const Point3& a) {
+    return {f * a.x, f * a.y, f * a.z};
+}
+
+/// Of length 1, or 0 where there is none.
+Point3 unit(const Point3& a) {
+    const double size = std::hypot(a.x, a.y, a.z);
+    return size > 0 && std::isfinite(size) ? times(1 / size, a) : Point3{};
+}
+
+Axis axis_of(const Arrangement& a, std::uint32_t input_triangle) {
+    const Triangle& c = a.inputs.corners[input_triangle];
+    return projection_axis(a.points.input(c[0]), a.points.input(c[1]), a.points.input(c[2]));
+}
+
+/// Key of an undirected edge of a surface.
+using EdgeKey = std::array<std::uint32_t, 3>;
+
+EdgeKey key_of(std::uint32_t surface, std::uint32_t a, std::uint32_t b) {
+    return {surface, std::min(a, b), std::max(a, b)};
+}
+
+/// Border edges of one surface, by its distinct triangles with area.
+void add_borders(const Arrangement& a, std::uint32_t surface, const std::vector<bool>& unusable,
+                 std::map<EdgeKey, BorderEdge>& borders) {
+    const auto& inputs = a.inputs;
+    std::vector<Triangle> triangles;
+    std::vector<std::uint32_t> number;
+    for (std::uint32_t t = inputs.first[surface]; t < inputs.first[surface + 1]; ++t) {
+        if (unusable[t]) continue;
+        triangles.push_back(inputs.corners[t]);
+        number.push_back(t);
+    }
+    // Vertices of this surface's range, and earlier ones that have the same coordinates.
+    group_edges(triangles, a.points.input_count())
+        .for_each([&](std::uint32_t low, std::uint32_t high, auto sides) {
+            if (sides.size() != 1) return;
+            const std::uint32_t t = sides[0].triangle;
+            const bool along = runs_along(triangles[t], low, high);
+            borders[key_of(surface, low, high)] = {
+                surface, number[t], along ? low : high, along ? high : low, {}, {}};
+        });
+}
+
+/// What strips know of a vertex of their border.
+struct Vertex {
+    std::vector<std::uint32_t> edges{}; ///< strip edges at it
+    double reach = 0;
+    Point3 beyond{}; ///< where the strip goes
+};
+
+class Builder {
+public:
+    Builder(const Arrangement& a, std::span<const StripEdge> edges) : a_(a), edges_(edges) {}
+
+    std::vector<StripTriangle> operator()() {
+        for (std::uint32_t e = 0; e < edges_.size(); ++e)
+            for (const std::uint32_t v : {edges_[e].edge.from, edges_[e].edge.to}) {
+                Vertex& vertex = vertices_[{edges_[e].edge.surface, v}];
+                vertex.edges.push_back(e);
+                vertex.reach = std::max(vertex.reach, edges_[e].reach);
+            }
+        for (auto& [key, vertex] : vertices_) place(key[1], vertex);
+        for (const StripEdge& e : edges_) add_quad(e);
+        std::uint32_t piece = 0;
+        for (const StripEdge& e : edges_) piece = std::max(piece, e.piece + 1);
+        for (const auto& [key, vertex] : vertices_)
+            if (vertex.edges.size() == 1) add_fan(key[1], vertex, piece++);
+        return std::move(strips_);
+    }
+
+private:
+    [[nodiscard]] const Point3& at(std::uint32_t v) const { return a_.points.input(v); }
+
+    /// In the plane of the edge's triangle, away from it, of length 1.
+    [[nodiscard]] Point3 outward(const StripEdge& e) const {
+        const Triangle& c = a_.inputs.corners[e.edge.triangle];
+        const Point3 n = unit(cross(minus(at(c[1]), at(c[0])), minus(at(c[2]), at(c[0]))));
+        return unit(cross(unit(minus(at(e.edge.to), at(e.edge.from))), n));
+    }
+
+    void place(std::uint32_t v, Vertex& vertex) {
+        Point3 sum{}, target_sum{};
+        std::size_t targets = 0;
+        for (const std::uint32_t e : vertex.edges) {
+            sum = plus(sum, outward(edges_[e]));
+            if (!edges_[e].targets) continue;
+            target_sum = plus(target_sum, (*edges_[e].targets)[edges_[e].edge.from == v ? 0 : 1]);
+            ++targets;
+        }
+        const Point3 mean = unit(sum);
+        // Mitred: as far from each edge as the reach, but no spikes.
+        const double cosine = dot(mean, outward(edges_[vertex.edges[0]]));
+        vertex.beyond = plus(at(v), times(vertex.reach / std::max(cosine, 0.4), mean));
+        if (targets == 0) return;
+        const Point3 target = times(1 / static_cast<double>(targets), target_sum);
+        const Point3 way = minus(target, at(v));
+        if (way != Point3{}) vertex.beyond = plus(target, times(0.5, way));
+    }
+
+    void add(const StripEdge& e, std::uint32_t piece, bool is_fan,
+             const std::array<Point3, 3>& corners, const std::array<bool, 3>& is_base,
+             unsigned side) {
+        if (collinear(corners[0], corners[1], corners[2])) return;
+        strips_.push_back({e.edge.surface, piece, is_fan, corners, is_base, side});
+    }
+
+    void add_quad(const StripEdge& e) {
+        const Point3 &a = at(e.edge.from), &b = at(e.edge.to);
+        const Point3 a1 = vertices_.at({e.edge.surface, e.edge.from}).beyond,
+                     b1 = vertices_.at({e.edge.surface, e.edge.to}).beyond;
+        add(e, e.piece, false, {b, a, a1}, {true, true, false}, 1);
+        add(e, e.piece, false, {b, a1, b1}, {true, false, false}, 2);
+    }
+
+    /// At the end of a chain, sideways by as much as beyond.
+    void add_fan(std::uint32_t v, const Vertex& vertex, std::uint32_t piece) {
+        const StripEdge& e = edges_[vertex.edges[0]];
+        const bool starts = e.edge.from == v;
+        const Point3 away = unit(minus(at(v), at(starts ? e.edge.to : e.edge.from)));
+        const double reach =
+            std::max(vertex.reach, std::hypot(vertex.beyond.x - at(v).x, vertex.beyond.y - at(v).y,
+                                              vertex.beyond.z - at(v).z));
+        const Point3 side = plus(vertex.beyond, times(reach, away));
+        if (starts)
+            add(e, piece, true, {at(v), side, vertex.beyond}, {true, false, false}, 2);
+        else
+            add(e, piece, true, {at(v), vertex.beyond, side}, {true, false, false}, 0);
+    }
+
+    const Arrangement& a_;
+    std::span<const StripEdge> edges_;
+    std::map<std::array<std::uint32_t, 2>, Vertex> vertices_; ///< by surface and vertex
+    std::vector<StripTriangle> strips_;
+};
+
+} // namespace
+
+bool lies_on(const Arrangement& a, const Edge& edge, std::uint32_t input_triangle,
+             std::uint32_t from, std::uint32_t to) {
+    const Axis axis = axis_of(a, input_triangle);
+    return std::all_of(edge.begin(), edge.end(), [&](std::uint32_t v) {
+        return a.points.orient2d(axis, from, to, a.vertices[v]) == Sign::Zero;
+    });
+}
+
+std::vector<BorderEdge> open_border_edges(const Arrangement& a, std::vector<bool> unusable) {
+    unusable.resize(a.inputs.corners.size(), false);
+    for (const std::uint32_t t : a.degenerate) unusable[t] = true;
+    for (const auto& [repeated, first] : a.inputs.duplicates)
+        if (a.inputs.surface_of(repeated) == a.inputs.surface_of(first)) unusable[repeated] = true;
+    std::vector<std::vector<std::uint32_t>> open(a.surfaces.size()); // edges of the adjacency
+    for (std::uint32_t e = 0; e < a.adjacency.edges.size(); ++e) {
+        const auto at = a.adjacency.triangles_at[e];
+        if (at.size() != 1) continue;
+        for (const std::uint32_t s : a.surfaces_of[at[0]]) open[s].push_back(e);
+    }
+    const UpwardRounding guard;
+    std::vector<BorderEdge> found;
+    for (std::uint32_t s = 0; s < open.size(); ++s) {
+        if (open[s].empty()) continue;
+        std::map<EdgeKey, BorderEdge> borders;
+        add_borders(a, s, unusable, borders);
+        for (const std::uint32_t e : open[s])
+            for (const std::uint32_t p : a.parents_of[a.adjacency.triangles_at[e][0]]) {
+                if (a.inputs.surface_of(p) != s) continue;
+                const Triangle& c = a.inputs.corners[p];
+                for (unsigned k = 0; k < 3; ++k) {
+                    const auto border = borders.find(key_of(s, c[k], c[(k + 1) % 3]));
+                    if (border == borders.end() || border->second.triangle != p ||
+                        !lies_on(a, a.adjacency.edges[e], p, c[k], c[(k + 1) % 3]))
+                        continue;
+                    border->second.open.push_back(a.adjacency.edges[e]);
+                    const auto own = a.surfaces_of[a.adjacency.triangles_at[e][0]];
+                    border->second.own.insert(border->second.own.end(), own.begin(), own.end());
+                    sort_unique(border->second.own);
+                }
+            }
+        for (auto& [key, border] : borders)
+            if (!border.open.empty()) found.push_back(std::move(border));
+    }
+    return found;
+}
+
+std::vector<StripTriangle> make_strips(const Arrangement& a, std::span<const StripEdge> edges) {
+    return Builder(a, edges)();
+}
+
+void append_strips(std::vector<Surface>& surfaces, std::span<const StripTriangle> strips) {
+    for (const StripTriangle& t : strips) {
+        Surface& s = surfaces[t.surface];
+        const auto first = static_cast<std::uint32_t>(s.vertices.size());
+        s.vertices.insert(s.vertices.end(), t.corners.begin(), t.corners.end());
+        s.triangles.push_back({first, first + 1, first + 2});
+    }
+}
+
+} // namespace terrane

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/sealing/extension_faces.hpp>
+
+#include <algorithm>
+#include <utility>
+
+#include <terrane/algorithms/core/disjoint_sets.hpp>
+
+namespace terrane {
+namespace {
+
+constexpr std::uint32_t none = UINT32_MAX;
+
+Edge common_edge(const Triangle& t, const Triangle& u) {
+    Edge edge{};
+    std::size_t n = 0;
+    for (const std::uint32_t v : t)
+        if (n < 2 && std::find(u.begin(), u.end(), v) != u.end()) edge[n++] = v;
+    if (edge[0] > edge[1]) std::swap(edge[0], edge[1]);
+    return edge;
+}
+
+class Cells {
+public:
+    Cells(const Arrangement& a, std::span<const StripTriangle> strips, std::vector<bool> keep) :
+        a_(a), strips_(strips), by_input_(strips_by_input(a, strips)),
+        strip_of_(strips_by_triangle(a, by_input_)), keep_(std::move(keep)),
+        sets_(a.triangles.size()), is_open_(a.triangles.size(), false) {}
+
+    std::vector<bool> operator()() {
+        for (std::uint32_t t = 0; t < strip_of_.size(); ++t)
+            if (strip_of_[t] != none) keep_[t] = false;
+        list_edges();
+        join();
+        do grow();
+        while (close());
+        return std::move(keep_);
+    }
+
+private:
+    /// An edge with a strip at it.
+    struct StripEdgeSides {
+        Edge edge;
+        std::vector<std::uint32_t> triangles;
+    };
+
+    [[nodiscard]] bool is_strip(std::uint32_t t) const { return strip_of_[t] != none; }
+
+    void list_edges() {
+        for (const auto& list : a_.adjacency.inner)
+            for (const auto& [t, u] : list)
+                if (is_strip(t) || is_strip(u))
+                    edges_.push_back({common_edge(a_.triangles[t], a_.triangles[u]), {t, u}});
+        for (std::size_t e = 0; e < a_.adjacency.edges.size(); ++e) {
+            const auto at = a_.adjacency.triangles_at[e];
+            if (std::any_of(at.begin(), at.end(), [&](auto t) { return is_strip(t); }))
+                edges_.push_back({a_.adjacency.edges[e], {at.begin(), at.end()}});
+        }
+    }
+
+    [[nodiscard]] bool are_one_strip(std::uint32_t t, std::uint32_t u) const {
+        return is_strip(t) && is_strip(u) &&
+               strips_[strip_of_[t]].surface == strips_[strip_of_[u]].surface;
+    }
+
+    void join() {
+        for (const StripEdgeSides& e : edges_) {
+            if (e.triangles.size() != 2) continue;
+            const auto [t, u] = std::pair(e.triangles[0], e.triangles[1]);
+            if (are_one_strip(t, u) && strips_[strip_of_[t]].piece == strips_[strip_of_[u]].piece)
+                sets_.join(t, u);
+        }
+    }
+
+    /// Keeps cells from the border on, as far as they are not open.
+    void grow() {
+        for (std::uint32_t t = 0; t < strip_of_.size(); ++t)
+            if (is_strip(t)) keep_[t] = false;
+        std::vector<bool> reached(strip_of_.size(), false); // per cell
+        for (bool changed = true; changed;) {
+            changed = false;
+            for (const StripEdgeSides& e : edges_) {
+                if (e.triangles.size() != 2) continue;
+                for (unsigned i = 0; i < 2; ++i)
+                    changed = reach(e.triangles[i], e.triangles[1 - i], reached) || changed;
+            }
+        }
+        for (std::uint32_t t = 0; t < strip_of_.size(); ++t)
+            if (is_strip(t)) keep_[t] = reached[sets_.find(t)];
+    }
+
+    /// Whether t's cell is reached now, over the edge with `from`.
+    bool reach(std::uint32_t t, std::uint32_t from, std::vector<bool>& reached) {
+        if (!is_strip(t) || reached[sets_.find(t)] || is_open_[sets_.find(t)]) return false;
+        const bool comes = is_strip(from)
+                               ? are_one_strip(t, from) && reached[sets_.find(from)]
+                               : keep_[from] && !strips_[strip_of_[t]].is_fan && shares(t, from);
+        if (comes) reached[sets_.find(t)] = true;
+        return comes;
+    }
+
+    /// The surface of a strip triangle is among the other one's.
+    [[nodiscard]] bool shares(std::uint32_t t, std::uint32_t of) const {
+        const auto list = a_.surfaces_of[of];
+        return std::binary_search(list.begin(), list.end(), strips_[strip_of_[t]].surface);
+    }
+
+    /// Marks kept cells that end free as open. True if there was one.
+    bool close() {
+        const UpwardRounding guard;
+        bool any = false;
+        for (const StripEdgeSides& e : edges_) {
+            std::uint32_t left = none;
+            std::size_t count = 0;
+            for (const std::uint32_t t : e.triangles) {
+                if (!keep_[t]) continue;
+                left = t;
+                ++count;
+            }
+            if (count != 1 || !is_strip(left) || is_side(left, e.edge)) continue;
+            is_open_[sets_.find(left)] = true;
+            any = true;
+        }
+        return any;
+    }
+
+    /// Whether the edge lies on the side of a quadrilateral.
+    [[nodiscard]] bool is_side(std::uint32_t t, const Edge& edge) const {
+        for (const std::uint32_t p : a_.parents_of[t]) {
+            const StripTriangle& strip = strips_[by_input_[p]];
+            const Triangle& c = a_.inputs.corners[p];
+            const unsigned k = strip.side;
+            if (!strip.is_fan && lies_on(a_, edge, p, c[k], c[(k + 1) % 3])) return true;
+        }
+        return false;
+    }
+
+    const Arrangement& a_;
+    std::span<const StripTriangle> strips_;
+    std::vector<std::uint32_t> by_input_;
+    std::vector<std::uint32_t> strip_of_; ///< per triangle of the arrangement
+    std::vector<bool> keep_;
+    std::vector<StripEdgeSides> edges_;
+    Sets sets_;                 ///< of triangles: cells
+    std::vector<bool> is_open_; ///< per cell
+};
+
+} // namespace
+
+std::vector<std::uint32_t> strips_by_input(const Arrangement& a,
+                                           std::span<const StripTriangle> strips) {
+    const auto& first = a.inputs.first;
+    std::vector<std::uint32_t> count(a.surfaces.size(), 0);
+    for (const StripTriangle& t : strips) ++count[t.surface];
+    std::vector<std::uint32_t> next(count.size());
+    for (std::size_t s = 0; s < count.size(); ++s) next[s] = first[s + 1] - count[s];
+    std::vector<std::uint32_t> by_input(a.inputs.corners.size(), none);
+    for (std::uint32_t i = 0; i < strips.size(); ++i) by_input[next[strips[i].surface]++] = i;
+    return by_input;
+}
+
+std::vector<std::uint32_t> strips_by_triangle(const Arrangement& a,
+                                              std::span<const std::uint32_t> by_input) {
+    std::vector<std::uint32_t> of(a.triangles.size(), none);
+    for (std::uint32_t t = 0; t < of.size(); ++t) {
+        const auto parents = a.parents_of[t];
+        if (std::all_of(parents.begin(), parents.end(),
+                        [&](std::uint32_t p) { return by_input[p] != none; }))
+            of[t] = by_input[parents[0]];
+    }
+    return of;
+}
+
+std::vector<bool> kept_cells(const Arrangement& arrangement, std::span<const StripTriangle> strips,
+                             std::vector<bool> keep) {
+    return Cells(arrangement, strips, std::move(keep))();
+}
+
+} // namespace terrane

@@ -1,0 +1,353 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/sealing/sealing.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <new>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include <terrane/algorithms/arrangement/restricted.hpp>
+#include <terrane/algorithms/core/disjoint_sets.hpp>
+#include <terrane/algorithms/mesh/triangle_tree.hpp>
+#include <terrane/algorithms/mesh/vectors.hpp>
+#include <terrane/algorithms/sealing/border_extension.hpp>
+#include <terrane/algorithms/sealing/detail/overshoots.hpp>
+#include <terrane/algorithms/sealing/extension_faces.hpp>
+
+namespace terrane {
+namespace {
+
+constexpr std::uint32_t none = UINT32_MAX;
+constexpr double along_plane = 4; ///< how far strips go for each unit of gap: enough where surfaces
+                                  ///< meet at 15 degrees or more
+constexpr unsigned most_rounds = 4;  ///< of taking useless strips out: one is enough but where
+                                     ///< strips depend on each other
+constexpr double least_steps = 1024; ///< shortest strip, in steps of doubles at its coordinates:
+                                     ///< shorter ones have no direction
+
+Point3 middle(const Point3& p, const Point3& q) {
+    return {p.x + (q.x - p.x) / 2, p.y + (q.y - p.y) / 2, p.z + (q.z - p.z) / 2};
+}
+
+std::array<Point3, 2> in_order(const Point3& p, const Point3& q) {
+    return {std::min(p, q), std::max(p, q)};
+}
+
+Error interrupted() {
+    return {ErrorCode::interrupted, "stopped on request", ""};
+}
+
+// ---- Gaps
+// ----------------------------------------------------------------------------------------
+
+/// The free part of one border edge and how far it is from other surfaces.
+struct Gap {
+    BorderEdge edge{};
+    double length = 0, largest = 0;
+    Point3 place{}; ///< where it is largest
+};
+
+/// Distances to surfaces, up to a bound.
+class Distances {
+public:
+    Distances(const Arrangement& a, double bound) : bound_(std::nextafter(bound, HUGE_VAL)) {
+        for (const PointIndex v : a.vertices) places_.push_back(a.points.nearest(v));
+        std::vector<std::vector<Triangle>> triangles(a.surfaces.size());
+        for (std::size_t t = 0; t < a.triangles.size(); ++t)
+            for (const std::uint32_t s : a.surfaces_of[t]) triangles[s].push_back(a.triangles[t]);
+        for (auto& of_surface : triangles) trees_.emplace_back(places_, std::move(of_surface));
+    }
+    Distances(const Distances&) = delete; // the trees refer to places_
+    Distances& operator=(const Distances&) = delete;
+    Distances(Distances&&) = delete;
+    Distances& operator=(Distances&&) = delete;
+    ~Distances() = default; /// Of the free parts of the edge that are nowhere farther than the
+                            /// bound from all surfaces but
+    /// the edge's own. Nothing where there is none.
+    [[nodiscard]] std::optional<Gap> gap_at(const BorderEdge& edge) const {
+        Gap gap{edge, 0, -1, {}};
+        for (const Edge& part : edge.open) add_part(gap, places_[part[0]], places_[part[1]]);
+        if (gap.largest < 0) return std::nullopt;
+        return gap;
+    }
+    /// The point nearest to p on a surface that does not contain the edge's triangle; the first
+    /// surface's among equals.
+    [[nodiscard]] std::optional<Point3> nearest(const Point3& p, const BorderEdge& edge) const {
+        std::optional<Point3> best;
+        double bound = bound_;
+        for (std::uint32_t s = 0; s < trees_.size(); ++s) {
+            if (std::binary_search(edge.own.begin(), edge.own.end(), s)) continue;
+            if (const auto near = trees_[s].nearest(p, bound)) {
+                best = near->place;
+                bound = near->distance;
+            }
+        }
+        return best;
+    }
+
+private:
+    void add_part(Gap& gap, const Point3& p, const Point3& q) const {
+        double largest = -1;
+        Point3 place{};
+        for (const Point3& at : {p, middle(p, q), q}) {
+            const auto near = nearest(at, gap.edge);
+            if (!near) return;
+            const double d = length(minus(*near, at));
+            if (d <= largest) continue;
+            largest = d;
+            place = at;
+        }
+        gap.length += length(minus(q, p));
+        if (largest <= gap.largest) return;
+        gap.largest = largest;
+        gap.place = place;
+    }
+
+    const double bound_;
+    std::vector<Point3> places_;
+    std::vector<TriangleTree> trees_; ///< per surface
+};
+
+// ---- What is kept
+// --------------------------------------------------------------------------------
+
+struct Judged {
+    std::vector<bool> keep;            ///< per triangle of the arrangement
+    std::vector<Overshoot> overshoots; ///< triangles of the arrangement
+};
+
+Judged judge(const Arrangement& a, std::span<const StripTriangle> strips, double distance,
+             const Run& run) {
+    const auto of = strips_by_triangle(a, strips_by_input(a, strips));
+    std::vector<bool> keep(a.triangles.size());
+    std::vector<std::uint32_t> originals;
+    for (std::uint32_t t = 0; t < keep.size(); ++t) {
+        keep[t] = of[t] == none;
+        if (keep[t]) originals.push_back(t);
+    }
+    Judged judged;
+    judged.overshoots = find_overshoots(strips.empty() ? a : restricted(a, keep, run), distance);
+    for (Overshoot& shoot : judged.overshoots)
+        for (std::uint32_t& t : shoot.triangles) {
+            t = originals[t];
+            keep[t] = false;
+        }
+    judged.keep = strips.empty() ? std::move(keep) : kept_cells(a, strips, std::move(keep));
+    return judged;
+}
+
+Result<Arrangement> judged_again(Arrangement a, const std::vector<StripTriangle>& strips,
+                                 double distance, const Run& run) {
+    const Judged judged = judge(a, strips, distance, run);
+    return restricted(std::move(a), judged.keep, run);
+}
+
+// ---- The work
+// ------------------------------------------------------------------------------------
+
+class Sealing {
+public:
+    Sealing(std::vector<Surface> surfaces, const SealOptions& options, const Run& run) :
+        surfaces_(std::move(surfaces)), options_(options), run_(run) {}
+
+    Result<Sealed> operator()() {
+        if (auto done = update(); !done) return done.error();
+        for (const bool along : {true, false}) {
+            report(along ? 0.3 : 0.6);
+            auto fresh = new_strips(along);
+            if (fresh.empty()) continue;
+            ++sealed_.passes;
+            if (auto done = add_useful(std::move(fresh)); !done) return done.error();
+            if (run_.stop.stop_requested()) return interrupted();
+        }
+        finish();
+        report(1);
+        return std::move(sealed_);
+    }
+
+private:
+    void report(double share) const {
+        if (run_.progress) run_.progress("seal", share);
+    }
+
+    [[nodiscard]] std::vector<Surface> with(std::span<const StripTriangle> strips) const {
+        auto surfaces = surfaces_;
+        append_strips(surfaces, strips);
+        return surfaces;
+    }
+
+    /// Arranges the surfaces with their strips, and judges.
+    Status update() {
+        auto a = arrange(with(strips_), options_.arrange, run_);
+        if (!a) return a.error();
+        whole_ = std::move(a).value();
+        judged_ = judge(whole_, strips_, options_.distance, run_);
+        kept_ = restricted(whole_, judged_.keep, run_);
+        if (run_.stop.stop_requested()) return interrupted();
+        return Done{};
+    }
+
+    /// Free parts of borders of the surfaces as they were, without strips, that are near enough.
+    [[nodiscard]] std::vector<Gap> gaps(const Distances& distances) const {
+        const auto by_input = strips_by_input(kept_, strips_);
+        std::vector<bool> is_strip;
+        for (const std::uint32_t strip : by_input) is_strip.push_back(strip != none);
+        std::vector<Gap> found;
+        for (const BorderEdge& edge : open_border_edges(kept_, is_strip))
+            if (auto gap = distances.gap_at(edge)) found.push_back(std::move(*gap));
+        return found;
+    }
+
+    /// The ends of border edges, in order, that have a strip already.
+    [[nodiscard]] std::set<std::array<Point3, 2>> edges_with_strip() const {
+        std::set<std::array<Point3, 2>> edges;
+        for (const StripTriangle& t : strips_)
+            if (t.is_base[0] && t.is_base[1]) edges.insert(in_order(t.corners[0], t.corners[1]));
+        return edges;
+    }
+
+    [[nodiscard]] std::vector<StripTriangle> new_strips(bool along) {
+        const Distances distances(kept_, options_.distance);
+        const Distances farther(kept_, 2 * options_.distance);
+        std::vector<StripEdge> edges;
+        const auto done = edges_with_strip();
+        for (Gap& gap : gaps(distances)) {
+            const std::array ends{kept_.points.input(gap.edge.from),
+                                  kept_.points.input(gap.edge.to)};
+            if (done.contains(in_order(ends[0], ends[1]))) continue;
+            StripEdge& strip = edges.emplace_back();
+            strip.edge = gap.edge;
+            strip.piece = static_cast<std::uint32_t>(gaps_.size());
+            strip.reach = std::max(along_plane * gap.largest, least_steps * step_at(ends));
+            if (!along) {
+                const auto a = farther.nearest(ends[0], gap.edge),
+                           b = farther.nearest(ends[1], gap.edge);
+                if (a && b) strip.targets = {*a, *b};
+            }
+            gaps_.push_back(std::move(gap));
+        }
+        auto strips = make_strips(kept_, edges);
+        for (const StripTriangle& t : strips)
+            gaps_.resize(std::max(gaps_.size(), t.piece + std::size_t{1})); // fans have no gap
+        return strips;
+    }
+
+    /// Distance of neighbouring doubles at the largest coordinate.
+    [[nodiscard]] static double step_at(const std::array<Point3, 2>& ends) {
+        double largest = std::numeric_limits<double>::min();
+        for (const Point3& p : ends)
+            largest = std::max({largest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+        return std::ldexp(1.0, std::ilogb(largest) - 52);
+    }
+
+    /// Takes the fresh strips in, and those out of which no part closes a gap, until all do.
+    Status add_useful(std::vector<StripTriangle> fresh) {
+        strips_.insert(strips_.end(), fresh.begin(), fresh.end());
+        for (unsigned round = 0; round < most_rounds; ++round) {
+            if (auto done = update(); !done) return done;
+            if (!drop_useless()) return Done{};
+        }
+        return update();
+    }
+
+    /// Whole pieces: halves would end at a diagonal. True if there was one.
+    bool drop_useless() {
+        const auto by_input = strips_by_input(whole_, strips_);
+        const auto of = strips_by_triangle(whole_, by_input);
+        std::vector<bool> used(gaps_.size(), false);
+        for (std::uint32_t t = 0; t < of.size(); ++t)
+            if (of[t] != none && judged_.keep[t])
+                for (const std::uint32_t p : whole_.parents_of[t])
+                    used[strips_[by_input[p]].piece] = true;
+        return std::erase_if(strips_, [&](const StripTriangle& t) { return !used[t.piece]; }) > 0;
+    }
+
+    void finish() {
+        list_extended();
+        list_trimmed();
+        std::sort(sealed_.changes.begin(), sealed_.changes.end(),
+                  [](const SealChange& a, const SealChange& b) {
+                      return std::tie(a.kind, a.surface, a.place, a.length) <
+                             std::tie(b.kind, b.surface, b.place, b.length);
+                  });
+        for (const Gap& gap : gaps(Distances(kept_, options_.distance))) sealed_.left += gap.length;
+        sealed_.surfaces = with(strips_);
+        sealed_.arrangement = std::move(kept_);
+        if (!sealed_.arrangement.whole)
+            sealed_.arrangement.restrict_again =
+                [strips = strips_, d = options_.distance](Arrangement a, const Run& run) {
+                    return judged_again(std::move(a), strips, d, run);
+                };
+    }
+
+    /// Strips whose pieces share corners of the border are one change.
+    void list_extended() {
+        Sets sets(gaps_.size());
+        std::map<std::pair<std::uint32_t, Point3>, std::uint32_t> at_corner;
+        for (const StripTriangle& t : strips_)
+            for (unsigned k = 0; k < 3; ++k) {
+                if (!t.is_base[k]) continue;
+                const auto [it, is_new] =
+                    at_corner.emplace(std::pair(t.surface, t.corners[k]), t.piece);
+                if (!is_new) sets.join(it->second, t.piece);
+            }
+        std::map<std::uint32_t, SealChange> changes;
+        std::vector<bool> counted(gaps_.size(), false);
+        for (const StripTriangle& t : strips_) {
+            SealChange& change = changes[sets.find(t.piece)];
+            change.surface = t.surface;
+            if (t.is_fan || counted[t.piece]) continue;
+            counted[t.piece] = true;
+            const Gap& gap = gaps_[t.piece];
+            change.length += gap.length;
+            if (gap.largest < change.largest) continue;
+            change.largest = gap.largest;
+            change.place = gap.place;
+        }
+        const auto of = strips_by_triangle(whole_, strips_by_input(whole_, strips_));
+        for (std::uint32_t t = 0; t < of.size(); ++t)
+            if (of[t] != none && judged_.keep[t])
+                ++changes[sets.find(strips_[of[t]].piece)].triangles;
+        for (const auto& [set, change] : changes) sealed_.changes.push_back(change);
+    }
+
+    void list_trimmed() {
+        for (const Overshoot& shoot : judged_.overshoots)
+            sealed_.changes.push_back({SealKind::trimmed, shoot.surface, shoot.length,
+                                       shoot.largest, shoot.place, shoot.triangles.size()});
+    }
+
+    const std::vector<Surface> surfaces_; ///< of the input
+    const SealOptions& options_;
+    const Run& run_;
+    std::vector<StripTriangle> strips_;
+    std::vector<Gap> gaps_; ///< per piece of strips, ever made
+    Arrangement whole_;     ///< of the surfaces with strips_
+    Judged judged_;         ///< of whole_
+    Arrangement kept_;      ///< of whole_
+    Sealed sealed_;
+};
+
+} // namespace
+
+Result<Sealed> seal(std::vector<Surface> surfaces, const SealOptions& options, const Run& run) {
+    if (!(options.distance > 0) || !std::isfinite(options.distance))
+        return Error{ErrorCode::bad_option, "the distance must be positive", "seal"};
+    try {
+        return Sealing(std::move(surfaces), options, run)();
+    } catch (const std::bad_alloc&) {
+        return Error{ErrorCode::out_of_memory, "not enough memory for sealing", ""};
+    } catch (const std::logic_error& broken) {
+        return Error{ErrorCode::internal, broken.what(), "sealing"};
+    }
+}
+
+} // namespace terrane

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/structure/free_borders.hpp>
+
+#include <algorithm>
+#include <climits>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+#include <terrane/algorithms/mesh/triangle_tree.hpp>
+
+namespace terrane {
+namespace {
+
+/// The nearest surface to a point, and how far it is.
+struct Nearest {
+    std::uint32_t surface = 0;
+    double distance = 0;
+};
+
+class SurfaceTrees {
+public:
+    explicit SurfaceTrees(const Mesh& mesh) {
+        std::vector<std::vector<Triangle>> triangles(mesh.surfaces.size());
+        for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+            for (const std::uint32_t s : mesh.surfaces_of[t])
+                triangles[s].push_back(mesh.triangles[t]);
+        for (auto& of_surface : triangles) {
+            filled_.push_back(!of_surface.empty());
+            trees_.emplace_back(mesh.vertices, std::move(of_surface));
+        }
+    }
+
+    /// Of all surfaces but those listed (ascending); the first among equals.
+    [[nodiscard]] std::optional<Nearest> nearest(const Point3& p,
+                                                 std::span<const std::uint32_t> but) const {
+        std::optional<Nearest> best;
+        double bound = std::numeric_limits<double>::infinity();
+        for (std::uint32_t s = 0; s < trees_.size(); ++s) {
+            if (!filled_[s] || std::binary_search(but.begin(), but.end(), s)) continue;
+            const double d = trees_[s].distance(p, bound);
+            if (best && d >= bound) continue;
+            bound = d;
+            best = {s, d};
+        }
+        return best;
+    }
+
+private:
+    std::vector<TriangleTree> trees_; ///< per surface
+    std::vector<bool> filled_;
+};
+
+int decade_of(double distance) {
+    return distance > 0 ? static_cast<int>(std::floor(std::log10(distance))) : INT_MIN;
+}
+
+/// A point of the border with what is nearest to it.
+struct Sample {
+    Point3 place{};
+    Nearest nearest{};
+};
+
+/// Vertices and middles of edges in turn; empty where there is no other surface.
+std::vector<Sample> samples_along(const Mesh& mesh, const ModelLine& line,
+                                  const SurfaceTrees& trees) {
+    std::vector<Sample> samples;
+    const auto add = [&](const Point3& p) {
+        const auto found = trees.nearest(p, line.surfaces);
+        if (found) samples.push_back({p, *found});
+    };
+    for (std::size_t i = 0; i < line.vertices.size(); ++i) {
+        const Point3& p = mesh.vertices[line.vertices[i]];
+        add(p);
+        if (i + 1 == line.vertices.size()) break;
+        const Point3& q = mesh.vertices[line.vertices[i + 1]];
+        add({p.x + (q.x - p.x) / 2, p.y + (q.y - p.y) / 2, p.z + (q.z - p.z) / 2});
+    }
+    return samples;
+}
+
+std::vector<BorderGap> gaps_along(const Mesh& mesh, const ModelLine& line,
+                                  const SurfaceTrees& trees) {
+    const auto samples = samples_along(mesh, line, trees);
+    std::map<std::pair<int, std::uint32_t>, BorderGap> gaps;
+    for (std::size_t i = 0; i + 2 < samples.size(); i += 2) {
+        const Sample& far = *std::max_element(
+            samples.begin() + static_cast<std::ptrdiff_t>(i),
+            samples.begin() + static_cast<std::ptrdiff_t>(i) + 3,
+            [](const auto& a, const auto& b) { return a.nearest.distance < b.nearest.distance; });
+        const auto& [surface, distance] = far.nearest;
+        const Point3 &p = samples[i].place, &q = samples[i + 2].place;
+        const int decade = decade_of(distance);
+        const BorderGap fresh{surface, decade, 0, distance, distance, far.place};
+        BorderGap& gap = gaps.try_emplace({decade, surface}, fresh).first->second;
+        gap.length += std::hypot(p.x - q.x, p.y - q.y, p.z - q.z);
+        gap.least = std::min(gap.least, distance);
+        if (distance <= gap.largest) continue;
+        gap.largest = distance;
+        gap.place = far.place;
+    }
+    std::vector<BorderGap> sorted;
+    for (const auto& [key, gap] : gaps) sorted.push_back(gap);
+    return sorted;
+}
+
+} // namespace
+
+std::vector<FreeBorder> find_free_borders(const Mesh& mesh, const Structure& structure) {
+    const SurfaceTrees trees(mesh);
+    std::vector<FreeBorder> borders;
+    for (std::uint32_t l = 0; l < structure.lines.size(); ++l) {
+        const ModelLine& line = structure.lines[l];
+        if (line.kind != LineKind::free_border) continue;
+        borders.push_back({l, line.surfaces, line.length,
+                           line.vertices.front() == line.vertices.back(),
+                           gaps_along(mesh, line, trees)});
+    }
+    return borders;
+}
+
+std::vector<Leak> leaks_of(std::span<const FreeBorder> borders) {
+    std::map<std::tuple<int, std::uint32_t, std::uint32_t>, Leak> leaks;
+    for (const FreeBorder& border : borders)
+        for (const std::uint32_t from : border.surfaces)
+            for (const BorderGap& gap : border.gaps) {
+                const Leak fresh{from, gap.surface, gap.decade,  0,
+                                 0,    gap.least,   gap.largest, gap.place};
+                Leak& leak =
+                    leaks.try_emplace({gap.decade, from, gap.surface}, fresh).first->second;
+                ++leak.borders;
+                leak.length += gap.length;
+                leak.least = std::min(leak.least, gap.least);
+                if (gap.largest <= leak.largest) continue;
+                leak.largest = gap.largest;
+                leak.place = gap.place;
+            }
+    std::vector<Leak> all;
+    for (const auto& [key, leak] : leaks) all.push_back(leak);
+    return all;
+}
+
+} // namespace terrane

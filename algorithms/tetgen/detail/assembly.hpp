@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// From TetGen's answer to a proven result. Private to terrane::tetgen.
+#pragma once
+
+#include <vector>
+
+#include <terrane/algorithms/core/result.hpp>
+#include <terrane/algorithms/mesh/mesh.hpp>
+#include <terrane/algorithms/tetgen/detail/process.hpp>
+#include <terrane/algorithms/tetgen/tetrahedra.hpp>
+
+namespace terrane {
+
+/// The mesh without unused vertices, and the box around it.
+struct TetgenDomain {
+    std::vector<Point3> points;      ///< used vertices of the mesh in its order, then 8 box corners
+    std::vector<Triangle> triangles; ///< of the mesh, indices into points
+    Box3 box;
+};
+
+/// Facets of the output: the triangles of the domain, then the sides of its box in the order low x,
+/// high x, low y, high y, low z, high z.
+/// Errors: internal, when a promise of tetrahedralize (see there) would not be kept.
+Result<TetrahedralMesh> assemble(const Mesh& mesh, const TetgenDomain& domain, TetgenOutput output);
+
+} // namespace terrane

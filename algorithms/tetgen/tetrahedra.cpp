@@ -1,0 +1,400 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// This file is LGPL; the library it becomes part of, terrane::tetgen, contains TetGen (AGPL), so
+// that the combination is AGPL.
+#include <terrane/algorithms/tetgen/tetrahedra.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <span>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <terrane/algorithms/arrangement/soup.hpp>
+#include <terrane/algorithms/intersection/intersection.hpp>
+#include <terrane/algorithms/search/search.hpp>
+#include <terrane/algorithms/tetgen/detail/assembly.hpp>
+#include <terrane/algorithms/tetgen/detail/process.hpp>
+#include <terrane/algorithms/tetgen/detail/sizes.hpp>
+#include <terrane/algorithms/tetrahedra/check_tetrahedra.hpp>
+#include <terrane/algorithms/tetrahedra/sharpest_angle.hpp>
+#include <terrane/algorithms/volumes/volumes.hpp>
+#include <terrane/kernel/predicates.hpp>
+
+namespace terrane {
+namespace {
+
+constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+constexpr double smallest_ratio = 1.1;
+constexpr double most_tetrahedra = 5e8; // TetGen counts in int
+
+// ---- 1. Options and mesh are sound ------------------------------------------------------------
+
+bool finite(const Point3& p) {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+
+Error bad_option(std::string sentence) {
+    return {ErrorCode::bad_option, std::move(sentence), ""};
+}
+
+Status check_length(const char* name, const std::optional<double>& value) {
+    if (value && !(std::isfinite(*value) && *value > 0))
+        return bad_option(fmt::format("{} must be a positive number, not {}", name, *value));
+    return Done{};
+}
+
+Status check_options(const TetrahedraOptions& options) {
+    if (!options.box)
+        if (Status margin = check_length("margin", options.margin); !margin) return margin;
+    if (options.box) {
+        const auto& [low, high] = *options.box;
+        if (!finite(low) || !finite(high) || low.x >= high.x || low.y >= high.y || low.z >= high.z)
+            return bad_option("box must have finite corners, low < high in each coordinate");
+    }
+    const auto& ratio = options.radius_edge_ratio;
+    if (ratio && !(std::isfinite(*ratio) && *ratio >= smallest_ratio))
+        return bad_option(
+            fmt::format("radius_edge_ratio must be at least {}, not {}", smallest_ratio, *ratio));
+    if (!(options.time_limit > 0)) return bad_option("time_limit must be positive");
+    if (Status length = check_length("edge_length", options.edge_length); !length) return length;
+    return check_length("max_volume", options.max_volume);
+}
+
+std::string place_of(std::size_t triangle) {
+    return fmt::format("triangle {}", triangle);
+}
+
+Status check_mesh(const Mesh& mesh) {
+    if (mesh.surfaces_of.size() != mesh.triangles.size())
+        return Error{ErrorCode::bad_index, "surfaces_of must have one list per triangle", ""};
+    for (const std::uint32_t surface : mesh.surfaces_of.values)
+        if (surface >= mesh.surfaces.size())
+            return Error{ErrorCode::bad_index, fmt::format("there is no surface {}", surface), ""};
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        for (const std::uint32_t v : mesh.triangles[t]) {
+            if (v >= mesh.vertices.size())
+                return Error{ErrorCode::bad_index, fmt::format("there is no vertex {}", v),
+                             place_of(t)};
+            if (!finite(mesh.vertices[v]))
+                return Error{ErrorCode::bad_number, fmt::format("vertex {} is not finite", v),
+                             place_of(t)};
+        }
+        const auto [a, b, c] = mesh.triangles[t];
+        if (collinear(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]))
+            return Error{ErrorCode::improper_contact,
+                         fmt::format("has no area (vertices {}, {}, {})", a, b, c), place_of(t)};
+    }
+    return Done{};
+}
+
+// ---- 2. The box -------------------------------------------------------------------------------
+
+bool strictly_inside(const Point3& p, const Box3& box) {
+    const auto& [low, high] = box;
+    return low.x < p.x && low.y < p.y && low.z < p.z && p.x < high.x && p.y < high.y &&
+           p.z < high.z;
+}
+
+Box3 enlarged_bounds(std::span<const Point3> points, double margin) {
+    Box3 box{points[0], points[0]};
+    for (const Point3& p : points) {
+        box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
+        box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y),
+                    std::max(box.high.z, p.z)};
+    }
+    const auto largest = [](const Point3& p) {
+        return std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+    };
+    constexpr double least = 0x1p-40; // of the largest coordinate: room between doubles
+    const double add = std::max(
+        margin * std::max({box.high.x - box.low.x, box.high.y - box.low.y, box.high.z - box.low.z}),
+        least * std::max(largest(box.low), largest(box.high)));
+    const auto below = [&](double x) { return std::min(x - add, std::nextafter(x, -HUGE_VAL)); };
+    const auto above = [&](double x) { return std::max(x + add, std::nextafter(x, HUGE_VAL)); };
+    box.low = {below(box.low.x), below(box.low.y), below(box.low.z)};
+    box.high = {above(box.high.x), above(box.high.y), above(box.high.z)};
+    return box;
+}
+
+Result<Box3> box_around(std::span<const Point3> points, const TetrahedraOptions& options) {
+    if (!options.box && points.empty())
+        return Error{ErrorCode::nothing_to_do, "no triangle and no box", ""};
+    const Box3 box = options.box ? *options.box : enlarged_bounds(points, options.margin);
+    if (!finite(box.low) || !finite(box.high))
+        return bad_option("margin makes the box larger than numbers can be");
+    for (const Point3& p : points)
+        if (!strictly_inside(p, box))
+            return bad_option(fmt::format("{} leaves ({}, {}, {}) on or outside of the box",
+                                          options.box ? "box" : "margin", p.x, p.y, p.z));
+    return box;
+}
+
+// ---- 3. The domain: used vertices, box corners, facets ------------------------------------------
+
+void keep_used_vertices(const Mesh& mesh, TetgenDomain& domain) {
+    std::vector<std::uint32_t> new_index(mesh.vertices.size(), none);
+    for (const Triangle& triangle : mesh.triangles)
+        for (const std::uint32_t v : triangle) new_index[v] = 0;
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+        if (new_index[v] == none) continue;
+        new_index[v] = static_cast<std::uint32_t>(domain.points.size());
+        domain.points.push_back(mesh.vertices[v]);
+    }
+    for (const auto& [a, b, c] : mesh.triangles)
+        domain.triangles.push_back({new_index[a], new_index[b], new_index[c]});
+}
+
+/// Corner i is high in x, y, z where bit 0, 1, 2 of i is set.
+void add_box_corners(TetgenDomain& domain) {
+    const auto& [low, high] = domain.box;
+    for (unsigned i = 0; i < 8; ++i)
+        domain.points.push_back({(i & 1U) != 0 ? high.x : low.x, (i & 2U) != 0 ? high.y : low.y,
+                                 (i & 4U) != 0 ? high.z : low.z});
+}
+
+/// No two vertices at one place, no triangle twice, no two triangles that cross or touch otherwise
+/// than in common vertices.
+Status check_contacts(const TetgenDomain& domain) {
+    std::vector<std::uint32_t> order(domain.points.size());
+    std::iota(order.begin(), order.end(), 0U);
+    const auto at = [&](std::uint32_t v) { return domain.points[v]; };
+    std::sort(order.begin(), order.end(),
+              [&](std::uint32_t v, std::uint32_t w) { return at(v) < at(w); });
+    const auto twin =
+        std::adjacent_find(order.begin(), order.end(),
+                           [&](std::uint32_t v, std::uint32_t w) { return at(v) == at(w); });
+    if (twin != order.end())
+        return Error{ErrorCode::improper_contact,
+                     fmt::format("two vertices of the mesh lie at ({}, {}, {})", at(*twin).x,
+                                 at(*twin).y, at(*twin).z),
+                     ""};
+    const BoxSource boxes(domain.points, domain.triangles);
+    for (const auto& [i, j] : candidate_pairs(boxes, {}, Search::automatic)) {
+        const Triangle &t = domain.triangles[i], &u = domain.triangles[j];
+        if (std::is_permutation(t.begin(), t.end(), u.begin()))
+            return Error{ErrorCode::improper_contact,
+                         fmt::format("has the same vertices as triangle {}", j), place_of(i)};
+        if (improper_contact(domain.points, t, u))
+            return Error{ErrorCode::improper_contact,
+                         fmt::format("meets triangle {} other than in a shared vertex or edge", j),
+                         place_of(i)};
+    }
+    return Done{};
+}
+
+Result<TetgenDomain> make_domain(const Mesh& mesh, const TetrahedraOptions& options) {
+    TetgenDomain domain;
+    keep_used_vertices(mesh, domain);
+    Result<Box3> box = box_around(domain.points, options);
+    if (!box) return box.error();
+    domain.box = box.value();
+    if (Status proper = check_contacts(domain); !proper) return proper.error();
+    add_box_corners(domain);
+    return domain;
+}
+
+// ---- 4. TetGen ----------------------------------------------------------------------------------
+
+/// TetGen works on coordinates times 2^-exponent, at most 1: exact, and safe from overflow. If that
+/// would lose digits of the smallest coordinates, the exponent is 0.
+class Scale {
+public:
+    explicit Scale(std::span<const Point3> points) {
+        double largest = 0;
+        for (const Point3& p : points)
+            largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+        std::frexp(largest, &exponent_);
+        const bool exact = std::all_of(points.begin(), points.end(),
+                                       [&](const Point3& p) { return up(down(p)) == p; });
+        if (!exact) exponent_ = 0;
+    }
+    [[nodiscard]] Point3 down(const Point3& p) const { return times(p, -exponent_); }
+    [[nodiscard]] Point3 up(const Point3& p) const { return times(p, exponent_); }
+    /// For a length, an area (dimension 2) or a volume (3).
+    [[nodiscard]] double down(double measure, int dimension) const {
+        return std::ldexp(measure, -exponent_ * dimension);
+    }
+
+private:
+    static Point3 times(const Point3& p, int exponent) {
+        return {std::ldexp(p.x, exponent), std::ldexp(p.y, exponent), std::ldexp(p.z, exponent)};
+    }
+    int exponent_ = 0;
+};
+
+void add_facets(const TetgenDomain& domain, TetgenInput& input) {
+    for (const Triangle& triangle : domain.triangles) input.facets.push_back(triangle);
+    using Quad = std::array<std::uint32_t, 4>;
+    constexpr std::array<Quad, 6> sides{
+        {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
+    const auto first = static_cast<std::uint32_t>(domain.points.size() - 8);
+    for (Quad side : sides) {
+        for (std::uint32_t& corner : side) corner += first;
+        input.facets.push_back(side);
+    }
+}
+
+/// Bounds on volumes and areas as TetGen gets them.
+class ScaledSizes {
+public:
+    ScaledSizes(const Sizes& sizes, const Scale& scale) : sizes_(sizes), scale_(scale) {}
+
+    [[nodiscard]] double volume_in(std::size_t volume) const {
+        constexpr double no_bound = 8; // coordinates are at most 1
+        const auto& [length, max_volume] = sizes_.in_volumes[volume];
+        return std::min({volume_of(scale_.down(length, 1)), scale_.down(max_volume, 3), no_bound});
+    }
+    [[nodiscard]] double area_for(double length) const { return area_of(scale_.down(length, 1)); }
+
+private:
+    const Sizes& sizes_;
+    const Scale& scale_;
+};
+
+/// More than TetGen can count, or memory hold, is said before it is tried.
+Status check_count(const Volumes& volumes, const Box3& scaled_box, const Sizes& sizes,
+                   const ScaledSizes& scaled, const Scale& scale) {
+    const auto& [low, high] = scaled_box;
+    const double whole = (high.x - low.x) * (high.y - low.y) * (high.z - low.z);
+    double count = 0, rest = whole;
+    for (std::size_t v = volumes.measures.size(); v-- > 0;) { // the outside at last
+        const double measure = v == 0 ? rest : std::min(scale.down(volumes.measures[v], 3), rest);
+        rest -= measure;
+        if (sizes.in_volumes[v].bounded()) count += measure / scaled.volume_in(v);
+    }
+    if (count <= most_tetrahedra) return Done{};
+    return bad_option(
+        fmt::format("the wanted sizes would need more than {} tetrahedra", most_tetrahedra));
+}
+
+/// Wanted edge lengths become volumes of regular tetrahedra and areas of their faces.
+Status set_sizes(const Mesh& mesh, const Volumes& volumes, const TetgenDomain& domain,
+                 const TetrahedraOptions& options, const Scale& scale, const Run& run,
+                 TetgenInput& input) {
+    const auto sizes = sizes_of(mesh, volumes, options);
+    if (!sizes) return sizes.error();
+    const ScaledSizes scaled(sizes.value(), scale);
+    input.radius_edge_ratio = options.radius_edge_ratio;
+    input.keep_facets = !sizes.value().any() && !input.radius_edge_ratio;
+    if (!sizes.value().any()) return Done{};
+    const Box3 box{scale.down(domain.box.low), scale.down(domain.box.high)};
+    if (Status good = check_count(volumes, box, sizes.value(), scaled, scale); !good) return good;
+    for (const double length : sizes.value().on_triangles)
+        input.max_areas.push_back(scaled.area_for(length));
+    input.max_areas.resize(input.facets.size(),
+                           scaled.area_for(sizes.value().in_volumes[0].length));
+    if (sizes.value().same_everywhere()) {
+        if (sizes.value().in_volumes[0].bounded()) input.max_volume = scaled.volume_in(0);
+        return Done{};
+    }
+    const auto points = points_of_bounded(mesh, volumes, domain.box, sizes.value(), run);
+    if (!points) return points.error();
+    for (const auto& [place, region] : points.value())
+        input.regions.push_back({scale.down(place), scaled.volume_in(region)});
+    return Done{};
+}
+
+Result<TetgenInput> tetgen_input(const Mesh& mesh, const Volumes& volumes,
+                                 const TetgenDomain& domain, const TetrahedraOptions& options,
+                                 const Scale& scale, const Run& run) {
+    TetgenInput input;
+    for (const Point3& p : domain.points) input.points.push_back(scale.down(p));
+    input.time_limit = options.time_limit;
+    add_facets(domain, input);
+    if (Status sizes = set_sizes(mesh, volumes, domain, options, scale, run, input); !sizes)
+        return sizes.error();
+    return input;
+}
+
+/// A failure of TetGen's own gets the place where it is most likely to have failed.
+Error with_place(Error error, const Mesh& mesh) {
+    if (error.code != ErrorCode::internal || !error.place.empty()) return error;
+    const auto sharp = sharpest_angle(mesh);
+    if (!sharp) return error;
+    error.code = ErrorCode::unsupported;
+    error.sentence +=
+        fmt::format(", in every way in which it was tried; the sharpest angle between "
+                    "triangles, {:.2g} degrees, is here",
+                    sharp->degrees);
+    error.place = fmt::format("({}, {}, {})", sharp->place.x, sharp->place.y, sharp->place.z);
+    return error;
+}
+
+/// Where TetGen fails, runs out of time, or fails the checks, it is asked again: to leave out its
+/// last step, the improvement of shapes, and then to split facets. All that with the points along a
+/// curve, as is its custom, then as they come: in 1.5.0 the former ends in an assertion for points
+/// as regular as those of two cubes that overlap.
+Result<TetrahedralMesh> try_in_turn(const Mesh& mesh, const Volumes& volumes,
+                                    const TetgenDomain& domain, TetgenInput& input,
+                                    const Scale& scale, const Run& run) {
+    struct Way {
+        bool keep_facets, improve, sort_points;
+    };
+    std::vector<Way> ways;
+    for (const bool sort_points : {true, false})
+        for (const bool keep_facets : {true, false})
+            for (const bool improve : {true, false})
+                if (input.keep_facets || !keep_facets)
+                    ways.push_back({keep_facets, improve, sort_points});
+    std::optional<Error> first;
+    for (const auto& [keep_facets, improve, sort_points] : ways) {
+        input.keep_facets = keep_facets;
+        input.improve = improve;
+        input.sort_points = sort_points;
+        Result<TetgenOutput> output = run_tetgen(input, run.stop);
+        if (output) {
+            for (Point3& p : output.value().points) p = scale.up(p);
+            Result<TetrahedralMesh> result = assemble(mesh, domain, std::move(output).value());
+            Status numbered = Done{};
+            if (result) numbered = adopt_volume_numbers(volumes, result.value());
+            if (result && numbered) return result;
+            if (!first) first = result ? numbered.error() : result.error();
+            continue;
+        }
+        const ErrorCode code = output.error().code;
+        if (code == ErrorCode::interrupted || code == ErrorCode::out_of_memory)
+            return output.error();
+        if (!first) first = output.error();
+    }
+    return with_place(*first, mesh);
+}
+
+// ---- 5. The stage -----------------------------------------------------------------------------
+
+Status proceed(const Run& run, double share) {
+    if (run.progress) run.progress("tetrahedralize", share);
+    if (run.stop.stop_requested())
+        return Error{ErrorCode::interrupted, "stopped while making tetrahedra", ""};
+    return Done{};
+}
+
+} // namespace
+
+Result<TetrahedralMesh> tetrahedralize(const Mesh& mesh, const TetrahedraOptions& options,
+                                       const Run& run) {
+    if (Status good = check_options(options); !good) return good.error();
+    if (Status good = check_mesh(mesh); !good) return good.error();
+    if (Status go = proceed(run, 0); !go) return go.error();
+
+    const Result<TetgenDomain> domain = make_domain(mesh, options);
+    if (!domain) return domain.error();
+    if (Status go = proceed(run, 0.1); !go) return go.error();
+
+    const Scale scale(domain.value().points);
+    const Result<Volumes> volumes = find_volumes(mesh, {.stop = run.stop});
+    if (!volumes) return volumes.error();
+    Result<TetgenInput> input =
+        tetgen_input(mesh, volumes.value(), domain.value(), options, scale, run);
+    if (!input) return input.error();
+    Result<TetrahedralMesh> result =
+        try_in_turn(mesh, volumes.value(), domain.value(), input.value(), scale, run);
+    if (!result) return result;
+    if (Status go = proceed(run, 1); !go) return go.error();
+    return result;
+}
+
+} // namespace terrane

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Its own library, terrane::tetgen, since TetGen's licence (AGPL) is not that of the core.
+#pragma once
+
+#include <optional>
+
+#include <terrane/algorithms/core/result.hpp>
+#include <terrane/algorithms/core/run.hpp>
+#include <terrane/algorithms/mesh/mesh.hpp>
+
+namespace terrane {
+
+/// Axis-aligned; low < high in each coordinate; unit of the mesh.
+struct Box3 {
+    Point3 low, high;
+};
+
+/// A length of edges that is wanted on a surface, and near it; unit of the mesh.
+struct SurfaceSize {
+    std::uint32_t surface = 0; ///< of the mesh
+    double edge_length = 0;
+};
+
+/// The same in a block (0: between the mesh and the box).
+struct BlockSize {
+    std::uint32_t block = 0; ///< as find_volumes(mesh) counts them
+    double edge_length = 0;
+};
+
+struct TetrahedraOptions {
+    std::optional<Box3> box{}; ///< closes the domain; must contain the mesh strictly inside
+    double margin = 0.1;       ///< without a box: the bounding box, enlarged on each side by this
+                               ///< share of its longest edge, at least by 2^-40 of the largest
+                               ///< coordinate
+    std::optional<double> edge_length{};       ///< wanted length, unit of the mesh; none: as few
+                                               ///< tetrahedra as possible
+    std::optional<double> radius_edge_ratio{}; ///< TetGen's quality bound (>= 1.1); none: no bound,
+                                               ///< or 2 with any size
+    std::optional<double> max_volume{};        ///< of a tetrahedron, cubic unit
+    std::vector<BlockSize> block_sizes{};      ///< instead of edge_length and max_volume there
+    std::vector<SurfaceSize> surface_sizes{};  ///< where they are less than what else holds there
+    double time_limit = 600; ///< seconds, > 0, for each way in which TetGen is asked: it may run
+                             ///< forever
+};
+
+/// Tetrahedra of a box in which every triangle of the mesh is a union of faces.
+///
+/// (1) Without sizes and radius_edge_ratio the faces on the mesh are its triangles, undivided,
+/// unless TetGen can't do without more vertices on them. Vertices added
+///     on a triangle are rounded to doubles next to it.
+/// (2) Vertices: those of the mesh that are in use, in its order and bit by bit, then the eight
+///     corners of the box, then added ones.
+/// (3) Proven for each result, exactly: all tetrahedra have positive volume, the volumes add up to
+///     the box's, each face has a tetrahedron on either side or lies on the box. So they fill the
+///     box without overlap.
+/// (4) Faces come in the order of their triangles and wound like them; faces on the box last,
+///     counterclockwise seen from outside.
+/// (5) Regions are what the mesh parts the box into, found by diffusion over the tetrahedra (the
+///     paper, section 3: regions one dimension up). They have the numbers of find_volumes(mesh);
+///     that each is one of its volumes, and the other way round, is checked at every face.
+/// (6) The same arguments give the same result, unless one of TetGen's ways runs out of time.
+///
+/// The mesh must be conforming (see check.hpp); that is tested, exactly, since TetGen may crash or
+/// run forever on another. TetGen runs in a child process: nothing is printed, a crash is an error
+/// like others, a stop request ends it at once, and calls from several threads do not disturb each
+/// other. Where it fails, or (3) does not hold, it is asked again in other ways.
+///
+/// Errors: improper_contact with the place, bad_index, bad_number, bad_option, nothing_to_do (no
+/// triangle and no box), interrupted, timed_out (in all ways), out_of_memory, unsupported (too
+/// large for TetGen, or surfaces too close for its tolerance), internal.
+///
+/// Source: TetGen 1.5 (H. Si).
+Result<TetrahedralMesh> tetrahedralize(const Mesh& mesh, const TetrahedraOptions& options,
+                                       const Run& run);
+
+} // namespace terrane

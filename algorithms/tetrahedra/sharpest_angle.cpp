@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/tetrahedra/sharpest_angle.hpp>
+
+#include <cmath>
+#include <vector>
+
+#include <terrane/algorithms/mesh/edges.hpp>
+#include <terrane/algorithms/mesh/vectors.hpp>
+
+namespace terrane {
+namespace {
+
+/// Away from the edge p q, in the plane of the triangle with the third corner r.
+Point3 away(const Point3& p, const Point3& q, const Point3& r) {
+    const Point3 e = minus(q, p), d = minus(r, p);
+    const double share = dot(d, e) / dot(e, e);
+    return {d.x - share * e.x, d.y - share * e.y, d.z - share * e.z};
+}
+
+double degrees_between(const Point3& u, const Point3& v) {
+    const Point3 n = cross(u, v);
+    return std::atan2(std::hypot(n.x, n.y, n.z), dot(u, v)) * 180 / std::acos(-1.0);
+}
+
+} // namespace
+
+std::optional<SharpAngle> sharpest_angle(const Mesh& mesh) {
+    std::optional<SharpAngle> sharpest;
+    std::vector<Point3> directions;
+    group_edges(mesh.triangles, mesh.vertices.size())
+        .for_each([&](std::uint32_t low, std::uint32_t high, auto sides) {
+            const Point3 &p = mesh.vertices[low], &q = mesh.vertices[high];
+            directions.clear();
+            for (const auto& side : sides) {
+                const auto& [a, b, c] = mesh.triangles[side.triangle];
+                directions.push_back(away(p, q, mesh.vertices[a ^ b ^ c ^ low ^ high]));
+            }
+            for (std::size_t i = 0; i < directions.size(); ++i)
+                for (std::size_t j = i + 1; j < directions.size(); ++j) {
+                    const double angle = degrees_between(directions[i], directions[j]);
+                    if (sharpest && !(angle < sharpest->degrees)) continue;
+                    sharpest = {
+                        angle,
+                        {p.x + (q.x - p.x) / 2, p.y + (q.y - p.y) / 2, p.z + (q.z - p.z) / 2}};
+                }
+        });
+    return sharpest;
+}
+
+} // namespace terrane

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/tetrahedra/without_outside.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace terrane {
+namespace {
+
+constexpr std::uint32_t none = UINT32_MAX;
+
+Triangle sorted(Triangle t) {
+    std::sort(t.begin(), t.end());
+    return t;
+}
+
+/// Faces of the tetrahedra, sorted.
+std::vector<Triangle> faces_of(const std::vector<std::array<std::uint32_t, 4>>& tetrahedra) {
+    std::vector<Triangle> faces;
+    faces.reserve(4 * tetrahedra.size());
+    for (const auto& [a, b, c, d] : tetrahedra)
+        for (const Triangle& f :
+             {Triangle{a, b, c}, Triangle{a, b, d}, Triangle{a, c, d}, Triangle{b, c, d}})
+            faces.push_back(sorted(f));
+    std::sort(faces.begin(), faces.end());
+    return faces;
+}
+
+void drop_tetrahedra(TetrahedralMesh& m) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < m.tetrahedra.size(); ++i) {
+        if (m.region_of[i] == 0) continue;
+        m.tetrahedra[kept] = m.tetrahedra[i];
+        m.region_of[kept++] = m.region_of[i];
+    }
+    m.tetrahedra.resize(kept);
+    m.region_of.resize(kept);
+}
+
+/// Faces on the box, and those without a tetrahedron.
+void drop_faces(TetrahedralMesh& m) {
+    const auto left = faces_of(m.tetrahedra);
+    std::vector<Triangle> faces;
+    std::vector<std::uint32_t> face_triangle;
+    Lists<std::uint32_t> surfaces_of;
+    for (std::size_t f = 0; f < m.faces.size(); ++f) {
+        if (m.face_triangle[f] == none ||
+            !std::binary_search(left.begin(), left.end(), sorted(m.faces[f])))
+            continue;
+        faces.push_back(m.faces[f]);
+        face_triangle.push_back(m.face_triangle[f]);
+        surfaces_of.push_back(m.surfaces_of[f]);
+    }
+    const bool had_box =
+        std::find(m.face_triangle.begin(), m.face_triangle.end(), none) != m.face_triangle.end();
+    if (had_box) m.surfaces.pop_back();
+    m.faces = std::move(faces);
+    m.face_triangle = std::move(face_triangle);
+    m.surfaces_of = std::move(surfaces_of);
+}
+
+void drop_vertices(TetrahedralMesh& m) {
+    std::vector<std::uint32_t> name(m.vertices.size(), none);
+    for (const auto& t : m.tetrahedra)
+        for (const std::uint32_t v : t) name[v] = 0;
+    std::uint32_t kept = 0;
+    for (std::size_t v = 0; v < name.size(); ++v) {
+        if (name[v] == none) continue;
+        m.vertices[kept] = m.vertices[v];
+        name[v] = kept++;
+    }
+    m.vertices.resize(kept);
+    for (auto& t : m.tetrahedra)
+        for (std::uint32_t& v : t) v = name[v];
+    for (Triangle& f : m.faces)
+        for (std::uint32_t& v : f) v = name[v];
+}
+
+} // namespace
+
+TetrahedralMesh without_outside(TetrahedralMesh mesh) {
+    drop_tetrahedra(mesh);
+    drop_faces(mesh);
+    drop_vertices(mesh);
+    return mesh;
+}
+
+} // namespace terrane

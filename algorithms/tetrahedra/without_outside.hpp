@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <terrane/algorithms/mesh/mesh.hpp>
+
+namespace terrane {
+
+/// The tetrahedra of all blocks: those of region 0, the outside, go, and with them faces and
+/// vertices that no block has, and the surface "box" that closed the domain. What stays keeps its
+/// order; regions keep their numbers, so that region 0 has no tetrahedra. Cost: linear.
+TetrahedralMesh without_outside(TetrahedralMesh mesh);
+
+} // namespace terrane

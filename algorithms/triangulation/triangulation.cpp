@@ -1,0 +1,520 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/triangulation/triangulation.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+#include <tuple>
+#include <utility>
+
+namespace terrane {
+namespace {
+
+constexpr unsigned next(unsigned i) {
+    return i == 2 ? 0 : i + 1;
+}
+constexpr unsigned previous(unsigned i) {
+    return i == 0 ? 2 : i - 1;
+}
+
+} // namespace
+
+void FaceInput::clear() {
+    for (auto& e : edge_points) e.clear();
+    inner_points.clear();
+    segments.clear();
+    segment_lines.clear();
+}
+
+std::span<const std::array<PointIndex, 3>>
+FaceTriangulation::operator()(const PointStore& points, std::span<const std::uint32_t> rank,
+                              const FaceInput& face) {
+    store_ = &points;
+    rank_ = rank;
+    axis_ = face.axis;
+    start(face);
+    const bool reversed = cells_[0].v[1] != 1;
+    insert_edge_points(face);
+    legalise();
+    insert_inner_points(face);
+
+    for (const Segment& s : segments_) insert_segment(s[0], s[1]);
+
+    result_.clear();
+    for (const Cell& c : cells_) {
+        std::array<PointIndex, 3> t{points_[c.v[0]], points_[c.v[1]], points_[c.v[2]]};
+        if (reversed) std::swap(t[1], t[2]);
+        result_.push_back(t);
+    }
+    return result_;
+}
+
+// One cell; its edges are fixed: they are the border.
+void FaceTriangulation::start(const FaceInput& face) {
+    take_points(face);
+    name_points();
+    find_lines(face);
+    cell_of_.assign(points_.size(), 0);
+    cells_.clear();
+    todo_.clear();
+    const bool positive = turn(0, 1, 2) == Sign::Positive;
+    Cell cell;
+    cell.v = positive ? std::array<Local, 3>{0, 1, 2} : std::array<Local, 3>{0, 2, 1};
+    cell.n = {none, none, none};
+    cell.fixed = {true, true, true};
+    cells_.push_back(cell);
+}
+
+void FaceTriangulation::take_points(const FaceInput& face) {
+    points_.clear();
+    flat_.clear();
+    const auto take = [&](PointIndex p) {
+        points_.push_back(p);
+        flat_.push_back(store_->approximate(axis_, p));
+    };
+    for (const PointIndex p : face.corners) take(p);
+    for (const auto& on_edge : face.edge_points)
+        for (const PointIndex p : on_edge) take(p);
+    order_inner_points(face);
+    for (const Inner& i : inner_) {
+        points_.push_back(i.point);
+        flat_.push_back(i.at);
+    }
+}
+
+// Levels by hash, coarse ones first, each level in lexicographic order, or in strips where it is
+// large: short walks, few flips. The triangles do not depend on the order.
+void FaceTriangulation::order_inner_points(const FaceInput& face) {
+    order_.clear();
+    for (const PointIndex p : face.inner_points) {
+        const std::uint64_t rank = rank_[p], h = (rank + 1) * 0x9e3779b97f4a7c15u;
+        const auto level = static_cast<std::uint64_t>(63 - std::countl_zero(h | 1)) / 2;
+        order_.emplace_back(level << 32 | rank, p);
+    }
+    std::sort(order_.begin(), order_.end());
+    inner_.clear();
+    for (const auto& [key, p] : order_) inner_.push_back({store_->approximate(axis_, p), p});
+    const auto level_of = [&](std::size_t k) { return order_[k].first >> 32; };
+    for (std::size_t first = 0, last = 0; first < order_.size(); first = last) {
+        while (last < order_.size() && level_of(last) == level_of(first)) ++last;
+        sort_into_strips(std::span(inner_).subspan(first, last - first));
+    }
+}
+
+// Up one strip and down the next.
+void FaceTriangulation::sort_into_strips(std::span<Inner> level) {
+    constexpr std::size_t few = 128; // of which one is near enough to the next
+    if (level.size() < few) return;
+    std::sort(level.begin(), level.end(), [](const Inner& a, const Inner& b) {
+        return std::tie(a.at.u, a.point) < std::tie(b.at.u, b.point);
+    });
+    const auto strips = static_cast<std::size_t>(std::sqrt(static_cast<double>(level.size())));
+    for (std::size_t k = 0; k < strips; ++k) {
+        const std::size_t first = level.size() * k / strips, last = level.size() * (k + 1) / strips;
+        const auto strip = level.subspan(first, last - first);
+        std::sort(strip.begin(), strip.end(), [](const Inner& a, const Inner& b) {
+            return std::tie(a.at.v, a.point) < std::tie(b.at.v, b.point);
+        });
+        if (k % 2 == 1) std::reverse(strip.begin(), strip.end());
+    }
+}
+
+namespace {
+
+std::size_t hash(PointIndex p) {
+    return (p * 0x9e3779b97f4a7c15u) >> 32;
+}
+
+} // namespace
+
+void FaceTriangulation::name_points() {
+    slots_.assign(std::bit_ceil(2 * points_.size()), none);
+    for (Local p = 0; p < points_.size(); ++p) {
+        std::size_t s = hash(points_[p]) & (slots_.size() - 1);
+        while (slots_[s] != none) s = (s + 1) & (slots_.size() - 1);
+        slots_[s] = p;
+    }
+}
+
+FaceTriangulation::Local FaceTriangulation::local(PointIndex p) const {
+    std::size_t s = hash(p) & (slots_.size() - 1);
+    while (points_[slots_[s]] != p) s = (s + 1) & (slots_.size() - 1);
+    return slots_[s];
+}
+
+// Each edge is cut from its start to its end: the rest is always the edge of one known cell.
+void FaceTriangulation::insert_edge_points(const FaceInput& face) {
+    Local x = 3;
+    for (Local e = 0; e < 3; ++e) {
+        if (face.edge_points[e].empty()) continue;
+        const Local end = (e + 1) % 3;
+        Side rest = border_side(e, end);
+        for (std::size_t k = 0; k < face.edge_points[e].size(); ++k, ++x) {
+            const Local fresh = static_cast<Local>(cells_.size());
+            const bool end_stays = cells_[rest.cell].v[next(rest.i)] == end;
+            split_edge(rest, x);
+            rest = {end_stays ? rest.cell : fresh, 0};
+        }
+    }
+}
+
+FaceTriangulation::Side FaceTriangulation::border_side(Local a, Local b) const {
+    for (Local cell = 0;; ++cell)
+        for (unsigned i = 0; i < 3; ++i) {
+            const Local from = cells_[cell].v[next(i)], to = cells_[cell].v[previous(i)];
+            if ((from == a && to == b) || (from == b && to == a)) return {cell, i};
+        }
+}
+
+void FaceTriangulation::insert_inner_points(const FaceInput& face) {
+    Local near = 0;
+    for (auto p = static_cast<Local>(points_.size() - face.inner_points.size()); p < points_.size();
+         ++p) {
+        const Side s = locate(p, near);
+        if (s.i == 3)
+            split_cell(s.cell, p);
+        else
+            split_edge(s, p);
+        legalise();
+        near = cell_of_[p];
+    }
+}
+
+// Visibility walk; i == 3: inside the cell, else on its edge i.
+FaceTriangulation::Side FaceTriangulation::locate(Local p, Local from) const {
+    Local cell = from, before = none;
+    for (;;) {
+        const Cell& c = cells_[cell];
+        unsigned on = 3, out = 3;
+        for (unsigned i = 0; i < 3 && out == 3; ++i) {
+            if (c.n[i] == before && before != none) continue;
+            if (c.n[i] == none) continue; // the border: p lies inside of it
+            const Sign s = turn(c.v[next(i)], c.v[previous(i)], p);
+            if (s == Sign::Negative) out = i;
+            if (s == Sign::Zero) on = i;
+        }
+        if (out == 3) return {cell, on};
+        before = cell;
+        cell = c.n[out];
+    }
+}
+
+/// Which points are known to lie on which lines: those of the segments, and the three edges.
+void FaceTriangulation::find_lines(const FaceInput& face) {
+    segments_.clear();
+    for (const Segment& s : face.segments) segments_.push_back({local(s[0]), local(s[1])});
+    // Pieces of one line mostly come one after the other: a point is not entered twice then.
+    const auto for_all = [&](const auto& enter) {
+        for (std::uint32_t e = 0, p = 3; e < 3; ++e) {
+            enter(e, e);
+            enter((e + 1) % 3, e);
+            for (std::size_t k = 0; k < face.edge_points[e].size(); ++k) enter(p++, e);
+        }
+        for (std::size_t s = 0; s < face.segment_lines.size(); ++s)
+            for (const Local p : segments_[s]) enter(p, face.segment_lines[s] + 3);
+    };
+    line_end_.assign(points_.size(), UINT32_MAX); // the last line
+    first_line_.assign(points_.size() + 1, 0);
+    for_all([&](Local p, std::uint32_t line) {
+        if (std::exchange(line_end_[p], line) != line) ++first_line_[p + 1];
+    });
+    std::partial_sum(first_line_.begin(), first_line_.end(), first_line_.begin());
+    lines_.resize(first_line_.back());
+    line_end_.assign(first_line_.begin(), first_line_.end() - 1);
+    for_all([&](Local p, std::uint32_t line) {
+        if (line_end_[p] == first_line_[p] || lines_[line_end_[p] - 1] != line)
+            lines_[line_end_[p]++] = line;
+    });
+}
+
+bool FaceTriangulation::on_one_line(Local a, Local b, Local c) const {
+    const auto has = [&](Local p, std::uint32_t line) {
+        const auto begin = lines_.begin();
+        const auto end = begin + first_line_[p + 1];
+        return std::find(begin + first_line_[p], end, line) != end;
+    };
+    for (std::uint32_t l = first_line_[a]; l < first_line_[a + 1]; ++l)
+        if (has(b, lines_[l]) && has(c, lines_[l])) return true;
+    return false;
+}
+
+Sign FaceTriangulation::turn(Local a, Local b, Local c) const {
+    if (const auto sign = quick_orient2d(flat_[a], flat_[b], flat_[c])) {
+        ++predicate_counts().static_filter;
+        return *sign;
+    }
+    if (on_one_line(a, b, c)) return Sign::Zero;
+    return store_->orient2d(axis_, points_[a], points_[b], points_[c]);
+}
+
+Sign FaceTriangulation::in_circle(const Cell& c, Local d) const {
+    if (const auto sign = quick_in_circle(flat_[c.v[0]], flat_[c.v[1]], flat_[c.v[2]], flat_[d])) {
+        ++predicate_counts().static_filter;
+        return *sign;
+    }
+    return store_->in_circle(axis_, points_[c.v[0]], points_[c.v[1]], points_[c.v[2]], points_[d]);
+}
+
+unsigned FaceTriangulation::index_in(Local cell, Local neighbour) const {
+    const auto& n = cells_[cell].n;
+    return n[0] == neighbour ? 0 : n[1] == neighbour ? 1 : 2;
+}
+
+void FaceTriangulation::replace_neighbour(Local cell, Local old_cell, Local new_cell) {
+    if (cell != none) cells_[cell].n[index_in(cell, old_cell)] = new_cell;
+}
+
+void FaceTriangulation::split_cell(Local cell, Local p) {
+    const Cell c = cells_[cell];
+    const Local b = static_cast<Local>(cells_.size()), d = b + 1;
+    const std::array<Local, 3> id{cell, b, d};
+    cells_.resize(cells_.size() + 2);
+    for (unsigned k = 0; k < 3; ++k) { // cell k keeps the edge opposite to v[k]
+        Cell& part = cells_[id[k]];
+        part.v = {p, c.v[next(k)], c.v[previous(k)]};
+        part.n = {c.n[k], id[next(k)], id[previous(k)]};
+        part.fixed = {c.fixed[k], false, false};
+        if (k > 0) replace_neighbour(c.n[k], cell, id[k]);
+        cell_of_[c.v[next(k)]] = id[k];
+        legalise_later({id[k], 0});
+    }
+    cell_of_[p] = cell;
+}
+
+void FaceTriangulation::split_edge(Side s, Local p) {
+    const bool fixed = cells_[s.cell].fixed[s.i];
+    const Local other = cells_[s.cell].n[s.i];
+    const Local fresh = static_cast<Local>(cells_.size()), fresh_other = fresh + 1;
+    const unsigned j = other == none ? 0 : index_in(other, s.cell);
+    cells_.resize(cells_.size() + (other == none ? 1 : 2));
+
+    // (apex, a, b) becomes (apex, a, p) and (apex, p, b); the same on the other side, from b to a.
+    const auto halve = [&](Local cell, unsigned i, Local second, Local first_beyond,
+                           Local second_beyond) {
+        const Cell c = cells_[cell];
+        const Local apex = c.v[i], a = c.v[next(i)], b = c.v[previous(i)];
+        const Local n_a = c.n[next(i)], n_b = c.n[previous(i)];
+        cells_[cell].v = {apex, a, p};
+        cells_[cell].n = {first_beyond, second, n_b};
+        cells_[cell].fixed = {fixed, false, c.fixed[previous(i)]};
+        cells_[second].v = {apex, p, b};
+        cells_[second].n = {second_beyond, n_a, cell};
+        cells_[second].fixed = {fixed, c.fixed[next(i)], false};
+        replace_neighbour(n_a, cell, second);
+        cell_of_[apex] = cell_of_[a] = cell_of_[p] = cell;
+        cell_of_[b] = second;
+        legalise_later({cell, 2});
+        legalise_later({second, 1});
+    };
+    halve(s.cell, s.i, fresh, other == none ? none : fresh_other, other);
+    if (other != none) halve(other, j, fresh_other, fresh, s.cell);
+}
+
+// The diagonal s of the quadrilateral of two cells becomes the other diagonal.
+void FaceTriangulation::flip(Side s) {
+    const Local t = s.cell, o = cells_[t].n[s.i];
+    const unsigned i = s.i, j = index_in(o, t);
+    const Cell c = cells_[t], d = cells_[o];
+    const Local p = c.v[i], a = c.v[next(i)], b = c.v[previous(i)], q = d.v[j];
+    // c = (p, a, b), d = (q, b, a): becomes t = (p, a, q), o = (q, b, p)
+    cells_[t].v = {p, a, q};
+    cells_[t].n = {d.n[next(j)], o, c.n[previous(i)]};
+    cells_[t].fixed = {d.fixed[next(j)], false, c.fixed[previous(i)]};
+    cells_[o].v = {q, b, p};
+    cells_[o].n = {c.n[next(i)], t, d.n[previous(j)]};
+    cells_[o].fixed = {c.fixed[next(i)], false, d.fixed[previous(j)]};
+    replace_neighbour(d.n[next(j)], o, t);
+    replace_neighbour(c.n[next(i)], t, o);
+    cell_of_[p] = cell_of_[a] = t;
+    cell_of_[q] = cell_of_[b] = o;
+}
+
+// Lawson: flips until every edge that is not fixed is locally Delaunay.
+void FaceTriangulation::legalise() {
+    while (!todo_.empty()) {
+        const Side s = todo_.back();
+        todo_.pop_back();
+        if (!must_flip(s)) continue;
+        const Local t = s.cell, o = cells_[t].n[s.i];
+        flip(s);
+        for (const Local cell : {t, o})
+            for (const unsigned i : {0u, 2u}) legalise_later({cell, i});
+    }
+}
+
+bool FaceTriangulation::must_flip(Side s) const {
+    const Cell& c = cells_[s.cell];
+    if (c.fixed[s.i] || c.n[s.i] == none) return false;
+    const Cell& o = cells_[c.n[s.i]];
+    return in_perturbed_circle(c, o.v[index_in(c.n[s.i], s.cell)]);
+}
+
+// Ties: as if the point of highest rank were lifted by an infinitesimal amount, the next one by an
+// infinitely smaller one, and so on. The first that matters decides.
+bool FaceTriangulation::in_perturbed_circle(const Cell& c, Local d) const {
+    const Sign s = in_circle(c, d);
+    if (s != Sign::Zero) return s == Sign::Positive;
+    std::array<Local, 4> order{c.v[0], c.v[1], c.v[2], d};
+    std::sort(order.begin(), order.end(),
+              [&](Local a, Local b) { return rank_[points_[a]] > rank_[points_[b]]; });
+    for (const Local p : order) {
+        if (p == d) return false;
+        const Sign t = p == c.v[2]   ? turn(c.v[0], c.v[1], d)
+                       : p == c.v[1] ? turn(c.v[0], d, c.v[2])
+                                     : turn(d, c.v[1], c.v[2]);
+        if (t != Sign::Zero) return t == Sign::Positive;
+    }
+    return false;
+}
+
+void FaceTriangulation::fix(Side s) {
+    cells_[s.cell].fixed[s.i] = true;
+    const Local o = cells_[s.cell].n[s.i];
+    if (o != none) cells_[o].fixed[index_in(o, s.cell)] = true;
+}
+
+// From u towards v, vertex by vertex: the segment may pass through other points.
+void FaceTriangulation::insert_segment(Local u, Local v) {
+    while (u != v) {
+        Local reached = none;
+        if (!advance(u, v, reached)) remove_crossed(u, reached);
+        u = reached;
+    }
+}
+
+// Looks at the cells round u. True: an edge of the segment was there already, from u to `reached`;
+// false: edges (now in crossed_) lie between u and `reached`.
+bool FaceTriangulation::advance(Local u, Local v, Local& reached) {
+    // Find the cell whose corner at u contains the direction to v, turning counterclockwise; at the
+    // border turn back and go on clockwise.
+    const auto corner = [&](Local cell) {
+        const auto& w = cells_[cell].v;
+        return w[0] == u ? 0u : w[1] == u ? 1u : 2u;
+    };
+    const Local begin = cell_of_[u];
+    bool clockwise = false;
+    for (Local cell = begin;;) {
+        const unsigned k = corner(cell);
+        const Cell& c = cells_[cell];
+        const Local a = c.v[next(k)], b = c.v[previous(k)];
+        if (a == v || b == v) {
+            reached = v;
+            fix({cell, a == v ? previous(k) : next(k)});
+            return true;
+        }
+        const Sign right = turn(u, a, v), left = turn(u, v, b);
+        // The corner is less than a straight angle: both signs >= 0 mean v lies within it, or
+        // straight behind one of its sides in the forward direction of the other.
+        if (right == Sign::Zero && left == Sign::Positive) {
+            reached = a;
+            fix({cell, previous(k)});
+            return true;
+        }
+        if (left == Sign::Zero && right == Sign::Positive) {
+            reached = b;
+            fix({cell, next(k)});
+            return true;
+        }
+        if (right == Sign::Positive && left == Sign::Positive) {
+            collect_crossed(u, v, {cell, k}, reached);
+            return false;
+        }
+        Local onward = clockwise ? c.n[previous(k)] : c.n[next(k)];
+        if (onward == none && !clockwise) {
+            clockwise = true;
+            const unsigned b0 = corner(begin);
+            onward = cells_[begin].n[previous(b0)];
+        }
+        if (onward == none) throw std::logic_error("a segment leaves its triangle");
+        cell = onward;
+    }
+}
+
+// Walks from u towards v across edges until a vertex lies on the segment: `reached`.
+void FaceTriangulation::collect_crossed(Local u, Local v, Side first, Local& reached) {
+    crossed_.clear();
+    Side s = first;
+    for (;;) {
+        const Cell& c = cells_[s.cell];
+        if (c.fixed[s.i]) throw std::logic_error("two segments of a triangle cross");
+        crossed_.push_back({c.v[next(s.i)], c.v[previous(s.i)]}); // right end, left end
+        const Local o = c.n[s.i];
+        const unsigned j = index_in(o, s.cell);
+        const Local apex = cells_[o].v[j];
+        if (apex == v) {
+            reached = v;
+            return;
+        }
+        const Sign side = turn(u, v, apex);
+        if (side == Sign::Zero) {
+            reached = apex;
+            return;
+        }
+        // In o = (apex, left end, right end), go on across the edge that the segment leaves by.
+        s = {o, side == Sign::Positive ? next(j) : previous(j)};
+    }
+}
+
+bool FaceTriangulation::is_convex(Side s) const {
+    const Cell& c = cells_[s.cell];
+    const Local o = c.n[s.i];
+    const Local p = c.v[s.i], a = c.v[next(s.i)], b = c.v[previous(s.i)];
+    const Local q = cells_[o].v[index_in(o, s.cell)];
+    return turn(p, a, q) == Sign::Positive && turn(q, b, p) == Sign::Positive;
+}
+
+// Flips the crossed edges away (Sloan), then restores the Delaunay property around the new ones.
+void FaceTriangulation::remove_crossed(Local u, Local v) {
+    const auto side_of = [&](const std::array<Local, 2>& e) {
+        // a cell that has both ends, e[0] right of the segment, seen from u
+        Local cell = cell_of_[e[0]];
+        const Local begin = cell;
+        bool clockwise = false;
+        for (;;) {
+            const auto& w = cells_[cell].v;
+            const unsigned k = w[0] == e[0] ? 0u : w[1] == e[0] ? 1u : 2u;
+            if (w[next(k)] == e[1]) return Side{cell, previous(k)};
+            if (w[previous(k)] == e[1]) return Side{cell, next(k)};
+            Local onward = clockwise ? cells_[cell].n[previous(k)] : cells_[cell].n[next(k)];
+            if (onward == none) {
+                clockwise = true;
+                const auto& first = cells_[begin].v;
+                const unsigned f = first[0] == e[0] ? 0u : first[1] == e[0] ? 1u : 2u;
+                onward = cells_[begin].n[previous(f)];
+            }
+            cell = onward;
+        }
+    };
+    std::vector<std::array<Local, 2>> made;
+    std::size_t head = 0;
+    while (head < crossed_.size()) {
+        const auto e = crossed_[head++];
+        const Side s = side_of(e);
+        if (!is_convex(s)) {
+            crossed_.push_back(e);
+            continue;
+        }
+        flip(s);
+        const Local p = cells_[s.cell].v[0], q = cells_[s.cell].v[2];
+        const bool reaches = p == u || p == v || q == u || q == v;
+        if (reaches || turn(u, v, p) * turn(u, v, q) == Sign::Positive) {
+            made.push_back({p, q});
+        } else {
+            const bool p_left = turn(u, v, p) == Sign::Positive;
+            crossed_.push_back(p_left ? std::array{q, p} : std::array{p, q});
+        }
+    }
+    for (const auto& e : made) {
+        const Side s = side_of(e);
+        const bool is_segment = (e[0] == u && e[1] == v) || (e[0] == v && e[1] == u);
+        if (is_segment)
+            fix(s);
+        else
+            legalise_later(s);
+    }
+    legalise();
+}
+
+} // namespace terrane

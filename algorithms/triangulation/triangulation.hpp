@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Step (e) of the arrangement: the constrained Delaunay triangulation of one triangle, exact and
+// unique: Delaunay in a projection, ties broken by a symbolic perturbation that depends on the
+// order of the points alone. So two coplanar triangles triangulate a common part in the same way.
+// Source: Lawson flips; Sloan (1993) for constraints; Devillers and Teillaud (2003) for ties.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <terrane/algorithms/mesh/surface.hpp>
+#include <terrane/kernel/point_store.hpp>
+
+namespace terrane {
+
+/// A segment to be contained, as a union of edges.
+using Segment = std::array<PointIndex, 2>;
+
+/// What one triangle must be divided by. Points are distinct; equal indices are equal points.
+struct FaceInput {
+    Axis axis = Axis::z;                                ///< see projection_axis
+    std::array<PointIndex, 3> corners{};                ///< of either orientation
+    std::array<std::vector<PointIndex>, 3> edge_points; ///< on the open edge i, from corner i to
+                                                        ///< corner i + 1, in this order
+    std::vector<PointIndex> inner_points;               ///< inside, in any order, each once
+    std::vector<Segment> segments;                      ///< between points named above; they do not
+                                                        ///< cross other than in these points
+
+    std::vector<std::uint32_t>
+        segment_lines; ///< per segment a number below 2^31, the same only for
+                       ///< segments on one line; or empty. Spares exact tests
+
+    void clear();
+};
+
+/// Reusable: its arrays are kept from one triangle to the next.
+class FaceTriangulation {
+public:
+    /// rank(p): position of p in the lexicographic order of all points in use.
+    /// The caller holds an UpwardRounding. The result has the orientation of the corners and is
+    /// valid until the next call. Expected cost: n^(4/3) for n points, plus the edges that segments
+    /// cross.
+    std::span<const std::array<PointIndex, 3>> operator()(const PointStore& points,
+                                                          std::span<const std::uint32_t> rank,
+                                                          const FaceInput& face);
+
+private:
+    using Local = std::uint32_t; ///< index into points_ or triangles_
+    static constexpr Local none = UINT32_MAX;
+
+    struct Cell {
+        std::array<Local, 3> v{};    ///< counterclockwise in the projection
+        std::array<Local, 3> n{};    ///< neighbour across the edge opposite to v[i], or none
+        std::array<bool, 3> fixed{}; ///< that edge is a constraint
+    };
+    struct Side { ///< the edge of a cell opposite to v[i]
+        Local cell;
+        unsigned i;
+    };
+
+    struct Inner { ///< an inner point
+        ApproximatePoint at;
+        PointIndex point;
+    };
+
+    void start(const FaceInput& face);
+    void take_points(const FaceInput& face);
+    void order_inner_points(const FaceInput& face);
+    static void sort_into_strips(std::span<Inner> level);
+    void name_points();
+    [[nodiscard]] Local local(PointIndex p) const;
+    void find_lines(const FaceInput& face);
+    [[nodiscard]] bool on_one_line(Local a, Local b, Local c) const;
+    void insert_edge_points(const FaceInput& face);
+    void insert_inner_points(const FaceInput& face);
+    void insert_segment(Local u, Local v);
+    bool advance(Local u, Local v, Local& reached);
+    void collect_crossed(Local u, Local v, Side first, Local& reached);
+    void remove_crossed(Local u, Local v);
+    void fix(Side s);
+
+    void split_cell(Local cell, Local p);
+    void split_edge(Side s, Local p);
+    void flip(Side s);
+    void legalise();
+    void legalise_later(Side s) { todo_.push_back(s); }
+    void link(Local cell, unsigned i, Local neighbour);
+    void replace_neighbour(Local cell, Local old_cell, Local new_cell);
+
+    [[nodiscard]] Side border_side(Local a, Local b) const;
+    [[nodiscard]] Side locate(Local p, Local from) const;
+    [[nodiscard]] unsigned index_in(Local cell, Local neighbour) const;
+    [[nodiscard]] Sign turn(Local a, Local b, Local c) const;
+    [[nodiscard]] Sign in_circle(const Cell& c, Local d) const;
+    [[nodiscard]] bool must_flip(Side s) const;
+    [[nodiscard]] bool in_perturbed_circle(const Cell& c, Local d) const;
+    [[nodiscard]] bool is_convex(Side s) const;
+
+    const PointStore* store_ = nullptr;
+    std::span<const std::uint32_t> rank_;
+    Axis axis_ = Axis::z;
+    std::vector<PointIndex> points_;     ///< corners, edge points, inner ones as they are inserted
+    std::vector<ApproximatePoint> flat_; ///< per point, in the projection
+    std::vector<Local> slots_;           ///< open addressing: points by hash of their index
+    std::vector<Segment> segments_;      ///< those of the face, as local points
+    std::vector<std::uint32_t> first_line_; ///< per point, and the end: lines_ that carry it
+    std::vector<std::uint32_t> lines_;
+    std::vector<std::uint32_t> line_end_; ///< per point, while lines_ is filled
+    std::vector<Local> cell_of_;          ///< per point, a cell that has it
+    std::vector<Cell> cells_;
+    std::vector<Side> todo_;
+    std::vector<std::array<Local, 2>> crossed_;
+    std::vector<std::pair<std::uint64_t, PointIndex>> order_; ///< inner points by level and rank
+    std::vector<Inner> inner_;                                ///< the same as they are inserted
+    std::vector<std::array<PointIndex, 3>> result_;
+};
+
+} // namespace terrane

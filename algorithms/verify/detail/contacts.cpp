@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/verify/detail/contacts.hpp>
+
+#include <algorithm>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+namespace terrane::verifier {
+
+namespace {
+
+using Corners = std::array<const Vector4*, 3>;
+using Heights = std::array<mpz_class, 3>;
+
+/// Two triangles, their corners ordered so that the shared ones come first, in the same order.
+struct Pair {
+    std::array<Corners, 2> corners;
+    std::size_t shared = 0;
+};
+
+Pair make_pair_of(const ExactMesh& mesh, Triangle a, Triangle b) {
+    Pair pair;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto same =
+            std::find(b.begin() + static_cast<std::ptrdiff_t>(pair.shared), b.end(), a[i]);
+        if (same == b.end()) continue;
+        std::swap(*same, b[pair.shared]);
+        std::swap(a[i], a[pair.shared]);
+        ++pair.shared;
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+        pair.corners[0][i] = &mesh.points[a[i]];
+        pair.corners[1][i] = &mesh.points[b[i]];
+    }
+    return pair;
+}
+
+/// The heights of a triangle's corners over a plane that holds the shared ones.
+Heights heights_over(const Vector4& plane, const Corners& corners, std::size_t shared) {
+    Heights heights;
+    for (std::size_t i = shared; i < 3; ++i) heights[i] = dot(plane, *corners[i]);
+    return heights;
+}
+
+/// Whether all corners that are not shared lie strictly on one side: then the triangle meets the
+/// plane in the hull of the shared corners only.
+bool on_one_side(const Heights& heights, std::size_t shared) {
+    const int side = sgn(heights[2]);
+    if (side == 0) return false;
+    return std::all_of(heights.begin() + static_cast<std::ptrdiff_t>(shared), heights.end(),
+                       [side](const mpz_class& height) { return sgn(height) == side; });
+}
+
+// --- Two triangles in one plane, judged in a projection ---------------------------------------
+
+int side_of(const Vector4& from, const Vector4& to, const Vector4& point, std::size_t axis) {
+    return sgn(turn(from, to, point, axis));
+}
+
+/// Two convex polygons are disjoint iff the line of some edge separates them.
+bool some_edge_separates(const Corners& triangle, const Corners& other, std::size_t axis) {
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (std::all_of(other.begin(), other.end(), [&](const Vector4* corner) {
+                return side_of(*triangle[i], *triangle[(i + 1) % 3], *corner, axis) < 0;
+            })) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// Whether the cone at corner 0 of a counterclockwise triangle holds another corner of `other`.
+bool cone_holds_some(const Corners& triangle, const Corners& other, std::size_t axis) {
+    const auto in_cone = [&](const Vector4& point) {
+        return side_of(*triangle[0], *triangle[1], point, axis) >= 0 &&
+               side_of(*triangle[0], point, *triangle[2], axis) >= 0;
+    };
+    return in_cone(*other[1]) || in_cone(*other[2]);
+}
+
+bool coplanar_meet_properly(Pair pair, std::size_t axis) {
+    auto& [a, b] = pair.corners;
+    if (pair.shared == 2) {
+        return side_of(*a[0], *a[1], *a[2], axis) != side_of(*a[0], *a[1], *b[2], axis);
+    }
+    for (Corners* corners : {&a, &b}) {
+        if (side_of(*(*corners)[0], *(*corners)[1], *(*corners)[2], axis) < 0) {
+            std::swap((*corners)[1], (*corners)[2]);
+        }
+    }
+    // Two cones with one apex share a ray iff a border ray of one lies in the other.
+    if (pair.shared == 1) return !cone_holds_some(a, b, axis) && !cone_holds_some(b, a, axis);
+    return some_edge_separates(a, b, axis) || some_edge_separates(b, a, axis);
+}
+
+// --- Two triangles in planes that cross in a line ---------------------------------------------
+
+/// A coordinate of a point on that line: numerator / denominator, denominator > 0.
+struct Position {
+    mpz_class numerator;
+    mpz_class denominator;
+
+    friend bool operator<(const Position& a, const Position& b) {
+        return a.numerator * b.denominator < b.numerator * a.denominator;
+    }
+};
+
+/// What a triangle and the line share.
+struct Interval {
+    Position low;
+    Position high;
+};
+
+void extend(std::optional<Interval>& interval, const Position& position) {
+    if (!interval) {
+        interval = Interval{position, position};
+    } else if (position < interval->low) {
+        interval->low = position;
+    } else if (interval->high < position) {
+        interval->high = position;
+    }
+}
+
+/// Where the segment from p to q, whose heights have opposite signs, crosses height zero.
+Position crossing(const Vector4& p, const Vector4& q, const mpz_class& height_p,
+                  const mpz_class& height_q, std::size_t axis) {
+    Position result{height_p * q[axis] - height_q * p[axis], height_p * q[3] - height_q * p[3]};
+    if (sgn(result.denominator) < 0) {
+        result.numerator = -result.numerator;
+        result.denominator = -result.denominator;
+    }
+    return result;
+}
+
+/// What a triangle shares with the plane over which its corners have these heights, in coordinate
+/// `axis`: the hull of the corners at height zero and the points where edges cross it.
+/// None iff all corners lie strictly on one side. Precondition: not all heights are zero.
+std::optional<Interval> section(const Corners& corners, const Heights& heights, std::size_t axis) {
+    std::optional<Interval> result;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t j = (i + 1) % 3;
+        if (sgn(heights[i]) == 0) extend(result, {(*corners[i])[axis], (*corners[i])[3]});
+        if (sgn(heights[i]) * sgn(heights[j]) < 0) {
+            extend(result, crossing(*corners[i], *corners[j], heights[i], heights[j], axis));
+        }
+    }
+    return result;
+}
+
+/// A coordinate in which the line that two planes share is not constant.
+std::size_t line_axis(const Vector4& a, const Vector4& b) {
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+        const std::size_t u = (axis + 1) % 3;
+        const std::size_t v = (axis + 2) % 3;
+        if (a[u] * b[v] != a[v] * b[u]) return axis;
+    }
+    return 2;
+}
+
+/// Of triangles with at most one shared corner: their common interval is empty, or that corner.
+bool sections_meet_properly(const std::optional<Interval>& a, const std::optional<Interval>& b,
+                            std::size_t shared) {
+    if (!a || !b) return true;
+    const Position& low = std::max(a->low, b->low);
+    const Position& high = std::min(a->high, b->high);
+    return shared == 0 ? high < low : !(low < high);
+}
+
+} // namespace
+
+ExactMesh make_exact_mesh(std::vector<Vector4> points, const mpz_class& scale,
+                          std::span<const Triangle> triangles) {
+    ExactMesh mesh{std::move(points), scale, {triangles.begin(), triangles.end()}, {}};
+    mesh.planes.reserve(triangles.size());
+    for (const Triangle& t : triangles) {
+        mesh.planes.push_back(orthogonal(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]));
+        make_primitive(mesh.planes.back());
+    }
+    return mesh;
+}
+
+bool meet_properly(const ExactMesh& mesh, std::uint32_t first, std::uint32_t second) {
+    const Pair pair = make_pair_of(mesh, mesh.triangles[first], mesh.triangles[second]);
+    if (pair.shared == 3) return true;
+    const auto& [a, b] = pair.corners;
+    const Vector4& plane_a = mesh.planes[first];
+    const Vector4& plane_b = mesh.planes[second];
+
+    const Heights heights_b = heights_over(plane_a, b, pair.shared);
+    if (on_one_side(heights_b, pair.shared)) return true;
+    if (std::all_of(heights_b.begin(), heights_b.end(),
+                    [](const mpz_class& height) { return sgn(height) == 0; })) {
+        return coplanar_meet_properly(pair, *projection_axis(plane_a));
+    }
+    const Heights heights_a = heights_over(plane_b, a, pair.shared);
+    if (on_one_side(heights_a, pair.shared)) return true;
+
+    const std::size_t axis = line_axis(plane_a, plane_b);
+    return sections_meet_properly(section(a, heights_a, axis), section(b, heights_b, axis),
+                                  pair.shared);
+}
+
+// --- Which pairs to test ----------------------------------------------------------------------
+
+namespace {
+
+bool touch(const Box& a, const Box& b) {
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (a.high[i] < b.low[i] || b.high[i] < a.low[i]) return false;
+    }
+    return true;
+}
+
+void extend(Box& box, const Box& other) {
+    for (std::size_t i = 0; i < 3; ++i) {
+        box.low[i] = std::min(box.low[i], other.low[i]);
+        box.high[i] = std::max(box.high[i], other.high[i]);
+    }
+}
+
+/// A tree of boxes over some items: each node's box holds the boxes of all items below it.
+class BoxTree {
+public:
+    /// Item i has box boxes[i].
+    BoxTree(std::vector<Box> boxes, std::vector<std::uint32_t> items) :
+        boxes_(std::move(boxes)), items_(std::move(items)) {
+        if (!items_.empty()) build(0, items_.size());
+    }
+
+    /// Items above `item` whose box touches its box, sorted.
+    [[nodiscard]] std::vector<std::uint32_t> touching_above(std::uint32_t item) const {
+        std::vector<std::uint32_t> found;
+        for (std::size_t n = 0; n < nodes_.size();) {
+            const Node& node = nodes_[n];
+            if (!touch(node.box, boxes_[item])) {
+                n = node.after;
+                continue;
+            }
+            for (std::size_t i = node.first; i < node.last; ++i) {
+                const std::uint32_t other = items_[i];
+                if (other > item && touch(boxes_[other], boxes_[item])) found.push_back(other);
+            }
+            ++n;
+        }
+        std::sort(found.begin(), found.end());
+        return found;
+    }
+
+private:
+    /// Nodes stand in depth-first order: a node's first child follows it.
+    struct Node {
+        Box box;
+        std::size_t first = 0; ///< of a leaf: its items are items_[first, last)
+        std::size_t last = 0;
+        std::size_t after = 0; ///< the node that follows the whole subtree
+    };
+    static constexpr std::size_t leaf_size = 4;
+
+    void build(std::size_t first, std::size_t last) {
+        const std::size_t n = nodes_.size();
+        Box box = boxes_[items_[first]];
+        for (std::size_t i = first; i < last; ++i) extend(box, boxes_[items_[i]]);
+        nodes_.push_back({box, 0, 0, 0});
+        if (last - first <= leaf_size) {
+            nodes_[n].first = first;
+            nodes_[n].last = last;
+        } else {
+            const std::size_t middle = split(first, last, box);
+            build(first, middle);
+            build(middle, last);
+        }
+        nodes_[n].after = nodes_.size();
+    }
+
+    /// Halves the items along the longest side of their box. Any split would be right.
+    std::size_t split(std::size_t first, std::size_t last, const Box& box) {
+        std::size_t axis = 0;
+        for (std::size_t i = 1; i < 3; ++i) {
+            if (box.high[i] - box.low[i] > box.high[axis] - box.low[axis]) axis = i;
+        }
+        const std::size_t middle = first + (last - first) / 2;
+        const auto at = [this](std::size_t i) {
+            return items_.begin() + static_cast<std::ptrdiff_t>(i);
+        };
+        std::nth_element(at(first), at(middle), at(last), [&](std::uint32_t a, std::uint32_t b) {
+            return std::pair(boxes_[a].low[axis], a) < std::pair(boxes_[b].low[axis], b);
+        });
+        return middle;
+    }
+
+    std::vector<Box> boxes_;
+    std::vector<std::uint32_t> items_;
+    std::vector<Node> nodes_;
+};
+
+std::vector<Box> boxes_of_triangles(const ExactMesh& mesh) {
+    std::vector<Box> corners;
+    corners.reserve(mesh.points.size());
+    for (const Vector4& point : mesh.points) corners.push_back(enclose(point, mesh.scale));
+    std::vector<Box> boxes;
+    boxes.reserve(mesh.triangles.size());
+    for (const Triangle& t : mesh.triangles) {
+        Box box = corners[t[0]];
+        extend(box, corners[t[1]]);
+        extend(box, corners[t[2]]);
+        boxes.push_back(box);
+    }
+    return boxes;
+}
+
+} // namespace
+
+std::vector<std::array<std::uint32_t, 2>> find_improper_pairs(const ExactMesh& mesh,
+                                                              std::size_t at_most) {
+    std::vector<std::uint32_t> with_area;
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+        if (projection_axis(mesh.planes[t])) with_area.push_back(t);
+    }
+    const BoxTree tree(boxes_of_triangles(mesh), with_area);
+    std::vector<std::array<std::uint32_t, 2>> improper;
+    for (const std::uint32_t t : with_area) {
+        for (const std::uint32_t other : tree.touching_above(t)) {
+            if (!meet_properly(mesh, t, other)) improper.push_back({t, other});
+        }
+        if (improper.size() >= at_most) break;
+    }
+    return improper;
+}
+
+} // namespace terrane::verifier

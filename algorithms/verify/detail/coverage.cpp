@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/verify/detail/coverage.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+namespace terrane::verifier {
+
+namespace {
+
+/// A number: first / second, where second is positive.
+using Fraction = std::pair<mpz_class, mpz_class>;
+
+int compare(const Fraction& a, const Fraction& b) {
+    return cmp(a.first * b.second, b.first * a.second);
+}
+
+Vector4 weighted(const Vector4& a, const mpz_class& s, const Vector4& b, const mpz_class& t) {
+    Vector4 sum;
+    for (std::size_t i = 0; i < 4; ++i) sum[i] = s * a[i] + t * b[i];
+    return sum;
+}
+
+/// Halfway, in space.
+Vector4 middle(const Vector4& a, const Vector4& b) {
+    return weighted(a, b[3], b, a[3]);
+}
+
+} // namespace
+
+Coverage::Coverage(const std::array<const Vector4*, 3>& parent, std::span<const Vector4> points,
+                   const mpz_class& collar) :
+    parent_(parent),
+    points_(points), collar_(collar),
+    normal_(cross(difference(*parent[1], *parent[0]), difference(*parent[2], *parent[0]))) {}
+
+/// Positive: left of the line, seen against the normal. `from` and `to` have w = 1.
+int Coverage::side_of(const Vector4& from, const Vector4& to, const Vector4& point) const {
+    return sgn(dot(normal_, cross(difference(to, from), difference(point, from))));
+}
+
+bool Coverage::near_border(const Vector4& a, const Vector4& b) const {
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vector4& start = *parent_[i];
+        const Vector4& end = *parent_[(i + 1) % 3];
+        if (within_of_segment(a, start, end, collar_) && within_of_segment(b, start, end, collar_))
+            return true;
+    }
+    return false;
+}
+
+bool Coverage::has_in(const Triangle& child, const Vector4& point) const {
+    for (std::size_t i = 0; i < 3; ++i)
+        if (side_of(points_[child[i]], points_[child[(i + 1) % 3]], point) < 0) return false;
+    return true;
+}
+
+bool Coverage::covers_centroid(std::span<const Triangle> children) const {
+    Vector4 centroid{0, 0, 0, 3};
+    for (const Vector4* corner : parent_)
+        for (std::size_t i = 0; i < 3; ++i) centroid[i] += (*corner)[i];
+    for (std::size_t i = 0; i < 3; ++i)
+        if (within_of_segment(centroid, *parent_[i], *parent_[(i + 1) % 3], collar_)) return true;
+    return std::ranges::any_of(children, [&](const Triangle& t) { return has_in(t, centroid); });
+}
+
+/// The children that have area, seen along the normal; counterclockwise.
+std::vector<Triangle> Coverage::facing(std::span<const Triangle> children) const {
+    std::vector<Triangle> result;
+    for (Triangle t : children) {
+        const int sign = side_of(points_[t[0]], points_[t[1]], points_[t[2]]);
+        if (sign < 0) std::swap(t[1], t[2]);
+        if (sign != 0) result.push_back(t);
+    }
+    return result;
+}
+
+/// Where the border of a child meets an edge, seen along the normal: points of the edge in order,
+/// each once, with its ends.
+std::vector<Vector4> Coverage::crossings(const Edge& edge,
+                                         std::span<const Triangle> children) const {
+    const Vector4& from = points_[edge[0]];
+    const Vector4& to = points_[edge[1]];
+    const Vector3 along = difference(to, from);
+    const Vector3 left = cross(normal_, along);
+    const Vector3 forward = cross(left, normal_); // the edge, seen along the normal
+    const mpz_class length = dot(forward, along);
+    std::vector<Fraction> places{{0, 1}, {length, 1}};
+    const auto add = [&](const mpz_class& above, const mpz_class& below) {
+        if (sgn(above) > 0 && above < length * below) places.emplace_back(above, below);
+    };
+    for (const Triangle& t : children)
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Vector3 a = difference(points_[t[i]], from);
+            const Vector3 b = difference(points_[t[(i + 1) % 3]], from);
+            const mpz_class u = dot(left, a), v = dot(left, b);
+            if (sgn(u) == 0) add(dot(forward, a), 1);
+            if (sgn(u) * sgn(v) >= 0) continue;
+            const mpz_class below = abs(mpz_class(u - v));
+            add(abs(v) * dot(forward, a) + abs(u) * dot(forward, b), below);
+        }
+    std::ranges::sort(places, [](const auto& p, const auto& q) { return compare(p, q) < 0; });
+    const auto same = [](const auto& p, const auto& q) { return compare(p, q) == 0; };
+    places.erase(std::unique(places.begin(), places.end(), same), places.end());
+    std::vector<Vector4> points;
+    for (const auto& [above, below] : places) {
+        const mpz_class rest = length * below - above;
+        points.push_back(weighted(from, rest, to, above));
+    }
+    return points;
+}
+
+/// Whether a child holds what is near a point, no end of its edges, on the other side of an edge.
+bool Coverage::covers_beside(const Triangle& child, const Side& side, const Vector4& point) const {
+    const Vector4& from = points_[side.edge[0]];
+    const Vector4& to = points_[side.edge[1]];
+    for (std::size_t i = 0; i < 3; ++i) {
+        const int place = side_of(points_[child[i]], points_[child[(i + 1) % 3]], point);
+        if (place < 0) return false;
+        if (place == 0 && side_of(from, to, points_[child[(i + 2) % 3]]) != -side.sign)
+            return false;
+    }
+    return true;
+}
+
+/// Whether other children cover what lies beyond an edge that has children on one side only, but
+/// for what is near the border.
+bool Coverage::covered_elsewhere(const Side& side, std::span<const Triangle> children) const {
+    const auto places = crossings(side.edge, children);
+    for (std::size_t i = 1; i < places.size(); ++i) {
+        if (near_border(places[i - 1], places[i])) continue;
+        const Vector4 point = middle(places[i - 1], places[i]);
+        if (std::ranges::none_of(
+                children, [&](const Triangle& child) { return covers_beside(child, side, point); }))
+            return false;
+    }
+    return true;
+}
+
+bool Coverage::holds(std::span<const Triangle> all) const {
+    const std::vector<Triangle> children = facing(all);
+    if (!covers_centroid(children)) return false;
+    std::vector<Side> sides;
+    for (const Triangle& t : children)
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto [low, high] = std::minmax(t[i], t[(i + 1) % 3]);
+            sides.push_back({{low, high}, low == t[i] ? 1 : -1});
+        }
+    std::ranges::sort(sides, [](const Side& a, const Side& b) {
+        return std::pair(a.edge, a.sign) < std::pair(b.edge, b.sign);
+    });
+    for (std::size_t first = 0, last = 0; first < sides.size(); first = last) {
+        while (last < sides.size() && sides[last].edge == sides[first].edge) ++last;
+        const Side& side = sides[first];
+        if (side.sign != sides[last - 1].sign) continue; // children on both sides
+        if (near_border(points_[side.edge[0]], points_[side.edge[1]])) continue;
+        if (!covered_elsewhere(side, children)) return false;
+    }
+    return true;
+}
+
+} // namespace terrane::verifier

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/verify/detail/digest.hpp>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include <terrane/algorithms/core/sha256.hpp>
+#include <terrane/algorithms/verify/detail/rational.hpp>
+
+namespace terrane::verifier {
+
+namespace {
+
+std::string number(const mpz_class& numerator, const mpz_class& denominator) {
+    const mpz_class factor = gcd(numerator, denominator);
+    const mpz_class below = denominator / factor;
+    std::string text = mpz_class(numerator / factor).get_str(16);
+    if (below != 1) text += "/" + below.get_str(16);
+    return text;
+}
+
+Hash hash_of_point(const Vector4& point, const mpz_class& scale) {
+    const mpz_class denominator = point[3] * scale;
+    return sha256(number(point[0], denominator) + " " + number(point[1], denominator) + " " +
+                  number(point[2], denominator));
+}
+
+template <std::size_t n>
+void feed_sorted(Sha256& state, std::array<Hash, n> hashes) {
+    std::sort(hashes.begin(), hashes.end());
+    state.feed(hashes);
+}
+
+/// The inputs of the claim, as hashes.
+struct HashedInputs {
+    std::vector<Vector4> points;
+    mpz_class scale = 1;
+    std::vector<Hash> triangles;
+};
+
+HashedInputs hash_inputs(std::span<const Surface> surfaces) {
+    std::vector<Point3> all;
+    for (const Surface& s : surfaces) all.insert(all.end(), s.vertices.begin(), s.vertices.end());
+    HashedInputs inputs;
+    auto scaled = scale_to_integers(all);
+    inputs.points = std::move(scaled.points);
+    inputs.scale = std::move(scaled.scale);
+    std::size_t offset = 0;
+    for (const Surface& s : surfaces) {
+        std::vector<Hash> hashes;
+        for (std::size_t v = 0; v < s.vertices.size(); ++v)
+            hashes.push_back(hash_of_point(inputs.points[offset + v], inputs.scale));
+        offset += s.vertices.size();
+        for (const Triangle& t : s.triangles) {
+            Sha256 state;
+            state.feed("input");
+            feed_sorted(state, std::array{hashes[t[0]], hashes[t[1]], hashes[t[2]]});
+            state.feed(s.name);
+            inputs.triangles.push_back(state.finish());
+        }
+    }
+    return inputs;
+}
+
+std::optional<std::vector<Hash>> hash_vertices(const HashedInputs& inputs,
+                                               const ArrangementClaim& claim) {
+    std::vector<Hash> hashes;
+    for (const Construction& how : claim.vertices) {
+        const auto point = construct(how, inputs.points);
+        if (!point) return std::nullopt;
+        hashes.push_back(hash_of_point(*point, inputs.scale));
+    }
+    return hashes;
+}
+
+/// Each vertex with the parents of the triangles at it.
+std::vector<Hash> hash_corners(const ArrangementClaim& claim, const HashedInputs& inputs,
+                               const std::vector<Hash>& vertices) {
+    std::vector<std::set<std::uint32_t>> parents_at(vertices.size());
+    for (std::size_t t = 0; t < claim.triangles.size(); ++t)
+        for (const std::uint32_t v : claim.triangles[t])
+            parents_at[v].insert(claim.parents_of[t].begin(), claim.parents_of[t].end());
+    std::vector<Hash> hashes;
+    for (std::size_t v = 0; v < vertices.size(); ++v) {
+        if (parents_at[v].empty()) continue;
+        std::multiset<Hash> sorted;
+        for (const std::uint32_t parent : parents_at[v]) sorted.insert(inputs.triangles[parent]);
+        Sha256 state;
+        state.feed("vertex");
+        state.feed(vertices[v]);
+        for (const Hash& parent : sorted) state.feed(parent);
+        hashes.push_back(state.finish());
+    }
+    return hashes;
+}
+
+/// Each parent with the number of its triangles.
+std::vector<Hash> hash_parents(const ArrangementClaim& claim, const HashedInputs& inputs) {
+    std::map<std::uint32_t, std::size_t> children;
+    for (const std::uint32_t parent : claim.parents_of.values) ++children[parent];
+    std::vector<Hash> hashes;
+    for (const auto& [parent, count] : children) {
+        Sha256 state;
+        state.feed("parent");
+        state.feed(inputs.triangles[parent]);
+        state.feed(std::to_string(count));
+        hashes.push_back(state.finish());
+    }
+    return hashes;
+}
+
+std::vector<Hash> hash_duplicates(const ArrangementClaim& claim, const HashedInputs& inputs) {
+    std::map<std::uint32_t, std::multiset<Hash>> classes;
+    for (const auto& [triangle, first] : claim.duplicates)
+        classes[first].insert(inputs.triangles[triangle]);
+    std::vector<Hash> hashes;
+    for (auto& [first, members] : classes) {
+        members.insert(inputs.triangles[first]);
+        Sha256 state;
+        state.feed("duplicates");
+        for (const Hash& member : members) state.feed(member);
+        hashes.push_back(state.finish());
+    }
+    return hashes;
+}
+
+} // namespace
+
+std::optional<std::string> digest_of(std::span<const Surface> surfaces,
+                                     const ArrangementClaim& claim) {
+    const HashedInputs inputs = hash_inputs(surfaces);
+    const auto vertices = hash_vertices(inputs, claim);
+    if (!vertices) return std::nullopt;
+    std::vector<Hash> all = hash_duplicates(claim, inputs);
+    const auto corners = hash_corners(claim, inputs, *vertices);
+    const auto parents = hash_parents(claim, inputs);
+    all.insert(all.end(), corners.begin(), corners.end());
+    all.insert(all.end(), parents.begin(), parents.end());
+    Sha256 state;
+    for (const Edge& edge : claim.intersection_edges) {
+        state.feed("edge");
+        feed_sorted(state, std::array{(*vertices)[edge[0]], (*vertices)[edge[1]]});
+        all.push_back(state.finish());
+    }
+    for (const std::uint32_t triangle : claim.degenerate) {
+        state.feed("degenerate");
+        state.feed(inputs.triangles[triangle]);
+        all.push_back(state.finish());
+    }
+    std::sort(all.begin(), all.end());
+    state.feed("terrane-digest 1\n");
+    state.feed(all);
+    return "sha256:" + hexadecimal(state.finish());
+}
+
+} // namespace terrane::verifier

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Internal to the verifier: whether indices are in range and lists sorted; reported under the rule
+// that is given.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <iterator>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <terrane/algorithms/verify/detail/inputs.hpp>
+
+namespace terrane::verifier {
+
+template <class T>
+bool sorted_and_unique(std::span<const T> values) {
+    return std::adjacent_find(values.begin(), values.end(), std::greater_equal<>()) == values.end();
+}
+
+bool all_below(std::span<const std::uint32_t> values, std::size_t count);
+
+/// As many lists as `count`, with offsets that ascend from 0 to the number of values.
+bool well_formed(const Lists<std::uint32_t>& lists, std::size_t count);
+
+/// `name`: "vertex", ...
+void check_finite(std::span<const Point3> vertices, const std::string& name, Rule rule,
+                  Violations& found);
+void check_corners(std::span<const Triangle> triangles, std::size_t vertex_count, Rule rule,
+                   Violations& found);
+/// One sorted list of input triangles, not empty, per triangle.
+void check_parents(const Parts& parts, std::size_t input_triangles, Rule rule, Violations& found);
+void check_edge_list(std::span<const Edge> edges, std::size_t vertex_count, Rule rule,
+                     Violations& found);
+
+/// Calls `visit` with each value that is in `of` and not in `in`. Both are sorted.
+template <class T, class Visit>
+void for_each_missing(const std::vector<T>& of, const std::vector<T>& in, Visit visit) {
+    std::vector<T> missing;
+    std::set_difference(of.begin(), of.end(), in.begin(), in.end(), std::back_inserter(missing));
+    std::for_each(missing.begin(), missing.end(), visit);
+}
+
+} // namespace terrane::verifier

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/verify/detail/inputs.hpp>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include <terrane/algorithms/verify/detail/indices.hpp>
+
+namespace terrane::verifier {
+
+std::string text(std::uint64_t number) {
+    return std::to_string(number);
+}
+
+std::string text(Edge pair) {
+    return text(pair[0]) + " and " + text(pair[1]);
+}
+
+void sort_by_rule(Violations& violations) {
+    std::sort(violations.begin(), violations.end(), [](const Violation& a, const Violation& b) {
+        return std::tie(a.rule, a.elements, a.sentence) < std::tie(b.rule, b.elements, b.sentence);
+    });
+}
+
+Inputs join_inputs(std::span<const Surface> surfaces, Violations& found) {
+    Inputs inputs;
+    for (std::uint32_t s = 0; s < surfaces.size(); ++s) {
+        const auto offset = static_cast<std::uint32_t>(inputs.vertices.size());
+        for (Triangle t : surfaces[s].triangles) {
+            if (all_below(t, surfaces[s].vertices.size())) {
+                for (std::uint32_t& corner : t) corner += offset;
+            } else {
+                const auto number = static_cast<std::uint32_t>(inputs.triangles.size());
+                found.push_back(
+                    {Rule::R1_indices,
+                     {number},
+                     "input triangle " + text(number) + " names a vertex that does not exist"});
+                t = {};
+            }
+            inputs.triangles.push_back(t);
+            inputs.surface_of.push_back(s);
+        }
+        inputs.vertices.insert(inputs.vertices.end(), surfaces[s].vertices.begin(),
+                               surfaces[s].vertices.end());
+    }
+    check_finite(inputs.vertices, "input vertex", Rule::R1_indices, found);
+    return inputs;
+}
+
+SetAside find_set_aside(const Inputs& inputs, std::span<const Vector4> points) {
+    SetAside result;
+    result.first_of.resize(inputs.triangles.size());
+    std::iota(result.first_of.begin(), result.first_of.end(), 0U);
+    std::map<std::array<Vector4, 3>, std::uint32_t> first_with;
+    for (std::uint32_t t = 0; t < inputs.triangles.size(); ++t) {
+        const auto [a, b, c] = inputs.triangles[t];
+        const Vector4 plane = orthogonal(points[a], points[b], points[c]);
+        if (!projection_axis(plane)) {
+            result.degenerate.push_back(t);
+            continue;
+        }
+        std::array<Vector4, 3> corners{points[a], points[b], points[c]};
+        std::sort(corners.begin(), corners.end());
+        result.first_of[t] = first_with.try_emplace(std::move(corners), t).first->second;
+        if (result.first_of[t] != t) result.duplicates.push_back({t, result.first_of[t]});
+    }
+    return result;
+}
+
+Lists<std::uint32_t> children_of(const Lists<std::uint32_t>& parents_of, std::size_t input_count) {
+    Lists<std::uint32_t> children;
+    children.offsets.assign(input_count + 1, 0);
+    children.values.resize(parents_of.values.size());
+    for (const std::uint32_t parent : parents_of.values) ++children.offsets[parent + 1];
+    std::partial_sum(children.offsets.begin(), children.offsets.end(), children.offsets.begin());
+    Numbers next = children.offsets;
+    for (std::uint32_t t = 0; t < parents_of.size(); ++t) {
+        for (const std::uint32_t parent : parents_of[t]) children.values[next[parent]++] = t;
+    }
+    return children;
+}
+
+namespace {
+
+/// {surface, the number of different parents in it}, sorted.
+using Signature = std::vector<std::array<std::uint32_t, 2>>;
+
+Signature signature(std::span<const std::uint32_t> parents, const Inputs& inputs,
+                    const SetAside& set_aside) {
+    std::vector<std::array<std::uint32_t, 2>> different; // {surface, first triangle of its kind}
+    for (const std::uint32_t parent : parents) {
+        different.push_back({inputs.surface_of[parent], set_aside.first_of[parent]});
+    }
+    std::sort(different.begin(), different.end());
+    different.erase(std::unique(different.begin(), different.end()), different.end());
+    Signature result;
+    for (const auto& [surface, first] : different) {
+        if (result.empty() || result.back()[0] != surface) result.push_back({surface, 0});
+        ++result.back()[1];
+    }
+    return result;
+}
+
+struct EdgeUse {
+    Edge edge;
+    std::uint32_t triangle;
+
+    friend bool operator==(const EdgeUse&, const EdgeUse&) = default;
+};
+
+/// All edges of all triangles, sorted and unique.
+std::vector<EdgeUse> edge_uses(std::span<const Triangle> triangles) {
+    std::vector<EdgeUse> uses;
+    uses.reserve(3 * triangles.size());
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto [low, high] = std::minmax(triangles[t][i], triangles[t][(i + 1) % 3]);
+            uses.push_back({{low, high}, t});
+        }
+    }
+    std::sort(uses.begin(), uses.end(), [](const EdgeUse& a, const EdgeUse& b) {
+        return std::tie(a.edge, a.triangle) < std::tie(b.edge, b.triangle);
+    });
+    uses.erase(std::unique(uses.begin(), uses.end()), uses.end()); // of a triangle without area
+    return uses;
+}
+
+} // namespace
+
+std::vector<Edge> find_intersection_edges(const Parts& parts, const Inputs& inputs,
+                                          const SetAside& set_aside) {
+    const auto signature_of = [&](std::uint32_t triangle) {
+        return signature(parts.parents_of[triangle], inputs, set_aside);
+    };
+    const std::vector<EdgeUse> uses = edge_uses(parts.triangles);
+    std::vector<Edge> edges;
+    for (std::size_t first = 0, last = 0; first < uses.size(); first = last) {
+        while (last < uses.size() && uses[last].edge == uses[first].edge) ++last;
+        const std::size_t count = last - first;
+        if (count > 2 || (count == 2 && signature_of(uses[first].triangle) !=
+                                            signature_of(uses[first + 1].triangle))) {
+            edges.push_back(uses[first].edge);
+        }
+    }
+    return edges;
+}
+
+void check_intersection_edges(const std::vector<Edge>& truth, const std::vector<Edge>& listed,
+                              Rule rule, Violations& found) {
+    const auto report = [&](const Edge& edge, const std::string& what) {
+        found.push_back({rule, {edge[0], edge[1]}, "the edge of vertices " + text(edge) + what});
+    };
+    for_each_missing(truth, listed, [&](const Edge& edge) {
+        report(edge, " is an intersection edge, but not listed");
+    });
+    for_each_missing(listed, truth, [&](const Edge& edge) {
+        report(edge, " is listed, but no intersection edge");
+    });
+}
+
+} // namespace terrane::verifier

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Internal to the verifier: the inputs as one, and what about them is true whatever is claimed.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <terrane/algorithms/core/index_lists.hpp>
+#include <terrane/algorithms/mesh/mesh.hpp>
+#include <terrane/algorithms/mesh/surface.hpp>
+#include <terrane/algorithms/verify/detail/rational.hpp>
+#include <terrane/algorithms/verify/verify.hpp>
+
+namespace terrane::verifier {
+
+using Numbers = std::vector<std::uint32_t>;
+using Violations = std::vector<Violation>;
+
+std::string text(std::uint64_t number);
+std::string text(Edge pair); ///< "3 and 7"
+
+void sort_by_rule(Violations& violations);
+
+/// The inputs in numbers that count through all surfaces.
+struct Inputs {
+    std::vector<Point3> vertices;
+    std::vector<Triangle> triangles; ///< indices into vertices
+    Numbers surface_of;              ///< per triangle
+};
+
+/// What rule R8 is about, computed from the inputs alone.
+struct SetAside {
+    Numbers degenerate;                                   ///< sorted
+    std::vector<std::array<std::uint32_t, 2>> duplicates; ///< {triangle, first}, sorted
+    Numbers first_of; ///< per input triangle: the first with the same points, mostly itself
+};
+
+/// Joins the surfaces; a triangle with an index out of range is reported (R1), with corners 0, 0,
+/// 0.
+Inputs join_inputs(std::span<const Surface> surfaces, Violations& found);
+
+/// `points` are those of the inputs.
+SetAside find_set_aside(const Inputs& inputs, std::span<const Vector4> points);
+
+/// Per input triangle, the triangles that name it as a parent, sorted.
+/// Precondition: the parents are in range.
+Lists<std::uint32_t> children_of(const Lists<std::uint32_t>& parents_of, std::size_t input_count);
+
+/// Triangles and the input triangles they are part of.
+struct Parts {
+    std::span<const Triangle> triangles;
+    const Lists<std::uint32_t>& parents_of; ///< per triangle
+};
+
+/// What rule R7 calls intersection edges, sorted.
+std::vector<Edge> find_intersection_edges(const Parts& parts, const Inputs& inputs,
+                                          const SetAside& set_aside);
+
+/// Reports under `rule` which edges are missing in `listed`, and which should not be there.
+void check_intersection_edges(const std::vector<Edge>& truth, const std::vector<Edge>& listed,
+                              Rule rule, Violations& found);
+
+} // namespace terrane::verifier

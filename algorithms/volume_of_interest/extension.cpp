@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/volume_of_interest/extension.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <new>
+#include <set>
+#include <stdexcept>
+#include <tuple>
+#include <utility>
+
+#include <terrane/algorithms/core/disjoint_sets.hpp>
+#include <terrane/algorithms/mesh/vectors.hpp>
+#include <terrane/algorithms/sealing/border_extension.hpp>
+#include <terrane/algorithms/sealing/extension_faces.hpp>
+#include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
+
+namespace terrane {
+namespace {
+
+constexpr std::uint32_t none = UINT32_MAX;
+constexpr double least_cosine = 0.4;   ///< strips at corners are wider by at most the inverse
+constexpr unsigned most_doublings = 3; ///< of the length along which directions are averaged
+constexpr double past_targets = 1.5;   ///< see StripEdge::targets
+
+Point3 along(const Point3& from, double by, const Point3& way) {
+    return {from.x + by * way.x, from.y + by * way.y, from.z + by * way.z};
+}
+
+/// Where strips go at the vertices of borders.
+class Directions {
+public:
+    Directions(const Arrangement& a, std::span<const BorderEdge> edges, double limit) :
+        a_(a), edges_(edges), limit_(limit) {
+        Sets sets(edges.size());
+        for (std::uint32_t e = 0; e < edges.size(); ++e) {
+            for (const std::uint32_t v : {edges[e].from, edges[e].to}) {
+                auto& at = at_vertex_[{edges[e].surface, v}];
+                if (!at.empty()) sets.join(at[0], e);
+                at.push_back(e);
+            }
+            outward_.push_back(outward_of(edges[e]));
+            lengths_.push_back(length(minus(at(edges[e].to), at(edges[e].from))));
+        }
+        std::vector<double> total(edges.size(), 0);
+        for (std::uint32_t e = 0; e < edges.size(); ++e) total[sets.find(e)] += lengths_[e];
+        for (std::uint32_t e = 0; e < edges.size(); ++e)
+            windows_.push_back(std::min(limit / 2, total[sets.find(e)] / 8));
+        for (unsigned i = 0; i < most_doublings; ++i) widen_where_folded(sets);
+    }
+    /// The point that the strip aims at from a vertex, so that past it by half it is as far from
+    /// the border as the limit.
+    [[nodiscard]] Point3 target(std::uint32_t surface, std::uint32_t vertex) const {
+        const auto& edges = at_vertex_.at({surface, vertex});
+        Point3 sum{};
+        double weight = 0;
+        for (const std::uint32_t e : edges) walk(surface, vertex, e, sum, weight);
+        const double size = length(sum) / weight; // 1 along a straight border
+        if (!(size > 0)) return along(at(vertex), limit_ / past_targets, outward_[edges[0]]);
+        const double by = limit_ / past_targets / std::max(size, least_cosine);
+        return along(at(vertex), by / (size * weight), sum);
+    }
+
+private:
+    /// Doubles the windows along borders whose strip runs backwards somewhere.
+    void widen_where_folded(Sets& borders) {
+        std::vector<bool> folded(edges_.size(), false);
+        for (std::uint32_t e = 0; e < edges_.size(); ++e) {
+            const BorderEdge& edge = edges_[e];
+            const Point3 along_border = minus(at(edge.to), at(edge.from));
+            const Point3 from = minus(target(edge.surface, edge.from), at(edge.from)),
+                         to = minus(target(edge.surface, edge.to), at(edge.to));
+            const Point3 outer = along(along_border, past_targets, minus(to, from));
+            if (!(dot(outer, along_border) > 0)) folded[borders.find(e)] = true;
+        }
+        for (std::uint32_t e = 0; e < edges_.size(); ++e)
+            if (folded[borders.find(e)]) windows_[e] *= 2;
+    }
+
+    [[nodiscard]] const Point3& at(std::uint32_t v) const { return a_.points.input(v); }
+    /// In the plane of the edge's triangle, away from it, of length 1.
+    [[nodiscard]] Point3 outward_of(const BorderEdge& e) const {
+        const Triangle& c = a_.inputs.corners[e.triangle];
+        const Point3 n = cross(minus(at(c[1]), at(c[0])), minus(at(c[2]), at(c[0]))),
+                     way = cross(minus(at(e.to), at(e.from)), n);
+        return along({}, 1 / length(way), way);
+    }
+
+    /// Adds the directions of the edges from a vertex on, by their lengths within the window.
+    void walk(std::uint32_t surface, std::uint32_t vertex, std::uint32_t edge, Point3& sum,
+              double& weight) const {
+        double left = windows_[edge];
+        while (true) {
+            const double part = std::min(left, lengths_[edge]);
+            sum = along(sum, part, outward_[edge]);
+            weight += part;
+            left -= part;
+            if (!(left > 0)) return;
+            vertex = edges_[edge].from == vertex ? edges_[edge].to : edges_[edge].from;
+            const auto& next = at_vertex_.at({surface, vertex});
+            if (next.size() != 2) return; // the border ends, or parts
+            edge = next[next[0] == edge ? 1 : 0];
+        }
+    }
+
+    const Arrangement& a_;
+    std::span<const BorderEdge> edges_;
+    const double limit_;
+    std::map<std::array<std::uint32_t, 2>, std::vector<std::uint32_t>> at_vertex_; ///< edges
+    std::vector<Point3> outward_;                                                  ///< per edge
+    std::vector<double> lengths_, windows_;                                        ///< per edge
+};
+
+/// Free borders inside the volume of surfaces that are to be extended.
+std::vector<BorderEdge> borders_inside(const Arrangement& inside) {
+    auto edges = open_border_edges(inside);
+    std::erase_if(edges, [&](const BorderEdge& e) {
+        const Role role = inside.surfaces[e.surface].role;
+        return role == Role::fault || role == Role::boundary;
+    });
+    return edges;
+}
+
+std::vector<StripTriangle> strips_beyond(const Arrangement& a, std::span<const BorderEdge> edges,
+                                         double limit) {
+    const Directions directions(a, edges, limit);
+    std::vector<StripEdge> wanted;
+    for (std::uint32_t e = 0; e < edges.size(); ++e) {
+        const BorderEdge& edge = edges[e];
+        wanted.push_back({edge, limit,
+                          std::array{directions.target(edge.surface, edge.from),
+                                     directions.target(edge.surface, edge.to)},
+                          e});
+    }
+    return make_strips(a, wanted);
+}
+
+/// Whether a part of a strip, inside the volume, reaches the strip's outer edge, or its outer
+/// corner: it ends inside. Exact.
+bool ends_here(const Arrangement& a, std::uint32_t t, std::uint32_t parent,
+               const StripTriangle& strip) {
+    const Triangle &corners = a.inputs.corners[parent], &part = a.triangles[t];
+    for (unsigned k = 0; k < 3; ++k) {
+        const unsigned next = (k + 1) % 3;
+        const bool is_outer =
+            strip.is_fan ? k != strip.side : !strip.is_base[k] && !strip.is_base[next];
+        for (unsigned i = 0; i < 3; ++i) {
+            if (!strip.is_base[k] && a.vertices[part[i]] == corners[k]) return true;
+            const Edge edge{part[i], part[(i + 1) % 3]};
+            if (is_outer && lies_on(a, edge, parent, corners[k], corners[next])) return true;
+        }
+    }
+    return false;
+}
+
+/// Per piece, of which there are so many and fans, whether it comes out of the volume all along.
+Result<std::vector<bool>> find_reached(std::vector<Surface> surfaces,
+                                       std::span<const StripTriangle> strips, std::size_t pieces,
+                                       std::span<const std::uint32_t> boundary,
+                                       const ExtendOptions& options, const Run& run) {
+    append_strips(surfaces, strips);
+    const auto a = arrange(surfaces, options.arrange, run);
+    if (!a) return a.error();
+    const auto where = locate(a.value(), boundary, run);
+    if (!where) return where.error();
+    const auto by_input = strips_by_input(a.value(), strips);
+    for (const StripTriangle& t : strips) pieces = std::max(pieces, t.piece + std::size_t{1});
+    std::vector<bool> reached(pieces, false);
+    for (const StripTriangle& t : strips) reached[t.piece] = true; // but for those without area
+    const UpwardRounding guard;
+    for (std::uint32_t t = 0; t < a.value().triangles.size(); ++t) {
+        if (where.value()[t] != Where::inside) continue;
+        for (const std::uint32_t p : a.value().parents_of[t])
+            if (by_input[p] != none && ends_here(a.value(), t, p, strips[by_input[p]]))
+                reached[strips[by_input[p]].piece] = false;
+    }
+    return reached;
+}
+
+/// Fans beside pieces that are gone.
+void drop_lone_fans(std::vector<StripTriangle>& strips) {
+    std::set<std::pair<Point3, Point3>> sides;
+    const auto side_of = [](const StripTriangle& t) {
+        return std::minmax({t.corners[t.side], t.corners[(t.side + 1) % 3]});
+    };
+    for (const StripTriangle& t : strips)
+        if (!t.is_fan) sides.insert(side_of(t));
+    std::erase_if(strips,
+                  [&](const StripTriangle& t) { return t.is_fan && !sides.contains(side_of(t)); });
+}
+
+/// Connected edges with the same fate are one entry.
+std::vector<ExtendedBorder> list(const Arrangement& inside, std::span<const BorderEdge> edges,
+                                 const std::vector<bool>& reached) {
+    Sets sets(edges.size());
+    std::map<std::tuple<std::uint32_t, bool, std::uint32_t>, std::uint32_t> first;
+    for (std::uint32_t e = 0; e < edges.size(); ++e)
+        for (const std::uint32_t v : {edges[e].from, edges[e].to})
+            if (const auto [it, is_new] = first.try_emplace({edges[e].surface, reached[e], v}, e);
+                !is_new)
+                sets.join(it->second, e);
+    std::map<std::uint32_t, ExtendedBorder> borders;
+    for (std::uint32_t e = 0; e < edges.size(); ++e) {
+        ExtendedBorder& border = borders[sets.find(e)];
+        for (const Edge& part : edges[e].open) {
+            const Point3 p = inside.points.nearest(inside.vertices[part[0]]),
+                         q = inside.points.nearest(inside.vertices[part[1]]);
+            const bool is_first = border.length == 0;
+            border.place = is_first ? std::min(p, q) : std::min({border.place, p, q});
+            border.length += length(minus(q, p));
+        }
+        border.surface = edges[e].surface;
+        border.reached = reached[e];
+        ++border.edges;
+    }
+    std::vector<ExtendedBorder> all;
+    for (const auto& [set, border] : borders) all.push_back(border);
+    std::sort(all.begin(), all.end(), [](const ExtendedBorder& b, const ExtendedBorder& c) {
+        return std::tie(b.surface, b.place, b.length) < std::tie(c.surface, c.place, c.length);
+    });
+    return all;
+}
+
+Result<Extended> extend(std::vector<Surface> surfaces, std::span<const std::uint32_t> boundary,
+                        const ExtendOptions& options, const Run& run) {
+    auto a = arrange(surfaces, options.arrange, run);
+    if (!a) return a.error();
+    const auto cut = cut_to_volume(std::move(a).value(), boundary, run);
+    if (!cut) return cut.error();
+    const Arrangement& inside = cut.value().arrangement;
+    const auto edges = borders_inside(inside);
+    if (edges.empty()) return Extended{std::move(surfaces), {}};
+    auto strips = strips_beyond(inside, edges, options.limit);
+    const auto reached = find_reached(surfaces, strips, edges.size(), boundary, options, run);
+    if (!reached) return reached.error();
+    std::erase_if(strips, [&](const StripTriangle& t) { return !reached.value()[t.piece]; });
+    drop_lone_fans(strips);
+    append_strips(surfaces, strips);
+    return Extended{std::move(surfaces), list(inside, edges, reached.value())};
+}
+
+} // namespace
+
+Result<Extended> extend_to_boundary(std::vector<Surface> surfaces,
+                                    std::span<const std::uint32_t> boundary,
+                                    const ExtendOptions& options, const Run& run) {
+    if (!(options.limit > 0) || !std::isfinite(options.limit))
+        return Error{ErrorCode::bad_option, "the limit must be positive", "extend"};
+    try {
+        return extend(std::move(surfaces), boundary, options, run);
+    } catch (const std::bad_alloc&) {
+        return Error{ErrorCode::out_of_memory, "not enough memory to extend surfaces", ""};
+    } catch (const std::logic_error& broken) {
+        return Error{ErrorCode::internal, broken.what(), "extend"};
+    }
+}
+
+} // namespace terrane

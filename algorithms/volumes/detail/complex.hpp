@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// What volumes are found from: triangles that meet only in shared vertices and edges, with exact
+// points. Private to volumes.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <terrane/algorithms/core/index_lists.hpp>
+#include <terrane/algorithms/mesh/edges.hpp>
+#include <terrane/algorithms/mesh/mesh.hpp>
+#include <terrane/kernel/point_store.hpp>
+
+namespace terrane {
+
+/// A view; what it names must outlive it.
+struct Sheets {
+    const PointStore& points;
+    std::span<const PointIndex> vertices; ///< per vertex: its point; pairwise distinct
+    std::span<const Triangle> triangles;  ///< indices into vertices; with area, unique
+    const EdgeSides& edges;               ///< of the triangles
+    std::span<const Triangle> planes;     ///< per triangle: three input points that span its plane,
+                                          ///< wound like the triangle
+    const Lists<std::uint32_t>* parents;  ///< per triangle, sorted: triangles with a common parent
+                                          ///< are coplanar; nullptr where nothing is known
+};
+
+/// A triangle has two sides, numbered 2 t and 2 t + 1. The front is the side from which its corners
+/// appear counterclockwise: where orient3d is Positive.
+constexpr std::uint32_t front_of(std::uint32_t triangle) {
+    return 2 * triangle;
+}
+constexpr std::uint32_t back_of(std::uint32_t triangle) {
+    return 2 * triangle + 1;
+}
+constexpr std::uint32_t opposite(std::uint32_t side) {
+    return side ^ 1U;
+}
+
+/// Which side of the triangle's plane a vertex lies on: Positive in front. The caller holds an
+/// UpwardRounding.
+inline Sign side_of(const Sheets& sheets, std::uint32_t triangle, std::uint32_t vertex) {
+    const Triangle& p = sheets.planes[triangle];
+    return sheets.points.side_of_plane(p[0], p[1], p[2], sheets.vertices[vertex]);
+}
+
+} // namespace terrane

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/volumes/detail/radial_sort.hpp>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace terrane {
+namespace {
+
+using Side = EdgeSides::Side;
+
+bool have_common_value(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b) {
+    for (std::size_t i = 0, j = 0; i < a.size() && j < b.size();) {
+        if (a[i] == b[j]) return true;
+        a[i] < b[j] ? ++i : ++j;
+    }
+    return false;
+}
+
+/// Directions of triangles away from one edge, compared by angle.
+class Directions {
+public:
+    Directions(const Sheets& sheets, std::uint32_t low, const Side& reference) :
+        sheets_(sheets), low_(low), reference_(reference) {}
+
+    /// Strictly smaller angle, counted from the reference in [0, 2 pi).
+    [[nodiscard]] bool before(const Side& p, const Side& q) const {
+        if (p.triangle == q.triangle) return false;
+        const int a = sector(p), b = sector(q);
+        if (a != b) return a < b;
+        if (const Sign s = turn(p, q); s != Sign::Zero) return s == Sign::Positive;
+        throw std::logic_error("two triangles overlap");
+    }
+
+private:
+    /// The reference is 0; less than half a turn from it 1; half a turn 2; more 3.
+    [[nodiscard]] int sector(const Side& q) const {
+        if (q.triangle == reference_.triangle) return 0;
+        const Sign s = turn(reference_, q);
+        return s == Sign::Positive ? 1 : s == Sign::Zero ? 2 : 3;
+    }
+
+    /// Positive iff q is less than half a turn ahead of p; Zero iff it is opposite.
+    [[nodiscard]] Sign turn(const Side& p, const Side& q) const {
+        if (sheets_.parents != nullptr &&
+            have_common_value((*sheets_.parents)[p.triangle], (*sheets_.parents)[q.triangle]))
+            return Sign::Zero;
+        const auto [a, b, c] = sheets_.triangles[q.triangle];
+        const std::uint32_t apex = a ^ b ^ c ^ low_ ^ q.high; // the third one
+        const Sign side = side_of(sheets_, p.triangle, apex);
+        return runs_along(sheets_.triangles[p.triangle], low_, p.high) ? side : -side;
+    }
+
+    const Sheets& sheets_;
+    std::uint32_t low_; ///< vertex of the edge
+    const Side reference_;
+};
+
+/// The side of the triangle that faces growing angles.
+std::uint32_t ahead(const Sheets& sheets, std::uint32_t low, const Side& s) {
+    const bool upward = runs_along(sheets.triangles[s.triangle], low, s.high);
+    return upward ? front_of(s.triangle) : back_of(s.triangle);
+}
+
+} // namespace
+
+void sort_round_edge(const Sheets& sheets, std::uint32_t low, std::span<Side> sides) {
+    if (sides.size() < 3) return;
+    const Directions directions(sheets, low, sides[0]);
+    std::sort(sides.begin(), sides.end(),
+              [&](const Side& p, const Side& q) { return directions.before(p, q); });
+}
+
+void join_round_edges(const Sheets& sheets, Sets& sides) {
+    const UpwardRounding guard;
+    std::vector<Side> round;
+    sheets.edges.for_each([&](std::uint32_t low, std::uint32_t, std::span<const Side> at_edge) {
+        round.assign(at_edge.begin(), at_edge.end());
+        sort_round_edge(sheets, low, round);
+        for (std::size_t i = 0; i < round.size(); ++i) {
+            const Side& next = round[(i + 1) % round.size()];
+            sides.join(ahead(sheets, low, round[i]), opposite(ahead(sheets, low, next)));
+        }
+    });
+}
+
+} // namespace terrane

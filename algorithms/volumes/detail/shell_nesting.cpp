@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/volumes/detail/shell_nesting.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include <terrane/kernel/predicates.hpp>
+
+namespace terrane {
+namespace {
+
+using polynomial::Vector;
+
+/// A line along an axis, by where it passes through the projection.
+struct Line {
+    ExactPoint exact;        ///< its coordinate along the axis means nothing
+    ApproximatePoint about;  ///< the same in the projection
+    std::uint32_t component; ///< its number, for messages
+};
+
+/// A triangle that a line passes through.
+struct Hit {
+    std::uint32_t line, triangle;
+    Interval height; ///< encloses the coordinate along the axis
+};
+
+template <class T>
+T coordinate(const Vector<T>& v, unsigned k) {
+    return k == 0 ? v.x : k == 1 ? v.y : v.z;
+}
+template <class W>
+Exact coordinate(const polynomial::Coordinates<Exact, W>& p, unsigned k) {
+    return k == 0 ? p.x : k == 1 ? p.y : p.z;
+}
+double coordinate(const Point3& p, unsigned k) {
+    return k == 0 ? p.x : k == 1 ? p.y : p.z;
+}
+
+/// Lines along one axis, and what they pass through.
+class Bundle {
+public:
+    Bundle(const Sheets& sheets, Axis axis) :
+        sheets_(sheets), axis_(axis), k_(static_cast<unsigned>(axis)) {}
+
+    void add_line_through(std::uint32_t triangle) {
+        lines_.push_back(inside(triangle));
+        lines_.back().component = triangle;
+    }
+    [[nodiscard]] bool empty() const { return lines_.empty(); }
+
+    void join(Sets& sides, std::uint32_t outside) {
+        find_hits();
+        std::sort(hits_.begin(), hits_.end(), [this](const Hit& a, const Hit& b) {
+            if (a.line != b.line) return a.line < b.line;
+            return a.triangle != b.triangle && below(a, b);
+        });
+        for (std::size_t i = 0; i < hits_.size(); ++i) {
+            const bool first = i == 0 || hits_[i - 1].line != hits_[i].line;
+            const std::uint32_t upper = upper_side(hits_[i].triangle);
+            sides.join(opposite(upper), first ? outside : upper_side(hits_[i - 1].triangle));
+            if (i + 1 == hits_.size() || hits_[i + 1].line != hits_[i].line)
+                sides.join(upper, outside);
+        }
+        check_all_hit();
+    }
+
+private:
+    [[nodiscard]] PointIndex point(std::uint32_t triangle, unsigned corner) const {
+        return sheets_.vertices[sheets_.triangles[triangle][corner]];
+    }
+
+    [[nodiscard]] Line inside(std::uint32_t triangle) const;
+    [[nodiscard]] Sign turn(PointIndex a, PointIndex b, const Line& line) const;
+    [[nodiscard]] bool passes_through(std::uint32_t triangle, const Line& line) const;
+    void find_hits();
+    template <class Visit>
+    void for_each_near(const Visit& visit) const;
+    [[nodiscard]] Interval height(std::uint32_t triangle, const Line& line) const;
+    [[nodiscard]] bool below(const Hit& a, const Hit& b) const;
+
+    /// The side that faces the far end of the axis.
+    [[nodiscard]] std::uint32_t upper_side(std::uint32_t triangle) const {
+        const Triangle& p = sheets_.planes[triangle];
+        const Sign s = sheets_.points.orient2d(axis_, p[0], p[1], p[2]);
+        return s == Sign::Positive ? front_of(triangle) : back_of(triangle);
+    }
+
+    void check_all_hit() const {
+        std::size_t seen = 0;
+        for (std::size_t i = 0; i < hits_.size(); ++i)
+            seen += i == 0 || hits_[i].line != hits_[i - 1].line ? 1U : 0U;
+        if (seen != lines_.size()) throw std::logic_error("a line misses its own triangle");
+    }
+
+    const Sheets& sheets_;
+    Axis axis_;
+    unsigned k_;
+    std::vector<Line> lines_;
+    std::vector<Hit> hits_;
+};
+
+/// A point inside the projected triangle: the centroid as doubles where they lie strictly inside,
+/// the exact one otherwise.
+Line Bundle::inside(std::uint32_t triangle) const {
+    const unsigned u = (k_ + 1) % 3, v = (k_ + 2) % 3;
+    std::array<double, 3> middle{};
+    for (unsigned c = 0; c < 3; ++c) {
+        const ApproximatePoint p = sheets_.points.approximate(axis_, point(triangle, c));
+        middle[u] += p.u / 3;
+        middle[v] += p.v / 3;
+    }
+    Line line{{Exact(middle[0]), Exact(middle[1]), Exact(middle[2]), Exact(1)},
+              {middle[u], middle[v], 0},
+              triangle};
+    const bool finite = std::isfinite(middle[u]) && std::isfinite(middle[v]);
+    if (finite && passes_through(triangle, line)) return line;
+    const ExactPoint a = sheets_.points.exact(point(triangle, 0)),
+                     b = sheets_.points.exact(point(triangle, 1)),
+                     c = sheets_.points.exact(point(triangle, 2));
+    const auto sum = [&](const Exact& x, const Exact& y, const Exact& z) {
+        return x * b.w * c.w + y * c.w * a.w + z * a.w * b.w;
+    };
+    line.exact = {sum(a.x, b.x, c.x), sum(a.y, b.y, c.y), sum(a.z, b.z, c.z), a.w * b.w * c.w * 3};
+    line.about.radius = HUGE_VAL; // the filters decline
+    return line;
+}
+
+/// Positive iff the shifted line passes to the left of a b in the projection; Zero only where a and
+/// b coincide there. The shift adds (b - a) x (epsilon, epsilon^2).
+Sign Bundle::turn(PointIndex a, PointIndex b, const Line& line) const {
+    if (const auto quick = quick_orient2d(sheets_.points.approximate(axis_, a),
+                                          sheets_.points.approximate(axis_, b), line.about)) {
+        ++predicate_counts().static_filter;
+        return *quick;
+    }
+    ++predicate_counts().exact;
+    const ExactPoint p = sheets_.points.exact(a), q = sheets_.points.exact(b);
+    const Sign s = exact_sign(polynomial::orient2d(axis_, p, q, line.exact));
+    if (s != Sign::Zero) return s;
+    const auto d = polynomial::difference(axis_, q, p);
+    const Sign first = -exact_sign(d.v);
+    return first != Sign::Zero ? first : exact_sign(d.u);
+}
+
+bool Bundle::passes_through(std::uint32_t triangle, const Line& line) const {
+    const PointIndex a = point(triangle, 0), b = point(triangle, 1), c = point(triangle, 2);
+    const Sign s = turn(a, b, line);
+    return s != Sign::Zero && turn(b, c, line) == s && turn(c, a, line) == s;
+}
+
+/// Calls visit(triangle, line number) where the box of the triangle's projection holds the line.
+/// The lines are sorted by one coordinate: few of them lie in the range of a small triangle.
+template <class Visit>
+void Bundle::for_each_near(const Visit& visit) const {
+    const unsigned u = (k_ + 1) % 3, v = (k_ + 2) % 3;
+    const auto n = static_cast<std::uint32_t>(lines_.size());
+    std::vector<std::uint32_t> by_u(n);
+    for (std::uint32_t i = 0; i < n; ++i) by_u[i] = i;
+    // Lines without doubles are near everything.
+    const auto everywhere = std::stable_partition(
+        by_u.begin(), by_u.end(), [&](std::uint32_t i) { return lines_[i].about.radius == 0; });
+    std::sort(by_u.begin(), everywhere, [&](std::uint32_t i, std::uint32_t j) {
+        return std::pair(lines_[i].about.u, i) < std::pair(lines_[j].about.u, j);
+    });
+    for (std::uint32_t t = 0; t < sheets_.triangles.size(); ++t) {
+        std::array<double, 2> low{HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL};
+        for (unsigned c = 0; c < 3; ++c) {
+            const Enclosure e = sheets_.points.enclosure(point(t, c));
+            low = {std::min(low[0], e.low[u]), std::min(low[1], e.low[v])};
+            high = {std::max(high[0], e.high[u]), std::max(high[1], e.high[v])};
+        }
+        for (auto i = std::partition_point(
+                 by_u.begin(), everywhere,
+                 [&](std::uint32_t line) { return lines_[line].about.u < low[0]; });
+             i != everywhere && lines_[*i].about.u <= high[0]; ++i)
+            if (lines_[*i].about.v >= low[1] && lines_[*i].about.v <= high[1]) visit(t, *i);
+        for (auto i = everywhere; i != by_u.end(); ++i) visit(t, *i);
+    }
+}
+
+void Bundle::find_hits() {
+    for_each_near([this](std::uint32_t triangle, std::uint32_t line) {
+        if (passes_through(triangle, lines_[line]))
+            hits_.push_back({line, triangle, height(triangle, lines_[line])});
+    });
+}
+
+/// Where the line meets the plane: from n (x - a) = 0.
+Interval Bundle::height(std::uint32_t triangle, const Line& line) const {
+    const Triangle& plane = sheets_.planes[triangle];
+    const auto at = [&](unsigned i) {
+        return polynomial::cartesian<Interval>(sheets_.points.input(plane[i]));
+    };
+    const auto a = at(0);
+    const auto n = cross(difference(at(1), a), difference(at(2), a));
+    const unsigned u = (k_ + 1) % 3, v = (k_ + 2) % 3;
+    const Interval nk = coordinate(n, k_);
+    if (line.about.radius != 0 || certain_sign(nk).value_or(Sign::Zero) == Sign::Zero)
+        return {-HUGE_VAL, HUGE_VAL};
+    const Point3& p = sheets_.points.input(plane[0]);
+    const Interval du = Interval(coordinate(p, u)) - line.about.u,
+                   dv = Interval(coordinate(p, v)) - line.about.v;
+    return Interval(coordinate(p, k_)) + (coordinate(n, u) * du + coordinate(n, v) * dv) / nk;
+}
+
+/// The same exactly, as numerator / denominator: height, then how it grows with each shift.
+struct ExactHeight {
+    std::array<Exact, 3> numerators;
+    Exact denominator; ///< > 0
+
+    ExactHeight(const Sheets& sheets, std::uint32_t triangle, unsigned k, const ExactPoint& line) {
+        const Triangle& plane = sheets.planes[triangle];
+        const auto at = [&](unsigned i) {
+            return polynomial::cartesian<Exact>(sheets.points.input(plane[i]));
+        };
+        const auto a = at(0);
+        const auto n = cross(difference(at(1), a), difference(at(2), a));
+        const unsigned u = (k + 1) % 3, v = (k + 2) % 3;
+        const Exact nu = coordinate(n, u), nv = coordinate(n, v);
+        const Exact offset = n.x * a.x + n.y * a.y + n.z * a.z;
+        numerators = {offset * line.w - nu * coordinate(line, u) - nv * coordinate(line, v), -nu,
+                      -nv};
+        denominator = coordinate(n, k);
+        if (exact_sign(denominator) != Sign::Negative) return;
+        denominator = -denominator;
+        for (Exact& x : numerators) x = -x;
+    }
+};
+
+bool Bundle::below(const Hit& a, const Hit& b) const {
+    if (a.height.sup() < b.height.inf()) return true;
+    if (b.height.sup() < a.height.inf()) return false;
+    ++predicate_counts().exact;
+    const ExactPoint& line = lines_[a.line].exact;
+    const ExactHeight first(sheets_, a.triangle, k_, line), second(sheets_, b.triangle, k_, line);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Sign s = exact_sign(first.numerators[i] * second.denominator -
+                                  second.numerators[i] * first.denominator);
+        if (s != Sign::Zero) return s == Sign::Negative;
+    }
+    throw std::logic_error("two triangles overlap");
+}
+
+/// Along which axis the triangle is seen best.
+Axis best_axis(const Sheets& sheets, std::uint32_t triangle) {
+    const Triangle& p = sheets.planes[triangle];
+    return projection_axis(sheets.points.input(p[0]), sheets.points.input(p[1]),
+                           sheets.points.input(p[2]));
+}
+
+} // namespace
+
+void join_nested(const Sheets& sheets, Sets& sides) {
+    const auto count = static_cast<std::uint32_t>(sheets.triangles.size());
+    Sets components = sides; // front and back of a triangle hang together, and so do its neighbours
+    for (std::uint32_t t = 0; t < count; ++t) components.join(front_of(t), back_of(t));
+    const UpwardRounding guard;
+    std::array<Bundle, 3> bundles{Bundle(sheets, Axis::x), Bundle(sheets, Axis::y),
+                                  Bundle(sheets, Axis::z)};
+    for (std::uint32_t t = 0; t < count; ++t)
+        if (components.find(front_of(t)) == front_of(t)) // the lowest triangle of its component
+            bundles[static_cast<std::size_t>(best_axis(sheets, t))].add_line_through(t);
+    for (Bundle& bundle : bundles)
+        if (!bundle.empty()) bundle.join(sides, 2 * count);
+}
+
+} // namespace terrane

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/volumes/volumes.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <numeric>
+#include <optional>
+#include <stdexcept>
+#include <tuple>
+#include <utility>
+
+#include <terrane/algorithms/core/stopwatch.hpp>
+#include <terrane/algorithms/volumes/detail/exact_volumes.hpp>
+#include <terrane/algorithms/volumes/detail/radial_sort.hpp>
+#include <terrane/algorithms/volumes/detail/shell_nesting.hpp>
+
+namespace terrane {
+namespace {
+
+constexpr std::uint32_t none = UINT32_MAX;
+
+/// Per vertex its place in the lexicographic order of all.
+std::vector<std::uint32_t> lexicographic_ranks(const Sheets& sheets) {
+    const UpwardRounding guard;
+    std::vector<std::uint32_t> order(sheets.vertices.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::sort(order.begin(), order.end(), [&](std::uint32_t v, std::uint32_t w) {
+        return sheets.points.compare(sheets.vertices[v], sheets.vertices[w]) < 0;
+    });
+    std::vector<std::uint32_t> rank(order.size());
+    for (std::uint32_t r = 0; r < order.size(); ++r) rank[order[r]] = r;
+    return rank;
+}
+
+/// A side by the places of its corners, ascending, and from which side those are counterclockwise.
+using SideKey = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, bool>;
+
+SideKey key_of(Triangle ranks, bool is_front) {
+    bool even = true;
+    for (const auto& [i, j] : {std::pair{0U, 1U}, std::pair{1U, 2U}, std::pair{0U, 1U}})
+        if (ranks[i] > ranks[j]) {
+            std::swap(ranks[i], ranks[j]);
+            even = !even;
+        }
+    return {ranks[0], ranks[1], ranks[2], even == is_front};
+}
+
+/// Step (c): numbers for classes of sides.
+class Numbering {
+public:
+    Numbering(const Sheets& sheets, Sets& sides) :
+        sheets_(sheets), sides_(sides),
+        outside_(2 * static_cast<std::uint32_t>(sheets.triangles.size())),
+        rank_(lexicographic_ranks(sheets)) {}
+
+    Volumes operator()() {
+        find_least_vertices();
+        gather_boundaries_of_tied();
+        std::sort(blocks_.begin(), blocks_.end(), [this](std::uint32_t a, std::uint32_t b) {
+            if (least_[a] != least_[b]) return least_[a] < least_[b];
+            return a != b && tied_[slot_[a]] < tied_[slot_[b]];
+        });
+        return numbered();
+    }
+
+private:
+    /// What tells blocks with the same least vertex apart.
+    struct Boundary {
+        std::vector<std::uint32_t> vertices{}; ///< ranks, ascending
+        SideKey least{none, none, none, true};
+
+        friend bool operator<(const Boundary& a, const Boundary& b) {
+            return std::tie(a.vertices, a.least) < std::tie(b.vertices, b.least);
+        }
+    };
+
+    [[nodiscard]] Triangle ranks_of(std::uint32_t triangle) const {
+        const auto [a, b, c] = sheets_.triangles[triangle];
+        return {rank_[a], rank_[b], rank_[c]};
+    }
+
+    void find_least_vertices() {
+        const std::uint32_t outside = sides_.find(outside_);
+        least_.assign(outside_ + std::size_t{1}, none);
+        for (std::uint32_t s = 0; s < outside_; ++s) {
+            const std::uint32_t set = sides_.find(s);
+            if (set == outside) continue;
+            if (least_[set] == none) blocks_.push_back(set);
+            const Triangle r = ranks_of(s / 2);
+            least_[set] = std::min({least_[set], r[0], r[1], r[2]});
+        }
+    }
+
+    void gather_boundaries_of_tied() {
+        std::vector<std::uint32_t> sharing(sheets_.vertices.size(), 0); // blocks, by least vertex
+        for (const std::uint32_t b : blocks_) ++sharing[least_[b]];
+        slot_.assign(least_.size(), none);
+        for (const std::uint32_t b : blocks_) {
+            if (sharing[least_[b]] == 1) continue;
+            slot_[b] = static_cast<std::uint32_t>(tied_.size());
+            tied_.emplace_back();
+        }
+        for (std::uint32_t s = 0; !tied_.empty() && s < outside_; ++s) {
+            const std::uint32_t slot = slot_[sides_.find(s)];
+            if (slot == none) continue;
+            const Triangle r = ranks_of(s / 2);
+            Boundary& b = tied_[slot];
+            b.vertices.insert(b.vertices.end(), r.begin(), r.end());
+            b.least = std::min(b.least, key_of(r, s % 2 == 0));
+        }
+        for (Boundary& b : tied_) {
+            std::sort(b.vertices.begin(), b.vertices.end());
+            b.vertices.erase(std::unique(b.vertices.begin(), b.vertices.end()), b.vertices.end());
+        }
+    }
+
+    Volumes numbered() {
+        auto& number = least_; // no longer needed
+        number[sides_.find(outside_)] = 0;
+        for (std::uint32_t b = 0; b < blocks_.size(); ++b) number[blocks_[b]] = b + 1;
+        Volumes volumes;
+        volumes.of_sides.reserve(sheets_.triangles.size());
+        for (std::uint32_t t = 0; t < sheets_.triangles.size(); ++t)
+            volumes.of_sides.push_back(
+                {number[sides_.find(front_of(t))], number[sides_.find(back_of(t))]});
+        volumes.measures.assign(blocks_.size() + 1, 0);
+        return volumes;
+    }
+
+    const Sheets& sheets_;
+    Sets& sides_;
+    const std::uint32_t outside_; ///< as an element of sides_
+    std::vector<std::uint32_t> rank_;
+    std::vector<std::uint32_t> least_;  ///< per set: the rank of its least vertex
+    std::vector<std::uint32_t> blocks_; ///< sets
+    std::vector<std::uint32_t> slot_;   ///< per set: index into tied_, or none
+    std::vector<Boundary> tied_;
+};
+
+Error interrupted() {
+    return {ErrorCode::interrupted, "stopped on request", ""};
+}
+
+Result<Volumes> find(const Sheets& sheets, const Run& run) {
+    const auto report = [&](double share) {
+        if (run.progress) run.progress("volumes", share);
+        return !run.stop.stop_requested();
+    };
+    if (!report(0)) return interrupted();
+    Stopwatch watch;
+    Sets sides(2 * sheets.triangles.size() + 1);
+    join_round_edges(sheets, sides);
+    const double shells = watch.lap();
+    if (!report(0.3)) return interrupted();
+    join_nested(sheets, sides);
+    const double nesting = watch.lap();
+    if (!report(0.5)) return interrupted();
+    Volumes volumes = Numbering(sheets, sides)();
+    if (!report(0.7)) return interrupted();
+    volumes.measures = measure_volumes(sheets, volumes.of_sides, volumes.measures.size());
+    volumes.seconds_shells = shells;
+    volumes.seconds_nesting = nesting;
+    volumes.seconds_measures = watch.lap();
+    if (std::any_of(volumes.measures.begin(), volumes.measures.end(),
+                    [](double v) { return v < 0; }))
+        throw std::logic_error("a volume is negative");
+    report(1);
+    return volumes;
+}
+
+template <class Work>
+auto guarded(const Work& work) -> decltype(work()) {
+    try {
+        return work();
+    } catch (const std::bad_alloc&) {
+        return Error{ErrorCode::out_of_memory, "not enough memory for the volumes", ""};
+    } catch (const std::logic_error& broken) {
+        return Error{ErrorCode::internal, broken.what(), "volumes"};
+    }
+}
+
+/// Planes of an arrangement's triangles: their first parents are wound like them.
+std::vector<Triangle> planes_of(const Arrangement& a) {
+    std::vector<Triangle> planes;
+    planes.reserve(a.triangles.size());
+    for (std::size_t t = 0; t < a.triangles.size(); ++t)
+        planes.push_back(a.inputs.corners[a.parents_of[t][0]]);
+    return planes;
+}
+
+/// A mesh of doubles as if all its vertices were input.
+class MeshSheets {
+public:
+    explicit MeshSheets(const Mesh& mesh) :
+        mesh_(mesh), points_(mesh.vertices), vertices_(mesh.vertices.size()),
+        edges_(group_edges(mesh.triangles, mesh.vertices.size())) {
+        std::iota(vertices_.begin(), vertices_.end(), PointIndex{0});
+    }
+    [[nodiscard]] Sheets view() const {
+        return {points_, vertices_, mesh_.triangles, edges_, mesh_.triangles, nullptr};
+    }
+
+private:
+    const Mesh& mesh_;
+    PointStore points_;
+    std::vector<PointIndex> vertices_;
+    EdgeSides edges_;
+};
+
+std::optional<Error> flaw_of(const Mesh& mesh) {
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+        for (const std::uint32_t v : mesh.triangles[t]) {
+            const auto place = "triangle " + std::to_string(t);
+            if (v >= mesh.vertices.size())
+                return Error{ErrorCode::bad_index, "there is no vertex " + std::to_string(v),
+                             place};
+            const Point3& p = mesh.vertices[v];
+            if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+                return Error{ErrorCode::bad_number,
+                             "vertex " + std::to_string(v) + " is not finite", place};
+        }
+    return std::nullopt;
+}
+
+} // namespace
+
+Result<Volumes> find_volumes(const Arrangement& a, const Run& run) {
+    return guarded([&]() -> Result<Volumes> {
+        const auto planes = planes_of(a);
+        const auto edges = group_edges(a.triangles, a.vertices.size(), run);
+        return find({a.points, a.vertices, a.triangles, edges, planes, &a.parents_of}, run);
+    });
+}
+
+Result<Volumes> find_volumes(const Mesh& mesh, const Run& run) {
+    return guarded([&]() -> Result<Volumes> {
+        if (const auto flaw = flaw_of(mesh)) return *flaw;
+        return find(MeshSheets(mesh).view(), run);
+    });
+}
+
+std::vector<std::string> exact_volumes(const Arrangement& a, const Volumes& volumes, int base) {
+    const auto planes = planes_of(a);
+    const auto edges = group_edges(a.triangles, a.vertices.size());
+    return exact_measures({a.points, a.vertices, a.triangles, edges, planes, &a.parents_of},
+                          volumes.of_sides, volumes.measures.size(), base);
+}
+
+std::vector<std::string> exact_volumes(const Mesh& mesh, const Volumes& volumes, int base) {
+    return exact_measures(MeshSheets(mesh).view(), volumes.of_sides, volumes.measures.size(), base);
+}
+
+} // namespace terrane

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include <terrane/algorithms/core/stopwatch.hpp>
+#include <terrane/cli/commands/command.hpp>
+#include <terrane/cli/stages/certificate_output.hpp>
+#include <terrane/cli/stages/outputs.hpp>
+#include <terrane/cli/stages/pipeline.hpp>
+
+namespace terrane::cli {
+namespace {
+
+struct ArrangeCommand {
+    FileOptions files;
+    ArrangeSettings settings;
+    ProofOptions proof;
+    bool keep_unverified = false;
+};
+
+constexpr auto arrange_footer =
+    R"(Writes .vtp .obj .ts .ply .off .stl .msh .inp .mesh .poly .smesh; -o may be repeated. The mesh is written only if its
+doubles are conforming, by an exact check of the doubles themselves. Otherwise the pairs of
+triangles in the way are named, and the exit status is 1.
+
+Examples:
+  terrane arrange horizons.ts faults.ts -o model.vtp
+  terrane arrange *.obj -o model.obj -o model.vtp --stats model.json
+  terrane arrange horizons.ts faults.ts -o part.vtp --box 0,0,-3000,10000,10000,500
+  terrane arrange --format ts --output-format obj - -o - < in.ts > out.obj)";
+
+Result<ExitStatus> arrange_files(const ArrangeCommand& command, Session& session) {
+    Stopwatch total;
+    const FileOptions& files = command.files;
+    const auto outputs = plan_outputs(files, OutputKind::surfaces);
+    if (!outputs) return outputs.error();
+    if (const auto named = plan_proof(command.proof, files); !named) return named.error();
+    if (const auto sound = check_volume_options(command.settings.volume); !sound)
+        return sound.error();
+    const bool whole = !command.settings.volume.wanted() && command.settings.seal == 0;
+    if (!whole && !command.proof.certificate.empty())
+        return Error{ErrorCode::bad_option,
+                     "a certificate is about the surfaces as they are, not cut or sealed",
+                     "--certificate"};
+    auto inputs = read_inputs(files, session);
+    if (!inputs) return inputs.error();
+    Json statistics = statistics_of(inputs.value());
+
+    const auto arranged = arrange_and_round(inputs.value(), command.settings, session, statistics);
+    if (!arranged) return arranged.error();
+    print(summary_stream(files), summary(inputs.value(), arranged.value()));
+    const Mesh& mesh = arranged.value().rounded.mesh;
+    bool clean = arranged.value().rounded.report.clean;
+    if (!clean) print(stderr, offending_pairs(inputs.value(), arranged.value()));
+    if (clean) {
+        const auto narrow = stl_is_conforming(mesh, files, outputs.value(), session);
+        if (!narrow) return narrow.error();
+        clean = narrow.value();
+    }
+    if (session.stopped()) return Error{ErrorCode::interrupted, "", ""};
+
+    Stopwatch writing;
+    const bool keep = clean || command.keep_unverified;
+    if (keep) {
+        const auto written = write_outputs(mesh, clean, files, outputs.value(), session);
+        if (!written) return written.error();
+    }
+    if (!keep) print(stderr, "terrane: nothing written (see --keep-unverified)\n");
+    const auto proved =
+        write_proof(command.proof, files, inputs.value(), arranged.value(), session);
+    if (!proved) return proved.error();
+    statistics["seconds"]["write"] = writing.lap();
+    const auto status = write_statistics(statistics, files.stats, total.lap());
+    if (!status) return status.error();
+    return clean ? ExitStatus::done : ExitStatus::negative;
+}
+
+} // namespace
+
+Command arrange_command(CLI::App& program) {
+    auto options = std::make_shared<ArrangeCommand>();
+    auto* app =
+        program.add_subcommand("arrange", "Make one conforming mesh of surfaces that cross");
+    add_inputs(*app, options->files);
+    add_output(*app, options->files, "File for the mesh; - is standard output");
+    add_settings(*app, options->settings);
+    app->add_flag(
+        "--keep-unverified", options->keep_unverified,
+        "Write the mesh even where its doubles are not conforming (status 1 all the same)");
+    app->add_flag("--ascii", options->files.ascii, "STL as text, with doubles, not float32");
+    add_msh(*app, options->files);
+    add_proof(*app, options->proof);
+    add_threads(*app, options->files);
+    add_stats(*app, options->files);
+    app->footer(arrange_footer);
+    return {app, [options] {
+                Session session(options->files.threads);
+                const auto status = arrange_files(*options, session);
+                return status ? status.value() : fail(status.error());
+            }};
+}
+
+} // namespace terrane::cli

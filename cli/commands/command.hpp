@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <functional>
+
+#include <CLI/CLI.hpp>
+
+#include <terrane/cli/session/console.hpp>
+
+namespace terrane::cli {
+
+/// One command of the program: its options as CLI11 knows them, and what it does with them.
+struct Command {
+    CLI::App* options = nullptr;
+    std::function<ExitStatus()> run;
+};
+
+Command arrange_command(CLI::App& program);
+Command bench_command(CLI::App& program);
+Command build_command(CLI::App& program);
+Command check_command(CLI::App& program);
+Command convert_command(CLI::App& program);
+Command fill_command(CLI::App& program);
+Command improve_command(CLI::App& program);
+Command layer_command(CLI::App& program);
+Command tetrahedralize_command(CLI::App& program);
+Command verify_command(CLI::App& program);
+Command volume_command(CLI::App& program);
+
+} // namespace terrane::cli

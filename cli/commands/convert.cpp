@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <memory>
+
+#include <terrane/cli/commands/command.hpp>
+#include <terrane/cli/options/files.hpp>
+
+namespace terrane::cli {
+namespace {
+
+struct ConvertCommand {
+    FileOptions files;
+    std::string input, output;
+};
+
+constexpr auto convert_footer =
+    R"(Nothing is arranged, merged or repaired: the same triangles with the same coordinates, bit by bit.
+Binary STL holds float32 only, which is said. Reads .ts .ml .obj .off .stl .ply, writes .vtp .obj
+.ts .ply .off .stl .msh .inp .mesh .poly .smesh.
+Grids (Irap .irap .gri, ZMAP+ .zmap, CPS-3 .cps3, ESRI .asc) become surfaces with holes where heights
+are missing, points (.xyz .csv .dat .txt .poi .pol, GOCAD .vs .pl) by Delaunay triangles without
+edges longer than --max-edge.
+
+Examples:
+  terrane convert faults.ts faults.obj
+  terrane convert --depth top.irap top.vtp
+  terrane convert --format ts --output-format vtp - - < faults.ts > faults.vtp)";
+
+bool loses_digits(const Mesh& mesh) {
+    const auto narrow = [](double x) { return static_cast<double>(static_cast<float>(x)) != x; };
+    for (const Point3& p : mesh.vertices)
+        if (narrow(p.x) || narrow(p.y) || narrow(p.z)) return true;
+    return false;
+}
+
+Result<ExitStatus> convert_file(const ConvertCommand& command, Session& session) {
+    FileOptions files = command.files;
+    files.inputs = {command.input};
+    files.outputs = {command.output};
+    const auto outputs = plan_outputs(files, OutputKind::surfaces);
+    if (!outputs) return outputs.error();
+    const auto inputs = read_inputs(files, session);
+    if (!inputs) return inputs.error();
+    const Mesh mesh = concatenate(inputs.value().surfaces);
+    const Output& output = outputs.value().front();
+    const auto written = write_output(mesh, output, {.ascii = files.ascii}, session);
+    if (!written) return written.error();
+    if (output.format == Format::stl && !files.ascii && loses_digits(mesh))
+        warn(output.path + ": coordinates were rounded to float32, all that binary STL holds; "
+                           "--ascii or another format keeps them");
+    return ExitStatus::done;
+}
+
+} // namespace
+
+Command convert_command(CLI::App& program) {
+    auto options = std::make_shared<ConvertCommand>();
+    auto* app = program.add_subcommand("convert", "Write surfaces in another format, unchanged");
+    app->add_option("IN", options->input, "File with surfaces; - is standard input")
+        ->required()
+        ->type_name("FILE");
+    app->add_option("OUT", options->output, "File to write; - is standard output")
+        ->required()
+        ->type_name("FILE");
+    app->add_option("--format", options->files.format,
+                    "Format of whatever is -: ts, ml, obj, off, stl, ply, vtp, msh, inp, "
+                    "mesh, poly, smesh")
+        ->type_name("FORMAT");
+    app->add_option("--output-format", options->files.output_format,
+                    "Format of OUT, where its extension does not tell")
+        ->type_name("FORMAT");
+    add_reading(*app, options->files);
+    add_msh(*app, options->files);
+    app->add_flag("--ascii", options->files.ascii, "STL as text, with doubles, not float32");
+    app->footer(convert_footer);
+    return {app, [options] {
+                Session session(1);
+                const auto status = convert_file(*options, session);
+                return status ? status.value() : fail(status.error());
+            }};
+}
+
+} // namespace terrane::cli

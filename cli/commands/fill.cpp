@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <memory>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include <terrane/algorithms/core/stopwatch.hpp>
+#include <terrane/cli/commands/command.hpp>
+#include <terrane/cli/options/files.hpp>
+#include <terrane/cli/options/statistics.hpp>
+#include <terrane/cli/reports/fill_report.hpp>
+#include <terrane/cli/stages/fill_stage.hpp>
+#include <terrane/io/atomic/atomic_file.hpp>
+
+namespace terrane::cli {
+namespace {
+
+constexpr const char* default_holes = "all";
+constexpr const char* no_smoothing = "none";
+
+struct FillCommand {
+    FileOptions files;
+    FillSettings settings;
+    std::string smoothing = no_smoothing; ///< as it was said
+    std::string holes = default_holes;
+    bool list = false;
+    std::string map;    ///< empty: none
+    std::string points; ///< empty: none
+};
+
+constexpr auto fill_footer =
+    R"(Holes are the borders of a surface other than the one round it. A hole whose sides face each other
+with a throw is a gap torn by a fault; gaps are left open unless --bridge-faults. --list says what
+there is, by the numbers that --holes takes.
+
+kriging needs a surface that is z = f(x, y) round the hole. rbf (the zero level of a radial basis
+function through points round the hole) takes any surface, folds too; with --smoothing it need not
+meet these points. Both foresee their errors. The surface keeps all its vertices and triangles; new
+ones come after them and share the border's vertices. Where new triangles would cross others, nothing
+is written. VTP gets arrays invented (the number of the hole, 0 for what was given)
+and deviation (the expected error, mean of the corners). A hole that can't be filled is named and
+left open, and the exit status is 1.
+
+Examples:
+  terrane fill top.irap --list
+  terrane fill --depth top.irap -o top.vtp --map top.svg
+  terrane fill horizons.ts -o filled.ts --holes 1,3 --points invented.csv
+  terrane fill fold.obj -o filled.obj --method rbf)";
+
+/// Per hole, whether it is to be filled.
+Result<std::vector<bool>> chosen_holes(const FillCommand& command, const FillWork& work) {
+    auto chosen = wanted_holes(work);
+    if (command.holes == default_holes) return chosen;
+    std::vector<bool> named(chosen.size());
+    std::string_view rest = command.holes;
+    while (!rest.empty()) {
+        const auto token = rest.substr(0, rest.find(','));
+        rest.remove_prefix(std::min(token.size() + 1, rest.size()));
+        std::size_t number = 0;
+        for (const char c : token)
+            number = c >= '0' && c <= '9' && number <= named.size()
+                         ? 10 * number + static_cast<std::size_t>(c - '0')
+                         : named.size() + 1;
+        if (number < 1 || number > named.size())
+            return Error{
+                ErrorCode::bad_option,
+                fmt::format("there is no hole {}, only 1 to {}: see --list", token, named.size()),
+                "--holes"};
+        named[number - 1] = true;
+    }
+    for (std::size_t i = 0; i < named.size(); ++i) chosen[i] = chosen[i] && named[i];
+    return chosen;
+}
+
+Status write_all(const FillCommand& command, const std::vector<Output>& outputs,
+                 const FillWork& work, Session& session) {
+    std::vector<Surface> surfaces;
+    std::vector<std::int32_t> invented;
+    std::vector<double> deviation;
+    for (const HoledSurface& s : work.surfaces) {
+        surfaces.push_back(s.filled);
+        invented.insert(invented.end(), s.invented.begin(), s.invented.end());
+        for (const Triangle& t : s.filled.triangles)
+            deviation.push_back((s.deviation[t[0]] + s.deviation[t[1]] + s.deviation[t[2]]) / 3);
+    }
+    const Mesh mesh = concatenate(surfaces);
+    const std::vector<CellArray> cells{{"invented", invented}, {"deviation", deviation}};
+    for (const Output& output : outputs) {
+        WriteOptions options{.ascii = command.files.ascii};
+        if (output.format == Format::vtp) options.cells = cells;
+        if (const auto written = write_output(mesh, output, options, session); !written)
+            return written.error();
+        print(summary_stream(command.files),
+              output.path == "-" ? "" : "wrote " + output.path + "\n");
+    }
+    if (!command.map.empty())
+        if (auto written = write_file(command.map, map_of(work)); !written) return written;
+    if (!command.points.empty())
+        if (auto written = write_file(command.points, csv_of(work)); !written) return written;
+    return Done{};
+}
+
+Result<std::vector<Output>> plan(const FillCommand& command) {
+    auto outputs = plan_outputs(command.files, OutputKind::surfaces);
+    if (!outputs) return outputs;
+    if (outputs.value().empty() && !command.list)
+        return Error{ErrorCode::bad_option, "-o OUT is needed, or --list", ""};
+    for (const auto& path : {command.map, command.points})
+        if (!path.empty())
+            if (const auto folder = check_folder(path); !folder) return folder.error();
+    return outputs;
+}
+
+/// All holes of all surfaces.
+std::vector<FillTask> tasks_of(const FillCommand& command, const Inputs& inputs) {
+    std::vector<FillTask> tasks;
+    for (std::uint32_t s = 0; s < inputs.surfaces.size(); ++s)
+        tasks.push_back({s, command.settings});
+    return tasks;
+}
+
+/// Fills and writes; whether no hole that was chosen had to stay open.
+Result<bool> fill_and_write(const FillCommand& command, const std::vector<Output>& outputs,
+                            const Inputs& inputs, FillWork& work, Session& session) {
+    const auto chosen = chosen_holes(command, work);
+    if (!chosen) return chosen.error();
+    if (const auto done = fill_holes(inputs, chosen.value(), work, session); !done)
+        return done.error();
+    print(summary_stream(command.files), filled_text(work));
+    const auto refused = refusals_text(work);
+    print(stderr, refused);
+    const auto contacts = contacts_of_new(work, session);
+    if (!contacts) return contacts.error();
+    if (!contacts.value().empty()) {
+        print(stderr, "terrane: nothing written: what was invented meets other triangles\n" +
+                          contacts.value());
+        return false;
+    }
+    if (const auto done = write_all(command, outputs, work, session); !done) return done.error();
+    return refused.empty();
+}
+
+Status read_smoothing(FillCommand& command) {
+    const std::string& text = command.smoothing;
+    if (text == no_smoothing) return Done{};
+    if (command.settings.method != "rbf")
+        return Error{ErrorCode::bad_option, "is of --method rbf", "--smoothing"};
+    double length = 0;
+    if (text != "auto") {
+        const char* const end = text.data() + text.size();
+        const auto read = std::from_chars(text.data(), end, length);
+        if (read.ec != std::errc{} || read.ptr != end || !(length > 0) || !std::isfinite(length))
+            return Error{ErrorCode::bad_option, "needs none, auto or a length: " + text,
+                         "--smoothing"};
+    }
+    command.settings.smoothing = length;
+    return Done{};
+}
+
+Result<ExitStatus> fill_files(const FillCommand& command, Session& session) {
+    Stopwatch total;
+    const auto outputs = plan(command);
+    if (!outputs) return outputs.error();
+    const auto inputs = read_inputs(command.files, session);
+    if (!inputs) return inputs.error();
+    auto work = find_holes(inputs.value(), tasks_of(command, inputs.value()), session);
+    if (!work) return work.error();
+    print(summary_stream(command.files),
+          borders_text(work.value()) + (command.list ? holes_table(work.value()) : ""));
+    Json statistics = statistics_of(inputs.value());
+    bool whole = true;
+    if (!command.list) {
+        const auto filled =
+            fill_and_write(command, outputs.value(), inputs.value(), work.value(), session);
+        if (!filled) return filled.error();
+        whole = filled.value();
+    }
+    statistics["holes"] = json_of(work.value());
+    if (const auto done = write_statistics(statistics, command.files.stats, total.lap()); !done)
+        return done.error();
+    return whole ? ExitStatus::done : ExitStatus::negative;
+}
+
+void add_choice(CLI::App& app, FillCommand& command) {
+    app.add_option("--holes", command.holes,
+                   "Which ones, by the numbers of --list: all, or N,N,... (default: all)")
+        ->type_name("LIST");
+    app.add_option("--max-area", command.settings.max_area, "Leave larger holes open")
+        ->check(CLI::PositiveNumber.description(""))
+        ->type_name("AREA");
+    app.add_flag("--bridge-faults", command.settings.bridge,
+                 "Fill gaps that a fault has torn as well");
+    app.add_option("--gap-slope", command.settings.gap_slope,
+                   "A throw of so many widths makes a hole a gap (default: 0.25)")
+        ->check(CLI::PositiveNumber.description(""))
+        ->type_name("S");
+    app.add_flag("--list", command.list, "Say which holes there are, and fill none");
+}
+
+void add_method(CLI::App& app, FillCommand& command) {
+    app.add_option("--method", command.settings.method,
+                   "kriging, for z = f(x, y), or rbf, for any surface (default: kriging)")
+        ->check(CLI::IsMember({"kriging", "rbf"}).description(""))
+        ->type_name("METHOD");
+    app.add_option(
+           "--model", command.settings.model,
+           "Of the variogram: auto, spherical, exponential, gaussian, power (default: auto, "
+           "what fits best)")
+        ->check(CLI::IsMember({"auto", "spherical", "exponential", "gaussian", "power"})
+                    .description(""))
+        ->type_name("MODEL");
+    app.add_flag("--isotropic", command.settings.isotropic,
+                 "The variogram is the same in all directions");
+    app.add_option("--smoothing", command.smoothing,
+                   "Of rbf: none; auto, as much as predicts data best from others; or the root "
+                   "mean square by which data may be missed (default: none)")
+        ->type_name("none|auto|LENGTH");
+    app.add_option("--mesh-size", command.settings.mesh_size,
+                   "Edges of the filling (default: the median edge of the hole's border; down to a "
+                   "quarter of it where flat triangles would miss more than the method itself)")
+        ->check(CLI::PositiveNumber.description(""))
+        ->type_name("LENGTH");
+    app.add_option("--rings", command.settings.rings,
+                   "Rings of triangles round the hole that are data (default: 5)")
+        ->check(CLI::Range(1U, 1000U).description(""))
+        ->type_name("N");
+}
+
+} // namespace
+
+Command fill_command(CLI::App& program) {
+    auto options = std::make_shared<FillCommand>();
+    auto* app =
+        program.add_subcommand("fill", "Fill the holes of surfaces, and say how sure it is");
+    add_inputs(*app, options->files);
+    add_output(*app, options->files, "File for the surfaces; - is standard output");
+    app->get_option("--output")->required(false);
+    add_method(*app, *options);
+    add_choice(*app, *options);
+    app->add_option("--map", options->map, "Draw it before and after, and the expected error")
+        ->type_name("FILE.svg");
+    app->add_option("--points", options->points,
+                    "Write invented points with deviation and variance")
+        ->type_name("FILE.csv");
+    app->add_flag("--ascii", options->files.ascii, "STL as text, with doubles, not float32");
+    add_msh(*app, options->files);
+    add_threads(*app, options->files);
+    add_stats(*app, options->files);
+    app->footer(fill_footer);
+    return {app, [options] {
+                if (const auto read = read_smoothing(*options); !read) return fail(read.error());
+                Session session(options->files.threads);
+                const auto status = fill_files(*options, session);
+                return status ? status.value() : fail(status.error());
+            }};
+}
+
+} // namespace terrane::cli

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <terrane/algorithms/core/stopwatch.hpp>
+#include <terrane/algorithms/quality/deviation.hpp>
+#include <terrane/algorithms/quality/improve.hpp>
+#include <terrane/cli/commands/command.hpp>
+#include <terrane/cli/reports/improve_report.hpp>
+#include <terrane/cli/stages/outputs.hpp>
+#include <terrane/cli/stages/pipeline.hpp>
+#include <terrane/io/atomic/atomic_file.hpp>
+
+namespace terrane::cli {
+namespace {
+
+struct ImproveCommand {
+    FileOptions files;
+    ArrangeSettings settings;
+    ImproveOptions options;
+    std::string edge_length = "auto";
+    std::vector<std::string> edge_length_of; ///< NAME=L
+    std::string histogram;                   ///< empty: none
+};
+
+constexpr auto improve_footer =
+    R"(The surfaces are arranged and rounded first, as `terrane arrange` does; then triangles are made
+better: smoothed, swapped, collapsed, split, all surfaces together. The mesh stays conforming: each
+step is allowed only where exact predicates show that no triangles meet improperly by it, and the
+whole is checked exactly at the end. Corners stay; curves (intersections, borders, creases) keep their vertices
+on the curves as they were. No point moves farther than D from its surface, and no point of a surface as it was is farther than
+D from it as it is: shown for all of each triangle, and measured again by other code before anything
+is written.
+
+q is 2 r / R, radius of the inscribed by that of the circumscribed circle, 1 for an equilateral
+triangle.
+
+Examples:
+  terrane improve horizons.ts faults.ts -o model.vtp --edge-length 200
+  terrane improve model.ml -o model.vtp --max-deviation 5 --histogram model.svg
+  terrane improve model.ml -o model.vtp --edge-length 400 --edge-length-of F1=150 --turn 15)";
+
+/// A positive number, all of the text; none where it is something else.
+std::optional<double> positive(const std::string& text) {
+    std::size_t used = 0;
+    double value = 0;
+    try {
+        value = std::stod(text, &used);
+    } catch (const std::exception&) {
+        return std::nullopt;
+    }
+    if (used != text.size() || !(value > 0) || !std::isfinite(value)) return std::nullopt;
+    return value;
+}
+
+Status set_length_of(const std::string& text, const Inputs& inputs, std::vector<double>& lengths) {
+    const auto at = text.rfind('=');
+    const auto length = at == std::string::npos ? std::nullopt : positive(text.substr(at + 1));
+    if (!length)
+        return Error{ErrorCode::bad_option, "needs NAME=L, with a positive length: " + text,
+                     "--edge-length-of"};
+    const std::string name = text.substr(0, at);
+    bool found = false;
+    for (std::size_t s = 0; s < inputs.surfaces.size(); ++s) {
+        if (inputs.surfaces[s].name != name && inputs.labels[s] != name) continue;
+        lengths[s] = *length;
+        found = true;
+    }
+    if (found) return Done{};
+    return Error{ErrorCode::bad_option, "no surface is called " + name, "--edge-length-of"};
+}
+
+Status set_lengths(const ImproveCommand& command, const Inputs& inputs, ImproveOptions& options) {
+    if (command.edge_length != "auto") {
+        const auto length = positive(command.edge_length);
+        if (!length)
+            return Error{ErrorCode::bad_option,
+                         "needs a positive length or auto: " + command.edge_length,
+                         "--edge-length"};
+        options.edge_length = *length;
+    }
+    if (command.edge_length_of.empty()) return Done{};
+    options.edge_length_of.assign(inputs.surfaces.size(), 0);
+    for (const std::string& text : command.edge_length_of)
+        if (auto set = set_length_of(text, inputs, options.edge_length_of); !set) return set;
+    return Done{};
+}
+
+Status write_all(const ImproveCommand& command, const Measured& measured,
+                 const std::vector<Output>& outputs, Session& session) {
+    if (!command.histogram.empty()) {
+        const auto& report = measured.improved.report;
+        if (auto drawn = write_file(command.histogram, histogram_of(report)); !drawn) return drawn;
+        print(summary_stream(command.files), "wrote " + command.histogram + "\n");
+    }
+    return write_outputs(measured.improved.mesh, true, command.files, outputs, session);
+}
+
+Result<ExitStatus> improve_files(const ImproveCommand& command, Session& session) {
+    Stopwatch total;
+    const FileOptions& files = command.files;
+    const auto outputs = plan_outputs(files, OutputKind::surfaces);
+    if (!outputs) return outputs.error();
+    if (!command.histogram.empty())
+        if (const auto folder = check_folder(command.histogram); !folder) return folder.error();
+    if (const auto sound = check_volume_options(command.settings.volume); !sound)
+        return sound.error();
+    auto inputs = read_inputs(files, session);
+    if (!inputs) return inputs.error();
+    ImproveOptions options = command.options;
+    if (const auto set = set_lengths(command, inputs.value(), options); !set) return set.error();
+    Json statistics = statistics_of(inputs.value());
+
+    const auto arranged = arrange_and_round(inputs.value(), command.settings, session, statistics);
+    if (!arranged) return arranged.error();
+    if (!options.edge_length_of.empty()) // with the boundary of a volume of interest
+        options.edge_length_of.resize(inputs.value().surfaces.size());
+    print(summary_stream(files), summary(inputs.value(), arranged.value()));
+    bool clean = arranged.value().rounded.report.clean;
+    if (!clean) {
+        print(stderr, offending_pairs(inputs.value(), arranged.value()));
+        print(stderr, "terrane: only a conforming mesh can be improved; nothing written\n");
+    } else {
+        const auto measured =
+            improve_and_measure(arranged.value().rounded.mesh, options, session, statistics);
+        if (!measured) return measured.error();
+        add_statistics(statistics, measured.value());
+        print(summary_stream(files), improve_text(measured.value(), inputs.value()));
+        const Mesh& mesh = measured.value().improved.mesh;
+        const auto narrow = stl_is_conforming(mesh, files, outputs.value(), session);
+        if (!narrow) return narrow.error();
+        clean = narrow.value() && measured.value().improved.report.sides_kept &&
+                measured.value().is_near_back();
+        if (!measured.value().improved.report.sides_kept)
+            warn("a small piece came to lie beyond a surface near it, so the blocks would not be "
+                 "the same; try a smaller --max-deviation");
+        if (!measured.value().is_near_back())
+            warn(
+                "not all of each surface as it was is shown to be near enough to the improved one; "
+                "try another --max-deviation");
+        Stopwatch writing;
+        if (clean) {
+            const auto written = write_all(command, measured.value(), outputs.value(), session);
+            if (!written) return written.error();
+        } else {
+            print(stderr, "terrane: nothing written\n");
+        }
+        statistics["seconds"]["write"] = writing.lap();
+    }
+    const auto status = write_statistics(statistics, files.stats, total.lap());
+    if (!status) return status.error();
+    return clean ? ExitStatus::done : ExitStatus::negative;
+}
+
+void add_lengths(CLI::App& app, ImproveCommand& command) {
+    app.add_option("--edge-length", command.edge_length,
+                   "Wanted length of edges, unit of the files; auto: each surface keeps about as "
+                   "many triangles as it has when arranged (default: auto)")
+        ->type_name("L");
+    app.add_option("--edge-length-of", command.edge_length_of,
+                   "The same for one surface; may be repeated")
+        ->allow_extra_args(false)
+        ->type_name("NAME=L");
+    app.add_option("--curve-length", command.options.curve_length,
+                   "Wanted length along curves, where that is shorter (default: as elsewhere)")
+        ->type_name("L");
+    app.add_option("--turn", command.options.turn,
+                   "Shorter edges where a surface is curved: normals turn by so many degrees "
+                   "along one (default: the same length everywhere)")
+        ->type_name("DEGREES");
+    app.add_option("--growth", command.options.growth,
+                   "Wanted lengths differ by at most this share of the way between (default: 0.3)")
+        ->type_name("G");
+}
+
+void add_limits(CLI::App& app, ImproveCommand& command) {
+    app.add_option("--max-deviation", command.options.max_deviation,
+                   "No point of a surface goes farther from it, unit of the files (default: a "
+                   "twentieth of the wanted length)")
+        ->type_name("D");
+    app.add_option("--crease-angle", command.options.crease_angle,
+                   "Edges at which a surface turns by more are kept (default: 50)")
+        ->type_name("DEGREES");
+    app.add_option("--curve-angle", command.options.curve_angle,
+                   "Vertices at which a curve turns by more are kept (default: 45)")
+        ->type_name("DEGREES");
+    app.add_option("--passes", command.options.passes,
+                   "At most so many passes of the four operations (default: 6)")
+        ->type_name("N");
+}
+
+} // namespace
+
+Command improve_command(CLI::App& program) {
+    auto command = std::make_shared<ImproveCommand>();
+    auto* app = program.add_subcommand("improve", "Make better triangles, conforming all the way");
+    add_inputs(*app, command->files);
+    add_output(*app, command->files, "File for the mesh; - is standard output");
+    add_lengths(*app, *command);
+    add_limits(*app, *command);
+    app->add_option("--histogram", command->histogram, "Histograms of q before and after")
+        ->type_name("FILE.svg");
+    add_settings(*app, command->settings);
+    app->add_flag("--ascii", command->files.ascii, "STL as text, with doubles, not float32");
+    add_msh(*app, command->files);
+    add_threads(*app, command->files);
+    add_stats(*app, command->files);
+    app->footer(improve_footer);
+    return {app, [command] {
+                Session session(command->files.threads);
+                const auto status = improve_files(*command, session);
+                return status ? status.value() : fail(status.error());
+            }};
+}
+
+} // namespace terrane::cli

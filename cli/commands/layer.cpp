@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <terrane/algorithms/core/stopwatch.hpp>
+#include <terrane/cli/commands/command.hpp>
+#include <terrane/cli/options/files.hpp>
+#include <terrane/cli/options/statistics.hpp>
+#include <terrane/cli/stages/layer_stage.hpp>
+
+namespace terrane::cli {
+namespace {
+
+struct LayerCommand {
+    FileOptions files;
+    std::string hard, soft; ///< files; both or none
+    std::string keep;
+    std::vector<std::string> layers; ///< NAME=HARDNESS, from the top down
+    double min_thickness = 0;
+};
+
+constexpr auto layer_footer =
+    R"(Where a soft horizon is on the wrong side of a harder one it is replaced by the harder one's
+own triangles: in files with groups these belong to both. --keep says on which side of the hard one
+the soft one stays: upper makes it the higher of the two at each place, lower the lower one.
+With --layer, horizons from the top down, each softer one gives way to the nearest harder ones above
+and below it; of equals the upper one counts as harder. Horizons that are not named are left out.
+The mesh is written only if its doubles are conforming, by an exact check; else the status is 1.
+
+Examples:
+  terrane layer --hard salt.ts --soft shale.ts --keep upper -o layers.vtp
+  terrane layer basin.ts --layer top=1 --layer middle=3 --layer base=2 -o basin.vtp
+  terrane layer basin.ts --layer top=1 --layer base=2 --min-thickness 5 -o basin.obj)";
+
+/// The files of the two ways to call it, in files.inputs.
+Status plan_inputs(LayerCommand& command) {
+    const bool pair = !command.hard.empty() || !command.soft.empty();
+    if (pair) {
+        if (command.hard.empty() || command.soft.empty() || command.keep.empty())
+            return usage("needs --hard, --soft and --keep together", "layer");
+        if (!command.layers.empty() || !command.files.inputs.empty())
+            return usage("takes either --hard and --soft, or files and --layer", "layer");
+        command.files.inputs = {command.hard, command.soft};
+        return Done{};
+    }
+    if (command.layers.empty() || command.files.inputs.empty())
+        return usage("needs --hard and --soft, or files and --layer for each horizon", "layer");
+    if (!command.keep.empty()) return usage("goes with --hard and --soft only", "--keep");
+    return Done{};
+}
+
+Result<Layer> layer_named(const std::string& text, const Inputs& inputs) {
+    const auto at = text.rfind('=');
+    double hardness = 0;
+    const char* const end = text.data() + text.size();
+    const auto read = at == std::string::npos
+                          ? std::from_chars_result{text.data(), std::errc::invalid_argument}
+                          : std::from_chars(text.data() + at + 1, end, hardness);
+    if (read.ec != std::errc{} || read.ptr != end || !std::isfinite(hardness))
+        return usage("needs NAME=HARDNESS, a number: " + text, "--layer");
+    const std::string name = text.substr(0, at);
+    std::vector<std::uint32_t> found;
+    for (std::uint32_t s = 0; s < inputs.surfaces.size(); ++s)
+        if (inputs.labels[s] == name || inputs.surfaces[s].name == name) found.push_back(s);
+    if (found.empty()) return usage("no surface is called " + name, "--layer");
+    if (found.size() > 1) // labels are unique
+        std::erase_if(found, [&](std::uint32_t s) { return inputs.labels[s] != name; });
+    return Layer{found.at(0), hardness};
+}
+
+Result<std::vector<Layer>> order_of(const LayerCommand& command, const Inputs& inputs) {
+    std::vector<Layer> order;
+    if (command.layers.empty()) {
+        for (const std::size_t file : {0U, 1U})
+            if (inputs.surfaces_of_file[file] != 1)
+                return usage("must hold one surface, or name them with --layer",
+                             file == 0 ? "--hard" : "--soft");
+        order = {{1, 0}, {0, 1}};
+        if (command.keep == "lower") std::swap(order[0], order[1]);
+        return order;
+    }
+    for (const std::string& text : command.layers) {
+        const auto layer = layer_named(text, inputs);
+        if (!layer) return layer.error();
+        order.push_back(layer.value());
+    }
+    return order;
+}
+
+Status write_all(const Mesh& mesh, const FileOptions& files, const std::vector<Output>& outputs,
+                 Session& session) {
+    WriteOptions options;
+    options.ascii = files.ascii;
+    for (const Output& output : outputs) {
+        const auto written = write_output(mesh, output, options, session);
+        if (!written) return written.error();
+        print(summary_stream(files), output.path == "-" ? "" : "wrote " + output.path + "\n");
+    }
+    return Done{};
+}
+
+Result<ExitStatus> layer_files(LayerCommand& command, Session& session) {
+    Stopwatch total;
+    const FileOptions& files = command.files;
+    const auto outputs = plan_outputs(files, OutputKind::surfaces);
+    if (!outputs) return outputs.error();
+    const auto inputs = read_inputs(files, session);
+    if (!inputs) return inputs.error();
+    Json statistics = statistics_of(inputs.value());
+    const auto order = order_of(command, inputs.value());
+    if (!order) return order.error();
+
+    const auto layered =
+        layer_inputs(inputs.value(), order.value(), {.min_thickness = command.min_thickness},
+                     session, statistics);
+    if (!layered) return layered.error();
+    const RoundedMesh& rounded = layered.value().rounded;
+    print(summary_stream(files), text_of(inputs.value(), layered.value()));
+    print(stderr, contacts_text(layered.value()));
+    if (rounded.report.clean)
+        if (const auto written = write_all(rounded.mesh, files, outputs.value(), session); !written)
+            return written.error();
+    const auto status = write_statistics(statistics, files.stats, total.lap());
+    if (!status) return status.error();
+    return rounded.report.clean ? ExitStatus::done : ExitStatus::negative;
+}
+
+} // namespace
+
+Command layer_command(CLI::App& program) {
+    auto command = std::make_shared<LayerCommand>();
+    auto* app = program.add_subcommand("layer", "Make soft horizons give way to harder ones");
+    add_inputs(*app, command->files);
+    app->get_option("IN")->required(false); // or --hard and --soft
+    app->add_option("--hard", command->hard, "File with the hard horizon")->type_name("FILE");
+    app->add_option("--soft", command->soft, "File with the soft horizon")->type_name("FILE");
+    app->add_option("--keep", command->keep, "Side of the hard one on which the soft one stays")
+        ->check(CLI::IsMember({"upper", "lower"}).description(""))
+        ->type_name("upper|lower");
+    app->add_option("--layer", command->layers,
+                    "A horizon and its hardness; repeated, from the top down")
+        ->allow_extra_args(false)
+        ->type_name("NAME=HARDNESS");
+    app->add_option("--min-thickness", command->min_thickness,
+                    "Least thickness along z between a soft horizon and harder ones, in the unit "
+                    "of the files (default: 0)")
+        ->type_name("LENGTH");
+    add_output(*app, command->files, "File for the mesh; - is standard output");
+    app->add_flag("--ascii", command->files.ascii, "STL as text, with doubles, not float32");
+    add_threads(*app, command->files);
+    add_stats(*app, command->files);
+    app->footer(layer_footer);
+    return {app, [command] {
+                if (const auto planned = plan_inputs(*command); !planned)
+                    return fail(planned.error());
+                Session session(command->files.threads);
+                const auto status = layer_files(*command, session);
+                return status ? status.value() : fail(status.error());
+            }};
+}
+
+} // namespace terrane::cli

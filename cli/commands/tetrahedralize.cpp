@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <memory>
+
+#include <terrane/cli/commands/command.hpp>
+#ifdef TERRANE_HAS_TETGEN
+#include <array>
+#include <charconv>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <terrane/algorithms/core/stopwatch.hpp>
+#include <terrane/cli/options/roles.hpp>
+#include <terrane/cli/reports/tetrahedra_report.hpp>
+#include <terrane/cli/stages/pipeline.hpp>
+#include <terrane/cli/stages/tetrahedra_stage.hpp>
+#endif
+
+namespace terrane::cli {
+
+#ifdef TERRANE_HAS_TETGEN
+
+namespace {
+
+struct TetrahedralizeCommand {
+    FileOptions files;
+    ArrangeSettings settings;
+    std::string around; ///< as given
+    TetrahedraOptions options;
+    std::vector<std::string> roles;            ///< NAME=ROLE
+    std::vector<std::string> size_of, size_in; ///< NAME=L
+    std::vector<std::string> split;
+    bool blocks_only = false;
+};
+
+constexpr auto tetrahedralize_footer =
+    R"(The surfaces are arranged and rounded first, as `terrane arrange` does; where the doubles are not
+a conforming mesh nothing is written, and the exit status is 1. A box round all closes the domain:
+what touches it is region 0, the outside, each further region is a volume that the surfaces enclose.
+With a volume of interest (--box, --rotated-box, --polygon, --within) all surfaces are cut by its
+boundary, and only what is inside gets tetrahedra: there is no region 0.
+
+The result is checked: tetrahedra have positive volume, each triangle is a union of their faces, each
+region is one block (found in two ways) and has its volume. Where that fails nothing is written, and
+the exit status is 1. The shapes are reported: dihedral angles, ratios of circumradius to shortest
+edge.
+
+VTU has arrays region, surface and parent; MSH physical groups; Abaqus INP element sets, node sets
+and surfaces; MEDIT references: region and surface + 1.
+
+Names of blocks are those of `terrane volume`: "top/base|F1" has top above, base below and F1 beside
+it. With --split two tetrahedra at a surface share a node only where they hang together round it
+without crossing what is split: a surface that ends inside keeps one node at its border, and each
+sector where surfaces cross has its own. VTU then has the arrays twin and cut_side, MSH groups for
+both sides and $Periodic, INP pairs as unsorted node sets, MEDIT references and comments.
+
+Examples:
+  terrane tetrahedralize model.ml -o model.vtu
+  terrane tetrahedralize model.ml -o model.vtu --size-of F1=50 --size-in 3=100 --edge-length 400
+  terrane tetrahedralize model.ml -o model.msh --split fault --blocks-only
+  terrane tetrahedralize faults.ts topography.ts -o model.msh --edge-length 200
+  terrane tetrahedralize model.ml -o model.msh --msh 2.2 -o model.inp -o model.mesh
+  terrane tetrahedralize horizons.ts faults.ts -o model.vtu --box 0,0,-3000,10000,10000,500)";
+
+/// "x0,y0,z0,x1,y1,z1"
+std::optional<Box3> parse_box(std::string_view text) {
+    std::array<double, 6> numbers{};
+    const char* at = text.data();
+    const char* const end = text.data() + text.size();
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        if (i > 0 && (at == end || *at++ != ',')) return std::nullopt;
+        const auto [after, failed] = std::from_chars(at, end, numbers[i]);
+        if (failed != std::errc()) return std::nullopt;
+        at = after;
+    }
+    if (at != end) return std::nullopt;
+    return Box3{{numbers[0], numbers[1], numbers[2]}, {numbers[3], numbers[4], numbers[5]}};
+}
+
+Status add_sizes(const std::vector<std::string>& texts, const char* option,
+                 std::vector<NamedSize>& sizes) {
+    for (const std::string& text : texts) {
+        const auto size = parse_named_length(text);
+        if (!size)
+            return Error{ErrorCode::bad_option, "needs NAME=L, with a length: " + text, option};
+        sizes.push_back({{size->name, option}, size->length});
+    }
+    return Done{};
+}
+
+Result<TetrahedraWishes> wishes_of(const TetrahedralizeCommand& command) {
+    TetrahedraWishes wishes;
+    wishes.options = command.options;
+    if (!command.around.empty()) {
+        wishes.options.box = parse_box(command.around);
+        if (!wishes.options.box)
+            return Error{ErrorCode::bad_option, "needs six numbers: x0,y0,z0,x1,y1,z1", "--around"};
+    }
+    if (auto added = add_sizes(command.size_of, "--size-of", wishes.size_of); !added)
+        return added.error();
+    if (auto added = add_sizes(command.size_in, "--size-in", wishes.size_in); !added)
+        return added.error();
+    for (const std::string& name : command.split) wishes.split.push_back({name, "--split"});
+    wishes.outside = !command.blocks_only && !command.settings.volume.wanted();
+    return wishes;
+}
+
+Result<Filled> fill(const Mesh& mesh, const Inputs& inputs, const TetrahedraWishes& wishes,
+                    Session& session, Json& statistics) {
+    session.begin("volumes", Phase::computing);
+    const auto volumes = find_volumes(mesh, session.run());
+    if (!volumes) return volumes.error();
+    const auto structure = build_structure(mesh, volumes.value());
+    session.end_stage();
+    return fill_and_check({mesh, inputs.labels, volumes.value(), structure}, wishes, session,
+                          statistics);
+}
+
+Status write_all(const Filled& filled, const std::vector<Output>& outputs, const FileOptions& files,
+                 Session& session) {
+    WriteOptions options;
+    options.region_names = filled.block_names;
+    for (const Output& output : outputs) {
+        const auto written = write_output(filled.tetrahedra, output, options, session);
+        if (!written) return written.error();
+        print(summary_stream(files), output.path == "-" ? "" : "wrote " + output.path + "\n");
+    }
+    return Done{};
+}
+
+Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Session& session) {
+    Stopwatch total;
+    const FileOptions& files = command.files;
+    const auto wishes = wishes_of(command);
+    if (!wishes) return wishes.error();
+    const auto outputs = plan_outputs(files, OutputKind::tetrahedra);
+    if (!outputs) return outputs.error();
+    if (const auto sound = check_volume_options(command.settings.volume); !sound)
+        return sound.error();
+    auto inputs = read_inputs(files, session);
+    if (!inputs) return inputs.error();
+    if (const auto set = set_roles(command.roles, inputs.value()); !set) return set.error();
+    Json statistics = statistics_of(inputs.value());
+
+    const auto arranged = arrange_and_round(inputs.value(), command.settings, session, statistics);
+    if (!arranged) return arranged.error();
+    print(summary_stream(files), summary(inputs.value(), arranged.value()));
+    if (!arranged.value().rounded.report.clean) {
+        print(stderr, offending_pairs(inputs.value(), arranged.value()));
+        print(stderr, "terrane: no tetrahedra without a conforming mesh; nothing written\n");
+        const auto status = write_statistics(statistics, files.stats, total.lap());
+        if (!status) return status.error();
+        return ExitStatus::negative;
+    }
+
+    const auto filled =
+        fill(arranged.value().rounded.mesh, inputs.value(), wishes.value(), session, statistics);
+    if (!filled) return filled.error();
+    print(summary_stream(files), filled_text(filled.value()));
+    const TetrahedraReport& report = filled.value().report;
+    const bool good = report.violations.empty();
+    Stopwatch writing;
+    if (good) {
+        const auto written = write_all(filled.value(), outputs.value(), files, session);
+        if (!written) return written.error();
+    } else {
+        print(stderr, violations_text(report) + "terrane: nothing written\n");
+    }
+    statistics["seconds"]["write"] = writing.lap();
+    const auto status = write_statistics(statistics, files.stats, total.lap());
+    if (!status) return status.error();
+    return good ? ExitStatus::done : ExitStatus::negative;
+}
+
+void add_tetrahedra_options(CLI::App& app, TetrahedralizeCommand& command) {
+    TetrahedraOptions& options = command.options;
+    app.add_option("--around", command.around,
+                   "Box that closes the domain, x0,y0,z0,x1,y1,z1, around all that is kept")
+        ->type_name("BOX");
+    app.add_option("--margin", options.margin,
+                   "Without --around: the bounding box, larger on each side by this share of its "
+                   "longest edge (default: 0.1)")
+        ->type_name("SHARE");
+    app.add_option("--edge-length", options.edge_length,
+                   "Wanted edge length, in the unit of the input (default: as few tetrahedra as "
+                   "possible)")
+        ->type_name("L");
+    app.add_option("--size-of", command.size_of,
+                   "Edge length on a surface, and near it; may be repeated")
+        ->allow_extra_args(false)
+        ->type_name("NAME=L");
+    app.add_option(
+           "--size-in", command.size_in,
+           "Edge length in a block, by its number or name, instead of --edge-length; may be "
+           "repeated")
+        ->allow_extra_args(false)
+        ->type_name("BLOCK=L");
+    app.add_option("--split", command.split,
+                   "Nodes of their own on either side of a surface; fault: of all with that role; "
+                   "may be repeated")
+        ->allow_extra_args(false)
+        ->type_name("NAME");
+    app.add_flag("--blocks-only", command.blocks_only,
+                 "No tetrahedra outside of the blocks, in region 0");
+    app.add_option("--quality", options.radius_edge_ratio,
+                   "Largest ratio of circumradius to shortest edge, at least 1.1 (default: none)")
+        ->type_name("RATIO");
+    app.add_option("--time-limit", options.time_limit,
+                   "For each of the ways in which TetGen is tried (default: 600)")
+        ->type_name("SECONDS");
+}
+
+} // namespace
+
+Command tetrahedralize_command(CLI::App& program) {
+    auto command = std::make_shared<TetrahedralizeCommand>();
+    auto* app = program.add_subcommand("tetrahedralize",
+                                       "Fill the regions between the surfaces with tetrahedra");
+    add_inputs(*app, command->files);
+    add_output(
+        *app, command->files,
+        "File for the tetrahedra, .vtu .msh .inp .mesh; - is standard output; may be repeated");
+    add_msh(*app, command->files);
+    add_roles(*app, command->roles);
+    add_tetrahedra_options(*app, *command);
+    add_settings(*app, command->settings);
+    add_threads(*app, command->files);
+    add_stats(*app, command->files);
+    app->footer(tetrahedralize_footer);
+    return {app, [command] {
+                Session session(command->files.threads);
+                const auto status = tetrahedralize_files(*command, session);
+                return status ? status.value() : fail(status.error());
+            }};
+}
+
+#else
+
+Command tetrahedralize_command(CLI::App& program) {
+    auto* app = program.add_subcommand("tetrahedralize", "Not in this build: made without TetGen");
+    app->allow_extras();
+    return {app, [] {
+                return fail({ErrorCode::unsupported, "this program was built without TetGen",
+                             "tetrahedralize"});
+            }};
+}
+
+#endif
+
+} // namespace terrane::cli

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <memory>
+
+#include <terrane/algorithms/core/stopwatch.hpp>
+#include <terrane/cli/commands/command.hpp>
+#include <terrane/cli/options/roles.hpp>
+#include <terrane/cli/stages/blocks.hpp>
+#include <terrane/io/atomic/atomic_folder.hpp>
+
+namespace terrane::cli {
+namespace {
+
+struct VolumeCommand {
+    FileOptions files;
+    ArrangeSettings settings;
+    std::string folder;
+    std::vector<std::string> roles; ///< NAME=ROLE
+    std::string part_format = "vtp";
+};
+
+constexpr auto volume_footer =
+    R"(The surfaces are arranged and rounded first, as `terrane arrange` does; where the doubles are not
+a conforming mesh nothing is written, and the exit status is 1. Blocks are the volumes that the
+surfaces enclose, 1, 2, ...; 0 is the outside. DIR must not exist, or be empty. It gets
+
+  model.json         blocks, interfaces, lines, corners, free borders and leaks
+  result.vtp         the whole mesh; arrays volume_front, volume_back, interface, patch
+  blocks/            the closed boundary of each block, wound outward
+  interfaces/        what lies between the same two blocks and in the same surfaces
+
+Neighbours have the same vertices, to the last bit. Open surfaces are no error: they dangle, and the
+summary says which, and how far their free borders are from other surfaces.
+
+--seal D closes gaps: free borders that end short of another surface by at most D are extended onto it,
+those that reach beyond by at most D are trimmed. Every change is listed, and is in model.json.
+
+With a volume of interest (--box, --rotated-box, --polygon, --within) all surfaces are cut by its
+boundary, exactly, the inside is kept, and the boundary closes it: its faces are surfaces of their
+own, "boundary top", "boundary side 1", ... --extend D extends horizons that end inside.
+
+Examples:
+  terrane volume model.ml -o model
+  terrane volume model.ml -o model --seal 0.01
+  terrane volume horizons.ts faults.ts -o model --box 0,0,-3000,10000,10000,500
+  terrane volume *.ts -o model --polygon licence.txt --between -4000,0
+  terrane volume top.ts base.ts F1.ts box.ts -o model --role F1=fault --role box=boundary)";
+
+Status write_folder(const VolumeCommand& command, const Arranged& arranged, const Model& model,
+                    Session& session) {
+    session.begin("write", Phase::computing);
+    auto folder = NewFolder::create(command.folder);
+    if (!folder) return folder.error();
+    if (auto done = write_model(arranged.rounded.mesh, model, arranged.sealed, command.part_format,
+                                folder.value().temporary(), session);
+        !done)
+        return done;
+    auto published = folder.value().publish();
+    session.end_stage();
+    return published;
+}
+
+Result<ExitStatus> find_blocks(const VolumeCommand& command, Session& session) {
+    Stopwatch total;
+    const FileOptions& files = command.files;
+    if (const auto planned = plan_outputs(files, OutputKind::surfaces); !planned)
+        return planned.error();
+    if (const auto good = check_new_folder(command.folder); !good) return good.error();
+    if (const auto sound = check_volume_options(command.settings.volume); !sound)
+        return sound.error();
+    auto inputs = read_inputs(files, session);
+    if (!inputs) return inputs.error();
+    if (const auto set = set_roles(command.roles, inputs.value()); !set) return set.error();
+    Json statistics = statistics_of(inputs.value());
+
+    const auto arranged = arrange_and_round(inputs.value(), command.settings, session, statistics);
+    if (!arranged) return arranged.error();
+    print(summary_stream(files), summary(inputs.value(), arranged.value()));
+    const bool clean = arranged.value().rounded.report.clean;
+    if (!clean) {
+        print(stderr, offending_pairs(inputs.value(), arranged.value()));
+        print(stderr, "terrane: no blocks without a conforming mesh; nothing written\n");
+    } else {
+        const auto model = make_model(arranged.value(), session, statistics);
+        if (!model) return model.error();
+        print(summary_stream(files), model_text(inputs.value(), model.value()));
+        Stopwatch writing;
+        const auto written = write_folder(command, arranged.value(), model.value(), session);
+        if (!written) return written.error();
+        print(summary_stream(files), "wrote " + command.folder + "\n");
+        statistics["seconds"]["write"] = writing.lap();
+    }
+    const auto status = write_statistics(statistics, files.stats, total.lap());
+    if (!status) return status.error();
+    return clean ? ExitStatus::done : ExitStatus::negative;
+}
+
+} // namespace
+
+Command volume_command(CLI::App& program) {
+    auto command = std::make_shared<VolumeCommand>();
+    auto* app = program.add_subcommand("volume", "Find the blocks that surfaces enclose");
+    add_inputs(*app, command->files);
+    app->add_option("-o,--output", command->folder, "Folder for the model; made by the program")
+        ->required()
+        ->type_name("DIR");
+    add_roles(*app, command->roles);
+    app->add_option("--parts", command->part_format, "Format of blocks and interfaces: vtp, obj")
+        ->check(CLI::IsMember({"vtp", "obj"}).description(""))
+        ->type_name("FORMAT");
+    add_settings(*app, command->settings);
+    add_threads(*app, command->files);
+    add_stats(*app, command->files);
+    app->footer(volume_footer);
+    return {app, [command] {
+                Session session(command->files.threads);
+                const auto status = find_blocks(*command, session);
+                return status ? status.value() : fail(status.error());
+            }};
+}
+
+} // namespace terrane::cli

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/cli/options/files.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <terrane/algorithms/core/stopwatch.hpp>
+#include <terrane/cli/session/console.hpp>
+#include <terrane/io/text/names.hpp>
+
+namespace terrane::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr unsigned most_threads = 1024;
+
+Result<Format> format_of_output(const FileOptions& options, const std::string& path) {
+    const std::string& named = !options.output_format.empty() ? options.output_format
+                               : path == "-"                  ? options.format
+                                                              : std::string();
+    const auto format = named.empty() ? format_of(path) : format_named(named);
+    if (format == Format::msh && options.msh == "2.2") return Format::msh22;
+    if (format) return *format;
+    if (!named.empty()) return Error{ErrorCode::unknown_format, "unknown format " + named, ""};
+    if (path == "-") return usage("the format must be given: --format FORMAT", "standard output");
+    return Error{ErrorCode::unknown_format, "no format that can be written has this extension",
+                 path};
+}
+
+std::optional<Format> format_of_input(const FileOptions& options, const std::string& path) {
+    if (!options.input_format.empty()) return format_named(options.input_format);
+    return path == "-" ? format_named(options.format) : std::nullopt;
+}
+
+bool fits(Format format, OutputKind kind) {
+    return kind == OutputKind::tetrahedra ? holds_tetrahedra(format) : holds_surfaces(format);
+}
+
+Status check_streams(const FileOptions& options) {
+    const auto dashes = [](const std::vector<std::string>& names) {
+        return std::count(names.begin(), names.end(), "-");
+    };
+    if (dashes(options.inputs) > 1) return usage("standard input can be read only once");
+    if (dashes(options.outputs) + (options.stats == "-" ? 1 : 0) > 1)
+        return usage("standard output can take only one file");
+    if (dashes(options.inputs) == 1 && options.format.empty() && options.input_format.empty())
+        return usage("the format must be given: --format FORMAT", "standard input");
+    if (!options.format.empty() && !format_named(options.format))
+        return Error{ErrorCode::unknown_format, "unknown format " + options.format, ""};
+    if (!options.input_format.empty() && !format_named(options.input_format))
+        return Error{ErrorCode::unknown_format, "unknown format " + options.input_format, ""};
+    return Done{};
+}
+
+std::vector<std::string> labels_of(const std::vector<Surface>& surfaces) {
+    std::vector<SurfaceInfo> infos;
+    for (const Surface& s : surfaces) infos.push_back({s.name, s.role});
+    return detail::quotable_names(infos);
+}
+
+template <class AnyMesh>
+Status write_with(const AnyMesh& mesh, const Output& output, WriteOptions options, Session& session,
+                  Status (*write)(const AnyMesh&, const fs::path&, const WriteOptions&)) {
+    session.begin("write", output.path == "-" ? Phase::idle : Phase::writing);
+    options.format = output.format;
+    auto status = write(mesh, output.path, options);
+    session.end_stage();
+    return status;
+}
+
+} // namespace
+
+Error usage(std::string sentence, std::string place) {
+    return {ErrorCode::bad_option, std::move(sentence), std::move(place)};
+}
+
+// The folder must be there: it is better to say so before an hour of work than after it.
+Status check_folder(const std::string& path) {
+    if (path == "-") return Done{};
+    const auto parent = fs::path(path).parent_path();
+    const auto folder = parent.empty() ? fs::path(".") : parent;
+    std::error_code ignored;
+    if (!fs::is_directory(folder, ignored))
+        return Error{ErrorCode::cannot_open, "there is no folder " + folder.string(), path};
+    if (fs::is_directory(path, ignored))
+        return Error{ErrorCode::cannot_open, "this is a folder", path};
+    if (!fs::exists(path, ignored) && access(folder.c_str(), W_OK) != 0)
+        return Error{ErrorCode::cannot_open, "nothing can be written in this folder", path};
+    return Done{};
+}
+
+void add_inputs(CLI::App& command, FileOptions& options) {
+    command.add_option("IN", options.inputs, "Files with surfaces; - is standard input")
+        ->required()
+        ->type_name("FILE");
+    command
+        .add_option("--format", options.format,
+                    "Format of whatever is -: ts, ml, obj, off, stl, ply, vtp, vtu, msh, inp, "
+                    "mesh, poly, smesh")
+        ->type_name("FORMAT");
+    add_reading(command, options);
+}
+
+void add_reading(CLI::App& command, FileOptions& options) {
+    command
+        .add_option("--input-format", options.input_format,
+                    "Format of IN, where its extension does not tell; of grids and points: irap, "
+                    "zmap, cps3, asc, xyz, vs")
+        ->type_name("FORMAT");
+    command.add_flag("--depth", options.read.depth,
+                     "Grids and points: heights are depths, positive down");
+    command
+        .add_option("--max-edge", options.read.max_edge,
+                    "Points: triangles with longer edges are left out (default: twice the median)")
+        ->check(CLI::PositiveNumber.description(""))
+        ->type_name("LENGTH");
+}
+
+void add_output(CLI::App& command, FileOptions& options, const char* help) {
+    command.add_option("-o,--output", options.outputs, help)
+        ->required()
+        ->allow_extra_args(false)
+        ->type_name("OUT");
+    command
+        .add_option("--output-format", options.output_format,
+                    "Format of OUT, where its extension does not tell")
+        ->type_name("FORMAT");
+}
+
+void add_msh(CLI::App& command, FileOptions& options) {
+    command.add_option("--msh", options.msh, "Version of .msh files: 4.1 or 2.2 (default: 4.1)")
+        ->check(CLI::IsMember({"4.1", "2.2"}).description(""))
+        ->type_name("VERSION");
+}
+
+void add_threads(CLI::App& command, FileOptions& options) {
+    command
+        .add_option("--threads", options.threads,
+                    "How many threads to use; the result is the same (default: 0, all cores)")
+        ->check(CLI::Range(0U, most_threads).description(""))
+        ->type_name("N");
+}
+
+void add_stats(CLI::App& command, FileOptions& options) {
+    command.add_option("--stats", options.stats, "Write counts, times and memory as JSON")
+        ->type_name("FILE.json");
+}
+
+Result<std::vector<Output>> plan_outputs(const FileOptions& options, OutputKind kind) {
+    if (const auto status = check_streams(options); !status) return status.error();
+    std::vector<Output> outputs;
+    for (const auto& path : options.outputs) {
+        const auto format = format_of_output(options, path);
+        if (!format) return format.error();
+        if (!fits(format.value(), kind))
+            return Error{ErrorCode::unsupported,
+                         kind == OutputKind::surfaces
+                             ? is_read(format.value())
+                                   ? "this format is read, not written"
+                                   : "this format is for tetrahedra, not for surfaces"
+                             : "tetrahedra are written as .vtu, .msh, .inp or .mesh",
+                         path};
+        if (const auto folder = check_folder(path); !folder) return folder.error();
+        outputs.push_back({path, format.value()});
+    }
+    if (!options.stats.empty())
+        if (const auto folder = check_folder(options.stats); !folder) return folder.error();
+    return outputs;
+}
+
+Result<Inputs> read_inputs(const FileOptions& options, Session& session) {
+    Stopwatch watch;
+    Inputs all;
+    session.begin("read", Phase::idle);
+    for (const auto& path : options.inputs) {
+        auto read = read_surfaces(path, format_of_input(options, path), options.read);
+        if (!read) {
+            session.end_stage();
+            return read.error();
+        }
+        all.surfaces_of_file.push_back(read.value().size());
+        for (Surface& s : read.value()) {
+            all.vertices += s.vertices.size();
+            all.triangles += s.triangles.size();
+            all.surfaces.push_back(std::move(s));
+            all.files.push_back(path == "-" ? "standard input" : path);
+        }
+    }
+    session.end_stage();
+    if (std::max(all.vertices, all.triangles) >= UINT32_MAX)
+        return Error{ErrorCode::unsupported, "more than 4294967294 vertices or triangles", ""};
+    all.labels = labels_of(all.surfaces);
+    all.seconds = watch.lap();
+    return all;
+}
+
+void append(Inputs& inputs, std::vector<Surface> surfaces, const std::string& origin) {
+    for (Surface& s : surfaces) {
+        inputs.surfaces.push_back(std::move(s));
+        inputs.files.push_back(origin);
+    }
+    inputs.labels = labels_of(inputs.surfaces);
+}
+
+Mesh concatenate(const std::vector<Surface>& surfaces) {
+    Mesh mesh;
+    for (const Surface& s : surfaces) {
+        const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+        const auto number = static_cast<std::uint32_t>(mesh.surfaces.size());
+        mesh.surfaces.push_back({s.name, s.role});
+        mesh.vertices.insert(mesh.vertices.end(), s.vertices.begin(), s.vertices.end());
+        for (const Triangle& t : s.triangles) {
+            mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+            mesh.surfaces_of.push_back(std::array{number});
+        }
+    }
+    return mesh;
+}
+
+std::string name_of_inputs(const FileOptions& options) {
+    const auto& first = options.inputs.front();
+    const std::string name = first == "-" ? "standard input" : first;
+    const auto others = options.inputs.size() - 1;
+    return others == 0 ? name : fmt::format("{} and {}", name, counted(others, "more file"));
+}
+
+Status write_output(const Mesh& mesh, const Output& output, WriteOptions options,
+                    Session& session) {
+    return write_with<Mesh>(mesh, output, options, session, write_mesh);
+}
+
+Status write_output(const TetrahedralMesh& mesh, const Output& output, WriteOptions options,
+                    Session& session) {
+    return write_with<TetrahedralMesh>(mesh, output, options, session, write_tetrahedra);
+}
+
+std::FILE* summary_stream(const FileOptions& options) {
+    const auto& names = options.outputs;
+    const bool taken =
+        options.stats == "-" || std::find(names.begin(), names.end(), "-") != names.end();
+    return taken ? stderr : stdout;
+}
+
+std::string triangle_name(std::uint32_t triangle, std::span<const std::uint32_t> first,
+                          std::span<const std::string> labels) {
+    const auto after = std::upper_bound(first.begin(), first.end(), triangle);
+    const auto surface = static_cast<std::size_t>(std::distance(first.begin(), after)) - 1;
+    return fmt::format("{} triangle {}", labels[surface], triangle - first[surface]);
+}
+
+} // namespace terrane::cli

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/cli/options/roles.hpp>
+
+#include <charconv>
+#include <map>
+
+namespace terrane::cli {
+namespace {
+
+Status set_role(const std::string& text, Inputs& inputs) {
+    static const std::map<std::string, Role> roles{
+        {"horizon", Role::horizon}, {"fault", Role::fault}, {"boundary", Role::boundary}};
+    const auto at = text.rfind('=');
+    const auto role = at == std::string::npos ? roles.end() : roles.find(text.substr(at + 1));
+    if (role == roles.end())
+        return Error{ErrorCode::bad_option,
+                     "needs NAME=ROLE, with horizon, fault or boundary: " + text, "--role"};
+    const std::string name = text.substr(0, at);
+    bool found = false;
+    for (std::size_t s = 0; s < inputs.surfaces.size(); ++s) {
+        if (inputs.surfaces[s].name != name && inputs.labels[s] != name) continue;
+        inputs.surfaces[s].role = role->second;
+        found = true;
+    }
+    if (found) return Done{};
+    return Error{ErrorCode::bad_option, "no surface is called " + name, "--role"};
+}
+
+} // namespace
+
+void add_roles(CLI::App& command, std::vector<std::string>& roles) {
+    command
+        .add_option("--role", roles,
+                    "What a surface is: horizon, fault or boundary; may be repeated")
+        ->allow_extra_args(false)
+        ->type_name("NAME=ROLE");
+}
+
+Status set_roles(const std::vector<std::string>& roles, Inputs& inputs) {
+    for (const std::string& role : roles)
+        if (auto set = set_role(role, inputs); !set) return set;
+    return Done{};
+}
+
+std::vector<std::uint32_t> surfaces_called(std::string_view name,
+                                           std::span<const SurfaceInfo> surfaces,
+                                           std::span<const std::string> labels) {
+    std::vector<std::uint32_t> found;
+    for (std::uint32_t s = 0; s < surfaces.size(); ++s)
+        if (surfaces[s].name == name || (s < labels.size() && labels[s] == name))
+            found.push_back(s);
+    return found;
+}
+
+std::optional<NamedLength> parse_named_length(std::string_view text) {
+    const auto at = text.rfind('=');
+    if (at == std::string_view::npos || at == 0) return std::nullopt;
+    const auto number = text.substr(at + 1);
+    double length = 0;
+    const auto [end, failed] =
+        std::from_chars(number.data(), number.data() + number.size(), length);
+    if (failed != std::errc() || end != number.data() + number.size()) return std::nullopt;
+    return NamedLength{std::string(text.substr(0, at)), length};
+}
+
+} // namespace terrane::cli

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/cli/options/statistics.hpp>
+
+#include <string>
+
+#include <sys/resource.h>
+
+#include <terrane/io/atomic/atomic_file.hpp>
+
+namespace terrane::cli {
+namespace {
+
+/// MiB; Linux counts in KiB.
+double peak_memory() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+} // namespace
+
+Json statistics_of(const Inputs& inputs) {
+    Json json;
+    json["version"] = TERRANE_VERSION;
+    json["input"] = {{"surfaces", inputs.surfaces.size()},
+                     {"triangles", inputs.triangles},
+                     {"vertices", inputs.vertices}};
+    json["seconds"]["read"] = inputs.seconds;
+    return json;
+}
+
+void add_statistics(Json& json, const Arrangement& a, Search asked) {
+    const ArrangeStatistics& s = a.statistics;
+    json["input"]["degenerate"] = a.degenerate.size();
+    json["input"]["duplicates"] = a.inputs.duplicates.size();
+    json["search"] = {{"method", name_of(asked)},
+                      {"candidates", s.candidates},
+                      {"tests", s.candidates},
+                      {"improper_contacts", s.improper_contacts}};
+    json["arrangement"] = {{"triangles", a.triangles.size()},
+                           {"vertices", a.vertices.size()},
+                           {"divided", s.divided},
+                           {"constructed_points", s.constructed_points}};
+    json["predicates"] = {{"static", s.predicates.static_filter},
+                          {"interval", s.predicates.interval},
+                          {"exact", s.predicates.exact}};
+    json["seconds"]["prepare"] = s.seconds_prepare;
+    json["seconds"]["search"] = s.seconds_search;
+    json["seconds"]["intersect"] = s.seconds_intersect;
+    json["seconds"]["triangulate"] = s.seconds_triangulate;
+    json["seconds"]["stitch"] = s.seconds_stitch;
+}
+
+void add_statistics(Json& json, const RoundedMesh& rounded, double seconds) {
+    const Mesh& m = rounded.mesh;
+    const RoundingReport& r = rounded.report;
+    json["output"] = {{"triangles", m.triangles.size()},
+                      {"vertices", m.vertices.size()},
+                      {"intersection_edges", m.intersection_edges.size()},
+                      {"regions", rounded.regions.size()},
+                      {"volumes", nullptr}};
+    json["rounding"] = {{"iterations", r.rounds},
+                        {"max_move", r.max_move},
+                        {"deviation", r.deviation},
+                        {"moves", r.moves}, // see RoundingReport: vertices by decade of their move
+                        {"verified", r.clean},
+                        {"naive_contacts", r.naive_contacts},
+                        {"contacts", r.contacts.size()},
+                        {"moved_input_vertices", r.moved_input_vertices},
+                        {"merged_vertices", r.merged_vertices},
+                        {"collapsed_triangles", r.collapsed_triangles},
+                        {"surfaces_with_lost_regions", r.lost_regions.size()},
+                        {"vanished_input_triangles", r.vanished.size()}};
+    json["seconds"]["round"] = seconds - rounded.report.seconds_regions;
+    json["seconds"]["regions"] = rounded.report.seconds_regions;
+}
+
+Status write_statistics(Json json, const std::string& path, double total_seconds) {
+    if (path.empty()) return Done{};
+    json["seconds"]["total"] = total_seconds;
+    json["peak_rss_mb"] = peak_memory();
+    return write_file(path, text_of(json));
+}
+
+std::string text_of(const Json& json) {
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+} // namespace terrane::cli

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// What --stats writes. Keys are listed in README.md.
+#pragma once
+
+#include <cstddef>
+
+#include <nlohmann/json.hpp>
+
+#include <terrane/algorithms/arrangement/arrangement.hpp>
+#include <terrane/algorithms/rounding/rounding.hpp>
+#include <terrane/cli/options/files.hpp>
+
+namespace terrane::cli {
+
+using Json = nlohmann::ordered_json;
+
+/// input, output, search, predicates, rounding, seconds; those of the stages that were run.
+Json statistics_of(const Inputs& inputs);
+void add_statistics(Json& json, const Arrangement& arrangement, Search asked);
+void add_statistics(Json& json, const RoundedMesh& rounded, double seconds);
+
+/// Adds the total time and the peak of memory, and writes; nothing for an empty path.
+Status write_statistics(Json json, const std::string& path, double total_seconds);
+
+/// Indented text; bytes that are no UTF-8 become U+FFFD.
+std::string text_of(const Json& json);
+
+} // namespace terrane::cli

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/cli/paper/paper_tables.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <functional>
+
+#include <terrane/algorithms/arrangement/soup.hpp>
+#include <terrane/algorithms/core/stopwatch.hpp>
+#include <terrane/algorithms/mesh/edges.hpp>
+#include <terrane/algorithms/regions/regions.hpp>
+#include <terrane/algorithms/rounding/rounding.hpp>
+#include <terrane/algorithms/search/methods.hpp>
+#include <terrane/cli/paper/paper_models.hpp>
+
+namespace terrane::cli {
+namespace {
+
+/// Median of several runs, or the one run where it takes a second or more.
+template <class Work>
+double median_seconds(unsigned repeats, const Work& work) {
+    std::vector<double> seconds;
+    do {
+        Stopwatch watch;
+        work();
+        seconds.push_back(watch.lap());
+    } while (seconds.size() < repeats && seconds.front() < 1);
+    const auto middle = seconds.begin() + static_cast<std::ptrdiff_t>(seconds.size() / 2);
+    std::nth_element(seconds.begin(), middle, seconds.end());
+    return *middle;
+}
+
+struct RedAndBlue {
+    std::vector<Box> boxes; ///< the red ones, then the blue ones
+    std::vector<std::uint32_t> groups;
+    std::size_t red = 0;
+};
+
+RedAndBlue boxes_of_surfaces(const std::vector<Surface>& surfaces) {
+    RedAndBlue all;
+    for (std::uint32_t s = 0; s < surfaces.size(); ++s) {
+        const auto boxes = boxes_of(surfaces[s].vertices, surfaces[s].triangles);
+        all.boxes.insert(all.boxes.end(), boxes.begin(), boxes.end());
+        all.groups.resize(all.boxes.size(), s);
+    }
+    all.red = surfaces.front().triangles.size();
+    return all;
+}
+
+/// AB unbalanced may take hours: stops at the limit and says how far it came.
+double measure_ab(const RedAndBlue& all, double limit, double& share) {
+    Stopwatch watch;
+    double seconds = 0;
+    const auto over = [&](std::size_t i) {
+        if (i % 256 == 0) seconds += watch.lap();
+        return seconds > limit;
+    };
+    search::AbTree tree;
+    std::vector<CandidatePair> pairs;
+    share = 0;
+    for (std::size_t i = 0; i < all.boxes.size(); ++i) {
+        share = static_cast<double>(i) / static_cast<double>(all.boxes.size());
+        if (over(i)) return not_measured;
+        const auto index = static_cast<std::uint32_t>(i);
+        if (i < all.red)
+            tree.insert(all.boxes[i], index);
+        else
+            tree.query(all.boxes[i], [&](std::uint32_t r) { pairs.push_back({r, index}); });
+    }
+    std::sort(pairs.begin(), pairs.end());
+    share = 1;
+    return seconds + watch.lap();
+}
+
+double measure_search(Search method, const RedAndBlue& all, const PaperSettings& settings,
+                      PaperRow& row) {
+    const auto& skipped = settings.skipped;
+    if (std::find(skipped.begin(), skipped.end(), name_of(method)) != skipped.end())
+        return not_measured;
+    if (method == Search::ab) return measure_ab(all, settings.limit, row.ab_share);
+    return median_seconds(settings.repeats, [&] {
+        row.pairs = candidate_pairs(all.boxes, all.groups, method).size();
+    });
+}
+
+/// How many red triangles there are to test for each blue one.
+void measure_d(const RedAndBlue& all, PaperRow& row) {
+    std::vector<std::size_t> count(all.boxes.size() - all.red);
+    for (const auto& [red, blue] : candidate_pairs(all.boxes, all.groups, Search::hierarchy))
+        ++count[blue - all.red];
+    search::Grid grid(std::span(all.boxes).first(all.red));
+    std::size_t filled = 0, looking = 0, looked_at = 0;
+    for (std::size_t b = 0; b < count.size(); ++b) {
+        filled += count[b] > 0 ? 1 : 0;
+        row.largest_d = std::max(row.largest_d, count[b]);
+        const std::size_t there = grid.looked_at(all.boxes[all.red + b]);
+        looking += there > 0 ? 1 : 0;
+        looked_at += there;
+    }
+    const auto mean = [](std::size_t sum, std::size_t n) {
+        return n > 0 ? static_cast<double>(sum) / static_cast<double>(n) : 0;
+    };
+    row.mean_d = mean(row.pairs, filled);
+    row.mean_looked_at = mean(looked_at, looking);
+}
+
+/// Region detection by itself, on the mesh of doubles.
+double measure_regions(const Mesh& mesh, unsigned repeats) {
+    return median_seconds(repeats, [&] {
+        const Adjacency adjacency = adjacency_of(group_edges(mesh.triangles, mesh.vertices.size()),
+                                                 labels_of(mesh.surfaces_of, mesh.parents_of));
+        find_regions(mesh.vertices, mesh.triangles, mesh.surfaces_of, adjacency,
+                     mesh.intersection_edges);
+    });
+}
+
+Status measure_arrange(const std::vector<Surface>& surfaces, const PaperSettings& settings,
+                       const Run& run, PaperRow& row) {
+    auto exact = arrange(surfaces, {}, run);
+    if (!exact) return exact.error();
+    row.arrange = exact.value().statistics;
+    Stopwatch watch;
+    const auto rounded = round_to_doubles(exact.value(), {}, run);
+    if (!rounded) return rounded.error();
+    row.seconds_round = watch.lap();
+    row.clean = rounded.value().report.clean;
+    row.seconds_regions = measure_regions(rounded.value().mesh, settings.repeats);
+    return Done{};
+}
+
+struct Model {
+    std::string triangles;
+    std::function<std::vector<Surface>()> make;
+    MethodTimes paper;
+    double paper_regions;
+};
+
+std::vector<Model> models_of(int number, bool large) {
+    using namespace models;
+    constexpr double none = not_measured;
+    if (number == 4)
+        return {{"84 000, pair 1", nonuniform_1, {593, none, 27, 14, none}, none},
+                {"65 000, pair 2", nonuniform_2, {624, none, 30, 18, none}, none}};
+    const bool first = number == 2;
+    const auto pair = first ? pair_1 : pair_2;
+    const auto made = [pair](const Resolution& r) { return [pair, r] { return pair(r); }; };
+    std::vector<Model> all;
+    if (first) {
+        all = {{r7k.name, made(r7k), {2, 3, 2, 2, none}, 1},
+               {r68k.name, made(r68k), {8, 121, 45, 13, none}, 2},
+               {r680k.name, made(r680k), {30, 35148, 10114, 67, none}, 19}};
+    } else {
+        all = {{r7k.name, made(r7k), {2, 5, 3, 2, none}, 1},
+               {r68k.name, made(r68k), {20, 142, 49, 50, none}, 3},
+               {r680k.name, made(r680k), {62, 22753, 791, 172, none}, 23}};
+    }
+    if (large) all.push_back({r6800k.name, made(r6800k), {none, none, none, none, none}, none});
+    return all;
+}
+
+} // namespace
+
+double PaperRow::total() const {
+    return arrange.seconds_prepare + arrange.seconds_search + arrange.seconds_intersect +
+           arrange.seconds_triangulate + arrange.seconds_stitch + seconds_round;
+}
+
+Result<PaperTable> measure_table(int number, const PaperSettings& settings, const Run& run) {
+    PaperTable table{number, {}};
+    for (const Model& model : models_of(number, settings.large)) {
+        PaperRow row;
+        row.triangles = model.triangles;
+        row.paper = model.paper;
+        row.paper_regions = model.paper_regions;
+        const auto surfaces = model.make();
+        {
+            const RedAndBlue all = boxes_of_surfaces(surfaces);
+            for (std::size_t m = 0; m < paper_methods.size(); ++m)
+                row.seconds[m] = measure_search(paper_methods[m], all, settings, row);
+            measure_d(all, row);
+        }
+        const auto arranged = measure_arrange(surfaces, settings, run, row);
+        if (!arranged) return arranged.error();
+        table.rows.push_back(std::move(row));
+    }
+    return table;
+}
+
+} // namespace terrane::cli

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/cli/reports/fill_report.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <terrane/cli/reports/fill_map.hpp>
+#include <terrane/cli/session/console.hpp>
+
+namespace terrane::cli {
+namespace {
+
+constexpr std::size_t most_holes = 30; ///< holes on the terminal
+
+const char* name_of_kind(const BorderLoop& loop) {
+    return loop.kind == LoopKind::hole ? "hole" : "fault gap";
+}
+
+/// What the method itself expects; else what it misses of data that are left out.
+std::string error_text(const FillReport& r) {
+    if (std::isfinite(r.expected_error))
+        return fmt::format("expected error {:.4g}", r.expected_error);
+    if (std::isfinite(r.validated_error))
+        return fmt::format("error {:.4g} at data left out", r.validated_error);
+    return "error not known";
+}
+
+} // namespace
+
+std::string borders_text(const FillWork& work) {
+    std::string text;
+    for (const HoledSurface& s : work.surfaces) {
+        std::map<LoopKind, std::size_t> kinds;
+        for (const BorderLoop& loop : s.loops) ++kinds[loop.kind];
+        text += fmt::format("{}: {}, {}, {}\n", s.label,
+                            counted(kinds[LoopKind::outer], "outer border"),
+                            counted(kinds[LoopKind::hole], "hole"),
+                            counted(kinds[LoopKind::fault_gap], "fault gap"));
+    }
+    return text;
+}
+
+std::string holes_table(const FillWork& work) {
+    if (work.holes.empty()) return {};
+    std::string text =
+        fmt::format("{:>6}  {:<10} {:>8} {:>12} {:>12} {:>10} {:>10}  {}\n", "hole", "kind",
+                    "border", "length", "area", "width", "throw", "centre, surface");
+    for (const NumberedHole& hole : work.holes) {
+        const BorderLoop& loop = loop_of(work, hole);
+        text += fmt::format("{:>6}  {:<10} {:>8} {:>12.6g} {:>12.6g} {:>10.4g} {:>10.4g}  "
+                            "({:.8g}, {:.8g}, {:.6g}) {}\n",
+                            hole.number, name_of_kind(loop), loop.vertices.size(), loop.length,
+                            loop.area, loop.width, loop.fault_throw, loop.centre.x, loop.centre.y,
+                            loop.centre.z, work.surfaces[hole.task].label);
+    }
+    return text;
+}
+
+std::string filled_text(const FillWork& work) {
+    std::string text;
+    std::size_t shown = 0, filled = 0, points = 0;
+    double area = 0;
+    for (const NumberedHole& hole : work.holes) {
+        if (!hole.report) continue;
+        const FillReport& r = *hole.report;
+        ++filled;
+        points += r.invented;
+        area += r.area;
+        if (shown++ >= most_holes) continue;
+        text += fmt::format("hole {}: {} and area {:.6g} invented, {}, from {}\n  {}\n",
+                            hole.number, counted(r.invented, "point"), r.area, error_text(r),
+                            counted(r.data, "point"), r.model);
+    }
+    if (shown > most_holes) text += fmt::format("and {} more\n", shown - most_holes);
+    text += fmt::format("filled {} of {}: {} and area {:.6g} invented\n", filled,
+                        counted(work.holes.size(), "hole"), counted(points, "point"), area);
+    return text;
+}
+
+Json json_of(const FillWork& work) {
+    Json list = Json::array();
+    const auto known = [](double value) { return std::isfinite(value) ? Json(value) : Json(); };
+    for (const NumberedHole& hole : work.holes) {
+        const BorderLoop& loop = loop_of(work, hole);
+        Json entry{{"hole", hole.number},
+                   {"surface", work.surfaces[hole.task].label},
+                   {"kind", name_of_kind(loop)},
+                   {"border", loop.vertices.size()},
+                   {"length", loop.length},
+                   {"area", loop.area},
+                   {"width", loop.width},
+                   {"throw", loop.fault_throw},
+                   {"centre", {loop.centre.x, loop.centre.y, loop.centre.z}}};
+        if (hole.report)
+            entry["filled"] = {{"points", hole.report->invented},
+                               {"area", hole.report->area},
+                               {"data", hole.report->data},
+                               {"expected_error", known(hole.report->expected_error)},
+                               {"validated_error", known(hole.report->validated_error)},
+                               {"model", hole.report->model}};
+        if (!hole.refused.empty()) entry["refused"] = hole.refused;
+        list.push_back(std::move(entry));
+    }
+    return list;
+}
+
+std::string csv_of(const FillWork& work) {
+    std::string text = "x,y,z,deviation,variance,surface\n";
+    for (const HoledSurface& s : work.surfaces) {
+        std::string name = s.label;
+        std::replace(name.begin(), name.end(), '"', '\'');
+        for (auto v = s.given_vertices; v < s.filled.vertices.size(); ++v) {
+            const Point3& q = s.filled.vertices[v];
+            const double d = s.deviation[v];
+            const auto errors =
+                std::isfinite(d) ? fmt::format("{:.6g},{:.6g}", d, d * d) : std::string(",");
+            text += fmt::format("{},{},{},{},\"{}\"\n", q.x, q.y, q.z, errors, name);
+        }
+    }
+    return text;
+}
+
+std::string map_of(const FillWork& work) {
+    std::vector<Surface> before; // as they were given: without the triangles that came after
+    for (const HoledSurface& s : work.surfaces) {
+        before.push_back(s.filled);
+        before.back().vertices.resize(s.given_vertices);
+        before.back().triangles.resize(s.given_triangles);
+    }
+    std::vector<FillMap> maps;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        const HoledSurface& s = work.surfaces[i];
+        maps.push_back({s.label, &before[i], &s.filled, s.deviation, s.loops});
+    }
+    return svg_of(maps);
+}
+
+} // namespace terrane::cli

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/cli/reports/improve_report.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <terrane/algorithms/core/stopwatch.hpp>
+#include <terrane/algorithms/quality/improve_back.hpp>
+#include <terrane/cli/session/console.hpp>
+#include <terrane/io/text/histogram_svg.hpp>
+
+namespace terrane::cli {
+namespace {
+
+std::string quality_row(const char* name, const QualityReport& q) {
+    return fmt::format(
+        "  {:<7} {:>9}  {:.4f}  {:.4f}  {:>6.2f}  {:>8.3f}  {:>8.3f}  {:.4g}, {:.4g}, {:.4g}\n",
+        name, q.triangles, q.q.mean, q.q.min, 100 * q.share_above_08, q.smallest_angle.min,
+        q.largest_angle.max, q.edge_length.min, q.edge_length.mean, q.edge_length.max);
+}
+
+std::string worst_text(const Improved& improved) {
+    const ImproveReport& r = improved.report;
+    if (r.after.worst == UINT32_MAX) return {};
+    const Mesh& m = improved.mesh;
+    const Triangle& t = m.triangles[r.after.worst];
+    return fmt::format("worst: triangle {} of {}, q {:.4f}, at {}: {}\n", r.after.worst,
+                       m.surfaces[m.surfaces_of[r.after.worst][0]].name, r.after.q.min,
+                       text_of(m.vertices[t[0]]), name_of(r.worst_cause));
+}
+
+/// Of the surface that comes nearest to its bound.
+std::string deviation_text(const Measured& measured, const Inputs& inputs) {
+    const ImproveReport& r = measured.improved.report;
+    const auto& deviations = measured.deviations;
+    std::size_t where = 0;
+    double share = 0, back = 0;
+    for (std::size_t s = 0; s < deviations.size(); ++s) {
+        back = std::max(back, deviations[s].back);
+        if (!(r.bound_of[s] > 0) || deviations[s].out / r.bound_of[s] < share) continue;
+        share = deviations[s].out / r.bound_of[s];
+        where = s;
+    }
+    return fmt::format(
+        "deviation: {} is shown to be within {:.4g} of what it was, measured {:.4g}; "
+        "the others keep farther below their bounds; from old to new measured {:.4g}, {}\n"
+        "verified: the improved mesh is conforming, by exact check\n",
+        inputs.labels[where], r.bound_of[where], deviations[where].out, back,
+        measured.is_near_back() ? "shown to be within the bounds as well"
+                                : "not shown to be within the bounds");
+}
+
+Json json_of(const Spread& s) {
+    return {{"min", s.min},
+            {"mean", s.mean},
+            {"max", s.max},
+            {"percentiles_1_5_50_95_99", s.percentiles}};
+}
+
+Json json_of(const QualityReport& q) {
+    return {{"triangles", q.triangles},
+            {"q", json_of(q.q)},
+            {"share_above_08", q.share_above_08},
+            {"smallest_angle", json_of(q.smallest_angle)},
+            {"largest_angle", json_of(q.largest_angle)},
+            {"edge_length", json_of(q.edge_length)},
+            {"histogram", q.histogram}};
+}
+
+} // namespace
+
+bool Measured::is_near_back() const {
+    for (std::size_t s = 0; s < bounds_back.size(); ++s)
+        if (!(bounds_back[s] <= improved.report.bound_of[s])) return false;
+    return true;
+}
+
+std::string improve_text(const Measured& measured, const Inputs& inputs) {
+    const Improved& improved = measured.improved;
+    const ImproveReport& r = improved.report;
+    std::string text =
+        "quality  triangles  mean q   least  % > 0.8  angle min       max  edges min, mean, max\n";
+    text += quality_row("before", r.before) + quality_row("after", r.after);
+    text += worst_text(improved);
+    text +=
+        fmt::format("{} splits, {} collapses, {} swaps, {} moves; {} curves and {} corners kept\n",
+                    r.splits, r.collapses, r.swaps, r.moves, r.curves, r.corners);
+    return text + deviation_text(measured, inputs);
+}
+
+void add_statistics(Json& json, const Measured& measured) {
+    const Improved& improved = measured.improved;
+    const ImproveReport& r = improved.report;
+    json["output"]["triangles"] = improved.mesh.triangles.size();
+    json["output"]["vertices"] = improved.mesh.vertices.size();
+    json["output"]["intersection_edges"] = improved.mesh.intersection_edges.size();
+    json["improve"] = {{"passes", r.passes},
+                       {"splits", r.splits},
+                       {"collapses", r.collapses},
+                       {"swaps", r.swaps},
+                       {"moves", r.moves},
+                       {"refused_contact", r.refused_contact},
+                       {"refused_deviation", r.refused_deviation},
+                       {"refused_shape", r.refused_shape},
+                       {"corners", r.corners},
+                       {"curves", r.curves},
+                       {"sheets", r.sheets},
+                       {"worst_cause", name_of(r.worst_cause)}};
+    json["quality"] = {{"before", json_of(r.before)}, {"after", json_of(r.after)}};
+    Json out = Json::array(), back = Json::array();
+    for (const Deviation& d : measured.deviations) {
+        out.push_back(d.out);
+        back.push_back(d.back);
+    }
+    Json bounds_back = Json::array(); // null: none was shown
+    for (const double b : measured.bounds_back)
+        bounds_back.push_back(std::isfinite(b) ? Json(b) : Json());
+    json["deviation"] = {{"bound_of_surfaces", r.bound_of},
+                         {"measured_of_surfaces", out},
+                         {"bound_back_of_surfaces", bounds_back},
+                         {"measured_back", back}};
+}
+
+std::string histogram_of(const ImproveReport& report) {
+    const auto title = [](const char* when, const QualityReport& q) {
+        return fmt::format("{}: {} triangles, mean {:.3f}, least {:.3f}", when, q.triangles,
+                           q.q.mean, q.q.min);
+    };
+    const std::string before = title("before", report.before), after = title("after", report.after);
+    const std::array histograms{Histogram{before, report.before.histogram, report.before.q.mean},
+                                Histogram{after, report.after.histogram, report.after.q.mean}};
+    return histogram_svg(histograms);
+}
+
+Result<Measured> improve_and_measure(const Mesh& mesh, const ImproveOptions& options,
+                                     Session& session, Json& statistics) {
+    Stopwatch watch;
+    session.begin("improve", Phase::computing);
+    auto improved = improve(mesh, options, session.run());
+    session.end_stage();
+    if (!improved) return improved.error();
+    statistics["seconds"]["improve"] = watch.lap();
+    session.begin("measure", Phase::computing);
+    auto deviations = deviations_of(mesh, improved.value().mesh, session.run());
+    auto back = bounds_back(mesh, improved.value(), options, session.run());
+    session.end_stage();
+    if (!back) return back.error();
+    if (session.stopped()) return Error{ErrorCode::interrupted, "stopped on request", ""};
+    statistics["seconds"]["measure"] = watch.lap();
+    for (std::size_t s = 0; s < deviations.size(); ++s)
+        if (deviations[s].out > improved.value().report.bound_of[s])
+            return Error{ErrorCode::internal, "the surface is farther away than was shown",
+                         mesh.surfaces[s].name};
+    return Measured{std::move(improved).value(), std::move(deviations), std::move(back).value()};
+}
+
+} // namespace terrane::cli

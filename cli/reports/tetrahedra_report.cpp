@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/cli/reports/tetrahedra_report.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include <fmt/format.h>
+
+#include <terrane/cli/session/console.hpp>
+
+namespace terrane::cli {
+namespace {
+
+constexpr std::size_t most_defects = 20;
+
+struct Comparison {
+    std::size_t blocks = 0;
+    std::size_t equal = 0;      ///< exactly
+    double most_difference = 0; ///< cubic unit
+};
+
+Comparison compared(const TetrahedraReport& report) {
+    Comparison result;
+    for (std::size_t v = 1; v < report.volumes.size(); ++v) { // 0 is the outside
+        const RegionVolume& region = report.volumes[v];
+        ++result.blocks;
+        result.equal += region.equal ? 1 : 0;
+        result.most_difference = std::max(result.most_difference, std::fabs(region.difference));
+    }
+    return result;
+}
+
+std::string volumes_text(const TetrahedraReport& report) {
+    const Comparison c = compared(report);
+    auto text = fmt::format("volumes: {} of {} exactly their tetrahedra", c.equal,
+                            counted(c.blocks, "block"));
+    if (c.equal < c.blocks)
+        text += fmt::format(", the others within {:.3g} (vertices rounded)", c.most_difference);
+    return text + "\n";
+}
+
+std::string dihedral_text(const TetrahedraShape& shape) {
+    auto text = fmt::format("dihedral angles {:.3g} to {:.4g} degrees, mean {:.3g}\n",
+                            shape.dihedral.least, shape.dihedral.largest, shape.dihedral.mean);
+    for (std::size_t i = 0; i < dihedral_bins; ++i)
+        if (shape.dihedral_histogram[i] > 0)
+            text += fmt::format("  {:>4} - {:<5} {:>9}\n", 10 * i, 10 * (i + 1),
+                                shape.dihedral_histogram[i]);
+    return text;
+}
+
+std::string radius_edge_text(const TetrahedraShape& shape) {
+    auto text =
+        fmt::format("ratio of circumradius to shortest edge {:.3g} to {:.4g}, mean {:.3g}\n",
+                    shape.radius_edge.least, shape.radius_edge.largest, shape.radius_edge.mean);
+    const auto& counts = shape.radius_edge_histogram;
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        if (counts[i] == 0) continue;
+        const double low = i == 0 ? 0 : radius_edge_bounds[i - 1];
+        text += i < radius_edge_bounds.size()
+                    ? fmt::format("  {:>4} - {:<5} {:>9}\n", low, radius_edge_bounds[i], counts[i])
+                    : fmt::format("  {:>4} -       {:>9}\n", low, counts[i]);
+    }
+    return text;
+}
+
+/// JSON has no infinity.
+Json number_or_null(double value) {
+    return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json spread_json(const ShapeSpread& spread) {
+    return {{"min", number_or_null(spread.least)},
+            {"mean", number_or_null(spread.mean)},
+            {"max", number_or_null(spread.largest)}};
+}
+
+} // namespace
+
+std::string report_text(const TetrahedraReport& report) {
+    const auto verdict =
+        report.violations.empty()
+            ? std::string("checked: each triangle is a union of faces, each region is one block\n")
+            : fmt::format("not good: {}\n", counted(report.violations.size(), "violation"));
+    return verdict + volumes_text(report) + dihedral_text(report.shape) +
+           radius_edge_text(report.shape);
+}
+
+std::string violations_text(const TetrahedraReport& report) {
+    std::string text;
+    const auto& all = report.violations;
+    for (std::size_t i = 0; i < std::min(all.size(), most_defects); ++i)
+        text += "terrane: " + all[i] + "\n";
+    if (all.size() > most_defects)
+        text += fmt::format("terrane: and {} more\n", all.size() - most_defects);
+    return text;
+}
+
+Json report_json(const TetrahedraReport& report) {
+    const Comparison c = compared(report);
+    const TetrahedraShape& shape = report.shape;
+    Json json{{"violations", report.violations},
+              {"exact_volumes", c.equal},
+              {"volume_difference", c.most_difference}};
+    json["dihedral"] = spread_json(shape.dihedral);
+    json["dihedral"]["histogram"] = shape.dihedral_histogram;
+    json["radius_edge"] = spread_json(shape.radius_edge);
+    json["radius_edge"]["bounds"] = radius_edge_bounds;
+    json["radius_edge"]["histogram"] = shape.radius_edge_histogram;
+    return json;
+}
+
+} // namespace terrane::cli

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// What check_tetrahedra found, for people and for --stats.
+#pragma once
+
+#include <string>
+
+#include <terrane/algorithms/tetrahedra/check_tetrahedra.hpp>
+#include <terrane/cli/options/statistics.hpp>
+
+namespace terrane::cli {
+
+/// Whether the checks hold, how volumes compare, both histograms; classes without members left out.
+std::string report_text(const TetrahedraReport& report);
+
+/// A line per violation, for the terminal: the first ones and how many there are.
+std::string violations_text(const TetrahedraReport& report);
+
+/// violations, exact_volumes, volume_difference, dihedral and radius_edge; see README.md.
+Json report_json(const TetrahedraReport& report);
+
+} // namespace terrane::cli

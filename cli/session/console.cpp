@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/cli/session/console.hpp>
+
+#include <fmt/format.h>
+
+#include <terrane/io/text/names.hpp>
+
+namespace terrane::cli {
+
+ExitStatus status_of(ErrorCode code) {
+    switch (code) {
+    case ErrorCode::improper_contact:
+    case ErrorCode::not_closed:
+        return ExitStatus::negative;
+    case ErrorCode::internal:
+    case ErrorCode::out_of_memory:
+        return ExitStatus::internal;
+    default:
+        return ExitStatus::bad_input;
+    }
+}
+
+ExitStatus fail(const Error& error) {
+    const bool interrupted = error.code == ErrorCode::interrupted;
+    const auto message = interrupted ? "interrupted, nothing written" : error.message();
+    print(stderr, fmt::format("terrane: {}\n", detail::one_line(message)));
+    return status_of(error.code);
+}
+
+void warn(std::string_view sentence) {
+    print(stderr, fmt::format("terrane: warning: {}\n", detail::one_line(sentence)));
+}
+
+void print(std::FILE* stream, std::string_view text) {
+    std::fwrite(text.data(), 1, text.size(), stream);
+}
+
+ExitStatus finish(ExitStatus status) {
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return status;
+    if (status != ExitStatus::done && status != ExitStatus::negative) return status;
+    return fail({ErrorCode::write_failed, "not all could be written", "standard output"});
+}
+
+std::string text_of(const Point3& p) {
+    return fmt::format("({}, {}, {})", p.x, p.y, p.z);
+}
+
+std::string counted(std::size_t count, std::string_view noun) {
+    return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+} // namespace terrane::cli

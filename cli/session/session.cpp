@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/cli/session/session.hpp>
+
+#include <algorithm>
+#include <csignal>
+#include <ctime>
+
+#include <fmt/format.h>
+#include <pthread.h>
+#include <unistd.h>
+
+#include <terrane/cli/session/console.hpp>
+
+namespace terrane::cli {
+namespace {
+
+sigset_t interrupts() {
+    sigset_t set;
+    sigemptyset(&set);
+    sigaddset(&set, SIGINT);
+    sigaddset(&set, SIGTERM);
+    return set;
+}
+
+} // namespace
+
+Session::Session(unsigned threads) :
+    terminal_(isatty(STDERR_FILENO) == 1), started_(std::chrono::steady_clock::now()) {
+    run_.threads = threads > 0 ? threads : std::max(1U, std::thread::hardware_concurrency());
+    run_.stop = source_.get_token();
+    run_.progress = [this](std::string_view stage, double share) {
+        const std::lock_guard lock(mutex_);
+        stage_ = stage;
+        share_ = share;
+    };
+    const auto set = interrupts();
+    pthread_sigmask(SIG_BLOCK, &set, nullptr);
+    watcher_ = std::jthread([this](const std::stop_token& over) { watch(over); });
+}
+
+Session::~Session() {
+    watcher_.request_stop();
+    watcher_.join();
+    clear_line();
+}
+
+void Session::begin(std::string_view stage, Phase phase) {
+    phase_ = phase;
+    const std::lock_guard lock(mutex_);
+    stage_ = stage;
+    share_ = 0;
+}
+
+void Session::end_stage() {
+    phase_ = Phase::idle;
+    const std::lock_guard lock(mutex_);
+    stage_.clear();
+    clear_line();
+}
+
+void Session::watch(const std::stop_token& over) {
+    const auto set = interrupts();
+    const timespec tick{0, 100'000'000};
+    while (!over.stop_requested()) {
+        if (sigtimedwait(&set, nullptr, &tick) > 0) on_interrupt();
+        if (terminal_) show();
+    }
+}
+
+void Session::on_interrupt() {
+    const bool again = !source_.request_stop();
+    if (phase_ == Phase::writing || (phase_ == Phase::computing && !again)) return;
+    clear_line();
+    fail({ErrorCode::interrupted, "", ""});
+    _exit(static_cast<int>(ExitStatus::bad_input));
+}
+
+/// Nothing in the first second.
+void Session::show() {
+    const std::lock_guard lock(mutex_);
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started_;
+    if (stage_.empty() || elapsed.count() < 1) return;
+    const auto share = share_ > 0 ? fmt::format(" {:.0f} %", 100 * share_) : std::string();
+    print(stderr, fmt::format("\r\033[K{}{} ({:.0f} s)", stage_, share, elapsed.count()));
+    std::fflush(stderr);
+    shown_ = true;
+}
+
+void Session::clear_line() {
+    if (shown_) print(stderr, "\r\033[K");
+    shown_ = false;
+}
+
+} // namespace terrane::cli

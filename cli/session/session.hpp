@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// One run of a command: interrupts become a stop request, progress becomes a line on the terminal.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <mutex>
+#include <stop_token>
+#include <string>
+#include <string_view>
+#include <thread>
+
+#include <terrane/algorithms/core/run.hpp>
+
+namespace terrane::cli {
+
+/// What an interrupt (Ctrl-C, SIGTERM) does.
+enum class Phase {
+    idle,      ///< reading, or writing to a pipe: the program ends at once, nothing is at stake
+    computing, ///< the stage is asked to stop; a second interrupt ends the program
+    writing,   ///< a file is being written: that is finished first
+};
+
+/// Make one before any other thread: the signals are blocked in the threads made after it.
+class Session {
+public:
+    explicit Session(unsigned threads); ///< 0: all cores
+    ~Session();
+    Session(const Session&) = delete;
+    Session& operator=(const Session&) = delete;
+
+    [[nodiscard]] const Run& run() const { return run_; }
+    [[nodiscard]] bool stopped() const { return source_.stop_requested(); }
+
+    /// Announces a stage to whoever watches, and what an interrupt does from now on.
+    void begin(std::string_view stage, Phase phase);
+    /// Takes the progress line off the terminal until the next stage.
+    void end_stage();
+
+private:
+    void watch(const std::stop_token& over);
+    void on_interrupt();
+    void show();
+    void clear_line();
+
+    std::stop_source source_;
+    Run run_;
+    std::atomic<Phase> phase_ = Phase::idle;
+
+    bool terminal_;                                 ///< standard error is one: progress is shown
+    std::chrono::steady_clock::time_point started_; ///< guarded by mutex_, as all that follows
+    std::mutex mutex_;
+    std::string stage_; ///< empty: nothing to show
+    double share_ = 0;
+    bool shown_ = false;
+
+    std::jthread watcher_; ///< last: it uses the others
+};
+
+} // namespace terrane::cli

@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/cli/stages/blocks.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include <terrane/algorithms/core/stopwatch.hpp>
+#include <terrane/algorithms/structure/structure_meshes.hpp>
+#include <terrane/cli/session/console.hpp>
+#include <terrane/io/atomic/atomic_file.hpp>
+#include <terrane/io/files.hpp>
+#include <terrane/io/structure_json.hpp>
+
+namespace terrane::cli {
+namespace {
+
+constexpr std::size_t most_blocks = 50; ///< listed on the terminal
+constexpr std::size_t most_leaks = 20;
+
+// ---- What is said
+// --------------------------------------------------------------------------------
+
+std::string blocks_text(const Model& model) {
+    const auto& blocks = model.structure.blocks;
+    const std::size_t count = model.exact.block_count();
+    auto text = fmt::format("{}, volume {:.9g} in all\n", counted(count, "closed block"),
+                            model.exact.measures[0]);
+    for (std::size_t b = 1; b <= std::min(count, most_blocks); ++b)
+        text +=
+            fmt::format("  block {:<4} volume {:<14.9g} {}\n", b, model.exact.measures[b],
+                        blocks[b].interfaces.empty() ? "(too thin for doubles)" : blocks[b].name);
+    if (count > most_blocks) text += fmt::format("  and {} more\n", count - most_blocks);
+    if (model.lost > 0)
+        text +=
+            fmt::format("doubles: {} too thin, and not written\n", counted(model.lost, "block"));
+    if (model.made > 0)
+        text += fmt::format("doubles: {} that the exact surfaces do not enclose\n",
+                            counted(model.made, "block"));
+    return text;
+}
+
+std::string structure_text(const Model& model) {
+    const Structure& s = model.structure;
+    std::map<LineKind, std::size_t> kinds;
+    for (const ModelLine& line : s.lines) ++kinds[line.kind];
+    std::string lines;
+    for (const auto& [kind, count] : kinds)
+        lines += fmt::format("{}{}", lines.empty() ? "" : ", ",
+                             counted(count, std::string(name_of(kind))));
+    return fmt::format("{}, {}, {}{}\n", counted(s.interfaces.size(), "interface"),
+                       s.patches.size() == 1 ? "1 patch"
+                                             : fmt::format("{} patches", s.patches.size()),
+                       counted(s.corners.size(), "corner"), lines.empty() ? "" : ", " + lines);
+}
+
+/// Surfaces of which a part has the same volume on both sides.
+std::string dangling_text(const Inputs& inputs, const Model& model) {
+    std::vector<double> area(inputs.surfaces.size()), dangling(inputs.surfaces.size()),
+        border(inputs.surfaces.size());
+    for (const ModelInterface& i : model.structure.interfaces)
+        for (const std::uint32_t s : i.surfaces) {
+            area[s] += i.area;
+            if (i.dangles()) dangling[s] += i.area;
+        }
+    for (const FreeBorder& b : model.borders)
+        for (const std::uint32_t s : b.surfaces) border[s] += b.length;
+    std::string text;
+    for (std::size_t s = 0; s < area.size(); ++s)
+        if (dangling[s] > 0)
+            text += fmt::format("  {}: {:.3g} of {:.3g} in area dangles, free border {:.3g}\n",
+                                inputs.labels[s], dangling[s], area[s], border[s]);
+    return text.empty() ? "no surface dangles\n" : "surfaces that dangle:\n" + text;
+}
+
+/// Where surfaces end near others, the smallest gaps first.
+std::string leaks_text(const Inputs& inputs, const Model& model) {
+    const auto leaks = leaks_of(model.borders);
+    if (leaks.empty()) return {};
+    std::string text = "free borders, by the surface nearest to them and how far it is:\n";
+    for (std::size_t i = 0; i < std::min(leaks.size(), most_leaks); ++i) {
+        const Leak& l = leaks[i];
+        text += fmt::format("  {} ends by {}: along {:.4g}, {:.2g} to {:.2g} apart, most at {}\n",
+                            inputs.labels[l.from], inputs.labels[l.to], l.length, l.least,
+                            l.largest, text_of(l.place));
+    }
+    if (leaks.size() > most_leaks)
+        text += fmt::format("  and {} more, farther apart\n", leaks.size() - most_leaks);
+    return text;
+}
+
+void add_statistics(Json& json, const Model& model) {
+    json["output"]["volumes"] = model.exact.block_count();
+    Json volumes = Json::array();
+    for (std::size_t b = 1; b < model.exact.measures.size(); ++b)
+        volumes.push_back(model.exact.measures[b]);
+    const Structure& s = model.structure;
+    json["volumes"] = {{"all", model.exact.measures[0]},
+                       {"blocks", volumes},
+                       {"too_thin", model.lost},
+                       {"made_by_rounding", model.made},
+                       {"interfaces", s.interfaces.size()},
+                       {"patches", s.patches.size()},
+                       {"lines", s.lines.size()},
+                       {"corners", s.corners.size()},
+                       {"free_borders", model.borders.size()}};
+}
+
+// ---- What is written
+// -----------------------------------------------------------------------------
+
+std::vector<std::int32_t> as_cells(const std::vector<std::uint32_t>& values) {
+    return {values.begin(), values.end()};
+}
+
+/// One column of the sides.
+std::vector<std::int32_t> side_cells(const Volumes& volumes, std::size_t side) {
+    std::vector<std::int32_t> values;
+    for (const auto& sides : volumes.of_sides)
+        values.push_back(static_cast<std::int32_t>(sides[side]));
+    return values;
+}
+
+class FolderWriter {
+public:
+    FolderWriter(const Mesh& mesh, const Model& model, const std::optional<SealReport>& sealed,
+                 const std::string& part_format, const std::filesystem::path& folder) :
+        mesh_(mesh),
+        model_(model), part_format_(part_format), folder_(folder) {
+        if (!sealed) return;
+        extras_.seal_distance = sealed->distance;
+        extras_.seal_changes = sealed->changes;
+    }
+
+    Status operator()(const Session& session) {
+        for (const char* inner : {"blocks", "interfaces"}) {
+            std::error_code failed;
+            std::filesystem::create_directory(folder_ / inner, failed);
+            if (failed)
+                return Error{ErrorCode::cannot_open, "cannot be made: " + failed.message(),
+                             (folder_ / inner).string()};
+        }
+        if (auto done = write_result(); !done) return done;
+        const Structure& s = model_.structure;
+        extras_.block_files.resize(s.blocks.size());
+        for (std::uint32_t b = 1; b < s.blocks.size(); ++b) {
+            if (session.stopped()) return Error{ErrorCode::interrupted, "stopped on request", ""};
+            if (s.blocks[b].interfaces.empty()) continue;
+            extras_.block_files[b] = name("blocks/block_", b);
+            const auto part = block_part(mesh_, model_.volumes, s, b);
+            if (auto done = write_part(part, extras_.block_files[b]); !done) return done;
+        }
+        for (std::uint32_t i = 0; i < s.interfaces.size(); ++i) {
+            if (session.stopped()) return Error{ErrorCode::interrupted, "stopped on request", ""};
+            extras_.interface_files.push_back(name("interfaces/interface_", i));
+            const auto part = interface_part(mesh_, model_.volumes, s, i);
+            if (auto done = write_part(part, extras_.interface_files[i]); !done) return done;
+        }
+        return write_json();
+    }
+
+private:
+    [[nodiscard]] std::string name(const char* start, std::uint32_t number) const {
+        return fmt::format("{}{}.{}", start, number, part_format_);
+    }
+
+    Status write_result() {
+        const std::vector<CellArray> cells{{"volume_front", side_cells(model_.volumes, 0)},
+                                           {"volume_back", side_cells(model_.volumes, 1)},
+                                           {"interface", as_cells(model_.structure.interface_of)},
+                                           {"patch", as_cells(model_.structure.patch_of)}};
+        WriteOptions options;
+        options.cells = cells;
+        return write_mesh(mesh_, folder_ / "result.vtp", options);
+    }
+
+    Status write_part(const MeshPart& part, const std::string& file) {
+        std::vector<std::uint32_t> interfaces, patches;
+        for (const std::uint32_t t : part.triangles) {
+            interfaces.push_back(model_.structure.interface_of[t]);
+            patches.push_back(model_.structure.patch_of[t]);
+        }
+        const std::vector<CellArray> cells{{"triangle", as_cells(part.triangles)},
+                                           {"interface", as_cells(interfaces)},
+                                           {"patch", as_cells(patches)}};
+        WriteOptions options;
+        if (part_format_ == "vtp") options.cells = cells;
+        return write_mesh(part.mesh, folder_ / file, options);
+    }
+
+    Status write_json() {
+        extras_.exact_volumes = model_.exact.measures;
+        extras_.exact_volumes.resize(model_.structure.blocks.size(),
+                                     std::numeric_limits<double>::quiet_NaN());
+        extras_.free_borders = model_.borders;
+        return write_file(folder_ / "model.json", to_json(mesh_, model_.structure, extras_));
+    }
+
+    const Mesh& mesh_;
+    const Model& model_;
+    const std::string& part_format_;
+    const std::filesystem::path& folder_;
+    StructureExtras extras_;
+};
+
+} // namespace
+
+namespace {
+
+/// What follows from the volumes.
+Result<Model> finished(Model model, const Mesh& mesh, Session& session, Json& statistics) {
+    Stopwatch watch;
+    model.structure = build_structure(mesh, model.volumes);
+    model.borders = find_free_borders(mesh, model.structure);
+    statistics["seconds"]["structure"] = watch.lap();
+    session.end_stage();
+    if (session.stopped()) return Error{ErrorCode::interrupted, "stopped on request", ""};
+    add_statistics(statistics, model);
+    return model;
+}
+
+} // namespace
+
+Result<Model> make_model(const Arranged& arranged, Session& session, Json& statistics) {
+    Stopwatch watch;
+    const Mesh& mesh = arranged.rounded.mesh;
+    session.begin("volumes", Phase::computing);
+    auto exact = find_volumes(arranged.exact, session.run());
+    if (!exact) return exact.error();
+    auto rounded = find_volumes(mesh, session.run());
+    if (!rounded) return rounded.error();
+    const auto match = match_volumes(arranged.exact, exact.value(), mesh, rounded.value());
+    Model model;
+    model.exact = std::move(exact).value();
+    model.made = static_cast<std::size_t>(std::count(match.begin(), match.end(), UINT32_MAX));
+    model.lost = model.exact.measures.size() - (match.size() - model.made);
+    model.volumes = renumbered(rounded.value(), match, model.exact.measures.size());
+    statistics["seconds"]["volumes"] = watch.lap();
+    return finished(std::move(model), mesh, session, statistics);
+}
+
+Result<Model> make_model(const Mesh& mesh, Session& session, Json& statistics) {
+    Stopwatch watch;
+    session.begin("volumes", Phase::computing);
+    auto volumes = find_volumes(mesh, session.run());
+    if (!volumes) return volumes.error();
+    Model model;
+    model.exact = volumes.value();
+    model.volumes = std::move(volumes).value();
+    statistics["seconds"]["volumes"] = watch.lap();
+    return finished(std::move(model), mesh, session, statistics);
+}
+
+std::string model_text(const Inputs& inputs, const Model& model) {
+    return blocks_text(model) + structure_text(model) + dangling_text(inputs, model) +
+           leaks_text(inputs, model);
+}
+
+Status write_model(const Mesh& mesh, const Model& model, const std::optional<SealReport>& sealed,
+                   const std::string& part_format, const std::filesystem::path& folder,
+                   const Session& session) {
+    return FolderWriter(mesh, model, sealed, part_format, folder)(session);
+}
+
+} // namespace terrane::cli

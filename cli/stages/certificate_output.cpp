@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/cli/stages/certificate_output.hpp>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include <terrane/cli/session/console.hpp>
+#include <terrane/io/atomic/atomic_file.hpp>
+#include <terrane/io/certificate.hpp>
+#include <terrane/io/exact_text.hpp>
+
+namespace terrane::cli {
+
+namespace {
+
+Status write(const std::string& path, const std::string& text, const FileOptions& files,
+             Session& session) {
+    session.begin("write", Phase::writing);
+    auto status = write_file(path, text);
+    session.end_stage();
+    if (status) print(summary_stream(files), "wrote " + path + "\n");
+    return status;
+}
+
+/// The input files, hashed as they are now: if one was changed since it was read, the verifier
+/// finds that the certificate is not about it.
+Result<std::vector<InputRecord>> record_inputs(const std::string& certificate,
+                                               const std::vector<std::string>& files,
+                                               const Inputs& inputs) {
+    std::vector<InputRecord> records;
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        const std::string& path = files[i];
+        auto record =
+            record_input(path, certified_name(path, certificate), inputs.surfaces_of_file[i]);
+        if (!record) return record.error();
+        records.push_back(std::move(record.value()));
+    }
+    return records;
+}
+
+} // namespace
+
+void add_proof(CLI::App& command, ProofOptions& options) {
+    command
+        .add_option("--certificate", options.certificate,
+                    "Write all that it takes to check the result (terrane verify)")
+        ->type_name("FILE");
+    command.add_option("--exact", options.exact, "Write the exact coordinates, as fractions")
+        ->type_name("FILE");
+}
+
+Status plan_proof(const ProofOptions& options, const FileOptions& files) {
+    if (options.certificate == "-" || options.exact == "-")
+        return Error{ErrorCode::bad_option, "standard output is for the mesh: name a file", "-"};
+    if (!options.certificate.empty() && std::ranges::count(files.inputs, "-") > 0)
+        return Error{ErrorCode::bad_option, "a certificate is about files, not standard input",
+                     "--certificate"};
+    for (const auto& path : {options.certificate, options.exact})
+        if (!path.empty())
+            if (auto status = check_folder(path); !status) return status;
+    return Done{};
+}
+
+Result<std::string> certificate_text(const std::string& path, const std::vector<std::string>& files,
+                                     const Inputs& inputs, const Arranged& arranged,
+                                     const Session& session) {
+    const auto records = record_inputs(path, files, inputs);
+    if (!records) return records.error();
+    return to_certificate({records.value(), inputs.surfaces, arranged.exact, &arranged.rounded},
+                          session.run());
+}
+
+Status write_proof(const ProofOptions& options, const FileOptions& files, const Inputs& inputs,
+                   const Arranged& arranged, Session& session) {
+    if (!options.certificate.empty()) {
+        const auto text =
+            certificate_text(options.certificate, files.inputs, inputs, arranged, session);
+        if (!text) return text.error();
+        if (auto status = write(options.certificate, text.value(), files, session); !status)
+            return status;
+    }
+    if (options.exact.empty()) return Done{};
+    return write(options.exact, to_text(to_exact(arranged.exact, session.run())), files, session);
+}
+
+} // namespace terrane::cli

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/cli/stages/outputs.hpp>
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <terrane/algorithms/volumes/region_points.hpp>
+#include <terrane/algorithms/volumes/volumes.hpp>
+#include <terrane/cli/session/console.hpp>
+#include <terrane/cli/stages/pipeline.hpp>
+
+namespace terrane::cli {
+namespace {
+
+/// For TetGen's formats: where the blocks are; a warning for those without a point in doubles.
+Result<std::vector<RegionPoint>>
+points_in_blocks(const Mesh& mesh, const std::vector<Output>& outputs, Session& session) {
+    const bool wanted = std::any_of(outputs.begin(), outputs.end(), [](const Output& output) {
+        return output.format == Format::poly || output.format == Format::smesh;
+    });
+    if (!wanted) return std::vector<RegionPoint>();
+    session.begin("volumes", Phase::computing);
+    const auto volumes = find_volumes(mesh, session.run());
+    if (!volumes) return volumes.error();
+    auto points = region_points(mesh, volumes.value(), session.run());
+    session.end_stage();
+    if (!points) return points.error();
+    if (const auto missing = volumes.value().block_count() - points.value().size(); missing > 0)
+        warn(fmt::format("{} too thin for a region point", counted(missing, "block")));
+    return points;
+}
+
+} // namespace
+
+Result<bool> stl_is_conforming(const Mesh& mesh, const FileOptions& files,
+                               const std::vector<Output>& outputs, Session& session) {
+    for (const Output& output : outputs) {
+        if (output.format != Format::stl || files.ascii) continue;
+        session.begin("check float32", Phase::computing);
+        const auto flaws = float32_flaws(mesh, session.run());
+        session.end_stage();
+        if (!flaws) return flaws.error();
+        if (flaws.value() == 0) continue;
+        warn(fmt::format("{}: in float32, all that binary STL holds, the mesh has {}; --ascii or "
+                         "another format keeps the doubles",
+                         output.path, counted(flaws.value(), "flaw")));
+        return false;
+    }
+    return true;
+}
+
+Status write_outputs(const Mesh& mesh, bool clean, const FileOptions& files,
+                     const std::vector<Output>& outputs, Session& session) {
+    WriteOptions options;
+    options.ascii = files.ascii;
+    std::vector<RegionPoint> regions;
+    if (clean) { // else there are no blocks to speak of
+        auto points = points_in_blocks(mesh, outputs, session);
+        if (!points) return points.error();
+        regions = std::move(points).value();
+    }
+    options.regions = regions;
+    for (const Output& output : outputs) {
+        const auto written = write_output(mesh, output, options, session);
+        if (!written) return written.error();
+        print(summary_stream(files), output.path == "-" ? "" : "wrote " + output.path + "\n");
+    }
+    return Done{};
+}
+
+} // namespace terrane::cli

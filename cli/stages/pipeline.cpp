@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/cli/stages/pipeline.hpp>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <terrane/algorithms/check/check.hpp>
+#include <terrane/algorithms/core/stopwatch.hpp>
+#include <terrane/cli/session/console.hpp>
+
+namespace terrane::cli {
+namespace {
+
+constexpr unsigned most_rounds = 8;
+constexpr std::size_t most_areas = 3;     ///< printed per surface
+constexpr std::size_t most_surfaces = 40; ///< printed
+constexpr std::size_t most_pairs = 20;    ///< printed
+
+/// What the summary says of one surface.
+struct SurfaceTally {
+    std::size_t triangles = 0; ///< of the output
+    std::vector<double> areas; ///< of its regions
+};
+
+std::vector<SurfaceTally> tally(const Inputs& inputs, const RoundedMesh& rounded) {
+    std::vector<SurfaceTally> tallies(inputs.surfaces.size());
+    for (const auto s : rounded.mesh.surfaces_of.values) ++tallies[s].triangles;
+    for (const Region& r : rounded.regions) tallies[r.surface].areas.push_back(r.area);
+    for (auto& t : tallies) std::sort(t.areas.rbegin(), t.areas.rend());
+    return tallies;
+}
+
+std::string areas_text(const std::vector<double>& areas) {
+    std::string text;
+    for (std::size_t i = 0; i < std::min(areas.size(), most_areas); ++i)
+        text += fmt::format("{}{:.4g}", i > 0 ? ", " : "", areas[i]);
+    return areas.size() > most_areas ? text + ", ..." : text;
+}
+
+std::string surface_table(const Inputs& inputs, const RoundedMesh& rounded) {
+    std::size_t width = 7;
+    for (const auto& label : inputs.labels) width = std::max(width, label.size());
+    auto text = fmt::format("  {:<{}}  {:>9}  {:>9}  {:>7}  areas of the regions\n", "surface",
+                            width, "triangles", "-> output", "regions");
+    const auto tallies = tally(inputs, rounded);
+    for (std::size_t s = 0; s < std::min(tallies.size(), most_surfaces); ++s)
+        text += fmt::format("  {:<{}}  {:>9}  {:>9}  {:>7}  {}\n", inputs.labels[s], width,
+                            inputs.surfaces[s].triangles.size(), tallies[s].triangles,
+                            tallies[s].areas.size(), areas_text(tallies[s].areas));
+    if (tallies.size() > most_surfaces)
+        text += fmt::format("  and {} more\n", tallies.size() - most_surfaces);
+    return text;
+}
+
+std::string set_aside(const Arrangement& a) {
+    if (a.degenerate.empty() && a.inputs.duplicates.empty()) return {};
+    return fmt::format("set aside: {} without area, {} that repeat another\n",
+                       counted(a.degenerate.size(), "triangle"), a.inputs.duplicates.size());
+}
+
+std::string rounding_text(const RoundingReport& r) {
+    std::string text = "doubles: every vertex is at its exact place";
+    if (r.max_move > 0)
+        text =
+            fmt::format("doubles: no vertex is more than {:.3g} from its exact place", r.max_move);
+    if (r.rounds > 0)
+        text += fmt::format("; {} of snapping, for {} that met improperly",
+                            counted(r.rounds, "round"), counted(r.naive_contacts, "pair"));
+    text += '\n';
+    if (r.moved_input_vertices > 0)
+        text += fmt::format("doubles: {} had to give way\n",
+                            r.moved_input_vertices == 1
+                                ? std::string("1 input vertex")
+                                : fmt::format("{} input vertices", r.moved_input_vertices));
+    if (!r.vanished.empty())
+        text += fmt::format("doubles: {} vanished, thinner than the doubles\n",
+                            counted(r.vanished.size(), "input triangle"));
+    if (!r.lost_regions.empty())
+        text += fmt::format("doubles: {} fewer regions than in the exact result\n",
+                            r.lost_regions.size() == 1
+                                ? std::string("1 surface has")
+                                : fmt::format("{} surfaces have", r.lost_regions.size()));
+    text += r.clean ? "verified: the doubles are a conforming mesh, by exact check\n"
+                    : fmt::format("NOT verified: {} of triangles still meet improperly\n",
+                                  counted(r.contacts.size(), "pair"));
+    return text;
+}
+
+Point3 narrowed(const Point3& p) {
+    const auto narrow = [](double x) { return static_cast<double>(static_cast<float>(x)); };
+    return {narrow(p.x), narrow(p.y), narrow(p.z)};
+}
+
+} // namespace
+
+void add_settings(CLI::App& command, ArrangeSettings& settings) {
+    static const std::map<std::string, Search> methods = [] {
+        std::map<std::string, Search> all;
+        for (const auto m : {Search::automatic, Search::grid, Search::ab, Search::ab_balanced,
+                             Search::mixed, Search::hierarchy, Search::brute})
+            all.emplace(name_of(m), m);
+        return all;
+    }();
+    command
+        .add_option("--search", settings.search,
+                    "How triangles that may meet are found; the result is the same: "
+                    "auto, grid, ab, ab-balanced, mixed, hierarchy, brute (default: auto)")
+        ->transform(CLI::Transformer(methods, CLI::ignore_case).description(""))
+        ->type_name("METHOD");
+    command
+        .add_option("--rounds", settings.rounds,
+                    "At most so many rounds of snapping until the doubles are a conforming mesh; "
+                    "0: only to the nearest double (default: 8)")
+        ->check(CLI::Range(0U, most_rounds).description(""))
+        ->type_name("N");
+    command
+        .add_option(
+            "--seal", settings.seal,
+            "Extend or trim free borders that end short of another surface, or beyond it, by at "
+            "most this distance; every change is listed (default: nothing moves)")
+        ->type_name("D");
+    add_volume_options(command, settings.volume);
+}
+
+namespace {
+
+Result<Arrangement> arrange_or_seal(Inputs& inputs, const ArrangeSettings& settings,
+                                    Session& session, Json& statistics, Arranged& arranged) {
+    const ArrangeOptions options{.search = settings.search};
+    if (settings.seal == 0) {
+        session.begin("arrange", Phase::computing);
+        auto exact = arrange(inputs.surfaces, options, session.run());
+        session.end_stage();
+        return exact;
+    }
+    Stopwatch watch;
+    session.begin("seal", Phase::computing);
+    auto sealed = seal(inputs.surfaces, {settings.seal, options}, session.run());
+    session.end_stage();
+    if (!sealed) return sealed.error();
+    statistics["seconds"]["seal"] = watch.lap();
+    Sealed& s = sealed.value();
+    inputs.surfaces = std::move(s.surfaces);
+    arranged.sealed = SealReport{settings.seal, std::move(s.changes), s.left};
+    add_statistics(statistics, *arranged.sealed, inputs);
+    return std::move(s.arrangement);
+}
+
+} // namespace
+
+Result<Arranged> arrange_and_round(Inputs& inputs, const ArrangeSettings& settings,
+                                   Session& session, Json& statistics) {
+    std::vector<Surface> boundary;
+    if (settings.volume.wanted()) {
+        auto made = boundary_of(settings.volume, session);
+        if (!made) return made.error();
+        boundary = std::move(made).value();
+    }
+    return arrange_within(inputs, std::move(boundary), settings, session, statistics);
+}
+
+Result<Arranged> arrange_within(Inputs& inputs, std::vector<Surface> surfaces,
+                                const ArrangeSettings& settings, Session& session,
+                                Json& statistics) {
+    std::vector<std::uint32_t> boundary(surfaces.size()); // their indices
+    std::iota(boundary.begin(), boundary.end(), static_cast<std::uint32_t>(inputs.surfaces.size()));
+    append(inputs, std::move(surfaces), "volume of interest");
+    Stopwatch watch;
+    Arranged arranged;
+    if (settings.volume.extend != 0) {
+        session.begin("extend", Phase::computing);
+        auto extended = extend_to_boundary(
+            inputs.surfaces, boundary, {settings.volume.extend, {settings.search}}, session.run());
+        session.end_stage();
+        if (!extended) return extended.error();
+        inputs.surfaces = std::move(extended.value().surfaces);
+        arranged.extended = std::move(extended.value().borders);
+        add_statistics(statistics, *arranged.extended);
+        statistics["seconds"]["extend"] = watch.lap();
+    }
+    auto exact = arrange_or_seal(inputs, settings, session, statistics, arranged);
+    if (!exact) return exact.error();
+    add_statistics(statistics, exact.value(), settings.search);
+    watch.lap();
+    if (!boundary.empty()) {
+        session.begin("volume of interest", Phase::computing);
+        auto cut = cut_to_volume(std::move(exact).value(), boundary, session.run());
+        session.end_stage();
+        if (!cut) return cut.error();
+        arranged.exact = std::move(cut.value().arrangement);
+        arranged.cut = std::move(cut.value().report);
+        add_statistics(statistics, *arranged.cut, inputs);
+        statistics["seconds"]["volume_of_interest"] = watch.lap();
+    } else {
+        arranged.exact = std::move(exact).value();
+    }
+    session.begin("round", Phase::computing);
+    auto rounded = round_to_doubles(arranged.exact, {.max_rounds = settings.rounds}, session.run());
+    session.end_stage();
+    if (!rounded) return rounded.error();
+    add_statistics(statistics, rounded.value(), watch.lap());
+    arranged.rounded = std::move(rounded).value();
+    return arranged;
+}
+
+std::string summary(const Inputs& inputs, const Arranged& arranged) {
+    const Mesh& m = arranged.rounded.mesh;
+    auto text = fmt::format("{}: {} -> {}, {}, {}\n", counted(inputs.surfaces.size(), "surface"),
+                            counted(inputs.triangles, "triangle"), m.triangles.size(),
+                            counted(m.intersection_edges.size(), "intersection edge"),
+                            counted(arranged.rounded.regions.size(), "region"));
+    text += surface_table(inputs, arranged.rounded);
+    text += set_aside(arranged.exact);
+    if (arranged.extended) text += text_of(*arranged.extended, inputs);
+    if (arranged.sealed) text += text_of(*arranged.sealed, inputs);
+    if (arranged.cut) text += text_of(*arranged.cut, inputs);
+    text += rounding_text(arranged.rounded.report);
+    return text;
+}
+
+std::string offending_pairs(const Inputs& inputs, const Arranged& arranged) {
+    const auto& first = arranged.exact.inputs.first;
+    const auto& contacts = arranged.rounded.report.contacts;
+    const auto name = [&](std::uint32_t t) {
+        const auto parents = arranged.rounded.mesh.parents_of[t];
+        return fmt::format("output triangle {} (part of {})", t,
+                           triangle_name(parents.front(), first, inputs.labels));
+    };
+    std::string text;
+    for (std::size_t i = 0; i < std::min(most_pairs, contacts.size()); ++i) {
+        const ImproperContact& c = contacts[i];
+        text += fmt::format("  {} and {}: {} at {}\n", name(c.triangles[0]), name(c.triangles[1]),
+                            name_of(c.kind), text_of(c.place));
+    }
+    if (contacts.size() > most_pairs)
+        text += fmt::format("  and {} more\n", contacts.size() - most_pairs);
+    return text;
+}
+
+Result<std::size_t> float32_flaws(const Mesh& mesh, const Run& run) {
+    std::vector<Surface> one(1);
+    for (const Point3& p : mesh.vertices) one[0].vertices.push_back(narrowed(p));
+    one[0].triangles = mesh.triangles;
+    const auto report = check(one, run);
+    if (!report) return report.error();
+    const CheckReport& r = report.value();
+    return r.contacts.size() + r.degenerate.size() + r.repeated.size();
+}
+
+} // namespace terrane::cli

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/cli/stages/project_inputs.hpp>
+
+#include <algorithm>
+#include <optional>
+#include <type_traits>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <terrane/algorithms/core/stopwatch.hpp>
+#include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
+#include <terrane/cli/session/console.hpp>
+
+namespace terrane::cli {
+namespace {
+
+std::string names_of(const std::vector<Surface>& surfaces) {
+    constexpr std::size_t most = 10;
+    std::string text;
+    for (std::size_t s = 0; s < std::min(surfaces.size(), most); ++s)
+        text += (s == 0 ? "" : ", ") + surfaces[s].name;
+    return surfaces.size() > most ? text + ", ..." : text;
+}
+
+/// Those of the file that the entry asks for, in the order of the file.
+Result<std::vector<Surface>> chosen(std::vector<Surface> surfaces, const ProjectSurfaces& entry,
+                                    const std::string& source, const std::string& key) {
+    if (entry.objects.empty()) return surfaces;
+    const auto has_name = [](const std::string& name) {
+        return [&name](const Surface& s) { return s.name == name; };
+    };
+    for (std::size_t i = 0; i < entry.objects.size(); ++i)
+        if (std::none_of(surfaces.begin(), surfaces.end(), has_name(entry.objects[i])))
+            return at_key(source, fmt::format("{}.objects[{}]", key, i),
+                          fmt::format("{} has no surface {}; it has {}", entry.file.string(),
+                                      entry.objects[i], names_of(surfaces)));
+    std::erase_if(surfaces, [&](const Surface& s) {
+        return std::count(entry.objects.begin(), entry.objects.end(), s.name) == 0;
+    });
+    return surfaces;
+}
+
+/// One entry of "surfaces".
+Result<std::vector<Surface>> surfaces_of_entry(const ProjectSurfaces& entry,
+                                               const std::string& source, const std::string& key,
+                                               std::vector<SurfaceInfo>& as_read) {
+    ReadOptions options;
+    options.depth = entry.depth;
+    auto read = read_surfaces(entry.file, std::nullopt, options);
+    if (!read) return read.error();
+    auto surfaces = chosen(std::move(read).value(), entry, source, key);
+    if (!surfaces) return surfaces.error();
+    if (!entry.name.empty() && surfaces.value().size() != 1)
+        return at_key(source, key + ".name",
+                      fmt::format("is for one surface, but {} are taken from {}",
+                                  surfaces.value().size(), entry.file.string()));
+    for (Surface& s : surfaces.value()) {
+        as_read.push_back({s.name, s.role});
+        if (!entry.name.empty()) s.name = entry.name;
+        if (entry.role) s.role = *entry.role;
+    }
+    return surfaces;
+}
+
+Result<std::vector<Surface>> boundary_within(const ProjectWithin& within, Session& session) {
+    std::vector<Surface> all;
+    for (const auto& file : within.files) {
+        auto read = read_surfaces(file);
+        if (!read) return read.error();
+        for (Surface& s : read.value()) all.push_back(std::move(s));
+    }
+    return closed_boundary(all, session.run());
+}
+
+} // namespace
+
+Error at_key(const std::string& source, const std::string& key, std::string sentence) {
+    return usage(std::move(sentence), source + ": " + key);
+}
+
+Result<ProjectInputs> read_inputs(const Project& project, const std::string& source,
+                                  Session& session) {
+    Stopwatch watch;
+    ProjectInputs read;
+    Inputs& all = read.inputs;
+    session.begin("read", Phase::computing);
+    for (std::size_t i = 0; i < project.surfaces.size(); ++i) {
+        if (session.stopped()) return Error{ErrorCode::interrupted, "", ""};
+        const ProjectSurfaces& entry = project.surfaces[i];
+        auto surfaces =
+            surfaces_of_entry(entry, source, fmt::format("surfaces[{}]", i), read.as_read);
+        if (!surfaces) return surfaces.error();
+        all.surfaces_of_file.push_back(surfaces.value().size());
+        for (const Surface& s : surfaces.value()) {
+            all.vertices += s.vertices.size();
+            all.triangles += s.triangles.size();
+        }
+        append(all, std::move(surfaces).value(), entry.file.string());
+    }
+    session.end_stage();
+    if (std::max(all.vertices, all.triangles) >= UINT32_MAX)
+        return Error{ErrorCode::unsupported, "more than 4294967294 vertices or triangles", ""};
+    all.seconds = watch.lap();
+    return read;
+}
+
+std::vector<std::string> files_of(const Project& project) {
+    std::vector<std::string> files;
+    for (const ProjectSurfaces& entry : project.surfaces) files.push_back(entry.file.string());
+    return files;
+}
+
+Result<std::vector<Surface>> boundary_of(const Project& project, const std::string& source,
+                                         Session& session) {
+    auto made = std::visit(
+        [&](const auto& volume) -> Result<std::vector<Surface>> {
+            using Volume = std::decay_t<decltype(volume)>;
+            if constexpr (std::is_same_v<Volume, ProjectBox>)
+                return box_boundary(volume.low, volume.high);
+            else if constexpr (std::is_same_v<Volume, RotatedBox>)
+                return rotated_box_boundary(volume);
+            else if constexpr (std::is_same_v<Volume, ProjectPolygon>)
+                return polygon_boundary(volume.corners, volume.between[0], volume.between[1]);
+            else if constexpr (std::is_same_v<Volume, ProjectWithin>)
+                return boundary_within(volume, session);
+            else
+                return std::vector<Surface>();
+        },
+        project.volume);
+    const bool has_files = std::holds_alternative<ProjectWithin>(project.volume);
+    if (made || (has_files && !made.error().place.empty())) return made;
+    Error error = made.error();
+    error.place = source + ": volume_of_interest";
+    return error;
+}
+
+} // namespace terrane::cli

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/io/meshes/gmsh22.hpp>
+
+#include <set>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <terrane/algorithms/tetrahedra/split_nodes.hpp>
+#include <terrane/io/meshes/detail/groups.hpp>
+#include <terrane/io/text/names.hpp>
+#include <terrane/io/text/text.hpp>
+
+namespace terrane {
+
+using namespace detail;
+
+namespace {
+
+std::string physical_names(const std::vector<SurfaceInfo>& surfaces,
+                           std::span<const SideName> sides, const std::set<std::uint32_t>& regions,
+                           std::span<const std::string> region_names) {
+    auto text =
+        fmt::format("$PhysicalNames\n{}\n", surfaces.size() + sides.size() + regions.size());
+    const auto names = quotable_names(surfaces);
+    for (std::size_t s = 0; s < names.size(); ++s)
+        text += fmt::format("2 {} \"{}\"\n", s + 1, names[s]);
+    for (const auto& side : sides) text += fmt::format("2 {} \"{}\"\n", side.tag, side.name);
+    for (const auto region : regions)
+        text += fmt::format("3 {} \"{}\"\n", region + 1, region_name(region, region_names));
+    return text + "$EndPhysicalNames\n";
+}
+
+std::string nodes(const std::vector<Point3>& vertices) {
+    auto text = fmt::format("$Nodes\n{}\n", vertices.size());
+    for (std::size_t v = 0; v < vertices.size(); ++v) {
+        append_number(text, std::uint64_t(v + 1));
+        text += ' ';
+        append_point(text, vertices[v]);
+        text += '\n';
+    }
+    return text + "$EndNodes\n";
+}
+
+/// The lines of $Elements, numbered from 1.
+class Elements {
+public:
+    template <class Cell>
+    void add(std::string_view type, std::uint64_t group, const Cell& corners) {
+        append_number(text_, ++count_);
+        text_.append(type);
+        for (int tag = 0; tag < 2; ++tag) { // physical, then elementary
+            text_ += ' ';
+            append_number(text_, group);
+        }
+        for (const auto v : corners) {
+            text_ += ' ';
+            append_number(text_, std::uint64_t(v) + 1);
+        }
+        text_ += '\n';
+    }
+
+    void add_triangles(const std::vector<Triangle>& triangles,
+                       const Lists<std::uint32_t>& surfaces_of, std::size_t surface_count,
+                       std::span<const CutSide> sides = {}) {
+        for (std::size_t t = 0; t < triangles.size(); ++t)
+            for (const auto s : surfaces_of[t]) {
+                const CutSide side = sides.empty() ? CutSide::none : sides[t];
+                add(" 2 2", side_tag(s, side, surface_count), triangles[t]); // type, how many tags
+            }
+    }
+
+    [[nodiscard]] std::string section() const {
+        return fmt::format("$Elements\n{}\n", count_) + text_ + "$EndElements\n";
+    }
+
+private:
+    std::string text_;
+    std::uint64_t count_ = 0;
+};
+
+constexpr std::string_view format_section = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
+
+/// Per surface that is cut: the nodes behind it and those at the same places in front.
+std::string periodic(const TetrahedralMesh& mesh) {
+    const auto pairs = node_pairs(mesh);
+    std::size_t links = 0;
+    std::string text;
+    for (std::size_t s = 0; s < pairs.size(); ++s) {
+        if (pairs[s].empty()) continue;
+        ++links;
+        text += fmt::format("2 {} {}\n{}\n", side_tag(s, CutSide::back, pairs.size()),
+                            side_tag(s, CutSide::front, pairs.size()), pairs[s].size());
+        for (const auto& [front, back] : pairs[s])
+            text += fmt::format("{} {}\n", back + 1, front + 1);
+    }
+    return links == 0 ? "" : fmt::format("$Periodic\n{}\n{}$EndPeriodic\n", links, text);
+}
+
+} // namespace
+
+std::string to_msh22(const Mesh& mesh) {
+    Elements elements;
+    elements.add_triangles(mesh.triangles, mesh.surfaces_of, mesh.surfaces.size());
+    return std::string(format_section) + physical_names(mesh.surfaces, {}, {}, {}) +
+           nodes(mesh.vertices) + elements.section();
+}
+
+std::string to_msh22(const TetrahedralMesh& mesh, std::span<const std::string> region_names) {
+    Elements elements;
+    for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
+        elements.add(" 4 2", std::uint64_t(mesh.region_of[t]) + 1, mesh.tetrahedra[t]);
+    const auto sides = cut_sides(mesh);
+    elements.add_triangles(mesh.faces, mesh.surfaces_of, mesh.surfaces.size(), sides);
+    const std::set<std::uint32_t> regions(mesh.region_of.begin(), mesh.region_of.end());
+    const auto groups = surface_groups(mesh.surfaces_of, mesh.surfaces.size(), sides);
+    return std::string(format_section) +
+           physical_names(mesh.surfaces, side_names(groups, mesh.surfaces), regions, region_names) +
+           nodes(mesh.vertices) + elements.section() + periodic(mesh);
+}
+
+} // namespace terrane

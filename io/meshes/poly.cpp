@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/io/meshes/poly.hpp>
+
+#include <fmt/format.h>
+
+#include <terrane/io/meshes/detail/groups.hpp>
+#include <terrane/io/text/text.hpp>
+
+namespace terrane {
+
+using namespace detail;
+
+namespace {
+
+std::string points(const std::vector<Point3>& vertices) {
+    // Dimension; no attributes, no markers.
+    auto out = fmt::format("{} 3 0 0\n", vertices.size());
+    for (std::size_t v = 0; v < vertices.size(); ++v) {
+        append_number(out, std::uint64_t(v + 1));
+        out += ' ';
+        append_point(out, vertices[v]);
+        out += '\n';
+    }
+    return out;
+}
+
+void append_polygon(std::string& out, const Triangle& corners) {
+    out += '3';
+    for (const auto v : corners) {
+        out += ' ';
+        append_number(out, std::uint64_t(v) + 1);
+    }
+}
+
+std::string region_lines(std::span<const RegionPoint> regions) {
+    auto out = fmt::format("{}\n", regions.size());
+    for (std::size_t r = 0; r < regions.size(); ++r) {
+        append_number(out, std::uint64_t(r + 1));
+        out += ' ';
+        append_point(out, regions[r].place);
+        out += ' ';
+        append_number(out, std::uint64_t(regions[r].region));
+        out += '\n';
+    }
+    return out;
+}
+
+std::string written(const Mesh& mesh, std::span<const RegionPoint> regions, bool short_form) {
+    const auto groups = surface_groups(mesh.surfaces_of, mesh.surfaces.size());
+    const auto markers = group_tags(groups, mesh.triangles.size());
+    auto out = "# markers of facets\n" + tag_comments(groups, mesh.surfaces) + "# points\n" +
+               points(mesh.vertices);
+    out += fmt::format("# facets\n{} 1\n", mesh.triangles.size()); // 1: with markers
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        if (!short_form) out += fmt::format("1 0 {}\n", markers[t]); // one polygon, no hole
+        append_polygon(out, mesh.triangles[t]);
+        if (short_form) out += fmt::format(" {}", markers[t]);
+        out += '\n';
+    }
+    return out + "# holes\n0\n# regions\n" + region_lines(regions);
+}
+
+} // namespace
+
+std::string to_poly(const Mesh& mesh, std::span<const RegionPoint> regions) {
+    return written(mesh, regions, false);
+}
+
+std::string to_smesh(const Mesh& mesh, std::span<const RegionPoint> regions) {
+    return written(mesh, regions, true);
+}
+
+} // namespace terrane

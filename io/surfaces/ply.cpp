@@ -1,0 +1,429 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/io/surfaces/ply.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include <fmt/format.h>
+
+#include <terrane/io/surfaces/subset.hpp>
+#include <terrane/io/text/bytes.hpp>
+#include <terrane/io/text/names.hpp>
+#include <terrane/io/text/text.hpp>
+
+namespace terrane {
+
+using namespace detail;
+
+namespace {
+
+constexpr std::size_t max_surfaces = 256; ///< of one face: keeps the output linear in the input
+
+enum class Type { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+
+std::optional<Type> type_named(std::string_view name) {
+    constexpr std::array<std::array<std::string_view, 2>, 8> names{{{"char", "int8"},
+                                                                    {"uchar", "uint8"},
+                                                                    {"short", "int16"},
+                                                                    {"ushort", "uint16"},
+                                                                    {"int", "int32"},
+                                                                    {"uint", "uint32"},
+                                                                    {"float", "float32"},
+                                                                    {"double", "float64"}}};
+    for (std::size_t i = 0; i < names.size(); ++i)
+        if (name == names[i][0] || name == names[i][1]) return static_cast<Type>(i);
+    return std::nullopt;
+}
+
+std::size_t size_of(Type type) {
+    constexpr std::array<std::size_t, 8> sizes{1, 1, 2, 2, 4, 4, 4, 8};
+    return sizes[static_cast<std::size_t>(type)];
+}
+
+double load_as_double(Type type, const char* bytes, std::endian order) {
+    switch (type) {
+    case Type::int8:
+        return load<std::int8_t>(bytes, order);
+    case Type::uint8:
+        return load<std::uint8_t>(bytes, order);
+    case Type::int16:
+        return load<std::int16_t>(bytes, order);
+    case Type::uint16:
+        return load<std::uint16_t>(bytes, order);
+    case Type::int32:
+        return load<std::int32_t>(bytes, order);
+    case Type::uint32:
+        return load<std::uint32_t>(bytes, order);
+    case Type::float32:
+        return load<float>(bytes, order);
+    case Type::float64:
+        break;
+    }
+    return load<double>(bytes, order);
+}
+
+/// What a property is to us.
+enum class Use { none, x, y, z, corners, surfaces };
+
+struct Property {
+    Type type = Type::float32;
+    std::optional<Type> count_type; ///< lists only
+    Use use = Use::none;
+};
+
+struct Element {
+    std::string name;
+    std::int64_t count = 0;
+    std::vector<Property> properties;
+};
+
+struct Header {
+    bool ascii = false;
+    std::endian order = std::endian::little;
+    std::vector<Element> elements;
+    std::vector<SurfaceInfo> surfaces; ///< from our own comments
+
+    [[nodiscard]] const Element* find(std::string_view name) const {
+        const auto named = [&](const Element& element) { return element.name == name; };
+        const auto found = std::ranges::find_if(elements, named);
+        return found == elements.end() ? nullptr : &*found;
+    }
+};
+
+class HeaderReader {
+public:
+    HeaderReader(LineParser& in, Header& header) : in_(in), header_(header) {}
+
+    MaybeError read() {
+        if (!in_.next() || trimmed(in_.line()) != "ply")
+            return in_.file_error(ErrorCode::bad_syntax,
+                                  "not a PLY file: it does not begin with ply");
+        bool format = false;
+        while (in_.next()) {
+            Tokens tokens(in_.line());
+            const auto keyword = tokens.next();
+            if (keyword == "end_header")
+                return format ? check()
+                              : in_.error(ErrorCode::bad_syntax, "there is no format line");
+            format = format || keyword == "format";
+            if (auto trouble = read_line(keyword, tokens)) return trouble;
+        }
+        return in_.error(ErrorCode::bad_syntax, "the header has no end_header");
+    }
+
+private:
+    MaybeError read_line(std::string_view keyword, Tokens tokens) {
+        if (keyword == "format") return read_format(tokens.next());
+        if (keyword == "element") return read_element(tokens);
+        if (keyword == "property") return read_property(tokens);
+        if (keyword == "comment") read_comment(tokens);
+        if (keyword == "comment" || keyword == "obj_info" || keyword.empty()) return std::nullopt;
+        return in_.error(ErrorCode::bad_syntax, shown(keyword) + " in the header");
+    }
+
+    MaybeError read_format(std::string_view format) {
+        header_.ascii = format == "ascii";
+        if (format == "binary_big_endian") header_.order = std::endian::big;
+        if (header_.ascii || format == "binary_big_endian" || format == "binary_little_endian")
+            return std::nullopt;
+        return in_.error(ErrorCode::bad_syntax, shown(format) + " is not a format of PLY");
+    }
+
+    MaybeError read_element(Tokens tokens) {
+        Element element;
+        element.name = tokens.next();
+        if (!parse_integer(tokens.next(), element.count) || element.count < 0)
+            return in_.error(ErrorCode::bad_syntax, "element needs a name and a count");
+        if (!names_.insert(element.name).second)
+            return in_.error(ErrorCode::bad_syntax,
+                             fmt::format("element {} is there twice", shown(element.name)));
+        header_.elements.push_back(std::move(element));
+        return std::nullopt;
+    }
+
+    MaybeError read_property(Tokens tokens) {
+        if (header_.elements.empty())
+            return in_.error(ErrorCode::bad_syntax, "a property before the first element");
+        Property property;
+        auto word = tokens.next();
+        if (word == "list") {
+            property.count_type = type_named(tokens.next());
+            if (!property.count_type)
+                return in_.error(ErrorCode::bad_syntax, "a list needs the type of its count");
+            word = tokens.next();
+        }
+        const auto type = type_named(word);
+        if (!type) return in_.error(ErrorCode::bad_syntax, shown(word) + " is not a type of PLY");
+        property.type = *type;
+        property.use = use_of(tokens.next(), property.count_type.has_value());
+        header_.elements.back().properties.push_back(property);
+        return std::nullopt;
+    }
+
+    [[nodiscard]] Use use_of(std::string_view name, bool list) const {
+        const auto& element = header_.elements.back().name;
+        if (element == "vertex" && !list) {
+            if (name == "x") return Use::x;
+            if (name == "y") return Use::y;
+            if (name == "z") return Use::z;
+        }
+        if (element == "face" && list) {
+            if (name == "vertex_indices" || name == "vertex_index") return Use::corners;
+            if (name == "surfaces" && !header_.surfaces.empty()) return Use::surfaces;
+        }
+        return Use::none;
+    }
+
+    void read_comment(Tokens tokens) {
+        if (tokens.next() != "terrane" || tokens.next() != "surface") return;
+        const auto role = std::ranges::find(role_names, tokens.next());
+        if (role == role_names.end()) return;
+        header_.surfaces.push_back(
+            {std::string(tokens.rest()), static_cast<Role>(role - role_names.begin())});
+    }
+
+    [[nodiscard]] MaybeError check() const {
+        const auto* face = header_.find("face");
+        if ((!face || face->count == 0) && header_.find("tristrips"))
+            return in_.error(ErrorCode::unsupported, "triangle strips are not read");
+        if (!face || face->count == 0)
+            return in_.file_error(ErrorCode::nothing_to_do, "there is no face");
+        if (!has(header_.find("vertex"), {Use::x, Use::y, Use::z}))
+            return in_.error(ErrorCode::bad_syntax, "there is no element vertex with x, y and z");
+        if (!has(face, {Use::corners}))
+            return in_.error(ErrorCode::bad_syntax, "element face has no list vertex_indices");
+        return std::nullopt;
+    }
+
+    /// Each use exactly once.
+    static bool has(const Element* element, std::initializer_list<Use> uses) {
+        return element && std::ranges::all_of(uses, [&](Use use) {
+                   return std::ranges::count(element->properties, use, &Property::use) == 1;
+               });
+    }
+
+    LineParser& in_;
+    Header& header_;
+    std::set<std::string> names_; ///< of the elements so far
+};
+
+/// The values after the header, one after the other.
+class Values {
+public:
+    Values(std::string_view contents, LineParser& in, const Header& header) :
+        contents_(contents), in_(in), header_(header), at_(contents.size() - in.bytes_left()) {}
+
+    MaybeError skip(Type type) {
+        if (header_.ascii) return next_token();
+        return advance(type);
+    }
+
+    /// Finite, unless it is skipped.
+    MaybeError read(Type type, double& value) {
+        if (auto trouble = skip(type)) return trouble;
+        if (header_.ascii) return in_.read_number(token_, value);
+        value = load_as_double(type, contents_.data() + at_ - size_of(type), header_.order);
+        if (std::isfinite(value)) return std::nullopt;
+        at_ -= size_of(type);
+        return error(ErrorCode::bad_number, "the value is not a finite number");
+    }
+
+    MaybeError read_integer(Type type, std::int64_t& value) {
+        double number = 0;
+        if (auto trouble = read(type, number)) return trouble;
+        if (number != std::floor(number) || std::fabs(number) > 1e15)
+            return error(ErrorCode::bad_syntax, fmt::format("{} is not an integer", number));
+        value = static_cast<std::int64_t>(number);
+        return std::nullopt;
+    }
+
+    /// True where nothing but blanks is left.
+    bool at_end() {
+        if (!header_.ascii) return at_ == contents_.size();
+        return next_token().has_value();
+    }
+
+    [[nodiscard]] Error error(ErrorCode code, std::string sentence) const {
+        if (header_.ascii) return in_.error(code, std::move(sentence));
+        return {code, std::move(sentence), fmt::format("{}, byte {}", in_.source(), at_)};
+    }
+
+    [[nodiscard]] std::size_t bytes_left() const {
+        return header_.ascii ? in_.bytes_left() : contents_.size() - at_;
+    }
+
+private:
+    MaybeError next_token() {
+        for (token_ = tokens_.next(); token_.empty(); token_ = tokens_.next()) {
+            if (!in_.next()) return error(ErrorCode::bad_syntax, "the file ends too early");
+            tokens_ = Tokens(in_.line());
+        }
+        return std::nullopt;
+    }
+
+    MaybeError advance(Type type) {
+        if (contents_.size() - at_ < size_of(type))
+            return error(ErrorCode::bad_syntax, "the file ends too early");
+        at_ += size_of(type);
+        return std::nullopt;
+    }
+
+    std::string_view contents_;
+    LineParser& in_;
+    const Header& header_;
+    std::size_t at_; ///< binary: next byte
+    Tokens tokens_{""};
+    std::string_view token_;
+};
+
+class PlyReader {
+public:
+    PlyReader(std::string_view contents, std::string_view source) :
+        contents_(contents), in_(contents, source) {}
+
+    Result<std::vector<Surface>> read(std::string_view name) {
+        if (auto trouble = HeaderReader(in_, header_).read()) return *trouble;
+        vertex_count_ = header_.find("vertex")->count;
+        triangles_of_.resize(std::max<std::size_t>(header_.surfaces.size(), 1));
+        Values values(contents_, in_, header_);
+        for (const auto& element : header_.elements)
+            if (auto trouble = read_element(element, values)) return *trouble;
+        if (!values.at_end())
+            return values.error(ErrorCode::bad_syntax, "there is more than the header announces");
+        return surfaces(name);
+    }
+
+private:
+    MaybeError read_element(const Element& element, Values& values) {
+        if (element.properties.empty()) return std::nullopt;
+        const bool vertex = element.name == "vertex";
+        const auto fit = values.bytes_left() / 3 + 1; // three numbers of a byte
+        if (vertex) vertices_.reserve(std::min(static_cast<std::size_t>(element.count), fit));
+        for (std::int64_t i = 0; i < element.count; ++i) {
+            if (vertex) vertices_.emplace_back();
+            corners_.clear();
+            owners_.clear();
+            for (const auto& property : element.properties)
+                if (auto trouble = read_property(property, values)) return trouble;
+            if (element.name != "face") continue;
+            if (auto trouble = add_face(values)) return trouble;
+        }
+        return std::nullopt;
+    }
+
+    MaybeError read_property(const Property& property, Values& values) {
+        if (property.count_type) return read_list(property, values);
+        switch (property.use) {
+        case Use::x:
+            return values.read(property.type, vertices_.back().x);
+        case Use::y:
+            return values.read(property.type, vertices_.back().y);
+        case Use::z:
+            return values.read(property.type, vertices_.back().z);
+        default:
+            return values.skip(property.type);
+        }
+    }
+
+    MaybeError read_list(const Property& property, Values& values) {
+        std::int64_t count = 0;
+        if (auto trouble = values.read_integer(*property.count_type, count)) return trouble;
+        if (count < 0) return values.error(ErrorCode::bad_syntax, "the list has a negative length");
+        for (std::int64_t i = 0; i < count; ++i)
+            if (auto trouble = read_entry(property, values)) return trouble;
+        return std::nullopt;
+    }
+
+    MaybeError read_entry(const Property& property, Values& values) {
+        if (property.use == Use::none) return values.skip(property.type);
+        const bool corner = property.use == Use::corners;
+        const auto limit =
+            corner ? vertex_count_ : static_cast<std::int64_t>(header_.surfaces.size());
+        std::int64_t index = 0;
+        if (auto trouble = values.read_integer(property.type, index)) return trouble;
+        if (index < 0 || index >= limit)
+            return values.error(ErrorCode::bad_index,
+                                fmt::format("the face names {} {}, which does not exist: there are "
+                                            "{}, counted from 0",
+                                            corner ? "vertex" : "surface", index, limit));
+        if (!corner && owners_.size() == max_surfaces)
+            return values.error(ErrorCode::unsupported,
+                                fmt::format("a face of more than {} surfaces", max_surfaces));
+        (corner ? corners_ : owners_).push_back(static_cast<std::uint32_t>(index));
+        return std::nullopt;
+    }
+
+    MaybeError add_face(const Values& values) {
+        if (corners_.size() < 3)
+            return values.error(ErrorCode::bad_syntax, "a face needs 3 corners");
+        if (owners_.empty()) owners_.push_back(0);
+        for (std::size_t i = 2; i < corners_.size(); ++i)
+            for (const auto owner : owners_)
+                triangles_of_[owner].push_back({corners_[0], corners_[i - 1], corners_[i]});
+        return std::nullopt;
+    }
+
+    std::vector<Surface> surfaces(std::string_view name) {
+        std::vector<Surface> result;
+        if (header_.surfaces.empty()) {
+            result.push_back({std::string(name), Role::unknown, std::move(vertices_),
+                              std::move(triangles_of_[0])});
+            return result;
+        }
+        Subset subset(vertices_);
+        for (std::size_t s = 0; s < triangles_of_.size(); ++s) {
+            auto& triangles = triangles_of_[s];
+            auto part = subset.cut(triangles);
+            result.push_back({std::move(header_.surfaces[s].name), header_.surfaces[s].role,
+                              std::move(part), std::move(triangles)});
+        }
+        return result;
+    }
+
+    std::string_view contents_;
+    LineParser in_;
+    Header header_;
+    std::int64_t vertex_count_ = 0;
+    std::vector<Point3> vertices_;
+    std::vector<std::vector<Triangle>> triangles_of_; ///< per surface, at least one
+    std::vector<std::uint32_t> corners_;              ///< of the current face
+    std::vector<std::uint32_t> owners_;               ///< surfaces of the current face
+};
+
+} // namespace
+
+Result<std::vector<Surface>> read_ply(std::string_view contents, std::string_view source,
+                                      std::string_view name) {
+    return PlyReader(contents, source).read(name);
+}
+
+std::string to_ply(const Mesh& mesh) {
+    std::string out = "ply\nformat binary_little_endian 1.0\n";
+    for (const auto& surface : mesh.surfaces) {
+        const std::string name = one_line(surface.name); // a blank at an end would not be read
+        out += fmt::format("comment terrane surface {} {}\n",
+                           role_names[static_cast<std::size_t>(surface.role)], trimmed(name));
+    }
+    out += fmt::format("element vertex {}\nproperty double x\nproperty double y\n"
+                       "property double z\nelement face {}\n"
+                       "property list uchar int vertex_indices\nproperty int surface\n"
+                       "property list uint int surfaces\nend_header\n",
+                       mesh.vertices.size(), mesh.triangles.size());
+    out.reserve(out.size() + mesh.vertices.size() * 24 + mesh.triangles.size() * 25);
+    for (const auto& vertex : mesh.vertices)
+        for (const double c : {vertex.x, vertex.y, vertex.z}) store(out, c);
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        const auto surfaces = mesh.surfaces_of[i];
+        store(out, std::uint8_t(3));
+        for (const auto vertex : mesh.triangles[i]) store(out, vertex);
+        store(out, surfaces[0]);
+        store(out, static_cast<std::uint32_t>(surfaces.size()));
+        for (const auto surface : surfaces) store(out, surface);
+    }
+    return out;
+}
+
+} // namespace terrane

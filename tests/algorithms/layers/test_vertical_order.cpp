@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Which triangle is above which, against clipped polygons in rationals.
+#include <terrane/algorithms/layers/detail/vertical_order.hpp>
+
+#include <algorithm>
+#include <array>
+#include <random>
+#include <vector>
+
+#include <catch2/catch.hpp>
+#include <gmpxx.h>
+
+#include "support/effort.hpp"
+
+using namespace terrane;
+
+namespace {
+
+struct Exact2 {
+    mpq_class x, y;
+};
+
+mpq_class turn(const Exact2& a, const Exact2& b, const Exact2& c) {
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+using Corners = std::array<Point3, 3>;
+
+Exact2 flat(const Point3& p) {
+    return {p.x, p.y};
+}
+
+/// What the two projections share: the first clipped by the second's edges.
+std::vector<Exact2> common(const Corners& s, const Corners& t) {
+    std::vector<Exact2> polygon{flat(s[0]), flat(s[1]), flat(s[2])};
+    for (unsigned i = 0; i < 3 && !polygon.empty(); ++i) {
+        const Exact2 a = flat(t[i]), b = flat(t[(i + 1) % 3]);
+        std::vector<Exact2> kept;
+        for (std::size_t k = 0; k < polygon.size(); ++k) {
+            const Exact2 &p = polygon[k], &q = polygon[(k + 1) % polygon.size()];
+            const mpq_class u = turn(a, b, p), v = turn(a, b, q);
+            if (u >= 0) kept.push_back(p);
+            if (u * v < 0) {
+                const mpq_class share = u / (u - v);
+                kept.push_back({p.x + share * (q.x - p.x), p.y + share * (q.y - p.y)});
+            }
+        }
+        polygon = kept;
+    }
+    return polygon;
+}
+
+mpq_class area(const std::vector<Exact2>& polygon) {
+    mpq_class sum;
+    for (std::size_t k = 2; k < polygon.size(); ++k)
+        sum += turn(polygon[0], polygon[k - 1], polygon[k]);
+    return sum;
+}
+
+mpq_class height(const Corners& t, const Exact2& p) {
+    const Exact2 a = flat(t[0]), b = flat(t[1]), c = flat(t[2]);
+    return (turn(b, c, p) * mpq_class(t[0].z) + turn(c, a, p) * mpq_class(t[1].z) +
+            turn(a, b, p) * mpq_class(t[2].z)) /
+           turn(a, b, c);
+}
+
+} // namespace
+
+TEST_CASE("vertical order: agrees with clipped polygons in rationals", "[layers]") {
+    std::mt19937_64 random(21);
+    int above = 0, below = 0, same = 0, apart = 0;
+    for (int i = 0; i < test_support::cases(30000); ++i) {
+        // Few places, so that corners on edges and shared edges are common; heights apart or not.
+        std::uniform_int_distribution<int> place(0, 2 + i % 4), level(0, i % 3 == 0 ? 2 : 9);
+        const auto corner = [&](int shift) {
+            return Point3{static_cast<double>(place(random)), static_cast<double>(place(random)),
+                          static_cast<double>(level(random) + shift)};
+        };
+        const int shift = i % 5 == 0 ? 4 : 0;
+        const Corners first{corner(0), corner(0), corner(0)},
+            second{corner(shift), corner(shift), corner(shift)};
+        const PointStore store({first[0], first[1], first[2], second[0], second[1], second[2]});
+        const UpwardRounding guard;
+        const auto s = seen_along_z(store, {0, 1, 2}), t = seen_along_z(store, {3, 4, 5});
+        const auto corners = [&](const UprightTriangle& u) {
+            return Corners{store.input(u[0]), store.input(u[1]), store.input(u[2])};
+        };
+        CHECK(s.has_value() == (turn(flat(first[0]), flat(first[1]), flat(first[2])) != 0));
+        if (!s || !t) continue;
+        const auto shared = common(corners(*s), corners(*t));
+        const bool overlap = area(shared) > 0;
+        REQUIRE(overlap_along_z(store, *s, *t) == overlap);
+        REQUIRE(overlap_along_z(store, *t, *s) == overlap);
+        if (!overlap) {
+            ++apart;
+            continue;
+        }
+        bool higher = false, lower = false;
+        for (const Exact2& p : shared) {
+            const mpq_class d = height(corners(*s), p) - height(corners(*t), p);
+            higher = higher || d > 0;
+            lower = lower || d < 0;
+        }
+        if (higher && lower) continue; // they cross
+        const Sign expected = higher ? Sign::Positive : lower ? Sign::Negative : Sign::Zero;
+        REQUIRE(above_along_z(store, *s, *t) == expected);
+        REQUIRE(above_along_z(store, *t, *s) == -expected);
+        ++(higher ? above : lower ? below : same);
+    }
+    CHECK(std::min({above, below, apart}) > 200 / test_support::effort_divisor);
+    CHECK(same > 0);
+}

@@ -1,0 +1,364 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/quality/improve.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <random>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include <terrane/algorithms/quality/deviation.hpp>
+#include <terrane/algorithms/quality/improve_back.hpp>
+#include <terrane/algorithms/rounding/rounding.hpp>
+
+#include "support/points.hpp"
+#include "support/solids.hpp"
+
+using namespace terrane;
+using namespace test_support;
+
+namespace {
+
+using Map = std::function<Point3(double, double)>;
+
+/// n by m cells over [0, 1] x [0, 1].
+Surface grid(std::uint32_t n, std::uint32_t m, const Map& map, std::string name) {
+    Surface s{std::move(name), Role::unknown, {}, {}};
+    for (std::uint32_t j = 0; j <= m; ++j)
+        for (std::uint32_t i = 0; i <= n; ++i)
+            s.vertices.push_back(map(static_cast<double>(i) / n, static_cast<double>(j) / m));
+    for (std::uint32_t j = 0; j < m; ++j)
+        for (std::uint32_t i = 0; i < n; ++i) {
+            const std::uint32_t a = j * (n + 1) + i, b = a + n + 1;
+            s.triangles.push_back({a, a + 1, b + 1});
+            s.triangles.push_back({a, b + 1, b});
+        }
+    return s;
+}
+
+Mesh rounded(const std::vector<Surface>& surfaces) {
+    const auto exact = arrange(surfaces);
+    REQUIRE(exact);
+    auto mesh = round_to_doubles(exact.value());
+    REQUIRE(mesh);
+    REQUIRE(mesh.value().report.clean);
+    return std::move(mesh.value().mesh);
+}
+
+Improved improved(const Mesh& mesh, const ImproveOptions& options = {}, const Run& run = {}) {
+    auto better = improve(mesh, options, run);
+    INFO((better ? std::string() : better.error().message()));
+    REQUIRE(better);
+    return std::move(better).value();
+}
+
+/// A horizon and four faults that cut it into nine regions, of 1134 triangles (the paper has 1136).
+std::vector<Surface> nine_regions() {
+    const auto horizon = [](double u, double v) {
+        return Point3{10 * u, 10 * v, 0.5 * std::sin(6 * u) * std::cos(5 * v)};
+    };
+    std::vector<Surface> all{grid(17, 20, horizon, "horizon")};
+    const auto across = [](double at, double lean) {
+        return [=](double u, double v) {
+            return Point3{at + 0.4 * std::sin(4 * u) + lean * (v - 0.5), -0.5 + 11 * u, -2 + 4 * v};
+        };
+    };
+    for (const double at : {3.1, 6.65}) {
+        all.push_back(grid(8, 2, across(at, 0.8), "fault across"));
+        all.push_back(grid(
+            8, 2,
+            [&](double u, double v) {
+                const Point3 p = across(at, -0.6)(u, v);
+                return Point3{p.y, p.x, p.z};
+            },
+            "fault along"));
+    }
+    return all;
+}
+
+ErrorCode refusal(const Mesh& mesh, const ImproveOptions& options = {}, const Run& run = {}) {
+    const auto result = improve(mesh, options, run);
+    REQUIRE_FALSE(result);
+    CHECK_FALSE(result.error().sentence.empty());
+    return result.error().code;
+}
+
+double mean_edge(const Mesh& mesh, std::uint32_t surface) {
+    const Surface s = surface_of_mesh(mesh, surface);
+    return measure_quality(s.vertices, s.triangles).edge_length.mean;
+}
+
+} // namespace
+
+TEST_CASE("improve: a horizon cut into nine regions, as in the paper's Figure 18", "[improve]") {
+    const Mesh mesh = rounded(nine_regions());
+    const Surface horizon = surface_of_mesh(mesh, 0);
+    std::vector<std::uint32_t> regions;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+        for (std::size_t i = 0; i < mesh.surfaces_of[t].size(); ++i)
+            if (mesh.surfaces_of[t][i] == 0) regions.push_back(mesh.regions_of[t][i]);
+    std::sort(regions.begin(), regions.end());
+    regions.erase(std::unique(regions.begin(), regions.end()), regions.end());
+    CHECK(regions.size() == 9);
+    CHECK(horizon.triangles.size() == 1134);
+    ImproveOptions options;
+    options.edge_length = 0.18; // about 8700 triangles, as there
+    const Improved better = improved(mesh, options);
+    const Surface after = surface_of_mesh(better.mesh, 0);
+    const QualityReport q = measure_quality(after.vertices, after.triangles);
+    INFO(horizon.triangles.size() << " -> " << q.triangles << " mean " << q.q.mean << " min "
+                                  << q.q.min << " above 0.8 " << q.share_above_08);
+    CHECK(q.triangles > 8000);
+    CHECK(q.triangles < 9500);
+    CHECK(q.q.mean >= 0.93);
+    CHECK(q.share_above_08 >= 0.95);
+    CHECK(better.report.worst_cause != WorstCause::none);
+    CHECK(sampled_distance(after, horizon) <= better.report.bound_of[0]);
+    CHECK(sampled_distance(horizon, after) <= better.report.bound_of[0]);
+}
+
+TEST_CASE("improve: the bound holds for all points, by another method", "[improve]") {
+    const Mesh mesh = rounded(nine_regions());
+    ImproveOptions options;
+    options.edge_length = 1.2;
+    options.max_deviation = 0.2;
+    const Improved better = improved(mesh, options);
+    CHECK(better.mesh.triangles.size() < mesh.triangles.size());
+    for (std::uint32_t s = 0; s < mesh.surfaces.size(); ++s) {
+        const double most =
+            distance_bound(surface_of_mesh(better.mesh, s), surface_of_mesh(mesh, s), 0.02);
+        CHECK(most <= 0.2 + 0.02);
+    }
+}
+
+TEST_CASE("improve: what it was is near what it is now, and a hole is seen", "[improve]") {
+    const Mesh mesh = rounded(nine_regions());
+    ImproveOptions options;
+    options.edge_length = 0.5;
+    Improved better = improved(mesh, options);
+    const auto back = bounds_back(mesh, better, options);
+    REQUIRE(back);
+    for (std::uint32_t s = 0; s < mesh.surfaces.size(); ++s) {
+        CHECK(back.value()[s] <= better.report.bound_of[s]);
+        const Surface before = surface_of_mesh(mesh, s), after = surface_of_mesh(better.mesh, s);
+        CHECK(back.value()[s] >= sampled_distance(before, after));
+    }
+    // Without any one triangle it is far, as its circle is larger than the bound.
+    for (const std::size_t gone : {std::size_t{0}, better.mesh.triangles.size() / 2}) {
+        Improved holed = better;
+        const std::uint32_t surface = better.mesh.surfaces_of[gone][0];
+        const auto keep = [&](auto& list) {
+            list.erase(list.begin() + static_cast<std::ptrdiff_t>(gone));
+        };
+        keep(holed.mesh.triangles);
+        keep(holed.near_of);
+        holed.mesh.surfaces_of = {};
+        for (std::size_t t = 0; t < better.mesh.triangles.size(); ++t)
+            if (t != gone) holed.mesh.surfaces_of.push_back(better.mesh.surfaces_of[t]);
+        const auto far = bounds_back(mesh, holed, options);
+        REQUIRE(far);
+        CHECK(far.value()[surface] > better.report.bound_of[surface]);
+        CHECK(far.value()[surface] >= sampled_distance(surface_of_mesh(mesh, surface),
+                                                       surface_of_mesh(holed.mesh, surface)));
+    }
+}
+
+TEST_CASE("improve: vertices of curves stay on them", "[improve]") {
+    const Mesh mesh = rounded(nine_regions());
+    ImproveOptions options;
+    options.edge_length = 0.3;
+    const Improved better = improved(mesh, options);
+    REQUIRE_FALSE(better.mesh.intersection_edges.empty());
+    // The old curve as flat triangles, for the tree that measures.
+    Surface curve;
+    for (const Edge& e : mesh.intersection_edges) {
+        const auto first = static_cast<std::uint32_t>(curve.vertices.size());
+        for (const std::uint32_t v : {e[0], e[1], e[1]}) curve.vertices.push_back(mesh.vertices[v]);
+        curve.triangles.push_back({first, first + 1, first + 2});
+    }
+    Surface ends;
+    for (const Edge& e : better.mesh.intersection_edges)
+        for (const std::uint32_t v : e) {
+            const auto first = static_cast<std::uint32_t>(ends.vertices.size());
+            ends.vertices.push_back(better.mesh.vertices[v]);
+            ends.triangles.push_back({first, first, first});
+        }
+    CHECK(sampled_distance(ends, curve) < 1e-13);
+}
+
+TEST_CASE("improve: sheets closer than the bound never meet", "[improve]") {
+    const auto wave = [](double off) {
+        return [off](double u, double v) {
+            return Point3{4 * u, 4 * v, 0.3 * std::sin(7 * u + off) * std::cos(6 * v) + off};
+        };
+    };
+    const std::vector<Surface> sheets{grid(24, 24, wave(0), "low"),
+                                      grid(17, 31, wave(0.01), "high")};
+    const Mesh mesh = rounded(sheets);
+    ImproveOptions options;
+    options.edge_length = 0.4;
+    options.max_deviation = 0.1;
+    const Improved better = improved(mesh, options); // tested exactly at its end
+    CHECK(better.report.refused_contact > 0);        // or it was too easy
+}
+
+TEST_CASE("improve: no sheet jumps over a piece that is smaller than the bound", "[improve]") {
+    const auto hill = [](double height, double narrow) {
+        return [=](double u, double v) {
+            const double r = (u - 0.5) * (u - 0.5) + (v - 0.5) * (v - 0.5);
+            const double fade = 16 * u * (1 - u) * v * (1 - v); // the borders are the same
+            return Point3{10 * u, 10 * v, height * fade * std::exp(-narrow * r)};
+        };
+    };
+    for (const double size : {0.1, 0.02})
+        for (const double narrow : {120.0, 300.0})
+            for (const double length : {2.0, 4.0}) {
+                Surface piece = cube(0, size); // below the top of the hill
+                for (Point3& p : piece.vertices) p = {4.99 + p.x, 4.99 + p.y, 0.3 + p.z};
+                const Mesh mesh = rounded({grid(20, 20, hill(0.6, narrow), "top"),
+                                           grid(9, 9, hill(-3, 0), "bottom"), piece});
+                ImproveOptions options;
+                options.edge_length = length;
+                options.max_deviation = 0.8;
+                const Improved better = improved(mesh, options);
+                INFO(size << ' ' << narrow << ' ' << length);
+                CHECK(better.mesh.triangles.size() < mesh.triangles.size() / 4);
+                CHECK(better.report.refused_contact > 0);
+                CHECK(better.report.sides_kept);
+            }
+}
+
+TEST_CASE("improve: the same for any number of threads", "[improve]") {
+    const Mesh mesh = rounded(nine_regions());
+    const Improved one = improved(mesh), four = improved(mesh, {}, {.threads = 4});
+    CHECK(one.mesh.vertices == four.mesh.vertices);
+    CHECK(one.mesh.triangles == four.mesh.triangles);
+    CHECK(one.mesh.surfaces_of == four.mesh.surfaces_of);
+    CHECK(one.mesh.intersection_edges == four.mesh.intersection_edges);
+}
+
+TEST_CASE("improve: wanted lengths, by surface, along curves, where it is curved", "[improve]") {
+    const std::vector<Surface> surfaces{level(0, 0, 0, 10, 10),
+                                        quad({-1, 5, -3}, {11, 5, -3}, {11, 5, 3}, {-1, 5, 3})};
+    const Mesh mesh = rounded(surfaces);
+    ImproveOptions options;
+    options.edge_length = 1;
+    options.edge_length_of = {0, 0.5};
+    const Improved better = improved(mesh, options);
+    CHECK(mean_edge(better.mesh, 0) > 1.3 * mean_edge(better.mesh, 1));
+    CHECK(mean_edge(better.mesh, 1) == Approx(0.5).epsilon(0.2));
+    ImproveOptions near_curves;
+    near_curves.edge_length = 2;
+    near_curves.curve_length = 0.25;
+    CHECK(improved(mesh, near_curves).mesh.triangles.size() >
+          2 * improved(mesh, {.edge_length = 2}).mesh.triangles.size());
+    const Mesh bump = rounded({grid(
+        30, 30,
+        [](double u, double v) {
+            const double r = (u - 0.5) * (u - 0.5) + (v - 0.5) * (v - 0.5);
+            return Point3{10 * u, 10 * v, std::exp(-60 * r)};
+        },
+        "bump")});
+    ImproveOptions turning;
+    turning.edge_length = 1;
+    turning.max_deviation = 0.2;
+    const std::size_t plain = improved(bump, turning).mesh.triangles.size();
+    turning.turn = 15;
+    CHECK(improved(bump, turning).mesh.triangles.size() > plain * 3 / 2);
+}
+
+TEST_CASE("improve: closed, one-sided and folded surfaces stay where they were", "[improve]") {
+    for (const Surface& s : {torus({0, 0, 0}, 3, 1, 24), moebius_strip(24), cube(0, 4)}) {
+        const Mesh mesh = rounded({s});
+        ImproveOptions options;
+        options.edge_length = 0.5;
+        const Improved better = improved(mesh, options);
+        const double bound = better.report.bound_of[0];
+        CHECK(sampled_distance(surface_of_mesh(better.mesh, 0), s) <= bound);
+        CHECK(sampled_distance(s, surface_of_mesh(better.mesh, 0)) <= 2 * bound);
+        CHECK(better.report.after.q.mean > 0.85);
+    }
+}
+
+TEST_CASE("improve: triangles that cross at random are refused, however they hang together",
+          "[improve]") {
+    // Features and curves are looked for while the mesh is still being checked.
+    std::mt19937 random(8);
+    std::uniform_real_distribution<double> coordinate(0, 1);
+    for (int i = 0; i < 200; ++i) {
+        Mesh mesh;
+        for (std::uint32_t v = 0; v < 12; ++v)
+            mesh.vertices.push_back(
+                {coordinate(random), coordinate(random), i % 2 == 0 ? coordinate(random) : 0});
+        std::uniform_int_distribution<std::uint32_t> vertex(0, 11), surface(0, 2);
+        mesh.surfaces.resize(3);
+        while (mesh.triangles.size() < 40) {
+            const Triangle t{vertex(random), vertex(random), vertex(random)};
+            if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
+            mesh.triangles.push_back(t);
+            mesh.surfaces_of.push_back(std::vector<std::uint32_t>{surface(random)});
+        }
+        Run run;
+        run.threads = 2;
+        CHECK(refusal(mesh, {}, run) == ErrorCode::improper_contact);
+    }
+}
+
+TEST_CASE("improve: what it refuses", "[improve]") {
+    const Mesh mesh = rounded(nine_regions());
+    CHECK(refusal({}) == ErrorCode::nothing_to_do);
+    ImproveOptions options;
+    options.edge_length = -1;
+    CHECK(refusal(mesh, options) == ErrorCode::bad_option);
+    options = {};
+    options.max_deviation = 1e-15;
+    CHECK(refusal(mesh, options) == ErrorCode::bad_option);
+    options = {};
+    options.edge_length_of = {1};
+    CHECK(refusal(mesh, options) == ErrorCode::bad_option);
+    options = {};
+    options.passes = 0;
+    CHECK(refusal(mesh, options) == ErrorCode::bad_option);
+    options = {};
+    options.crease_angle = std::numeric_limits<double>::quiet_NaN();
+    CHECK(refusal(mesh, options) == ErrorCode::bad_option);
+
+    Mesh broken = mesh;
+    broken.triangles[3][1] = static_cast<std::uint32_t>(mesh.vertices.size());
+    CHECK(refusal(broken) == ErrorCode::bad_index);
+    broken = mesh;
+    broken.vertices[5].y = std::numeric_limits<double>::infinity();
+    CHECK(refusal(broken) == ErrorCode::bad_number);
+    broken = mesh; // two triangles of its own, across each other
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (const Point3& p : {Point3{50, 0, 0}, Point3{52, 0, 0}, Point3{51, 2, 0}, Point3{51, 1, -1},
+                            Point3{51, 1, 1}, Point3{51, 3, 0}})
+        broken.vertices.push_back(p);
+    for (const std::uint32_t v : {first, first + 3}) {
+        broken.triangles.push_back({v, v + 1, v + 2});
+        broken.surfaces_of.push_back(std::vector<std::uint32_t>{0});
+        broken.regions_of.push_back(std::vector<std::uint32_t>{0});
+    }
+    CHECK(refusal(broken) == ErrorCode::improper_contact);
+    broken = mesh;
+    broken.triangles[1] = broken.triangles[0];
+    CHECK(refusal(broken) == ErrorCode::improper_contact);
+    broken = mesh;
+    broken.vertices.push_back(mesh.vertices[mesh.triangles[0][0]]);
+    broken.triangles[0][0] = static_cast<std::uint32_t>(mesh.vertices.size());
+    CHECK(refusal(broken) == ErrorCode::improper_contact);
+    broken = mesh;
+    broken.surfaces_of = {};
+    CHECK(refusal(broken) == ErrorCode::bad_index);
+
+    std::stop_source stop;
+    Run run;
+    run.stop = stop.get_token();
+    run.progress = [&](std::string_view, double) { stop.request_stop(); };
+    CHECK(refusal(mesh, {}, run) == ErrorCode::interrupted);
+}

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/reconstruction/kriging/detail/kriging.hpp>
+
+#include <cmath>
+#include <vector>
+
+#include <Eigen/Dense>
+#include <catch2/catch.hpp>
+
+#include "support/effort.hpp"
+#include "support/points.hpp"
+
+using namespace terrane;
+using namespace test_support;
+
+namespace {
+
+std::vector<Point3> scattered(Random& random, int count, double size) {
+    std::vector<Point3> points;
+    for (int i = 0; i < count; ++i)
+        points.push_back({random_real(random, 0, size), random_real(random, 0, size), 0});
+    return points;
+}
+
+/// One realisation of a field with this variogram, by Cholesky's factor of its covariances.
+void draw_heights(Random& random, std::vector<Point3>& points, const Variogram& v) {
+    const auto n = static_cast<Eigen::Index>(points.size());
+    Eigen::MatrixXd c(n, n);
+    for (Eigen::Index i = 0; i < n; ++i)
+        for (Eigen::Index j = 0; j < n; ++j) {
+            const Point3 &p = points[std::size_t(i)], &q = points[std::size_t(j)];
+            const double h = v.distance(p.x - q.x, p.y - q.y);
+            c(i, j) = v.sill + v.nugget - (h > 0 ? v.at(h) : 0) + (i == j ? 1e-10 * v.sill : 0);
+        }
+    std::normal_distribution<double> normal;
+    Eigen::VectorXd draw(n);
+    for (Eigen::Index i = 0; i < n; ++i) draw[i] = normal(random);
+    const Eigen::VectorXd z = c.llt().matrixL() * draw;
+    for (Eigen::Index i = 0; i < n; ++i) points[std::size_t(i)].z = z[i];
+}
+
+/// The textbook's system with a Lagrange multiplier, in variograms, by full pivoting.
+Estimate by_the_book(const std::vector<Point3>& data, const Variogram& v, double x, double y) {
+    const auto n = static_cast<Eigen::Index>(data.size());
+    const auto gamma = [&](double dx, double dy) {
+        const double h = v.distance(dx, dy);
+        return h > 0 ? v.at(h) - v.nugget : 0.0;
+    };
+    Eigen::MatrixXd a = Eigen::MatrixXd::Ones(n + 1, n + 1);
+    Eigen::VectorXd b = Eigen::VectorXd::Ones(n + 1);
+    a(n, n) = 0;
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const Point3& p = data[std::size_t(i)];
+        for (Eigen::Index j = 0; j < n; ++j)
+            a(i, j) = gamma(p.x - data[std::size_t(j)].x, p.y - data[std::size_t(j)].y);
+        a(i, i) -= v.nugget; // noise of the datum
+        b[i] = gamma(p.x - x, p.y - y);
+    }
+    const Eigen::VectorXd w = a.fullPivLu().solve(b);
+    Estimate e;
+    for (Eigen::Index i = 0; i < n; ++i) e.value += w[i] * data[std::size_t(i)].z;
+    e.deviation = std::sqrt(std::max(w.dot(b), 0.0));
+    return e;
+}
+
+} // namespace
+
+TEST_CASE("variogram: the models rise from the nugget as the header says", "[kriging]") {
+    const Variogram spherical{VariogramModel::spherical, 1, 4, 10};
+    CHECK(spherical.at(5) == Approx(1 + 4 * (1.5 * 0.5 - 0.5 * 0.125)));
+    CHECK(spherical.at(10) == 5);
+    CHECK(spherical.at(1000) == 5);
+    const Variogram exponential{VariogramModel::exponential, 1, 4, 10};
+    CHECK(exponential.at(10) == Approx(1 + 4 * (1 - std::exp(-3))));
+    const Variogram gaussian{VariogramModel::gaussian, 1, 4, 10};
+    CHECK(gaussian.at(5) == Approx(1 + 4 * (1 - std::exp(-0.75))));
+    const Variogram power{VariogramModel::power, 1, 4, 10, 1.5};
+    CHECK(power.at(20) == Approx(1 + 4 * std::pow(2, 1.5)));
+    const Variogram turned{VariogramModel::spherical, 0, 1, 10, 1, 90, 0.5};
+    CHECK(turned.distance(0, 3) == Approx(3)); // along the main direction
+    CHECK(turned.distance(3, 0) == Approx(6));
+}
+
+TEST_CASE("variogram: fitted to its own model, it is found again", "[kriging]") {
+    for (const auto model : {VariogramModel::spherical, VariogramModel::exponential,
+                             VariogramModel::gaussian, VariogramModel::power})
+        for (const bool turned : {false, true}) {
+            Variogram truth{model, 0.5, 8, 40, 1.3, turned ? 60.0 : 0.0, turned ? 0.4 : 1.0};
+            std::vector<VariogramBin> bins;
+            for (int d = 0; d < 12; ++d)
+                for (int k = 1; k <= 15; ++k) {
+                    const double turn = M_PI * (d + 0.5) / 12 - M_PI / 2, h = 5.0 * k;
+                    const double dx = h * std::cos(turn), dy = h * std::sin(turn);
+                    bins.push_back({dx, dy, h, truth.at(truth.distance(dx, dy)), 100});
+                }
+            const Variogram found = fit_variogram(bins);
+            INFO(description(truth) << " found as " << description(found));
+            CHECK(found.model == model);
+            for (const VariogramBin& bin : bins)
+                CHECK(found.at(found.distance(bin.dx, bin.dy)) == Approx(bin.gamma).epsilon(0.03));
+            CHECK(found.ratio == Approx(truth.ratio));
+        }
+    CHECK(fit_variogram({}).sill == 0);
+}
+
+TEST_CASE("variogram: of points, half the mean square of differences by distance", "[kriging]") {
+    Random random(2);
+    auto points = scattered(random, 60, 100);
+    for (Point3& p : points) p.z = random_real(random, -1, 1);
+    const auto bins = experimental_variogram(points, {}, 1000);
+    double sum = 0, expected = 0;
+    std::size_t pairs = 0;
+    for (const VariogramBin& bin : bins) {
+        sum += bin.gamma * double(bin.pairs);
+        pairs += bin.pairs;
+        CHECK(bin.distance >= std::hypot(bin.dx, bin.dy) * (1 - 1e-12));
+        CHECK(bin.dx >= 0);
+    }
+    for (std::size_t i = 0; i < points.size(); ++i)
+        for (std::size_t j = i + 1; j < points.size(); ++j)
+            expected += std::pow(points[i].z - points[j].z, 2) / 2;
+    CHECK(pairs == 60 * 59 / 2);
+    CHECK(sum == Approx(expected));
+}
+
+TEST_CASE("kriging: the textbook's weights and variance", "[kriging]") {
+    Random random(8);
+    for (const auto model : {VariogramModel::spherical, VariogramModel::exponential,
+                             VariogramModel::gaussian, VariogramModel::power})
+        for (int n = 0; n < cases(6); ++n) {
+            auto data = scattered(random, 25, 100);
+            for (Point3& p : data) p.z = random_real(random, -5, 5);
+            const Variogram v{model, n % 2 == 0 ? 0.5 : 0.05, 6, 60, 1.2, 30, n % 3 == 0 ? 1 : 0.5};
+            const Kriging kriging(data, v, 0); // a constant does not change the estimate
+            for (int k = 0; k < 10; ++k) {
+                const double x = random_real(random, 0, 100), y = random_real(random, 0, 100);
+                const Estimate e = kriging.at(x, y), book = by_the_book(data, v, x, y);
+                CHECK(e.value == Approx(book.value).margin(1e-6));
+                CHECK(e.deviation == Approx(book.deviation).margin(1e-5));
+            }
+        }
+}
+
+TEST_CASE("kriging: without a nugget data are met; planes and quadratics are estimated as they are",
+          "[kriging]") {
+    Random random(9);
+    auto data = scattered(random, 200, 100);
+    const auto plane = [](double x, double y) { return 3 + 0.2 * x - 0.7 * y; };
+    const auto bowl = [](double x, double y) { return 0.01 * x * x - 0.02 * x * y + y; };
+    for (Point3& p : data) p.z = random_real(random, -5, 5);
+    const Variogram v{VariogramModel::spherical, 0, 6, 60};
+    const Kriging rough(data, v);
+    for (const Point3& p : data) {
+        CHECK(rough.at(p.x, p.y).value == Approx(p.z).margin(1e-6));
+        CHECK(rough.at(p.x, p.y).deviation < 1e-4);
+    }
+    for (Point3& p : data) p.z = plane(p.x, p.y);
+    const Kriging flat(data, v);
+    for (Point3& p : data) p.z = bowl(p.x, p.y);
+    const Kriging curved(data, v, 2);
+    for (int k = 0; k < 20; ++k) {
+        const double x = random_real(random, -50, 150), y = random_real(random, -50, 150);
+        CHECK(flat.at(x, y).value == Approx(plane(x, y)).margin(1e-9));
+        CHECK(curved.at(x, y).value == Approx(bowl(x, y)).margin(1e-8));
+    }
+}
+
+TEST_CASE("kriging: the variance tells how far off it is, of fields with this variogram",
+          "[kriging]") {
+    Random random(10);
+    const Variogram v{VariogramModel::exponential, 0.2, 5, 50};
+    double errors = 0, expected = 0;
+    for (int n = 0; n < 40; ++n) {
+        auto points = scattered(random, 90, 100);
+        draw_heights(random, points, v);
+        const std::vector<Point3> data(points.begin(), points.begin() + 70);
+        const Kriging kriging(data, v, 0);
+        for (std::size_t k = 70; k < points.size(); ++k) {
+            const Estimate e = kriging.at(points[k].x, points[k].y);
+            errors += std::pow(e.value - points[k].z, 2);
+            expected += e.deviation * e.deviation + v.nugget;
+        }
+    }
+    CHECK(errors / expected == Approx(1).epsilon(0.15));
+}
+
+TEST_CASE("kriging: many data by neighbours give nearly what all at once give", "[kriging]") {
+    const auto z = [](double x, double y) { return 10 * std::sin(x / 20) + y * std::cos(x / 30); };
+    std::vector<Point3> few, many;
+    for (int i = 0; i <= 25; ++i)
+        for (int j = 0; j <= 25; ++j) few.push_back({4.0 * i, 4.0 * j, z(4.0 * i, 4.0 * j)});
+    for (int i = 0; i <= 50; ++i)
+        for (int j = 0; j <= 50; ++j)
+            if (std::hypot(i - 25, j - 25) > 5)
+                many.push_back({2.0 * i, 2.0 * j, z(2.0 * i, 2.0 * j)});
+    REQUIRE(few.size() <= Kriging::most_at_once);
+    REQUIRE(many.size() > Kriging::most_at_once);
+    const Variogram v{VariogramModel::gaussian, 0, 100, 60};
+    const Kriging all(few, v), local(many, v);
+    for (const double x : {13.0, 41.0, 50.0, 57.0, 77.0})
+        for (const double y : {20.5, 50.0, 53.0}) {
+            CHECK(all.at(x, y).value == Approx(z(x, y)).margin(0.01));
+            CHECK(local.at(x, y).value == Approx(z(x, y)).margin(0.05));
+        }
+}
+
+TEST_CASE("kriging: data at one place, or nearly, and a single datum", "[kriging]") {
+    Random random(12);
+    auto data = scattered(random, 40, 100);
+    for (Point3& p : data) p.z = random_real(random, -5, 5);
+    const auto once = data;
+    for (std::size_t i = 0; i < 20; ++i) {
+        data.push_back(once[i]);
+        data.push_back({once[i].x + 1e-9, once[i].y, once[i].z});
+    }
+    const Variogram v{VariogramModel::gaussian, 0, 6, 60};
+    const Kriging plain(once, v, 0), repeated(data, v, 0);
+    const auto bound = [](double d) { return std::isfinite(d) && std::abs(d) < 1000; };
+    for (int k = 0; k < 30; ++k) {
+        const double x = random_real(random, 0, 100), y = random_real(random, 0, 100);
+        CHECK(bound(repeated.at(x, y).value));
+        CHECK(repeated.at(x, y).deviation >= 0);
+    }
+    const std::vector<Point3> one{{1, 2, 3}};
+    CHECK(Kriging(one, v).at(50, 50).value == Approx(3));
+    CHECK(Kriging(one, v).validate(10).count == 0);
+}

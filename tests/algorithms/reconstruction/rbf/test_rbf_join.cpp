@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Cliffs: their triangles are longer than what is round them.
+#include <terrane/algorithms/reconstruction/rbf/rbf_join.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <catch2/catch.hpp>
+
+#include "support/hole_of.hpp"
+#include "support/holed_surfaces.hpp"
+#include <terrane/algorithms/check/check.hpp>
+#include <terrane/algorithms/mesh/vectors.hpp>
+#include <terrane/algorithms/reconstruction/rbf/detail/long_edges.hpp>
+
+using namespace terrane;
+using namespace test_support;
+
+namespace {
+
+/// 24 x 24 cells of 10, one row of which climbs by `lift`, with a hole across the cliff.
+Surface cliff(double lift) {
+    return punched(sheet(graph([=](double x, double) {
+                             return 10 * std::sin(x / 40) + (x > 115 ? lift : 0.0);
+                         }),
+                         0, 0, 240, 240, 24, 24),
+                   disk(115, 110, 52));
+}
+
+double area(const HoleData& data) {
+    double sum = 0;
+    for (const Triangle& t : data.triangles) {
+        const Point3 n = cross(minus(data.points[t[1]], data.points[t[0]]),
+                               minus(data.points[t[2]], data.points[t[0]]));
+        sum += std::hypot(n.x, n.y, n.z) / 2;
+    }
+    return sum;
+}
+
+/// Per edge, in the direction in which a triangle runs along it, how often that is.
+std::map<std::pair<std::uint32_t, std::uint32_t>, int> sides(const HoleData& data) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, int> count;
+    for (const Triangle& t : data.triangles)
+        for (unsigned k = 0; k < 3; ++k) ++count[{t[k], t[(k + 1) % 3]}];
+    return count;
+}
+
+double longest_near(const HoleData& data, double near) {
+    double longest = 0;
+    for (const auto& [edge, times] : sides(data)) {
+        if (std::max(data.distances[edge.first], data.distances[edge.second]) > near) continue;
+        const Point3 d = minus(data.points[edge.first], data.points[edge.second]);
+        longest = std::max(longest, std::hypot(d.x, d.y, d.z));
+    }
+    return longest;
+}
+
+} // namespace
+
+TEST_CASE("rbf: long edges near a border are divided, and the surface stays", "[rbf]") {
+    const Surface s = cliff(100);
+    const auto data = data_round(s, hole_of(s), {}, {});
+    REQUIRE(data);
+    HoleData divided = data.value();
+    const double near = 30, limit = 15;
+    CHECK(longest_near(divided, near) > 90);
+    divide_long_edges(divided, limit, near);
+    CHECK(longest_near(divided, near) <= limit);
+    CHECK(area(divided) == Approx(area(data.value())).epsilon(1e-12));
+    CHECK(divided.distances.size() == divided.points.size());
+    const auto count = sides(divided);
+    std::size_t open = 0;
+    for (const auto& [edge, times] : count) {
+        CHECK(times == 1); // wound as before, and conforming
+        open += count.count({edge.second, edge.first}) == 0 ? 1 : 0;
+    }
+    std::size_t open_before = 0;
+    const auto before = sides(data.value());
+    for (const auto& [edge, times] : before)
+        open_before += before.count({edge.second, edge.first}) == 0 ? 1 : 0;
+    // The border is one ring along open edges, the old points in their order among the new ones.
+    const std::size_t border = divided.next.size(), had = data.value().next.size();
+    CHECK(open - border == open_before - had); // the outer end of the data is far: not divided
+    CHECK(border >= had + 10);
+    std::uint32_t v = 0;
+    std::size_t steps = 0, met = 0;
+    do {
+        const bool along =
+            count.count({v, divided.next[v]}) + count.count({divided.next[v], v}) == 1;
+        CHECK(along);
+        CHECK(divided.distances[v] == 0);
+        if (met < had && divided.points[v] == data.value().points[met]) ++met;
+        v = divided.next[v];
+        ++steps;
+    } while (v != 0 && steps <= border);
+    CHECK(steps == border);
+    CHECK(met == had);
+}
+
+TEST_CASE("rbf: what is short, or far from the border, is not divided", "[rbf]") {
+    const Surface s = cliff(100);
+    const auto data = data_round(s, hole_of(s), {}, {});
+    REQUIRE(data);
+    HoleData same = data.value();
+    divide_long_edges(same, 120, 30);
+    CHECK((same.points == data.value().points));
+    CHECK((same.triangles == data.value().triangles));
+    CHECK((same.next == data.value().next));
+    divide_long_edges(same, 15, -1);
+    CHECK((same.points == data.value().points));
+}
+
+TEST_CASE("rbf: a hole across a cliff is joined with points on its edges", "[rbf]") {
+    const Surface s = cliff(60);
+    const auto hole = hole_of(s);
+    const auto alone = fill_by_rbf(s, hole);
+    REQUIRE(alone);
+    const auto not_joined = join_filling(s, hole, alone.value().surface);
+    REQUIRE(!not_joined); // it swings away from the cliff between its upper and its lower end
+    CHECK(not_joined.error().code == ErrorCode::not_closed);
+    const auto filled = fill_and_join_by_rbf(s, hole);
+    REQUIRE(filled);
+    CHECK(check(std::span(&filled.value().joined.surface, 1)).value().clean());
+    CHECK(filled.value().filling.report.model.find("long edges") != std::string::npos);
+    for (const Point3& p : filled.value().joined.surface.vertices) {
+        CHECK(p.z > -40);
+        CHECK(p.z < 100);
+    }
+    // Where the first try is joined there is no second one.
+    const Surface plain = cliff(5);
+    const auto once = fill_and_join_by_rbf(plain, hole_of(plain));
+    REQUIRE(once);
+    CHECK(once.value().filling.report.model.find("long edges") == std::string::npos);
+    std::stop_source stop;
+    stop.request_stop();
+    CHECK(fill_and_join_by_rbf(s, hole, {}, {}, {.stop = stop.get_token()}).error().code ==
+          ErrorCode::interrupted);
+}

@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Noisy data, and how far a filling can be off: smoothing, the power function, and both in holes of
+// known surfaces.
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <span>
+#include <stop_token>
+
+#include <Eigen/Dense>
+#include <catch2/catch.hpp>
+
+#include "support/effort.hpp"
+#include "support/hole_of.hpp"
+#include "support/holed_surfaces.hpp"
+#include <terrane/algorithms/check/check.hpp>
+#include <terrane/algorithms/reconstruction/joining/join.hpp>
+#include <terrane/algorithms/reconstruction/rbf/detail/error.hpp>
+#include <terrane/algorithms/reconstruction/rbf/rbf.hpp>
+
+using namespace terrane;
+using namespace test_support;
+
+namespace {
+
+std::vector<Point3> random_points(std::size_t n, unsigned seed, double scale) {
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> x(-scale, scale);
+    std::vector<Point3> points;
+    for (std::size_t i = 0; i < n; ++i) points.push_back({x(random), x(random), x(random)});
+    return points;
+}
+
+double bump(const Point3& p) {
+    return 3 * std::sin(p.x / 4) * std::cos(p.y / 5) + 0.1 * p.z;
+}
+
+/// Values of a function with noise of this standard deviation.
+template <class F>
+std::vector<double> noisy(const std::vector<Point3>& points, const F& f, double deviation) {
+    std::mt19937_64 random(7);
+    std::normal_distribution<double> noise(0, 1);
+    std::vector<double> values;
+    for (const Point3& p : points) values.push_back(f(p) + deviation * noise(random));
+    return values;
+}
+
+template <class F, class G>
+double rms_between(const std::vector<Point3>& points, const F& f, const G& g) {
+    double sum = 0;
+    for (const Point3& p : points) sum += std::pow(f(p) - g(p), 2);
+    return std::sqrt(sum / static_cast<double>(points.size()));
+}
+
+double cubed(const Point3& p, const Point3& q) {
+    return std::pow(std::hypot(p.x - q.x, p.y - q.y, p.z - q.z), 3);
+}
+
+/// Interpolation by |p - q|^3 and 1, u, v: a dense system, apart from the library's.
+struct Plain {
+    std::vector<Point3> centres;
+    Eigen::VectorXd solution;
+
+    Plain(std::vector<Point3> at, const Eigen::VectorXd& values) : centres(std::move(at)) {
+        const auto n = static_cast<Eigen::Index>(centres.size());
+        Eigen::MatrixXd system = Eigen::MatrixXd::Zero(n + 3, n + 3);
+        for (Eigen::Index i = 0; i < n; ++i) {
+            const Point3& p = centres[std::size_t(i)];
+            for (Eigen::Index j = 0; j < n; ++j) system(i, j) = cubed(p, centres[std::size_t(j)]);
+            system.block(i, n, 1, 3) << 1, p.x, p.y;
+            system.block(n, i, 3, 1) << 1, p.x, p.y;
+        }
+        Eigen::VectorXd right = Eigen::VectorXd::Zero(n + 3);
+        right.head(n) = values;
+        solution = system.fullPivLu().solve(right);
+    }
+    double operator()(const Point3& p) const {
+        const auto n = static_cast<Eigen::Index>(centres.size());
+        double sum = solution[n] + solution[n + 1] * p.x + solution[n + 2] * p.y;
+        for (Eigen::Index i = 0; i < n; ++i) sum += solution[i] * cubed(p, centres[std::size_t(i)]);
+        return sum;
+    }
+    /// Root of the sum of c_i c_j |p_i - p_j|^3.
+    [[nodiscard]] double energy() const {
+        double sum = 0;
+        for (std::size_t i = 0; i < centres.size(); ++i)
+            for (std::size_t j = 0; j < centres.size(); ++j)
+                sum += solution[Eigen::Index(i)] * solution[Eigen::Index(j)] *
+                       cubed(centres[i], centres[j]);
+        return std::sqrt(std::max(sum, 0.0));
+    }
+};
+
+HoleData data_at(const std::vector<Point3>& points) {
+    HoleData data;
+    data.points = points;
+    data.distances.assign(points.size(), 0);
+    data.radius = 3;
+    return data;
+}
+
+} // namespace
+
+TEST_CASE("rbf: smoothing misses values by what is asked for, and less energy by no function",
+          "[rbf]") {
+    const auto points = random_points(300, 1, 10);
+    const std::vector<Point3> centres(points.begin(), points.begin() + 120);
+    const auto values = noisy(points, bump, 0.3);
+    double freedom = 1e9;
+    for (const double wanted : {0.25, 0.5, 1.0}) {
+        const auto fit = smooth_rbf(centres, points, values, {}, wanted);
+        REQUIRE(fit);
+        std::size_t i = 0;
+        double sum = 0;
+        for (const Point3& p : points) sum += std::pow(fit.value().function(p) - values[i++], 2);
+        CHECK(std::sqrt(sum / 300) == Approx(wanted).epsilon(1e-6));
+        CHECK(fit.value().rms == Approx(wanted).epsilon(1e-6));
+        CHECK(fit.value().freedom < freedom); // the smoother, the fewer
+        freedom = fit.value().freedom;
+        CHECK(freedom > 4);
+        CHECK(fit.value().nugget > 0);
+    }
+}
+
+TEST_CASE("rbf: hardly any smoothing is interpolation, any is none of a polynomial", "[rbf]") {
+    const auto points = random_points(80, 2, 10), others = random_points(50, 3, 10);
+    const auto values = noisy(points, bump, 0);
+    const auto exact = fit_rbf(points, values);
+    const auto nearly = smooth_rbf(points, points, values, {}, 1e-9);
+    REQUIRE(exact);
+    REQUIRE(nearly);
+    CHECK(rms_between(others, exact.value().function, nearly.value().function) < 1e-5);
+    const RbfPolynomial degree_2{2, {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}};
+    const auto parabola = [](const Point3& p) { return 1 + p.x * p.y - 0.5 * p.x * p.x + p.z; };
+    for (const double wanted : {0.0, 0.01, 10.0}) {
+        const auto fit = smooth_rbf(points, points, noisy(points, parabola, 0), degree_2, wanted);
+        REQUIRE(fit);
+        CHECK(rms_between(others, parabola, fit.value().function) < 1e-8);
+    }
+}
+
+TEST_CASE("rbf: smoothing by cross-validation is nearer the truth than interpolation", "[rbf]") {
+    const auto points = random_points(400, 4, 10), others = random_points(200, 5, 8);
+    for (const double deviation : {0.1, 0.5}) {
+        const auto values = noisy(points, bump, deviation);
+        const auto smooth = smooth_rbf(points, points, values, {}, 0);
+        const auto exact = fit_rbf(points, values);
+        REQUIRE(smooth);
+        REQUIRE(exact);
+        const double ours = rms_between(others, bump, smooth.value().function);
+        CHECK(ours < 0.6 * rms_between(others, bump, exact.value().function));
+        CHECK(ours < 0.8 * deviation);
+        CHECK(smooth.value().rms == Approx(deviation).epsilon(0.3));
+    }
+}
+
+TEST_CASE("rbf: smoothing refuses what it can't do", "[rbf]") {
+    const auto points = random_points(50, 6, 1);
+    const std::vector<double> values(50, 1.0);
+    const std::vector<Point3> same(20, Point3{1, 2, 3});
+    CHECK(smooth_rbf(std::span(points).first(4), points, values, {}, 1).error().code ==
+          ErrorCode::bad_option);
+    CHECK(smooth_rbf(points, std::span(points).first(20), std::span(values).first(20), {}, 1)
+              .error()
+              .code == ErrorCode::bad_option);
+    CHECK(smooth_rbf(same, points, values, {}, 1).error().code == ErrorCode::bad_option);
+    RbfPolynomial wrong;
+    wrong.degree = 9;
+    CHECK(smooth_rbf(points, points, values, wrong, 1).error().code == ErrorCode::bad_option);
+    std::stop_source source;
+    source.request_stop();
+    Run run;
+    run.stop = source.get_token();
+    CHECK(smooth_rbf(points, points, values, {}, 1, run).error().code == ErrorCode::interrupted);
+}
+
+TEST_CASE("rbf: the power function bounds the error of each function, and one attains it",
+          "[rbf]") {
+    const auto points = random_points(40, 8, 5);
+    const RbfError error(data_at(points), {}, 0, 0);
+    const auto at_data = error.at(points, false, {});
+    CHECK(*std::max_element(at_data.begin(), at_data.end()) < 1e-3);
+    const auto places = random_points(8, 9, 5);
+    const auto bounds = error.at(places, false, {});
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        // Functions of finite energy, with centres that are no data.
+        for (unsigned seed = 20; seed < 26; ++seed) {
+            const auto centres = random_points(12, seed, 6);
+            const Plain f(centres, Eigen::VectorXd::Random(12));
+            Eigen::VectorXd values(40);
+            for (Eigen::Index i = 0; i < 40; ++i) values[i] = f(points[std::size_t(i)]);
+            const Plain interpolant(points, values);
+            CHECK(std::fabs(f(places[k]) - interpolant(places[k])) <=
+                  bounds[k] * f.energy() * (1 + 1e-6));
+        }
+        // The worst one: that of least energy which is 1 there and 0 at the data.
+        auto all = points;
+        all.push_back(places[k]);
+        Eigen::VectorXd values = Eigen::VectorXd::Zero(41);
+        values[40] = 1;
+        CHECK(bounds[k] * Plain(all, values).energy() == Approx(1).epsilon(1e-6));
+    }
+}
+
+TEST_CASE("rbf: the power function scales, and grows with noise and with fewer data", "[rbf]") {
+    const auto points = random_points(60, 10, 5), places = random_points(10, 11, 5);
+    const auto plain = RbfError(data_at(points), {}, 0, 0).at(places, false, {});
+    auto large = data_at(points);
+    large.radius *= 4;
+    auto far = places;
+    for (auto* set : {&large.points, &far})
+        for (Point3& p : *set) p = {4 * p.x, 4 * p.y, 4 * p.z};
+    const auto scaled = RbfError(large, {}, 0, 0).at(far, false, {});
+    const std::vector<Point3> half(points.begin(), points.begin() + 30);
+    const auto fewer = RbfError(data_at(half), {}, 0, 0).at(places, false, {});
+    const RbfError with_noise(data_at(points), {}, 0, 5);
+    const auto noisy_data = with_noise.at(places, false, {}),
+               measured = with_noise.at(places, true, {});
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        CHECK(scaled[k] == Approx(8 * plain[k]).epsilon(1e-9));
+        CHECK(fewer[k] > plain[k]);
+        CHECK(noisy_data[k] > plain[k]);
+        CHECK(measured[k] == Approx(std::sqrt(noisy_data[k] * noisy_data[k] + 5)));
+    }
+}
+
+TEST_CASE("rbf: expected errors are of the order of what is missed", "[rbf]") {
+    const std::vector<std::function<double(double, double)>> heights{
+        [](double x, double y) { return 0.5 * std::sin(x) * std::cos(0.7 * y); },
+        [](double x, double y) {
+            return 2 * std::exp(-(std::pow(x - 5, 2) + std::pow(y - 5, 2)) / 12);
+        },
+        [](double x, double y) { return std::sqrt(64 - std::pow(x - 5, 2) - std::pow(y - 5, 2)); }};
+    for (const auto& height : std::span(heights).first(std::size_t(cases(3)))) {
+        const Surface s =
+            punched(sheet(graph(height), 0, 0, 10, 10, 36, 36, 0.2), disk(5.2, 4.9, 1.4));
+        const auto hole = hole_of(s);
+        const auto filling = fill_by_rbf(s, hole, {.most_centres = 400});
+        REQUIRE(filling);
+        const auto made = join_filling(s, hole, filling.value().surface);
+        REQUIRE(made);
+        double missed = 0, foreseen = 0, nearest = 1e9, largest = 0;
+        for (std::size_t k = 0; k < made.value().filling_vertices.size(); ++k) {
+            const Point3& p = made.value().surface.vertices[s.vertices.size() + k];
+            const double d = filling.value().deviation[made.value().filling_vertices[k]];
+            REQUIRE(d >= 0);
+            missed += std::pow(p.z - height(p.x, p.y), 2);
+            foreseen += d * d;
+            nearest = std::min(nearest, d);
+            largest = std::max(largest, d);
+        }
+        const double ratio = std::sqrt(missed / foreseen);
+        CAPTURE(std::sqrt(missed), std::sqrt(foreseen));
+        CHECK(ratio < 6);
+        CHECK(ratio > 0.05);
+        CHECK(nearest < 0.2 * largest); // next to the border one knows more
+        const double n = double(made.value().filling_vertices.size());
+        CHECK(filling.value().report.expected_error ==
+              Approx(std::sqrt(foreseen / n)).epsilon(0.25));
+    }
+}
+
+TEST_CASE("rbf: noise of the data stays out of the hole, met or smoothed", "[rbf]") {
+    std::mt19937_64 random(12);
+    std::normal_distribution<double> noise(0, 0.05);
+    const auto height = [](double x, double y) { return std::sin(0.6 * x) + 0.2 * y; };
+    Surface s = sheet(graph([&](double x, double y) { return height(x, y) + noise(random); }), 0, 0,
+                      10, 10, 60, 60);
+    s = punched(s, disk(5, 5, 2));
+    const auto hole = hole_of(s);
+    for (const std::optional<double>& smoothing :
+         {std::optional<double>(), std::optional<double>(0.0), std::optional<double>(0.05)}) {
+        RbfOptions options;
+        options.smoothing = smoothing;
+        options.most_centres = 400;
+        RbfReport report;
+        const auto filling = fill_by_rbf(s, hole, options, report, {});
+        REQUIRE(filling);
+        if (smoothing) {
+            CHECK(report.patches == 0);
+            CHECK(report.freedom > 3);
+            CHECK(report.rms_error == Approx(0.05).epsilon(0.2));
+        } else {
+            CHECK(report.largest_error < 1e-10);
+            RbfOptions again = options; // no trace of what was asked for once
+            again.smoothing = 40.0;
+            again.smoothing.reset();
+            const auto same = fill_by_rbf(s, hole, again);
+            REQUIRE(same);
+            CHECK(same.value().surface.vertices == filling.value().surface.vertices);
+        }
+        const auto made = join_filling(s, hole, filling.value().surface);
+        if (!made) FAIL(made.error().message());
+        CHECK(check(std::span(&made.value().surface, 1)).value().clean());
+        double sum = 0;
+        for (std::size_t v = s.vertices.size(); v < made.value().surface.vertices.size(); ++v) {
+            const Point3& p = made.value().surface.vertices[v];
+            sum += std::pow(p.z - height(p.x, p.y), 2);
+        }
+        const double n = double(made.value().report.new_vertices);
+        CHECK(std::sqrt(sum / n) < 0.05); // one sample's
+    }
+}

@@ -1,0 +1,379 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// What rounding promises, judged by the independent verifier on the doubles themselves.
+#include "support/claim.hpp"
+#include "support/effort.hpp"
+#include "support/points.hpp"
+#include "support/sheets.hpp"
+#include "support/soup_laws.hpp"
+
+#include <terrane/algorithms/rounding/detail/collapsed_triangles.hpp>
+#include <terrane/algorithms/rounding/detail/state.hpp>
+#include <terrane/algorithms/rounding/rounding.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <span>
+#include <utility>
+
+namespace {
+
+using namespace terrane;
+using namespace test_support;
+
+Surface grid(int n, const std::function<Point3(double, double)>& at) {
+    Surface s;
+    for (int j = 0; j <= n; ++j)
+        for (int i = 0; i <= n; ++i) s.vertices.push_back(at(double(i) / n, double(j) / n));
+    const auto index = [n](int i, int j) { return static_cast<std::uint32_t>(j * (n + 1) + i); };
+    for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i) {
+            s.triangles.push_back({index(i, j), index(i + 1, j), index(i + 1, j + 1)});
+            s.triangles.push_back({index(i, j), index(i + 1, j + 1), index(i, j + 1)});
+        }
+    return s;
+}
+
+/// A rotation and shift that no double is safe from: coplanar becomes nearly coplanar.
+Point3 turned(const Point3& p) {
+    const double y = std::cos(0.7) * p.y - std::sin(0.7) * p.z;
+    const double z = std::sin(0.7) * p.y + std::cos(0.7) * p.z;
+    return {std::cos(0.4) * p.x - std::sin(0.4) * z + 0.3, y - 0.2,
+            std::sin(0.4) * p.x + std::cos(0.4) * z + 0.1};
+}
+
+std::vector<Surface> turned_sheets(int n) {
+    const double h = 0.5 / n;
+    return {grid(n,
+                 [](double x, double y) {
+                     return turned({x, y, 0});
+                 }),
+            grid(n, [h](double x, double y) {
+                return turned({x + h, y + h, 0});
+            })};
+}
+
+Arrangement arranged(const std::vector<Surface>& surfaces) {
+    auto a = arrange(surfaces);
+    REQUIRE(a.ok());
+    return std::move(a).value();
+}
+
+RoundedMesh rounded(const Arrangement& a, const RoundingOptions& options = {}) {
+    auto r = round_to_doubles(a, options);
+    REQUIRE(r.ok());
+    return std::move(r).value();
+}
+
+bool is_conforming(const Mesh& m) {
+    return verify_conforming(m.vertices, m.triangles).empty();
+}
+
+void check_lists(const RoundedMesh& r) {
+    const Mesh& m = r.mesh;
+    REQUIRE(m.surfaces_of.size() == m.triangles.size());
+    REQUIRE(m.parents_of.size() == m.triangles.size());
+    REQUIRE(m.regions_of.offsets == m.surfaces_of.offsets);
+    for (std::size_t t = 0; t < m.triangles.size(); ++t)
+        for (std::size_t k = 0; k < m.surfaces_of[t].size(); ++k)
+            REQUIRE(r.regions[m.regions_of[t][k]].surface == m.surfaces_of[t][k]);
+}
+
+/// Dirty points, and triangles each with itself as its parent.
+RoundingState state_of(std::vector<Point3> points, std::vector<Triangle> triangles) {
+    RoundingState state;
+    state.move.assign(points.size(), 0);
+    state.is_dirty.assign(points.size(), true);
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) state.parents_of.push_back(std::array{t});
+    state.points = std::move(points);
+    state.triangles = std::move(triangles);
+    return state;
+}
+
+/// Twice the area, of triangles in the plane z = 0.
+double twice_area(std::span<const Point3> points, const Triangle& t) {
+    const Point3 &a = points[t[0]], &b = points[t[1]], &c = points[t[2]];
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+} // namespace
+
+TEST_CASE("rounding: what is exact in doubles stays as it is") {
+    const auto a = arranged({surface({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{0, 1, 2}}),
+                             surface({{1, 1, -1}, {1, 1, 1}, {2, 1, 1}}, {{0, 1, 2}})});
+    const auto r = rounded(a);
+    CHECK(r.report.clean);
+    CHECK(r.report.rounds == 0);
+    CHECK(r.report.max_move == 0);
+    CHECK(r.report.deviation == 0);
+    CHECK(r.mesh.triangles == a.triangles);
+    CHECK(r.mesh.intersection_edges == a.intersection_edges);
+    CHECK(is_conforming(r.mesh));
+    check_lists(r);
+}
+
+TEST_CASE("rounding: nothing is farther from its exact place than reported") {
+    const auto a =
+        arranged({surface({{0, 0, 0}, {1, 0.1, 0}, {0.1, 1, 0.3}}, {{0, 1, 2}}),
+                  surface({{0.3, 0.2, -1}, {0.31, 0.3, 1}, {0.7, 0.3, 1}}, {{0, 1, 2}})});
+    const auto r = rounded(a);
+    REQUIRE(r.report.clean);
+    REQUIRE(r.mesh.vertices.size() == a.vertices.size());
+    CHECK(r.report.max_move > 0);
+    CHECK(r.report.max_move < 1e-15);
+    for (std::size_t v = 0; v < a.vertices.size(); ++v) {
+        const Enclosure e = a.points.enclosure(a.vertices[v]);
+        CHECK(r.mesh.vertices[v].x >= e.low[0] - r.report.max_move);
+        CHECK(r.mesh.vertices[v].x <= e.high[0] + r.report.max_move);
+    }
+}
+
+TEST_CASE("rounding: nearly coplanar sheets come out conforming, hardly moved") {
+    for (const int n : {3, 8, 16, 32}) { // the last one's contacts are a crowd from the start
+        const auto a = arranged(turned_sheets(n));
+        const auto naive = rounded(a, {.max_rounds = 0});
+        CHECK(naive.report.clean == is_conforming(naive.mesh));
+        CHECK(naive.report.contacts.size() == naive.report.naive_contacts);
+        CHECK((naive.report.naive_contacts >= 1024) == (n == 32));
+        const auto r = rounded(a);
+        REQUIRE(r.report.clean);
+        CHECK(r.report.contacts.empty());
+        CHECK(is_conforming(r.mesh));
+        CHECK(r.report.deviation < 1e-9);
+        CHECK(r.report.vanished.empty());
+        check_lists(r);
+    }
+}
+
+TEST_CASE("rounding: what is left is named when no round is allowed") {
+    const auto a = arranged(turned_sheets(16));
+    const auto r = rounded(a, {.max_rounds = 0});
+    REQUIRE_FALSE(r.report.clean);
+    REQUIRE_FALSE(r.report.contacts.empty());
+    for (const ImproperContact& c : r.report.contacts) {
+        REQUIRE(c.triangles[0] < c.triangles[1]);
+        REQUIRE(c.triangles[1] < r.mesh.triangles.size());
+        CHECK(improper_contact(r.mesh.vertices, r.mesh.triangles[c.triangles[0]],
+                               r.mesh.triangles[c.triangles[1]]));
+    }
+}
+
+TEST_CASE("rounding: a triangle too thin for doubles is reported as vanished, or still there") {
+    // Two needles cross a sheet; one is thinner than doubles can tell where it is cut.
+    std::vector<Surface> model{grid(4, [](double x, double y) { return Point3{x, y, 0.1 * x}; })};
+    const double ulp = std::nextafter(0.3, 1) - 0.3;
+    model.push_back(surface({{0.3, 0.4, -1}, {0.3, 0.45, 1}, {0.3 + ulp, 0.45, 1}}, {{0, 1, 2}}));
+    model.push_back(surface({{0.6, 0.4, -1}, {0.6, 0.45, 1}, {0.6001, 0.45, 1}}, {{0, 1, 2}}));
+    const auto r = rounded(arranged(model));
+    REQUIRE(r.report.clean);
+    CHECK(is_conforming(r.mesh));
+    std::vector<bool> present(34, false);
+    for (const std::uint32_t p : r.mesh.parents_of.values) present[p] = true;
+    for (std::uint32_t t = 0; t < present.size(); ++t) {
+        const auto& gone = r.report.vanished;
+        CHECK(present[t] != (std::find(gone.begin(), gone.end(), t) != gone.end()));
+    }
+}
+
+TEST_CASE("rounding: random soups are conforming wherever it says so") {
+    Random random(11);
+    int clean = 0, total = 0;
+    for (int i = 0; i < cases(600); ++i) {
+        const auto family = std::array{Family::lattice, Family::decimals, Family::one_ulp,
+                                       Family::utm, Family::coplanar}[static_cast<unsigned>(i % 5)];
+        Surface s;
+        const int n = random_int(random, 2, 12);
+        for (int t = 0; t < n; ++t) {
+            const auto p = points_of(random, family, 3);
+            const auto first = static_cast<std::uint32_t>(s.vertices.size());
+            s.vertices.insert(s.vertices.end(), p.begin(), p.end());
+            s.triangles.push_back({first, first + 1, first + 2});
+        }
+        const auto r = rounded(arranged({s}));
+        INFO(written_out(std::vector{s}));
+        REQUIRE(r.report.clean == is_conforming(r.mesh));
+        ++total;
+        clean += r.report.clean;
+        check_lists(r);
+    }
+    CHECK(clean == total);
+}
+
+TEST_CASE("rounding: the same for any number of threads, and stopped on request") {
+    const auto a = arranged(turned_sheets(8));
+    Run two;
+    two.threads = 2;
+    const auto one = rounded(a);
+    const auto other = round_to_doubles(a, {}, two);
+    REQUIRE(other.ok());
+    CHECK(one.mesh.vertices == other.value().mesh.vertices);
+    CHECK(one.mesh.triangles == other.value().mesh.triangles);
+    CHECK(one.mesh.parents_of == other.value().mesh.parents_of);
+    std::stop_source stop;
+    stop.request_stop();
+    Run run;
+    run.stop = stop.get_token();
+    const auto stopped = round_to_doubles(a, {}, run);
+    REQUIRE_FALSE(stopped.ok());
+    CHECK(stopped.error().code == ErrorCode::interrupted);
+}
+
+TEST_CASE("rounding: triangles that became a line leave no corner inside their neighbours' sides") {
+    // Two between the side 0 3 above and the chain 0 1 2 3 below it.
+    auto state = state_of({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {1, 2, 0}, {1, -2, 0}},
+                          {{0, 3, 4}, {0, 2, 3}, {0, 1, 2}, {1, 0, 5}, {2, 1, 5}, {3, 2, 5}});
+    state.is_dirty.assign(state.points.size(), false);
+    state.is_dirty[2] = true;
+    REQUIRE_FALSE(verify_conforming(state.points, state.triangles).empty());
+    CHECK(state.tidy({}));
+    CHECK(state.collapsed == 2);
+    CHECK(state.triangles ==
+          std::vector<Triangle>{{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {1, 0, 5}, {2, 1, 5}, {3, 2, 5}});
+    CHECK(state.parents_of.values == std::vector<std::uint32_t>{0, 0, 0, 3, 4, 5});
+    CHECK(state.is_dirty[1]);
+    CHECK(verify_conforming(state.points, state.triangles).empty());
+    CHECK_FALSE(state.tidy({}));
+}
+
+TEST_CASE("rounding: what is equal once it is divided is one triangle with both parents") {
+    auto state =
+        state_of({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {1, 1, 0}}, {{0, 2, 3}, {3, 1, 0}, {0, 1, 2}});
+    CHECK(state.tidy({}));
+    CHECK(state.triangles == std::vector<Triangle>{{0, 1, 3}, {1, 2, 3}});
+    CHECK(state.parents_of[0].size() == 2);
+    CHECK(state.parents_of[1].size() == 1);
+}
+
+TEST_CASE("rounding: a triangle is divided at points inside all its sides") {
+    const std::vector<Point3> points{{0, 0, 0}, {6, 0, 0}, {0, 6, 0}, {2, 0, 0}, {4, 0, 0},
+                                     {4, 2, 0}, {3, 3, 0}, {1, 5, 0}, {0, 3, 0}};
+    const PointsInSides all{{{3, 4}, {5, 6, 7}, {8}}};
+    for (unsigned sides = 0; sides < 8; ++sides) {
+        PointsInSides within;
+        std::size_t count = 1;
+        for (unsigned i = 0; i < 3; ++i)
+            if ((sides >> i & 1) != 0) count += (within[i] = all[i]).size();
+        std::vector<Triangle> parts;
+        divide_at({0, 1, 2}, within, parts);
+        CHECK(parts.size() == count);
+        double area = 0;
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            CHECK(twice_area(points, parts[i]) > 0);
+            area += twice_area(points, parts[i]);
+            for (std::size_t j = 0; j < i; ++j)
+                CHECK_FALSE(improper_contact(points, parts[i], parts[j]));
+        }
+        CHECK(area == 36);
+    }
+}
+
+TEST_CASE("rounding: a sliver that becomes a line opens no slit between its neighbours") {
+    const double least = std::numeric_limits<double>::denorm_min();
+    const std::vector model{
+        surface({{-1, -2, -1 - 0x1p-52}, {-1, 0, 0}, {0, 0, 0}}, {{0, 1, 2}}),
+        surface(
+            {{-1, -0.5, 0}, {0, -0.5, 0}, {0, 0.5, -1}, {least, least, -1}, {-1, -2, 0}, {0, 0, 0}},
+            {{0, 1, 2}, {3, 4, 5}})};
+    const auto a = arranged(model);
+    const auto r = rounded(a);
+    CHECK(r.report.collapsed_triangles == 1);
+    CHECK(r.report.clean);
+    CHECK(r.report.rounds == 0); // nothing meets improperly but for that sliver's corner
+    for (const unsigned rounds : {8U, 1U, 0U})
+        CHECK(soup_laws::rounding_flaw(model, a, {.max_rounds = rounds}).empty());
+}
+
+namespace {
+
+/// A wavy sheet of 2 n^2 triangles over a square.
+Surface waves(std::uint32_t n, double height, double phase) {
+    Surface s{"waves", Role::unknown, {}, {}};
+    for (std::uint32_t j = 0; j <= n; ++j)
+        for (std::uint32_t i = 0; i <= n; ++i) {
+            const double x = 4.0 * i / n, y = 4.0 * j / n;
+            s.vertices.push_back({x, y, height * std::sin(2 * x + phase) * std::cos(3 * y)});
+        }
+    for (std::uint32_t j = 0; j < n; ++j)
+        for (std::uint32_t i = 0; i < n; ++i) {
+            const std::uint32_t a = j * (n + 1) + i, b = a + n + 1;
+            s.triangles.push_back({a, a + 1, b + 1});
+            s.triangles.push_back({a, b + 1, b});
+        }
+    return s;
+}
+
+/// Each triangle with vertices of its own.
+Surface loose(const Surface& s) {
+    Surface apart{s.name, s.role, {}, {}};
+    for (const Triangle& t : s.triangles) {
+        const auto first = static_cast<std::uint32_t>(apart.vertices.size());
+        for (const std::uint32_t v : t) apart.vertices.push_back(s.vertices[v]);
+        apart.triangles.push_back({first, first + 1, first + 2});
+    }
+    return apart;
+}
+
+/// What one thread makes of them, after checking that several make the same.
+Arrangement check_threads_change_nothing(const std::vector<Surface>& surfaces) {
+    Arrangement a = arrange(surfaces).value();
+    const RoundedMesh m = round_to_doubles(a).value();
+    CHECK(m.report.clean);
+    for (const unsigned threads : {2U, 3U}) {
+        const Run run{.threads = threads, .stop = {}, .progress = {}};
+        const Arrangement b = arrange(surfaces, {}, run).value();
+        CHECK(a.triangles == b.triangles);
+        CHECK(a.vertices == b.vertices);
+        CHECK(a.parents_of == b.parents_of);
+        CHECK(a.surfaces_of == b.surfaces_of);
+        CHECK(a.intersection_edges == b.intersection_edges);
+        CHECK(a.degenerate == b.degenerate);
+        CHECK(a.inputs.duplicates == b.inputs.duplicates);
+        CHECK(a.neighbours == b.neighbours);
+        CHECK(a.patches.of == b.patches.of);
+        CHECK(a.adjacency.edges == b.adjacency.edges);
+        CHECK(a.adjacency.triangles_at == b.adjacency.triangles_at);
+        CHECK(a.inputs.corners == b.inputs.corners);
+        CHECK(a.patches.turn == b.patches.turn);
+        const RoundedMesh n = round_to_doubles(b, {}, run).value();
+        CHECK(m.mesh.vertices == n.mesh.vertices);
+        CHECK(m.mesh.triangles == n.mesh.triangles);
+        CHECK(m.mesh.regions_of == n.mesh.regions_of);
+        CHECK(m.mesh.surfaces_of == n.mesh.surfaces_of);
+        CHECK(m.report.max_move == n.report.max_move);
+        REQUIRE(m.regions.size() == n.regions.size());
+        for (std::size_t r = 0; r < m.regions.size(); ++r) {
+            CHECK(m.regions[r].area == n.regions[r].area); // to the last bit
+            CHECK(m.regions[r].neighbours == n.regions[r].neighbours);
+        }
+    }
+    return a;
+}
+
+} // namespace
+
+// Threads share passes over triangles, points and edges only where there are tens of thousands.
+TEST_CASE("rounding: what threads share gives the same as one thread") {
+    std::vector<Surface> surfaces{waves(120, 0.3, 0), waves(110, 0.2, 1), waves(120, 0.3, 0)};
+    surfaces[2].triangles.resize(9000);         // duplicates, and the surface ends within others
+    surfaces[2].triangles.push_back({0, 1, 2}); // on a line: no area
+    surfaces[1].vertices.push_back({0.5, 0.5, 0});
+    surfaces[1].triangles.push_back(
+        {5, 40, static_cast<std::uint32_t>(surfaces[1].vertices.size()) - 1});
+    CHECK(check_threads_change_nothing(surfaces).inputs.duplicates.size() == 9000);
+}
+
+TEST_CASE("rounding: threads change nothing where surfaces cross and triangles lie apart") {
+    const auto all = [](int, int) { return true; };
+    const auto wave = [&](double x, double y) { return Point3{x, y, std::sin(x / 9) * 5}; };
+    const auto slope = [&](double x, double y) { return Point3{x, y + 0.3, (x - y) / 11}; };
+    const auto steep = [&](double x, double y) { return Point3{x, 50 + y / 8, y - 60.3}; };
+    const Arrangement one = check_threads_change_nothing(
+        {sheet_of(190, 190, 1, all, wave), loose(sheet_of(150, 150, 1.3, all, slope)),
+         sheet_of(120, 120, 1.5, all, steep)});
+    CHECK(one.triangles.size() > 140'000);
+    CHECK(one.intersection_edges.size() > 1'000);
+}

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/structure/free_borders.hpp>
+
+#include <algorithm>
+#include <array>
+#include <climits>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "support/points.hpp"
+#include "support/solids.hpp"
+#include <terrane/algorithms/mesh/triangle_tree.hpp>
+#include <terrane/algorithms/rounding/rounding.hpp>
+
+using namespace terrane;
+using namespace test_support;
+
+namespace {
+
+std::vector<FreeBorder> borders_of(const std::vector<Surface>& surfaces) {
+    const auto arrangement = arrange(surfaces);
+    REQUIRE(arrangement);
+    const auto rounded = round_to_doubles(arrangement.value());
+    REQUIRE(rounded);
+    const Mesh& mesh = rounded.value().mesh;
+    const auto volumes = find_volumes(mesh);
+    REQUIRE(volumes);
+    return find_free_borders(mesh, build_structure(mesh, volumes.value()));
+}
+
+/// By sampling the triangle finely: an upper bound, off by at most a cell.
+double sampled_distance(const Point3& p, const Point3& a, const Point3& b, const Point3& c) {
+    double best = HUGE_VAL;
+    constexpr int n = 60;
+    for (int i = 0; i <= n; ++i)
+        for (int j = 0; i + j <= n; ++j) {
+            const double s = double(i) / n, t = double(j) / n;
+            best = std::min(best, std::hypot(a.x + s * (b.x - a.x) + t * (c.x - a.x) - p.x,
+                                             a.y + s * (b.y - a.y) + t * (c.y - a.y) - p.y,
+                                             a.z + s * (b.z - a.z) + t * (c.z - a.z) - p.z));
+        }
+    return best;
+}
+
+} // namespace
+
+TEST_CASE("distance_to_triangle: above the face, beside an edge, beyond a corner", "[borders]") {
+    const Point3 a{0, 0, 0}, b{4, 0, 0}, c{0, 4, 0};
+    CHECK(distance_to_triangle({1, 1, 3}, a, b, c) == 3);
+    CHECK(distance_to_triangle({1, -2, 0}, a, b, c) == 2);
+    CHECK(distance_to_triangle({-3, -4, 0}, a, b, c) == 5);
+    CHECK(distance_to_triangle({1, 1, 0}, a, b, c) == 0);
+    CHECK(distance_to_triangle({0, 1, 0}, a, a, a) == 1);
+}
+
+TEST_CASE("TriangleTree: the nearest of many, as by looking at each", "[borders]") {
+    Random random(11);
+    std::vector<Point3> points;
+    std::vector<Triangle> triangles;
+    const auto real = [&] { return random_real(random, -10, 10); };
+    for (std::uint32_t t = 0; t < 300; ++t) {
+        const Point3 at = point_of(real);
+        for (int i = 0; i < 3; ++i)
+            points.push_back({at.x + random_real(random, -1, 1), at.y + random_real(random, -1, 1),
+                              at.z + random_real(random, -1, 1)});
+        triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+    }
+    const TriangleTree tree(points, triangles);
+    for (int i = 0; i < 300; ++i) {
+        const Point3 p = point_of(real);
+        double best = HUGE_VAL, sampled = HUGE_VAL;
+        for (const auto& [a, b, c] : triangles) {
+            best = std::min(best, distance_to_triangle(p, points[a], points[b], points[c]));
+            if (i < 10)
+                sampled = std::min(sampled, sampled_distance(p, points[a], points[b], points[c]));
+        }
+        CHECK(tree.distance(p, HUGE_VAL) == best);
+        CHECK(tree.distance(p, best / 2) == best / 2);
+        if (i < 10) CHECK(std::abs(best - sampled) < 0.06);
+    }
+    CHECK(TriangleTree(points, {}).distance({0, 0, 0}, 7) == 7);
+}
+
+TEST_CASE("free borders: a fault that stops short of a horizon", "[borders]") {
+    // From y = 0 to 10, its lower border 0.5 above the horizon at one end, 1.5 at the other.
+    const auto borders =
+        borders_of({level(0, -20, -20, 20, 20, "horizon"),
+                    quad({0, 0, 0.5}, {0, 10, 1.5}, {0, 10, 5}, {0, 0, 5}, "fault"),
+                    level(100, -20, -20, 20, 20, "far")});
+    REQUIRE(borders.size() == 3);
+    const auto fault = std::find_if(borders.begin(), borders.end(),
+                                    [](const FreeBorder& b) { return b.surfaces[0] == 1; });
+    REQUIRE(fault != borders.end());
+    CHECK(fault->closed);
+    CHECK(fault->length == Approx(10 + std::hypot(10, 1) + 4.5 + 3.5));
+    REQUIRE(fault->gaps.size() == 1);
+    CHECK(fault->gaps[0].surface == 0);
+    CHECK(fault->gaps[0].decade == 0);
+    CHECK(fault->gaps[0].least == 1.5); // of the lower edge, at its farther end
+    CHECK(fault->gaps[0].largest == 5);
+    CHECK(fault->gaps[0].place.z == 5);
+    CHECK(fault->gaps[0].length == Approx(fault->length));
+    const auto leaks = leaks_of(borders);
+    const auto leak =
+        std::find_if(leaks.begin(), leaks.end(), [](const Leak& l) { return l.from == 1; });
+    REQUIRE(leak != leaks.end());
+    CHECK(leak->to == 0);
+    CHECK(leak->borders == 1);
+    CHECK(leak->least == 1.5);
+}
+
+TEST_CASE("free borders: none on a closed surface, none known without another one", "[borders]") {
+    CHECK(borders_of({cube(0, 1)}).empty());
+    const auto alone = borders_of({level(0, 0, 0, 2, 1)});
+    REQUIRE(alone.size() == 1);
+    CHECK(alone[0].gaps.empty());
+    CHECK(alone[0].length == 6);
+    CHECK(leaks_of(alone).empty());
+}
+
+TEST_CASE("free borders: a surface that ends on another one has no gap there", "[borders]") {
+    const auto borders = borders_of({level(0, -4, -4, 4, 4, "horizon"),
+                                     quad({0, -2, 0}, {0, 2, 0}, {0, 2, 3}, {0, -2, 3}, "fault")});
+    const auto fault = std::find_if(borders.begin(), borders.end(),
+                                    [](const FreeBorder& b) { return b.surfaces[0] == 1; });
+    REQUIRE(fault != borders.end());
+    CHECK_FALSE(fault->closed); // the lower edge is no free border
+    CHECK(fault->length == 10);
+    REQUIRE(fault->gaps.size() == 1);
+    CHECK(fault->gaps[0].least == 3);
+    CHECK(fault->gaps[0].largest == 3);
+}
+
+TEST_CASE("free borders: hair's breadths come before what ends far from anything", "[borders]") {
+    const double hair = 0x1p-30;
+    const auto borders =
+        borders_of({level(0, -4, -4, 4, 4, "horizon"),
+                    quad({0, -2, hair}, {0, 2, hair}, {0, 2, 3}, {0, -2, 3}, "F")});
+    const auto leaks = leaks_of(borders);
+    REQUIRE(leaks.size() >= 2);
+    CHECK(leaks[0].from == 1);
+    CHECK(leaks[0].to == 0);
+    CHECK(leaks[0].decade == -10);
+    CHECK(leaks[0].length == 4);
+    CHECK(leaks[0].largest == hair);
+    for (std::size_t i = 1; i < leaks.size(); ++i) CHECK(leaks[i].decade == 0);
+}
+
+TEST_CASE("free borders: one that lies on another surface has distance 0 and comes first",
+          "[borders]") {
+    Mesh mesh; // two triangles over the same border, named apart: no more than a seam
+    mesh.surfaces = {{"a", Role::unknown}, {"b", Role::unknown}};
+    mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0}, {1, 0, 0}, {0, 0, 1}};
+    mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
+    mesh.surfaces_of.push_back(std::array<std::uint32_t, 1>{0});
+    mesh.surfaces_of.push_back(std::array<std::uint32_t, 1>{1});
+    const auto volumes = find_volumes(mesh);
+    REQUIRE(volumes);
+    const auto leaks = leaks_of(find_free_borders(mesh, build_structure(mesh, volumes.value())));
+    REQUIRE_FALSE(leaks.empty());
+    CHECK(leaks[0].largest == 0);
+    CHECK(leaks[0].decade == INT_MIN);
+    CHECK(leaks[0].length == 1);
+}

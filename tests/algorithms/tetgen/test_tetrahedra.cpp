@@ -1,0 +1,557 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/tetgen/tetrahedra.hpp>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <stop_token>
+#include <thread>
+#include <vector>
+
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+
+#include <terrane/algorithms/arrangement/arrangement.hpp>
+#include <terrane/algorithms/rounding/rounding.hpp>
+#include <terrane/algorithms/tetgen/detail/process.hpp>
+#include <terrane/io/files.hpp>
+#include <terrane/kernel/predicates.hpp>
+
+using namespace terrane;
+
+namespace {
+
+constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
+const Box3 unit_box{{-1, -1, -1}, {2, 2, 2}};
+
+/// A mesh that grows surface by surface; equal points are one vertex.
+class MeshBuilder {
+public:
+    std::uint32_t surface(const std::string& name) {
+        mesh_.surfaces.push_back({name, Role::unknown});
+        return static_cast<std::uint32_t>(mesh_.surfaces.size() - 1);
+    }
+    void triangle(std::uint32_t surface, const Point3& a, const Point3& b, const Point3& c) {
+        mesh_.triangles.push_back({vertex(a), vertex(b), vertex(c)});
+        mesh_.surfaces_of.push_back(std::array{surface});
+    }
+    void quad(std::uint32_t surface, const Point3& a, const Point3& b, const Point3& c,
+              const Point3& d) {
+        triangle(surface, a, b, c);
+        triangle(surface, a, c, d);
+    }
+    /// The sides of a box, wound outward; the vertical ones in two halves if split at a height.
+    void block(std::uint32_t s, const Point3& l, const Point3& h) {
+        quad(s, {l.x, l.y, l.z}, {l.x, h.y, l.z}, {h.x, h.y, l.z}, {h.x, l.y, l.z});
+        quad(s, {l.x, l.y, h.z}, {h.x, l.y, h.z}, {h.x, h.y, h.z}, {l.x, h.y, h.z});
+        walls(s, l, h);
+    }
+    void walls(std::uint32_t s, const Point3& l, const Point3& h) {
+        quad(s, {l.x, l.y, l.z}, {h.x, l.y, l.z}, {h.x, l.y, h.z}, {l.x, l.y, h.z});
+        quad(s, {h.x, l.y, l.z}, {h.x, h.y, l.z}, {h.x, h.y, h.z}, {h.x, l.y, h.z});
+        quad(s, {h.x, h.y, l.z}, {l.x, h.y, l.z}, {l.x, h.y, h.z}, {h.x, h.y, h.z});
+        quad(s, {l.x, h.y, l.z}, {l.x, l.y, l.z}, {l.x, l.y, h.z}, {l.x, h.y, h.z});
+    }
+    [[nodiscard]] const Mesh& mesh() const { return mesh_; }
+
+private:
+    std::uint32_t vertex(const Point3& p) {
+        const auto [at, added] = index_.try_emplace(p, mesh_.vertices.size());
+        if (added) mesh_.vertices.push_back(p);
+        return at->second;
+    }
+    Mesh mesh_;
+    std::map<Point3, std::uint32_t> index_;
+};
+
+Mesh cube() {
+    MeshBuilder builder;
+    builder.block(builder.surface("cube"), {0, 0, 0}, {1, 1, 1});
+    return builder.mesh();
+}
+
+Mesh rectangle() {
+    MeshBuilder builder;
+    builder.quad(builder.surface("sheet"), {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
+    return builder.mesh();
+}
+
+/// n x n squares with an uneven height.
+Mesh uneven_sheet(unsigned n) {
+    MeshBuilder builder;
+    const std::uint32_t surface = builder.surface("horizon");
+    const auto at = [&](unsigned i, unsigned j) {
+        const unsigned height = (i * 7 + j * 13 + i * j * 5) % 11;
+        return Point3{double(i) / n, double(j) / n, height / 64.0};
+    };
+    for (unsigned i = 0; i < n; ++i)
+        for (unsigned j = 0; j < n; ++j)
+            builder.quad(surface, at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
+    return builder.mesh();
+}
+
+double volume(const TetrahedralMesh& mesh, std::size_t t) {
+    const auto& [ia, ib, ic, id] = mesh.tetrahedra[t];
+    const Point3 &a = mesh.vertices[ia], &b = mesh.vertices[ib], &c = mesh.vertices[ic],
+                 &d = mesh.vertices[id];
+    const Point3 u{b.x - a.x, b.y - a.y, b.z - a.z}, v{c.x - a.x, c.y - a.y, c.z - a.z},
+        w{d.x - a.x, d.y - a.y, d.z - a.z};
+    return (u.x * (v.y * w.z - v.z * w.y) - u.y * (v.x * w.z - v.z * w.x) +
+            u.z * (v.x * w.y - v.y * w.x)) /
+           6;
+}
+
+std::vector<double> region_volumes(const TetrahedralMesh& mesh) {
+    std::vector<double> volumes(mesh.region_count);
+    for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
+        volumes[mesh.region_of[t]] += volume(mesh, t);
+    return volumes;
+}
+
+/// Regions on the two sides of a face: the tetrahedra that have all its corners.
+std::vector<std::uint32_t> regions_at(const TetrahedralMesh& mesh, const Triangle& face) {
+    std::vector<std::uint32_t> regions;
+    for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+        const auto& corners = mesh.tetrahedra[t];
+        if (std::all_of(face.begin(), face.end(), [&](std::uint32_t v) {
+                return std::find(corners.begin(), corners.end(), v) != corners.end();
+            }))
+            regions.push_back(mesh.region_of[t]);
+    }
+    return regions;
+}
+
+TetrahedralMesh must(const Mesh& mesh, const TetrahedraOptions& options) {
+    Result<TetrahedralMesh> result = tetrahedralize(mesh, options, Run{});
+    INFO((result ? std::string() : result.error().message()));
+    REQUIRE(result.ok());
+    const TetrahedralMesh& made = result.value();
+    CHECK(made.region_of.size() == made.tetrahedra.size());
+    CHECK(made.face_triangle.size() == made.faces.size());
+    CHECK(made.surfaces_of.size() == made.faces.size());
+    CHECK(made.surfaces.size() == mesh.surfaces.size() + 1);
+    CHECK(made.surfaces.back().name == "box");
+    for (const auto& [a, b, c, d] : made.tetrahedra) {
+        const auto& v = made.vertices;
+        REQUIRE(orient3d(v[a], v[b], v[c], v[d]) == Sign::Positive);
+    }
+    return std::move(result).value();
+}
+
+Error must_fail(const Mesh& mesh, const TetrahedraOptions& options, const Run& run = {}) {
+    const Result<TetrahedralMesh> result = tetrahedralize(mesh, options, run);
+    REQUIRE(!result.ok());
+    CHECK(!result.error().sentence.empty());
+    return result.error();
+}
+
+/// Per triangle of the mesh its faces as points, first corner first.
+std::multiset<std::array<Point3, 3>> as_points(const std::vector<Point3>& vertices,
+                                               const std::vector<Triangle>& triangles,
+                                               std::size_t count) {
+    std::multiset<std::array<Point3, 3>> all;
+    for (std::size_t i = 0; i < count; ++i) {
+        std::array<Point3, 3> t{vertices[triangles[i][0]], vertices[triangles[i][1]],
+                                vertices[triangles[i][2]]};
+        std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+        all.insert(t);
+    }
+    return all;
+}
+
+} // namespace
+
+TEST_CASE("tetrahedra: a closed cube in a box makes two regions", "[tetrahedra]") {
+    const TetrahedralMesh made = must(cube(), {.box = unit_box});
+    REQUIRE(made.region_count == 2);
+    const std::vector<double> volumes = region_volumes(made);
+    CHECK(volumes[0] == Approx(26));
+    CHECK(volumes[1] == Approx(1));
+    for (std::size_t i = 0; i < made.faces.size(); ++i) {
+        const bool box = made.face_triangle[i] == UINT32_MAX;
+        CHECK(made.surfaces_of[i].size() == 1);
+        CHECK(made.surfaces_of[i][0] == (box ? 1U : 0U));
+        CHECK(regions_at(made, made.faces[i]).size() == (box ? 1U : 2U));
+    }
+}
+
+TEST_CASE("tetrahedra: without sizes the faces are the triangles, wound alike", "[tetrahedra]") {
+    for (const Mesh& mesh : {cube(), rectangle(), uneven_sheet(8)}) {
+        const TetrahedralMesh made = must(mesh, {});
+        const std::size_t count = mesh.triangles.size();
+        CHECK(as_points(made.vertices, made.faces, count) ==
+              as_points(mesh.vertices, mesh.triangles, count));
+        CHECK(made.faces.size() == count + 12);
+        for (std::uint32_t i = 0; i < count; ++i) CHECK(made.face_triangle[i] == i);
+    }
+}
+
+TEST_CASE("tetrahedra: a sheet that closes nothing leaves one region", "[tetrahedra]") {
+    const TetrahedralMesh made = must(rectangle(), {.box = unit_box});
+    CHECK(made.region_count == 1);
+    CHECK(region_volumes(made)[0] == Approx(27));
+}
+
+TEST_CASE("tetrahedra: nested cubes make three regions, in order of position", "[tetrahedra]") {
+    MeshBuilder builder;
+    builder.block(builder.surface("inner"), {0.25, 0.25, 0.25}, {0.75, 0.75, 0.75});
+    builder.block(builder.surface("outer"), {0, 0, 0}, {1, 1, 1});
+    const TetrahedralMesh made = must(builder.mesh(), {.box = unit_box});
+    REQUIRE(made.region_count == 3);
+    const std::vector<double> volumes = region_volumes(made);
+    CHECK(volumes[0] == Approx(26));
+    CHECK(volumes[1] == Approx(0.875));
+    CHECK(volumes[2] == Approx(0.125));
+}
+
+TEST_CASE("tetrahedra: a sheet across a block halves it", "[tetrahedra]") {
+    MeshBuilder builder;
+    const std::uint32_t block = builder.surface("block");
+    builder.block(block, {0, 0, 0}, {1, 1, 0.25});
+    builder.walls(block, {0, 0, 0.25}, {1, 1, 1});
+    builder.quad(block, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1});
+    const TetrahedralMesh made = must(builder.mesh(), {.box = unit_box});
+    REQUIRE(made.region_count == 3);
+    const std::vector<double> volumes = region_volumes(made);
+    CHECK(volumes[0] == Approx(26));
+    CHECK(volumes[1] == Approx(0.25));
+    CHECK(volumes[2] == Approx(0.75));
+}
+
+TEST_CASE("tetrahedra: a fault that ends inside a block has that block on both sides",
+          "[tetrahedra]") {
+    MeshBuilder builder;
+    builder.block(builder.surface("block"), {0, 0, 0}, {1, 1, 1});
+    const std::uint32_t fault = builder.surface("fault");
+    builder.quad(fault, {0.5, 0.25, 0.25}, {0.5, 0.75, 0.25}, {0.5, 0.75, 0.75}, {0.5, 0.25, 0.75});
+    const TetrahedralMesh made = must(builder.mesh(), {.box = unit_box});
+    CHECK(made.region_count == 2);
+    std::size_t on_fault = 0;
+    for (std::size_t i = 0; i < made.faces.size(); ++i) {
+        if (made.surfaces_of[i][0] != fault) continue;
+        ++on_fault;
+        CHECK(regions_at(made, made.faces[i]) == std::vector<std::uint32_t>{1, 1});
+    }
+    CHECK(on_fault == 2);
+}
+
+TEST_CASE("tetrahedra: the box alone", "[tetrahedra]") {
+    const TetrahedralMesh made = must(Mesh{}, {.box = unit_box});
+    CHECK(made.region_count == 1);
+    CHECK(made.vertices.size() == 8);
+    CHECK(region_volumes(made)[0] == Approx(27));
+    CHECK(must_fail(Mesh{}, {}).code == ErrorCode::nothing_to_do);
+}
+
+TEST_CASE("tetrahedra: unused vertices are left out", "[tetrahedra]") {
+    Mesh mesh = cube();
+    mesh.vertices.insert(mesh.vertices.begin(), {0.5, 0.5, 0.5});
+    for (Triangle& triangle : mesh.triangles)
+        for (std::uint32_t& v : triangle) ++v;
+    CHECK(must(mesh, {.box = unit_box}).vertices == must(cube(), {.box = unit_box}).vertices);
+}
+
+TEST_CASE("tetrahedra: lengths, volumes and shapes are honoured", "[tetrahedra]") {
+    const std::size_t coarse = must(cube(), {.box = unit_box}).tetrahedra.size();
+    const TetrahedralMesh by_volume = must(cube(), {.box = unit_box, .max_volume = 0.05});
+    for (std::size_t t = 0; t < by_volume.tetrahedra.size(); ++t)
+        CHECK(volume(by_volume, t) <= 0.05 * (1 + 1e-9));
+    const TetrahedralMesh by_length = must(cube(), {.box = unit_box, .edge_length = 0.5});
+    CHECK(by_length.tetrahedra.size() > coarse);
+    CHECK(must(cube(), {.box = unit_box, .radius_edge_ratio = 1.2}).tetrahedra.size() > coarse);
+    for (const TetrahedralMesh* made : {&by_volume, &by_length}) {
+        REQUIRE(made->region_count == 2);
+        CHECK(region_volumes(*made)[0] == Approx(26));
+        CHECK(region_volumes(*made)[1] == Approx(1));
+    }
+    const TetrahedralMesh sheet = must(uneven_sheet(4), {.edge_length = 0.1});
+    CHECK(sheet.faces.size() > 200);
+    CHECK(sheet.region_count == 1);
+}
+
+TEST_CASE("tetrahedra: the same input gives the same result", "[tetrahedra]") {
+    for (const std::optional<double>& length : {std::optional<double>(), std::optional(0.2)}) {
+        const TetrahedralMesh first = must(uneven_sheet(6), {.edge_length = length});
+        const TetrahedralMesh again = must(uneven_sheet(6), {.edge_length = length});
+        CHECK(first.vertices == again.vertices);
+        CHECK(first.tetrahedra == again.tetrahedra);
+        CHECK(first.region_of == again.region_of);
+        CHECK(first.faces == again.faces);
+    }
+}
+
+TEST_CASE("tetrahedra: scaling by a power of two commutes", "[tetrahedra]") {
+    const Mesh mesh = uneven_sheet(5);
+    const TetrahedralMesh plain = must(mesh, {.edge_length = 0.25});
+    for (const int exponent : {3, -20, 900, -900}) {
+        Mesh scaled = mesh;
+        for (Point3& p : scaled.vertices)
+            p = {std::ldexp(p.x, exponent), std::ldexp(p.y, exponent), std::ldexp(p.z, exponent)};
+        const TetrahedralMesh made = must(scaled, {.edge_length = std::ldexp(0.25, exponent)});
+        CHECK(made.tetrahedra == plain.tetrahedra);
+        CHECK(made.faces == plain.faces);
+        CHECK(made.vertices.back().x == std::ldexp(plain.vertices.back().x, exponent));
+    }
+}
+
+TEST_CASE("tetrahedra: improper meshes are refused with the place", "[tetrahedra]") {
+    MeshBuilder crossing;
+    const std::uint32_t s = crossing.surface("crossing");
+    crossing.triangle(s, {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+    crossing.triangle(s, {0.25, 0.25, -1}, {0.25, 0.25, 1}, {2, 2, 0});
+    MeshBuilder at_vertex; // share a vertex, and cross beyond it
+    at_vertex.surface("at vertex");
+    at_vertex.triangle(0, {0, 0, 0}, {4, 0, 0}, {0, 4, 0});
+    at_vertex.triangle(0, {0, 0, 0}, {1, 1, 1}, {1, 1, -1});
+    MeshBuilder folded;
+    folded.surface("folded");
+    folded.triangle(0, {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+    folded.triangle(0, {0, 0, 0}, {1, 0, 0}, {1, 1, 0});
+    MeshBuilder twice;
+    twice.surface("twice");
+    twice.triangle(0, {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+    twice.triangle(0, {1, 0, 0}, {0, 0, 0}, {0, 1, 0});
+    MeshBuilder tee; // a vertex on an edge
+    tee.surface("tee");
+    tee.triangle(0, {0, 0, 0}, {2, 0, 0}, {0, 2, 0});
+    tee.triangle(0, {1, 0, 0}, {2, -1, 0}, {0, -1, 0});
+    for (const MeshBuilder* bad : {&crossing, &at_vertex, &folded, &twice, &tee}) {
+        INFO(bad->mesh().surfaces[0].name);
+        const Error error = must_fail(bad->mesh(), {});
+        CHECK(error.code == ErrorCode::improper_contact);
+        CHECK(error.place == "triangle 0");
+        CHECK(error.sentence.find("triangle 1") != std::string::npos);
+    }
+    Mesh torn = rectangle(); // two vertices at one place
+    torn.vertices.push_back(torn.vertices[torn.triangles[1][0]]);
+    torn.triangles[1][0] = 4;
+    CHECK(must_fail(torn, {}).code == ErrorCode::improper_contact);
+    MeshBuilder flat;
+    flat.triangle(flat.surface("flat"), {0, 0, 0}, {1, 1, 1}, {2, 2, 2});
+    CHECK(must_fail(flat.mesh(), {}).code == ErrorCode::improper_contact);
+}
+
+TEST_CASE("tetrahedra: broken meshes are refused", "[tetrahedra]") {
+    Mesh index = rectangle();
+    index.triangles[1][2] = 99;
+    CHECK(must_fail(index, {}).code == ErrorCode::bad_index);
+    CHECK(must_fail(index, {}).place == "triangle 1");
+    Mesh number = rectangle();
+    number.vertices[0].y = nan_value;
+    CHECK(must_fail(number, {}).code == ErrorCode::bad_number);
+    Mesh lists = rectangle();
+    lists.surfaces_of = {};
+    CHECK(must_fail(lists, {}).code == ErrorCode::bad_index);
+    Mesh surface = rectangle();
+    surface.surfaces.clear();
+    CHECK(must_fail(surface, {}).code == ErrorCode::bad_index);
+}
+
+TEST_CASE("tetrahedra: each option that makes no sense is an error", "[tetrahedra]") {
+    const double infinity = std::numeric_limits<double>::infinity();
+    const TetrahedraOptions bad[] = {
+        {.box = Box3{{0, 0, -1}, {1, 1, 1}}},   // touches the mesh
+        {.box = Box3{{5, 5, 5}, {6, 6, 6}}},    // elsewhere
+        {.box = Box3{{2, 2, 2}, {-1, -1, -1}}}, // inside out
+        {.box = Box3{{-1, -1, nan_value}, {2, 2, 2}}},
+        {.margin = 0},
+        {.margin = -0.1},
+        {.margin = nan_value},
+        {.margin = infinity},
+        {.edge_length = 0.0},
+        {.edge_length = -1.0},
+        {.edge_length = nan_value},
+        {.edge_length = 1e-9}, // more tetrahedra than can be counted
+        {.radius_edge_ratio = 1.0},
+        {.radius_edge_ratio = nan_value},
+        {.max_volume = 0.0},
+        {.max_volume = infinity},
+        {.max_volume = 1e-30},
+        {.time_limit = 0},
+        {.time_limit = nan_value},
+    };
+    for (std::size_t i = 0; i < std::size(bad); ++i) {
+        INFO(i);
+        CHECK(must_fail(rectangle(), bad[i]).code == ErrorCode::bad_option);
+    }
+}
+
+TEST_CASE("tetrahedra: a margin lost in rounding is as wide as it can be told apart",
+          "[tetrahedra]") {
+    Mesh small = rectangle(); // as large as doubles are apart: a tenth of it is nothing
+    for (Point3& p : small.vertices) p = {2 + 0x1p-51 * p.x, 2 + 0x1p-51 * p.y, 2 + 0x1p-51 * p.z};
+    CHECK(std::max(small.vertices[2].x, small.vertices[1].x) > 2);
+    for (const auto& [mesh, margin] : {std::pair{small, 0.1}, std::pair{rectangle(), 1e-300}}) {
+        const auto made = tetrahedralize(mesh, {.margin = margin, .time_limit = 20}, {});
+        if (!made) CHECK(made.error().sentence.find("TetGen") != std::string::npos);
+        if (made) CHECK(made.value().vertices.size() == mesh.vertices.size() + 8);
+    }
+}
+
+TEST_CASE("tetrahedra: TetGen is given up when its time is over", "[tetrahedra]") {
+    CHECK(must_fail(rectangle(), {.time_limit = 1e-9}).code == ErrorCode::timed_out);
+}
+
+TEST_CASE("tetrahedra: where TetGen never ends, the work does", "[tetrahedra]") {
+    const auto surfaces =
+        read_surfaces(std::string(TERRANE_TEST_DATA) + "/regression/009-tetgen-never-ends.obj");
+    REQUIRE(surfaces);
+    const auto rounded = round_to_doubles(arrange(surfaces.value()).value()).value();
+    REQUIRE(rounded.report.clean);
+    const auto made = tetrahedralize(rounded.mesh, {.time_limit = 2}, {});
+    REQUIRE_FALSE(made); // all ways run out of time, or crash
+    CHECK(made.error().sentence.find("TetGen") == 0);
+}
+
+TEST_CASE("tetrahedra: a stop request ends the work, before and between steps", "[tetrahedra]") {
+    std::stop_source source;
+    Run run{.stop = source.get_token()};
+    run.progress = [&](std::string_view, double share) {
+        if (share > 0) source.request_stop();
+    };
+    const Error late = must_fail(cube(), {.box = unit_box, .edge_length = 0.05}, run);
+    CHECK(late.code == ErrorCode::interrupted);
+    run.progress = {};
+    CHECK(must_fail(cube(), {}, run).code == ErrorCode::interrupted);
+}
+
+TEST_CASE("tetrahedra: a stop request ends TetGen while it runs", "[tetrahedra]") {
+    std::stop_source source;
+    const auto start = std::chrono::steady_clock::now();
+    std::jthread later([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(200));
+        source.request_stop();
+    });
+    const Run run{.stop = source.get_token()};
+    // Tens of millions of tetrahedra: minutes, if nothing stopped it.
+    const Error error = must_fail(cube(), {.box = unit_box, .edge_length = 0.01}, run);
+    CHECK(error.code == ErrorCode::interrupted);
+    CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(20));
+}
+
+TEST_CASE("tetrahedra: calls from several threads do not disturb each other", "[tetrahedra]") {
+    const TetrahedralMesh alone = must(uneven_sheet(6), {.edge_length = 0.25});
+    std::vector<std::optional<TetrahedralMesh>> made(4);
+    {
+        std::vector<std::jthread> threads;
+        for (auto& slot : made)
+            threads.emplace_back([&slot] {
+                auto result = tetrahedralize(uneven_sheet(6), {.edge_length = 0.25}, Run{});
+                if (result) slot = std::move(result).value();
+            });
+    }
+    for (const auto& one : made) {
+        REQUIRE(one.has_value());
+        CHECK(one->vertices == alone.vertices);
+        CHECK(one->tetrahedra == alone.tetrahedra);
+    }
+}
+
+// The child has but one thread; a lock that another one held when it was forked stays locked in it.
+TEST_CASE("tetrahedra: other threads may allocate while TetGen is started", "[tetrahedra]") {
+    const auto allocate = [](const std::stop_token& stop) {
+        for (std::size_t round = 0; !stop.stop_requested(); ++round) {
+            std::vector<std::unique_ptr<char[]>> blocks;
+            for (std::size_t k = 0; k < 1000; ++k)
+                blocks.emplace_back(new char[1 + (k * 3701 + round * 11) % 20'000]);
+        }
+    };
+    const std::array<std::jthread, 2> busy{std::jthread(allocate), std::jthread(allocate)};
+    TetgenInput cube_of_points;
+    for (unsigned k = 0; k < 8; ++k)
+        cube_of_points.points.push_back({k & 1U ? 1.0 : 0, k & 2U ? 1.0 : 0, k & 4U ? 1.0 : 0});
+    for (const auto& face : std::array<std::array<std::uint32_t, 4>, 6>{
+             {{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}}})
+        cube_of_points.facets.push_back(face);
+    cube_of_points.max_volume = 0.001;
+    cube_of_points.keep_facets = false;
+    cube_of_points.time_limit = 60; // it takes milliseconds
+    for (int k = 0; k < 20; ++k) REQUIRE(run_tetgen(cube_of_points, {}));
+}
+
+TEST_CASE("tetrahedra: nothing is printed, also where TetGen would", "[tetrahedra]") {
+    // Steps of one part in 10^12: TetGen warns of angles and distances.
+    MeshBuilder builder;
+    const std::uint32_t s = builder.surface("thin");
+    builder.quad(s, {0, 0, 0}, {1, 0, 0}, {1, 1, 1e-12}, {0, 1, 0});
+    builder.quad(s, {0, 0, 1e-12}, {1, 0, 1e-12}, {1, 1, 2e-12}, {0, 1, 1e-12});
+    std::fflush(stdout);
+    const int kept = dup(STDOUT_FILENO);
+    std::FILE* file = std::tmpfile();
+    REQUIRE(file != nullptr);
+    dup2(fileno(file), STDOUT_FILENO);
+    const Result<TetrahedralMesh> result = tetrahedralize(builder.mesh(), {}, Run{});
+    std::fflush(stdout);
+    dup2(kept, STDOUT_FILENO);
+    close(kept);
+    CHECK(std::fseek(file, 0, SEEK_END) == 0);
+    CHECK(std::ftell(file) == 0);
+    std::fclose(file);
+    if (!result) CHECK(result.error().code == ErrorCode::unsupported);
+}
+
+TEST_CASE("tetrahedra: real models, arranged and rounded", "[tetrahedra]") {
+    struct Model {
+        std::vector<std::string> files;
+        std::uint32_t regions;
+    };
+    // The second one makes TetGen lose a face when it improves shapes.
+    const Model models[] = {{{"ringmesh/modelA1.ml"}, 5},
+                            {{"arch-platform/mnt.ts", "arch-platform/faults.ts"}, 5}};
+    for (const auto& [files, regions] : models) {
+        std::vector<Surface> surfaces;
+        for (const std::string& file : files) {
+            auto read = read_surfaces(std::string(TERRANE_TEST_DATA) + "/" + file);
+            REQUIRE(read.ok());
+            surfaces.insert(surfaces.end(), read.value().begin(), read.value().end());
+        }
+        const auto arrangement = arrange(surfaces);
+        REQUIRE(arrangement.ok());
+        const auto rounded = round_to_doubles(arrangement.value());
+        REQUIRE(rounded.ok());
+        REQUIRE(rounded.value().report.clean);
+        CHECK(must(rounded.value().mesh, {}).region_count == regions);
+    }
+}
+
+TEST_CASE("tetrahedra: progress goes from 0 to 1", "[tetrahedra]") {
+    std::vector<double> shares;
+    Run run;
+    run.progress = [&](std::string_view stage, double share) {
+        CHECK(stage == "tetrahedralize");
+        shares.push_back(share);
+    };
+    REQUIRE(tetrahedralize(cube(), {}, run).ok());
+    CHECK(shares.front() == 0);
+    CHECK(shares.back() == 1);
+    CHECK(std::is_sorted(shares.begin(), shares.end()));
+}
+
+TEST_CASE("tetrahedra: vertices of the mesh stay as they are, in what once failed too") {
+    std::size_t filled = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(TERRANE_TEST_DATA "/regression")) {
+        INFO(entry.path().filename().string());
+        const auto surfaces = read_surfaces(entry.path());
+        REQUIRE(surfaces);
+        const auto exact = arrange(surfaces.value());
+        REQUIRE(exact);
+        const auto rounded = round_to_doubles(exact.value());
+        REQUIRE(rounded);
+        const Mesh& mesh = rounded.value().mesh;
+        const auto made = tetrahedralize(mesh, {.time_limit = 2}, {});
+        if (!made) continue; // too thin for TetGen
+        ++filled;
+        CHECK(
+            std::equal(mesh.vertices.begin(), mesh.vertices.end(), made.value().vertices.begin()));
+    }
+    CHECK(filled > 0);
+}

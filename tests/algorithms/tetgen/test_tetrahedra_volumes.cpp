@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Tetrahedra against blocks: diffusion over tetrahedra and shells with lines must agree.
+#include <terrane/algorithms/tetrahedra/check_tetrahedra.hpp>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "support/points.hpp"
+#include "support/solids.hpp"
+#include <terrane/algorithms/mesh/diffusion.hpp>
+#include <terrane/algorithms/rounding/rounding.hpp>
+#include <terrane/algorithms/tetgen/tetrahedra.hpp>
+#include <terrane/io/files.hpp>
+
+using namespace terrane;
+using namespace test_support;
+
+namespace {
+
+Mesh mesh_of(const std::vector<Surface>& surfaces) {
+    const auto arrangement = arrange(surfaces);
+    REQUIRE(arrangement);
+    auto rounded = round_to_doubles(arrangement.value());
+    REQUIRE(rounded);
+    REQUIRE(rounded.value().report.clean);
+    return std::move(rounded.value().mesh);
+}
+
+struct Filled {
+    Mesh mesh;
+    Volumes volumes;
+    TetrahedralMesh tetrahedra;
+};
+
+Filled fill(const std::vector<Surface>& surfaces, const TetrahedraOptions& options = {}) {
+    Filled f;
+    f.mesh = mesh_of(surfaces);
+    auto volumes = find_volumes(f.mesh);
+    REQUIRE(volumes);
+    f.volumes = std::move(volumes).value();
+    auto made = tetrahedralize(f.mesh, options, {});
+    INFO((made ? std::string() : made.error().message()));
+    REQUIRE(made);
+    f.tetrahedra = std::move(made).value();
+    return f;
+}
+
+std::string all(const std::vector<std::string>& violations) {
+    std::string text;
+    for (const auto& v : violations) text += v + "\n";
+    return text;
+}
+
+/// Checks; says how many blocks have exactly the volume of their tetrahedra.
+std::size_t check_and_count_equal(const Filled& f) {
+    const auto report = check_tetrahedra(f.tetrahedra, f.mesh, f.volumes);
+    INFO(all(report.violations));
+    CHECK(report.violations.empty());
+    REQUIRE(report.volumes.size() == f.volumes.measures.size());
+    std::size_t equal = 0;
+    for (std::size_t v = 1; v < report.volumes.size(); ++v) {
+        CHECK(report.volumes[v].block == f.volumes.measures[v]);
+        CHECK((report.volumes[v].difference == 0) == report.volumes[v].equal);
+        equal += report.volumes[v].equal ? 1 : 0;
+    }
+    return equal;
+}
+
+const std::vector<Surface> faulted{box({0, 0, 0}, {8, 8, 8}, "box"), level(3, -1, -1, 9, 9, "base"),
+                                   level(5, -1, -1, 9, 9, "top"),
+                                   quad({2, -1, -1}, {2, 9, -1}, {5, 9, 9}, {5, -1, 9}, "F1"),
+                                   quad({6, 1, 1}, {6, 4, 1}, {6, 4, 7}, {6, 1, 7}, "tip")};
+
+} // namespace
+
+TEST_CASE("tetrahedra: regions are the blocks, with their numbers and exact volumes",
+          "[tetrahedra]") {
+    CHECK(check_and_count_equal(fill({cube(0, 4), cube(1, 2), box({2.5, 2, 2}, {3, 3, 3})})) == 3);
+    CHECK(check_and_count_equal(fill({cube(0, 2), cube(1, 3)})) == 3);
+    // These two make TetGen fail when it sorts the points.
+    CHECK(check_and_count_equal(fill({cube(0, 2), cube(1, 3), box({2, 0, 0}, {3, 1, 1})})) == 4);
+    CHECK(check_and_count_equal(fill({cube(0, 4), cube(1, 2), box({2, 2, 2}, {3, 3, 3})})) == 3);
+    CHECK(check_and_count_equal(fill({torus({0, 0, 0}, 4, 1, 8), torus({4, 0, 0}, 4, 1, 8, 1)})) ==
+          2);
+    const Filled f = fill(faulted);
+    CHECK(f.volumes.block_count() == 6);
+    CHECK(check_and_count_equal(f) == 6);
+}
+
+TEST_CASE("tetrahedra: with added vertices volumes stay within the bound", "[tetrahedra]") {
+    const Filled f = fill(faulted, {.edge_length = 1.7});
+    CHECK(f.tetrahedra.tetrahedra.size() > 500);
+    check_and_count_equal(f);
+    const auto report = check_tetrahedra(f.tetrahedra, f.mesh, f.volumes);
+    for (const RegionVolume& v : report.volumes) CHECK(v.bound < 1e-11);
+}
+
+TEST_CASE("tetrahedra: random models, two methods agree", "[tetrahedra]") {
+    Random random(21);
+    std::size_t blocks = 0;
+    for (int i = 0; i < 25; ++i) {
+        std::vector<Surface> model;
+        const auto number = [&] { return double(random_int(random, -8, 8)); };
+        for (int k = random_int(random, 1, 3); k > 0; --k)
+            model.push_back(tetrahedron(point_of(number), point_of(number), point_of(number),
+                                        point_of(number)));
+        model.push_back(octahedron(point_of(number), 5));
+        model.push_back(level(number(), -9, -9, 9, 9));
+        const Mesh mesh = mesh_of(model);
+        const auto volumes = find_volumes(mesh);
+        REQUIRE(volumes);
+        auto made = tetrahedralize(mesh, {}, {});
+        if (!made) { // TetGen may find surfaces too close
+            CHECK(made.error().code == ErrorCode::unsupported);
+            continue;
+        }
+        const Filled f{mesh, volumes.value(), std::move(made).value()};
+        check_and_count_equal(f);
+        blocks += f.volumes.block_count();
+    }
+    CHECK(blocks > 60);
+}
+
+TEST_CASE("tetrahedra: real models, two methods agree", "[tetrahedra]") {
+    for (const std::string name : {"modelA1", "modelA2"}) {
+        const auto surfaces =
+            read_surfaces(std::string(TERRANE_TEST_DATA) + "/ringmesh/" + name + ".ml");
+        REQUIRE(surfaces);
+        const Filled f = fill(surfaces.value());
+        CHECK(f.volumes.block_count() == (name == "modelA1" ? 4 : 12));
+        check_and_count_equal(f);
+    }
+}
+
+TEST_CASE("check_tetrahedra: each kind of damage is found", "[tetrahedra]") {
+    const Filled good = fill(faulted);
+    const auto damage = [&](auto&& change) {
+        Filled f = good;
+        change(f);
+        const auto report = check_tetrahedra(f.tetrahedra, f.mesh, f.volumes);
+        return all(report.violations);
+    };
+    const auto contains = [](const std::string& text, const std::string& part) {
+        return text.find(part) != std::string::npos;
+    };
+    CHECK(damage([](Filled&) {}).empty());
+    CHECK(contains(damage([](Filled& f) {
+                       std::swap(f.tetrahedra.tetrahedra[3][0], f.tetrahedra.tetrahedra[3][1]);
+                   }),
+                   "tetrahedron 3 is inverted"));
+    CHECK(contains(damage([](Filled& f) { f.tetrahedra.face_triangle[5] = 6; }),
+                   "is no union of faces"));
+    CHECK(contains(damage([](Filled& f) {
+                       auto& region = f.tetrahedra.region_of;
+                       *std::find(region.begin(), region.end(), 2U) = 3;
+                   }),
+                   "which diffusion does not confirm"));
+    CHECK(contains(damage([](Filled& f) {
+                       for (std::uint32_t& r : f.tetrahedra.region_of)
+                           r = r == 1 ? 2 : r == 2 ? 1 : r;
+                   }),
+                   "where volume"));
+    CHECK(contains(damage([](Filled& f) { // a hole in a block
+                       auto& region = f.tetrahedra.region_of;
+                       const auto at = std::find(region.begin(), region.end(), 1U);
+                       auto& tetrahedra = f.tetrahedra.tetrahedra;
+                       tetrahedra.erase(tetrahedra.begin() + (at - region.begin()));
+                       region.erase(at);
+                   }),
+                   "its tetrahedra"));
+    CHECK(contains(damage([](Filled& f) {
+                       for (auto& sides : f.volumes.of_sides)
+                           for (std::uint32_t& v : sides) v = v == 2 ? 1 : v;
+                   }),
+                   "where volume"));
+}
+
+TEST_CASE("adopt_volume_numbers: disagreement is an error with a place", "[tetrahedra]") {
+    const Filled good = fill(faulted);
+    Volumes merged = good.volumes;
+    for (auto& sides : merged.of_sides)
+        for (std::uint32_t& v : sides) v = v == 2 ? 1 : v;
+    TetrahedralMesh tetrahedra = good.tetrahedra;
+    const auto status = adopt_volume_numbers(merged, tetrahedra);
+    REQUIRE_FALSE(status);
+    CHECK(status.error().code == ErrorCode::internal);
+    CHECK(status.error().place.find("triangle ") == 0);
+    Volumes none;
+    none.of_sides.assign(good.mesh.triangles.size(), {0, 0});
+    CHECK_FALSE(adopt_volume_numbers(none, tetrahedra));
+    CHECK(adopt_volume_numbers(good.volumes, tetrahedra));
+    CHECK(tetrahedra.region_of == good.tetrahedra.region_of);
+}

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Distances and coverage, the parts of the verifier that judge moved triangles.
+#include <terrane/algorithms/verify/detail/coverage.hpp>
+#include <terrane/algorithms/verify/detail/distance.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <random>
+#include <vector>
+
+namespace {
+
+using namespace terrane;
+using namespace terrane::verifier;
+
+Vector4 point(int x, int y, int z, int w = 1) {
+    return {x, y, z, w};
+}
+
+/// The parent (0,0) (12,0) (0,12) in z = 0, and its children by their corners.
+bool covered(const std::vector<Vector4>& points, const std::vector<Triangle>& children,
+             int collar) {
+    const Vector4 a = point(0, 0, 0), b = point(12, 0, 0), c = point(0, 12, 0);
+    return Coverage({&a, &b, &c}, points, collar).holds(children);
+}
+
+} // namespace
+
+TEST_CASE("verifier: distance of points, with denominators") {
+    CHECK(within(point(0, 0, 0), point(3, 4, 0), 5));
+    CHECK_FALSE(within(point(0, 0, 0), point(3, 4, 1), 5));
+    CHECK(within(point(1, 0, 0, 2), point(1, 0, 0, 3), 1));
+    CHECK_FALSE(within(point(1, 0, 0, 2), point(1, 0, 0, 3), 0));
+}
+
+TEST_CASE("verifier: distance to a segment: beyond its ends, beside it, in fractions") {
+    const Vector4 a = point(0, 0, 0), b = point(10, 0, 0);
+    CHECK(within_of_segment(point(-3, 4, 0), a, b, 5));
+    CHECK_FALSE(within_of_segment(point(-3, 4, 1), a, b, 5));
+    CHECK(within_of_segment(point(13, 0, 4), a, b, 5));
+    CHECK(within_of_segment(point(4, 3, 4), a, b, 5));
+    CHECK_FALSE(within_of_segment(point(4, 3, 5), a, b, 5));
+    CHECK(within_of_segment(point(9, 10, 0, 2), a, b, 5));
+    CHECK_FALSE(within_of_segment(point(9, 11, 0, 2), a, b, 5));
+}
+
+TEST_CASE("verifier: distance to a triangle, compared with a fine grid of its points") {
+    std::mt19937 random(5);
+    std::uniform_int_distribution<int> coordinate(-20, 20);
+    const auto draw = [&] {
+        return point(coordinate(random), coordinate(random), coordinate(random));
+    };
+    for (int i = 0; i < 300; ++i) {
+        const Vector4 a = draw(), b = draw(), c = draw(), p = draw();
+        const auto normal = cross(difference(b, a), difference(c, a));
+        if (sgn(dot(normal, normal)) == 0) continue;
+        double nearest = 1e9;
+        constexpr int n = 60;
+        for (int u = 0; u <= n; ++u)
+            for (int v = 0; u + v <= n; ++v) {
+                double squared = 0;
+                for (std::size_t k = 0; k < 3; ++k) {
+                    const double at =
+                        (u * a[k].get_d() + v * b[k].get_d() + (n - u - v) * c[k].get_d()) / n;
+                    squared += (at - p[k].get_d()) * (at - p[k].get_d());
+                }
+                nearest = std::min(nearest, std::sqrt(squared));
+            }
+        CHECK(within(p, {&a, &b, &c}, mpz_class(std::ceil(nearest))));
+        const double below = std::floor(nearest - 1.2); // a point of the grid is within 1.2
+        if (below >= 0) CHECK_FALSE(within(p, {&a, &b, &c}, mpz_class(below)));
+    }
+}
+
+TEST_CASE("verifier: coverage of a triangle by itself, and by three around a point") {
+    const std::vector<Vector4> points{point(0, 0, 0), point(12, 0, 0), point(0, 12, 0),
+                                      point(3, 3, 0)};
+    CHECK(covered(points, {{0, 1, 2}}, 0));
+    CHECK(covered(points, {{0, 2, 1}}, 0));
+    CHECK(covered(points, {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}}, 0));
+    CHECK_FALSE(covered(points, {{0, 1, 3}, {1, 2, 3}}, 0));
+    CHECK_FALSE(covered(points, {{0, 1, 3}, {1, 2, 3}}, 1));
+    CHECK_FALSE(covered(points, {}, 0));
+    CHECK(covered(points, {{0, 1, 3}}, 4)); // all of the parent is in the collar
+}
+
+TEST_CASE("verifier: coverage by children that moved") {
+    const std::vector<Vector4> lifted{point(0, 1, 1), point(12, -1, 0), point(0, 12, -1),
+                                      point(3, 3, 1)};
+    CHECK(covered(lifted, {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}}, 2));
+    CHECK_FALSE(covered(lifted, {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}}, 0));
+}
+
+TEST_CASE("verifier: coverage with a fold, that others cover") {
+    // 3 was pulled over the edge from 1 to 4: the child 1 3 4 is turned over.
+    const std::vector<Vector4> points{point(0, 0, 0), point(12, 0, 0), point(0, 12, 0),
+                                      point(4, 2, 0), point(3, 4, 0)};
+    CHECK(covered(points, {{0, 1, 3}, {1, 4, 3}, {0, 3, 4}, {1, 2, 4}, {2, 0, 4}}, 0));
+    const std::vector<Vector4> folded{point(0, 0, 0), point(12, 0, 0), point(0, 12, 0),
+                                      point(4, 5, 0), point(3, 4, 0)};
+    CHECK(covered(folded, {{0, 1, 3}, {1, 4, 3}, {0, 3, 4}, {1, 2, 4}, {2, 0, 4}}, 0));
+    CHECK_FALSE(covered(folded, {{1, 4, 3}, {0, 3, 4}, {1, 2, 4}, {2, 0, 4}}, 0));
+}
+
+TEST_CASE("verifier: coverage is not fooled by two sheets with a hole between them") {
+    // Children on both sides of the middle line, each with a border there.
+    const std::vector<Vector4> points{point(0, 0, 0), point(12, 0, 0), point(0, 12, 0),
+                                      point(5, 0, 0), point(7, 0, 0),  point(0, 5, 0),
+                                      point(0, 7, 0)};
+    CHECK_FALSE(covered(points, {{0, 3, 5}, {4, 1, 2}, {4, 2, 6}}, 0));
+    CHECK(covered(points, {{0, 3, 5}, {3, 4, 6}, {3, 6, 5}, {4, 1, 2}, {4, 2, 6}}, 0));
+}

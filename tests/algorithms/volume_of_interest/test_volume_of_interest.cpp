@@ -1,0 +1,510 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Laws of the cut, judged by rationals that share no code with it.
+#include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+#include <gmpxx.h>
+
+#include "support/certified_inputs.hpp"
+#include "support/effort.hpp"
+#include "support/points.hpp"
+#include "support/solids.hpp"
+#include <terrane/algorithms/arrangement/restricted.hpp>
+#include <terrane/algorithms/check/check.hpp>
+#include <terrane/algorithms/rounding/rounding.hpp>
+#include <terrane/algorithms/volumes/volumes.hpp>
+#include <terrane/kernel/fraction.hpp>
+
+using namespace terrane;
+using namespace test_support;
+
+namespace {
+
+using Spot = std::array<mpq_class, 3>;
+
+std::vector<Spot> spots_of(const Arrangement& a) {
+    std::vector<Spot> spots;
+    for (const PointIndex v : a.vertices) {
+        const auto text = fractions(a.points, v, 10);
+        spots.push_back({mpq_class(text[0]), mpq_class(text[1]), mpq_class(text[2])});
+    }
+    return spots;
+}
+
+/// Twice the area of a triangle's projections, by rationals.
+Spot normal_of(const Spot& a, const Spot& b, const Spot& c) {
+    Spot n;
+    for (unsigned k = 0; k < 3; ++k) {
+        const unsigned u = (k + 1) % 3, v = (k + 2) % 3;
+        n[k] = (b[u] - a[u]) * (c[v] - a[v]) - (b[v] - a[v]) * (c[u] - a[u]);
+    }
+    return n;
+}
+
+/// An arrangement of surfaces and a boundary, and what the cut makes of it.
+struct Case {
+    std::vector<Surface> surfaces; ///< the boundary's last
+    std::vector<std::uint32_t> boundary;
+    Arrangement whole;
+    VolumeOfInterest cut;
+    std::vector<Where> where; ///< of the whole
+};
+
+Case cut(std::vector<Surface> surfaces, const std::vector<Surface>& boundary) {
+    Case c;
+    for (const Surface& s : boundary) {
+        c.boundary.push_back(static_cast<std::uint32_t>(surfaces.size()));
+        surfaces.push_back(s);
+    }
+    c.surfaces = std::move(surfaces);
+    auto whole = arrange(c.surfaces);
+    REQUIRE(whole);
+    c.whole = whole.value();
+    auto where = locate(c.whole, c.boundary);
+    INFO((where ? std::string() : where.error().message()));
+    REQUIRE(where);
+    c.where = std::move(where).value();
+    auto made = cut_to_volume(std::move(whole).value(), c.boundary);
+    REQUIRE(made);
+    c.cut = std::move(made).value();
+    return c;
+}
+
+/// What arrange would have found, had it been given nothing else.
+void check_consistent(const Arrangement& a) {
+    REQUIRE(a.parents_of.size() == a.triangles.size());
+    REQUIRE(a.surfaces_of.size() == a.triangles.size());
+    REQUIRE(a.patches.of.size() == a.triangles.size());
+    std::vector<bool> used(a.vertices.size(), false);
+    for (const Triangle& t : a.triangles)
+        for (const std::uint32_t v : t) used.at(v) = true;
+    CHECK(std::find(used.begin(), used.end(), false) == used.end());
+    CHECK(a.surfaces_of == surfaces_of_parents(a.inputs, a.parents_of));
+    const Adjacency by_surface = adjacency_of(group_edges(a.triangles, a.vertices.size()),
+                                              labels_of(a.surfaces_of, a.parents_of));
+    CHECK(a.intersection_edges == find_intersection_edges(by_surface, a.inputs, a.parents_of));
+    std::size_t inner = 0;
+    for (const auto& list : a.adjacency.inner) inner += list.size();
+    std::size_t sides = 2 * inner;
+    for (std::size_t e = 0; e < a.adjacency.edges.size(); ++e)
+        sides += a.adjacency.triangles_at[e].size();
+    CHECK(sides == 3 * a.triangles.size());
+}
+
+/// The doubles of what is left are a conforming mesh with the same blocks.
+std::vector<mpq_class> volumes_of(const Arrangement& a) {
+    const auto volumes = find_volumes(a);
+    REQUIRE(volumes);
+    std::vector<mpq_class> exact;
+    for (const auto& text : exact_volumes(a, volumes.value())) exact.emplace_back(text);
+    mpq_class sum;
+    for (std::size_t v = 1; v < exact.size(); ++v) sum += exact[v];
+    CHECK(sum == exact[0]);
+    return exact;
+}
+
+mpq_class volume_of(const std::vector<Surface>& boundary) {
+    mpq_class six;
+    const auto spot = [](const Point3& p) { return Spot{p.x, p.y, p.z}; };
+    for (const Surface& s : boundary)
+        for (const Triangle& t : s.triangles) {
+            const Spot a = spot(s.vertices[t[0]]), b = spot(s.vertices[t[1]]),
+                       c = spot(s.vertices[t[2]]), n = normal_of({0, 0, 0}, b, c);
+            six += a[0] * n[0] + a[1] * n[1] + a[2] * n[2];
+        }
+    return six / 6;
+}
+
+std::vector<Surface> box_of(const Point3& low, const Point3& high) {
+    auto made = box_boundary(low, high);
+    REQUIRE(made);
+    return std::move(made).value();
+}
+
+/// Where a point lies in a box: by rationals.
+Where place_in_box(const Spot& p, const Point3& low, const Point3& high) {
+    const std::array<double, 3> l{low.x, low.y, low.z}, h{high.x, high.y, high.z};
+    bool on = false;
+    for (unsigned k = 0; k < 3; ++k) {
+        if (p[k] < l[k] || p[k] > h[k]) return Where::outside;
+        on = on || p[k] == l[k] || p[k] == h[k];
+    }
+    return on ? Where::boundary : Where::inside;
+}
+
+Surface soup_of(Random& random, Family family, std::size_t triangles) {
+    Surface s{"soup", Role::unknown, points_of(random, family, 3 * triangles), {}};
+    for (std::uint32_t t = 0; t < triangles; ++t)
+        s.triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+    return s;
+}
+
+/// Each triangle of the whole lies where an independent test of its centroid says, and the pieces
+/// of each input triangle add up to it: inside, outside and on the boundary.
+void check_against_box(const Case& c, const Point3& low, const Point3& high) {
+    const auto spots = spots_of(c.whole);
+    std::vector<Spot> sums(c.whole.inputs.corners.size());
+    for (std::size_t t = 0; t < c.whole.triangles.size(); ++t) {
+        const auto [i, j, k] = c.whole.triangles[t];
+        Spot centre;
+        for (unsigned d = 0; d < 3; ++d) centre[d] = (spots[i][d] + spots[j][d] + spots[k][d]) / 3;
+        REQUIRE(c.where[t] == place_in_box(centre, low, high));
+        const Spot n = normal_of(spots[i], spots[j], spots[k]);
+        for (const std::uint32_t p : c.whole.parents_of[t])
+            for (unsigned d = 0; d < 3; ++d) sums[p][d] += abs(n[d]);
+    }
+    std::size_t kept = 0;
+    for (const Where w : c.where) kept += w != Where::outside ? 1U : 0U;
+    CHECK(c.cut.arrangement.triangles.size() == kept);
+}
+
+} // namespace
+
+TEST_CASE("volume of interest: makers give closed bodies wound outward", "[voi]") {
+    const std::vector<Point2> star{{0, 0}, {4, 1}, {8, 0}, {7, 4}, {8, 8}, {4, 7}, {0, 8}, {1, 4}};
+    std::vector<Point2> clockwise(star.rbegin(), star.rend());
+    clockwise.push_back(clockwise.front());
+    const auto counter = polygon_boundary(star, 5, -5), same = polygon_boundary(clockwise, -5, 5);
+    REQUIRE(counter);
+    REQUIRE(same);
+    mpq_class area; // by the shoelace formula
+    for (std::size_t i = 0; i < star.size(); ++i) {
+        const Point2 &p = star[i], &q = star[(i + 1) % star.size()];
+        area += mpq_class(p[0]) * q[1] - mpq_class(p[1]) * q[0];
+    }
+    CHECK(volume_of(counter.value()) == area / 2 * 10);
+    CHECK(volume_of(same.value()) == area / 2 * 10);
+    REQUIRE(counter.value().size() == 10);
+    CHECK(counter.value()[0].name == "boundary top");
+    CHECK(counter.value()[1].name == "boundary bottom");
+    CHECK(counter.value()[9].name == "boundary side 8");
+    for (const Surface& s : counter.value()) CHECK(s.role == Role::boundary);
+    CHECK(volume_of(box_of({-1, 2, 3}, {4, 6, 5})) == 40);
+}
+
+TEST_CASE("volume of interest: polygons with many corners and corners in line", "[voi]") {
+    Random random(5);
+    for (int round = 0; round < 20; ++round) {
+        // a star-shaped polygon round 0: simple, whatever the radii
+        std::vector<Point2> ring;
+        const int n = random_int(random, 3, 60);
+        for (int i = 0; i < n; ++i) {
+            const double a = 2 * std::acos(-1.0) * i / n, r = random_real(random, 1, 20);
+            const Point2 p{4e5 + r * std::cos(a), 4e6 + r * std::sin(a)};
+            ring.push_back(p);
+        }
+        const auto made = polygon_boundary(ring, -1, 1);
+        REQUIRE(made);
+        mpq_class area;
+        for (std::size_t i = 0; i < ring.size(); ++i) {
+            const Point2 &p = ring[i], &q = ring[(i + 1) % ring.size()];
+            area += mpq_class(p[0]) * q[1] - mpq_class(p[1]) * q[0];
+        }
+        CHECK(volume_of(made.value()) == area);
+        CHECK(made.value().size() == (n > 12 ? 3 : 2 + static_cast<std::size_t>(n)));
+        CHECK(made.value()[0].triangles.size() == ring.size() - 2);
+    }
+    const std::vector<Point2> in_line{{0, 0}, {1, 0}, {2, 0}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
+    const auto made = polygon_boundary(in_line, 0, 1);
+    REQUIRE(made);
+    CHECK(volume_of(made.value()) == 4);
+}
+
+TEST_CASE("volume of interest: rotated boxes", "[voi]") {
+    RotatedBox box;
+    box.place = {10, 20, 30};
+    box.lengths = {2, 4, 6};
+    const auto bounds = [](const std::vector<Surface>& surfaces) {
+        Point3 low = surfaces[0].vertices[0], high = low;
+        for (const Surface& s : surfaces)
+            for (const Point3& p : s.vertices) {
+                low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+                high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+            }
+        return std::array{low, high};
+    };
+    CHECK(bounds(rotated_box_boundary(box).value()) ==
+          std::array{Point3{9, 18, 27}, Point3{11, 22, 33}});
+    box.azimuth = 90; // the edges along point east
+    CHECK(bounds(rotated_box_boundary(box).value()) ==
+          std::array{Point3{8, 19, 27}, Point3{12, 21, 33}});
+    box.is_corner = true;
+    CHECK(bounds(rotated_box_boundary(box).value()) ==
+          std::array{Point3{10, 18, 30}, Point3{14, 20, 36}});
+    box.azimuth = 0;
+    box.plunge = 90; // the edges along point down, those up to the north
+    CHECK(bounds(rotated_box_boundary(box).value()) ==
+          std::array{Point3{10, 20, 26}, Point3{12, 26, 30}});
+    box.plunge = 0;
+    box.roll = 90; // the edges across point down, those up to the east
+    CHECK(bounds(rotated_box_boundary(box).value()) ==
+          std::array{Point3{10, 20, 28}, Point3{16, 24, 30}});
+    Random random(3);
+    for (int round = 0; round < 50; ++round) {
+        box.azimuth = random_real(random, -400, 400);
+        box.plunge = random_real(random, -90, 90);
+        box.roll = random_real(random, -180, 180);
+        const auto made = rotated_box_boundary(box);
+        REQUIRE(made);
+        CHECK(volume_of(made.value()).get_d() == Approx(48).epsilon(1e-12));
+    }
+}
+
+TEST_CASE("volume of interest: boundaries that are none are refused", "[voi]") {
+    using Ring = std::vector<Point2>;
+    const auto polygon = [](const Ring& ring) { return polygon_boundary(ring, 0, 1).error(); };
+    const Error crossed = polygon({{0, 0}, {2, 2}, {2, 0}, {0, 2}});
+    CHECK(crossed.code == ErrorCode::improper_contact);
+    CHECK(crossed.sentence == "the polygon meets itself: edge 1 from (0, 0) to (2, 2) and edge 3 "
+                              "from (2, 0) to (0, 2)");
+    CHECK(polygon({{0, 0}, {4, 0}, {4, 4}, {2, 0}, {0, 4}}).code == ErrorCode::improper_contact);
+    CHECK(polygon({{0, 0}, {4, 0}, {2, 0}, {2, 2}}).code == ErrorCode::improper_contact);
+    CHECK(polygon({{0, 0}, {1, 0}, {1, 0}, {0, 1}}).code == ErrorCode::improper_contact);
+    CHECK(polygon({{0, 0}, {2, 0}, {4, 0}}).code == ErrorCode::improper_contact);
+    CHECK(polygon({{0, 0}, {1, 1}, {0, 0}}).code == ErrorCode::bad_option);
+    CHECK(polygon({{0, 0}, {1, NAN}, {0, 1}}).code == ErrorCode::bad_number);
+    CHECK(polygon({{-1e308, 0}, {1e308, 0}, {0, 1e308}}).code == ErrorCode::bad_number);
+    CHECK(polygon_boundary(Ring{{0, 0}, {1, 0}, {0, 1}}, 2, 2).error().code ==
+          ErrorCode::bad_option);
+    CHECK(box_boundary({0, 0, 0}, {1, 0, 1}).error().code == ErrorCode::bad_option);
+    CHECK(box_boundary({0, 0, 0}, {1, HUGE_VAL, 1}).error().code == ErrorCode::bad_number);
+    RotatedBox thin;
+    CHECK(rotated_box_boundary(thin).error().code == ErrorCode::bad_option);
+    thin = {{1e6, 1e6, 1e6}, false, {1e-11, 1, 1}, 30, 20, 10};
+    CHECK_FALSE(rotated_box_boundary(thin));
+
+    Surface open = cube(0, 1);
+    open.triangles.pop_back();
+    const Error hole = closed_boundary(std::vector{open}).error();
+    CHECK(hole.code == ErrorCode::not_closed);
+    CHECK(hole.place == "(0, 1, 0)"); // a corner of the triangle that is gone
+    CHECK(closed_boundary(std::vector{cube(0, 2), cube(1, 3)}).error().code ==
+          ErrorCode::improper_contact);
+    CHECK(closed_boundary(std::vector{cube(0, 2), cube(0, 2)}).error().code ==
+          ErrorCode::improper_contact);
+    CHECK(closed_boundary(std::vector<Surface>{}).error().code == ErrorCode::nothing_to_do);
+
+    // open, and given as the boundary all the same
+    const std::vector<Surface> sheet{level(0, 0, 0, 1, 1)};
+    const auto a = arrange(sheet);
+    const std::vector<std::uint32_t> all{0};
+    CHECK(locate(a.value(), all).error().code == ErrorCode::not_closed);
+}
+
+TEST_CASE("restricted: everything kept is the same, nothing kept is nothing", "[voi]") {
+    const auto a = arrange(std::vector{cube(0, 4), level(2, -1, -1, 5, 5)}).value();
+    const Arrangement same = restricted(a, std::vector<bool>(a.triangles.size(), true));
+    CHECK(same.triangles == a.triangles);
+    CHECK(same.whole);
+    const Arrangement none = restricted(a, std::vector<bool>(a.triangles.size(), false));
+    CHECK(none.triangles.empty());
+    CHECK(none.vertices.empty());
+    CHECK_FALSE(none.whole);
+    check_consistent(none);
+    CHECK(find_volumes(none).value().block_count() == 0);
+}
+
+TEST_CASE("restricted: a mask of the parts of one surface leaves the other ones' arrangement",
+          "[voi]") {
+    // The level is cut by the cube; without the cube its pieces are one region again.
+    const auto a = arrange(std::vector{cube(0, 4), level(2, -1, -1, 5, 5)}).value();
+    std::vector<bool> keep(a.triangles.size());
+    for (std::size_t t = 0; t < keep.size(); ++t) keep[t] = a.surfaces_of[t][0] == 1;
+    const Arrangement level_alone = restricted(a, keep);
+    check_consistent(level_alone);
+    CHECK(level_alone.intersection_edges.empty());
+    const auto rounded = round_to_doubles(level_alone);
+    REQUIRE(rounded);
+    CHECK(rounded.value().report.clean);
+    CHECK(rounded.value().regions.size() == 1);
+    CHECK(rounded.value().regions[0].area == Approx(36));
+}
+
+TEST_CASE("volume of interest: horizons and a fault in a box", "[voi]") {
+    const std::vector<Surface> model{level(3, -1, -1, 9, 9, "base"), level(5, -1, -1, 9, 9, "top"),
+                                     quad({4, -1, -1}, {4, 9, -1}, {4, 9, 9}, {4, -1, 9}, "F1")};
+    const auto c = cut(model, box_of({0, 0, 0}, {8, 8, 8}));
+    check_consistent(c.cut.arrangement);
+    const auto volumes = volumes_of(c.cut.arrangement);
+    REQUIRE(volumes.size() == 7); // three layers on each side of the fault
+    CHECK(volumes[0] == 512);
+    CHECK(c.cut.report.borders.empty());
+    for (std::size_t s = 0; s < 3; ++s) {
+        CHECK(c.cut.report.surfaces[s].area_inside == Approx(64));
+        CHECK(c.cut.report.surfaces[s].area_outside == Approx(36));
+        CHECK(c.cut.report.surfaces[s].pieces == 1);
+    }
+    const auto rounded = round_to_doubles(c.cut.arrangement);
+    REQUIRE(rounded);
+    CHECK(rounded.value().report.clean);
+    CHECK(find_volumes(rounded.value().mesh).value().measures[0] == 512);
+}
+
+TEST_CASE("volume of interest: what lies in the boundary, touches it and ends inside", "[voi]") {
+    const std::vector<Surface> model{
+        level(8, 2, 2, 6, 10, "in the top face, and beyond"),
+        level(4, 0, 2, 4, 6, "border on a side"), level(6, 3, 3, 5, 5, "inside"),
+        quad({8, 8, 0}, {8, 8, 8}, {12, 12, 8}, {12, 12, 0}, "outside, on a vertical edge"),
+        level(20, 0, 0, 1, 1, "far away")};
+    const auto c = cut(model, box_of({0, 0, 0}, {8, 8, 8}));
+    check_consistent(c.cut.arrangement);
+    const auto& s = c.cut.report.surfaces;
+    CHECK(s[0].area_on_boundary == Approx(24));
+    CHECK(s[0].area_outside == Approx(8));
+    CHECK(s[0].area_inside == 0);
+    CHECK(s[1].area_inside == Approx(16));
+    CHECK(s[1].open_length == Approx(12)); // three of its four edges
+    CHECK(s[2].open_length == Approx(8));
+    CHECK(s[2].open_borders == 1);
+    CHECK(s[3].area_outside == Approx(8 * std::sqrt(32)));
+    CHECK(s[3].pieces == 0);
+    CHECK(s[4].pieces == 0);
+    REQUIRE(c.cut.report.borders.size() == 2);
+    CHECK(c.cut.report.borders[0].place == Point3{0, 2, 4});
+    CHECK(c.cut.report.borders[1].place == Point3{3, 3, 6});
+    CHECK(volumes_of(c.cut.arrangement) == std::vector<mpq_class>{512, 512});
+    CHECK(round_to_doubles(c.cut.arrangement).value().report.clean);
+}
+
+TEST_CASE("volume of interest: all inside leaves all as it is", "[voi]") {
+    const auto c =
+        cut({level(3, 1, 1, 7, 7), octahedron({4, 4, 4}, 2)}, box_of({0, 0, 0}, {8, 8, 8}));
+    CHECK(c.cut.arrangement.triangles == c.whole.triangles);
+    CHECK(c.cut.arrangement.vertices == c.whole.vertices);
+    CHECK(c.cut.arrangement.parents_of == c.whole.parents_of);
+    CHECK(c.cut.arrangement.intersection_edges == c.whole.intersection_edges);
+}
+
+TEST_CASE("volume of interest: a cavity is outside, bodies that touch are inside", "[voi]") {
+    const auto nested = closed_boundary(std::vector{cube(0, 8), cube(2, 6)});
+    REQUIRE(nested);
+    const auto c = cut({level(4, -1, -1, 9, 9)}, nested.value());
+    CHECK(c.cut.report.surfaces[0].area_inside == Approx(48));
+    CHECK(c.cut.report.surfaces[0].area_outside == Approx(52));
+    const auto edge = closed_boundary(
+        std::vector{box({0, 0, 0}, {4, 4, 4}), box({4, 4, 0}, {8, 8, 4})}); // share an edge
+    REQUIRE(edge);
+    const auto two = cut({level(2, -1, -1, 9, 9)}, edge.value());
+    CHECK(two.cut.report.surfaces[0].area_inside == Approx(32));
+    CHECK(volumes_of(two.cut.arrangement)[0] == 128);
+}
+
+TEST_CASE("volume of interest: closed surfaces of any shape", "[voi]") {
+    const std::vector<Surface> bodies{torus({0, 0, 0}, 4, 1.5, 9), octahedron({0, 0, 0}, 5),
+                                      torus({0, 0, 0}, 4, 1, 12, 0)};
+    for (const Surface& body : bodies) {
+        const auto boundary = closed_boundary(std::vector{body});
+        REQUIRE(boundary);
+        const auto c = cut({level(0, -9, -9, 9, 9, "level"), level(0.5, -9, 0, 9, 9, "half"),
+                            quad({0, -9, -9}, {0, 9, -9}, {0, 9, 9}, {0, -9, 9}, "fault")},
+                           boundary.value());
+        check_consistent(c.cut.arrangement);
+        const auto volumes = volumes_of(c.cut.arrangement);
+        CHECK(volumes[0] == abs(volume_of(boundary.value())));
+        for (std::size_t s = 0; s < 3; ++s) {
+            const SurfaceCut& r = c.cut.report.surfaces[s];
+            CHECK(r.area_inside + r.area_outside + r.area_on_boundary ==
+                  Approx(s == 1 ? 162 : 324));
+        }
+        CHECK(round_to_doubles(c.cut.arrangement).value().report.clean);
+    }
+}
+
+TEST_CASE("volume of interest: random triangles in a box, judged by rationals", "[voi]") {
+    Random random(11);
+    const std::array families{Family::lattice, Family::uniform, Family::decimals};
+    for (int round = 0; round < cases(90); ++round) {
+        const Family family = families[static_cast<std::size_t>(round) % families.size()];
+        const bool lattice = family == Family::lattice;
+        const Point3 low = lattice ? Point3{-1, -1, -2} : Point3{-0.4, -0.3, -0.5},
+                     high = lattice ? Point3{1, 2, 1} : Point3{0.5, 0.4, 0.3};
+        const auto c =
+            cut({soup_of(random, family, 8), soup_of(random, family, 4)}, box_of(low, high));
+        check_against_box(c, low, high);
+        check_consistent(c.cut.arrangement);
+        mpq_class box = 1;
+        box *= mpq_class(high.x) - low.x;
+        box *= mpq_class(high.y) - low.y;
+        box *= mpq_class(high.z) - low.z;
+        CHECK(volumes_of(c.cut.arrangement)[0] == box);
+        const auto rounded = round_to_doubles(c.cut.arrangement);
+        REQUIRE(rounded);
+        if (!rounded.value().report.clean) continue;
+        const Mesh& m = rounded.value().mesh;
+        CHECK(check(std::vector{Surface{"", Role::unknown, m.vertices, m.triangles}})
+                  .value()
+                  .clean());
+    }
+}
+
+TEST_CASE("volume of interest: the same for any number of threads; it can be stopped", "[voi]") {
+    Random random(2);
+    std::vector<Surface> surfaces{soup_of(random, Family::uniform, 60)};
+    const auto boundary = box_of({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5});
+    surfaces.insert(surfaces.end(), boundary.begin(), boundary.end());
+    std::vector<std::uint32_t> ids(boundary.size());
+    std::iota(ids.begin(), ids.end(), 1U);
+    Run one, four;
+    four.threads = 4;
+    const auto a = cut_to_volume(arrange(surfaces, {}, one).value(), ids, one),
+               b = cut_to_volume(arrange(surfaces, {}, four).value(), ids, four);
+    CHECK(a.value().arrangement.triangles == b.value().arrangement.triangles);
+    CHECK(a.value().arrangement.vertices == b.value().arrangement.vertices);
+    CHECK(a.value().arrangement.intersection_edges == b.value().arrangement.intersection_edges);
+    std::stop_source source;
+    source.request_stop();
+    one.stop = source.get_token();
+    CHECK(cut_to_volume(arrange(surfaces).value(), ids, one).error().code ==
+          ErrorCode::interrupted);
+}
+
+TEST_CASE(
+    "volume of interest: hard inputs cut in two halves add up, and round where the whole does",
+    "[voi]") {
+    std::size_t tried = 0, moved = 0;
+    for (const Model& model : certified_inputs(cases(400))) {
+        Point3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+        for (const Surface& s : model.surfaces)
+            for (const Point3& p : s.vertices) {
+                low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+                high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+            }
+        const double w = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+        const double middle = low.x + (high.x - low.x) / 2;
+        const Point3 least{low.x - w, low.y - w, low.z - w},
+            most{high.x + w, high.y + w, high.z + w};
+        const auto left = box_boundary(least, {middle, most.y, most.z}),
+                   right = box_boundary({middle, least.y, least.z}, most);
+        if (!left || !right) continue; // beyond the largest double
+        INFO(model.name);
+        ++tried;
+        const auto a = cut(model.surfaces, left.value()), b = cut(model.surfaces, right.value());
+        check_consistent(a.cut.arrangement);
+        check_consistent(b.cut.arrangement);
+        for (std::size_t s = 0; s < model.surfaces.size(); ++s) {
+            const SurfaceCut &l = a.cut.report.surfaces[s], &r = b.cut.report.surfaces[s];
+            CHECK(l.area_inside == Approx(r.area_outside).margin(1e-9 * w * w));
+            CHECK(l.area_outside == Approx(r.area_inside).margin(1e-9 * w * w));
+            CHECK(l.area_on_boundary == Approx(r.area_on_boundary).margin(1e-9 * w * w));
+        }
+        CHECK(find_volumes(a.cut.arrangement).value().measures[0] ==
+              Approx(volume_of(left.value()).get_d()));
+        const auto whole = round_to_doubles(a.whole), part = round_to_doubles(a.cut.arrangement);
+        REQUIRE(whole);
+        REQUIRE(part);
+        if (!whole.value().report.clean) continue;
+        CHECK(part.value().report.clean);
+        moved += part.value().report.moved_input_vertices > 0 ? 1U : 0U;
+    }
+    CHECK(tried > 40);
+    if (effort_divisor == 1) CHECK(moved > 0); // rounding had to arrange some anew
+}

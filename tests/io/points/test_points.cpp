@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <string>
+
+#include <terrane/io/files.hpp>
+
+#include "support/samples.hpp"
+
+using namespace terrane;
+using namespace terrane::test;
+
+namespace {
+
+std::vector<Surface> read(std::string_view text, Format format = Format::xyz,
+                          const ReadOptions& options = {}) {
+    auto surfaces = parse_surfaces(text, "a", format, options);
+    REQUIRE(message_of(surfaces) == "no error");
+    return std::move(surfaces).value();
+}
+
+const std::vector<Point3> corner{{0, 0, 1}, {1, 0, 2}, {0, 1, 3}};
+
+} // namespace
+
+TEST_CASE("points: columns by position, by name, behind names of surfaces", "[io][points]") {
+    for (const auto* text :
+         {"0 0 1\n1 0 2\n0 1 3\n", "\r\n0,0,1\r\n1,0,2,77\r\n0,1,3\r\n", "0;0;1\n1;0;2\n0;1;3",
+          "x y z\n0 0 1\n1 0 2\n0 1 3\n", "# made by\nid;Z;Y;X\n9;1;0;0\n9;2;0;1\n9;3;1;0\n",
+          "Horizon of a grid\n  0 0 1\n1 0 2\n0 1 3\nEOD\nnot read\n",
+          "# inline crossline z\n0 0 1\n1 0 2\n0 1 3\n",
+          "@line\n#more\n1331.0 2009 0 0 1\n1 2 1 0 2\n1 2 0 1 3\nEOB",
+          "0 0 1\n1 0 2\n0 1 3\n999.000000 999.000000 999.000000\n5 5 1e30\n6 6 -999.25\n"}) {
+        INFO(text);
+        const auto surfaces = read(text);
+        REQUIRE(surfaces.size() == 1);
+        CHECK(surfaces[0].name == "a");
+        CHECK(surfaces[0].vertices == corner);
+        CHECK(surfaces[0].triangles == std::vector<Triangle>{{0, 1, 2}});
+    }
+    const auto two = read("# \"X\" \"Y\" \"Z\"\n\"top\" 0 0 1\n\"base\" 0 0 0\n\"top\" 1 0 2\n"
+                          "\"top\" 0 1 3\n\"base\" 1 0 0\n\"base\" 0 1 0\n");
+    REQUIRE(two.size() == 2);
+    CHECK(two[0].name == "top");
+    CHECK(two[0].vertices == corner);
+    CHECK(two[1].name == "base");
+    CHECK(two[1].triangles.size() == 1);
+}
+
+TEST_CASE("points: depth, the longest edge, and the first of those at one place", "[io][points]") {
+    const auto down = read("0 0 1\n9 0 0\n0 9 3\n0 0 5\n", Format::xyz, {.depth = true});
+    CHECK(down[0].vertices == std::vector<Point3>{{0, 0, -1}, {9, 0, 0}, {0, 9, -3}, {0, 0, -5}});
+    CHECK(down[0].triangles == std::vector<Triangle>{{0, 1, 2}});
+    const std::string far = "0 0 0\n1 0 0\n0 1 0\n1 1 0\n9 0 0\n9 1 0\n";
+    CHECK(read(far, Format::xyz, {.max_edge = 2})[0].triangles.size() == 2);
+    CHECK(read(far, Format::xyz, {.max_edge = 20})[0].triangles.size() == 4);
+}
+
+TEST_CASE("points: GOCAD's VSet by object, PLine all together", "[io][points]") {
+    const auto vset = read("GOCAD VSet 1\nHEADER {\nname:top\n}\nZPOSITIVE Depth\nVRTX 1 0 0 -1\n"
+                           "PVRTX 2 1 0 -2 7.5\nVRTX 3 0 1 -3\nATOM 4 1\nEND\nGOCAD TSurf 1\nEND\n"
+                           "GOCAD VSet 1\nVRTX 1 0 0 1\nVRTX 2 1 0 2\nVRTX 3 0 1 3\nEND\n",
+                           Format::vset);
+    REQUIRE(vset.size() == 2);
+    CHECK(vset[0].name == "top");
+    CHECK(vset[0].vertices == corner);
+    CHECK(vset[1].name == "a");
+    CHECK(vset[1].vertices == corner);
+    const auto lines = read("GOCAD PLine 1\nHEADER {\nname: s\n}\nILINE\nVRTX 1 0 0 1\nVRTX 2 1 0 "
+                            "2\nSEG 1 2\nEND\nGOCAD PLine 1\nVRTX 1 0 1 3\nEND\n",
+                            Format::vset);
+    REQUIRE(lines.size() == 1);
+    CHECK(lines[0].name == "s");
+    CHECK(lines[0].vertices == corner);
+}
+
+TEST_CASE("points: broken files", "[io][points]") {
+    const auto message = [](std::string_view text, Format format = Format::xyz) {
+        return message_of(parse_surfaces(text, "a", format));
+    };
+    CHECK(message("") == "a: there is no point");
+    CHECK(message("# nothing\nwords only\n") == "a: there is no point");
+    CHECK(message("0 0 1\n1 0\n") == "a:2: a point needs 3 numbers");
+    CHECK(message("0 0 1\n1 0 x\n") == "a:2: \"x\" is not a number");
+    CHECK(message("0 0 nan\n") == "a:1: \"nan\" is not a finite number");
+    CHECK(message("0 0 1\nhello\n") == "a:2: a point needs 3 numbers");
+    CHECK(message("0 0 0\n1 1 1\n2 2 2\n") ==
+          "a: no three of the points are near enough to make a triangle");
+    CHECK(message("0 0 0\n1e301 0 0\n0 1e301 0\n").find("beyond 1e300") != std::string::npos);
+    CHECK(message("hello\n", Format::vset) == "a: not a GOCAD file: no line begins with GOCAD");
+    CHECK(message("GOCAD TSurf 1\nEND\n", Format::vset) == "a: there is no VSet and no PLine");
+    CHECK(message("GOCAD VSet 1\nVRTX 1 0 0 0\n", Format::vset) ==
+          "a:2: the object that begins in line 1 has no END");
+    CHECK(message("GOCAD VSet 1\nVRTX x 0 0 0\n", Format::vset) == "a:2: VRTX needs an id");
+    CHECK(message("GOCAD VSet 1\nZPOSITIVE up\n", Format::vset).find("Elevation or Depth") !=
+          std::string::npos);
+}
+
+TEST_CASE("points: horizons of real surveys", "[io][points]") {
+    const std::string data = std::string(TERRANE_TEST_DATA) + "/gio/";
+    const auto f3 = read_surfaces(data + "F3_FS6_ILXL.dat", std::nullopt, {.depth = true});
+    REQUIRE(message_of(f3) == "no error");
+    REQUIRE(f3.value().size() == 1);
+    const Surface& s = f3.value()[0];
+    CHECK(s.name == "F3_Demo_2_FS6");
+    CHECK(s.vertices.size() == 3019);
+    CHECK(s.vertices[0] == Point3{110, 1042, -865.397810935974121});
+    // Points two apart on a lattice: all triangles are half cells of it.
+    for (const Triangle& t : s.triangles) {
+        const Point3 &a = s.vertices[t[0]], &b = s.vertices[t[1]], &c = s.vertices[t[2]];
+        CHECK((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) >= 4);
+    }
+    const auto nimitz = read_surfaces(data + "Nimitz_Salmon_XY-and-ILXL_Single-line-header.dat");
+    REQUIRE(message_of(nimitz) == "no error");
+    CHECK(nimitz.value()[0].vertices.size() == 1830);
+    CHECK(nimitz.value()[0].vertices[0] == Point3{1709752.38, 5828111.45, 531.371772289276123});
+}

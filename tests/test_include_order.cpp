@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Who may include whom: kernel <- algorithms <- io <- cli, and next to nothing for the verifier.
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const fs::path root = TERRANE_SOURCE_DIR;
+
+/// What stands between the brackets or quotes of each include, in order.
+std::vector<std::string> includes_of(const fs::path& file) {
+    static const std::regex directive(R"(^\s*#\s*include\s*[<"]([^>"]+)[>"])");
+    std::vector<std::string> result;
+    std::ifstream in(file);
+    for (std::string line; std::getline(in, line);)
+        if (std::smatch found; std::regex_search(line, found, directive))
+            result.push_back(found[1]);
+    return result;
+}
+
+/// "kernel/point.hpp" for <terrane/kernel/point.hpp>; empty for what is not ours.
+std::string ours(const std::string& include) {
+    const std::string prefix = "terrane/";
+    return include.starts_with(prefix) ? include.substr(prefix.size()) : "";
+}
+
+bool is_source(const fs::path& path) {
+    return path.extension() == ".hpp" || path.extension() == ".cpp";
+}
+
+std::vector<fs::path> sources_in(const std::string& folder) {
+    std::vector<fs::path> result;
+    if (fs::exists(root / folder))
+        for (const auto& entry : fs::recursive_directory_iterator(root / folder))
+            if (is_source(entry.path())) result.push_back(entry.path());
+    return result;
+}
+
+bool is_verifier(const std::string& file) {
+    return file.starts_with("algorithms/verify/");
+}
+
+/// Headers of the standard library have neither a folder nor an extension.
+bool is_standard(const std::string& include) {
+    return include.find_first_of("./") == std::string::npos;
+}
+
+} // namespace
+
+TEST_CASE("layers: a folder includes only itself and those below it") {
+    const std::vector<std::string> layers{"kernel", "algorithms", "io", "cli"};
+    for (std::size_t layer = 0; layer < layers.size(); ++layer)
+        for (const fs::path& file : sources_in(layers[layer]))
+            for (const std::string& include : includes_of(file)) {
+                const std::string target = ours(include);
+                if (target.empty()) continue;
+                INFO(file << " includes " << include);
+                const auto folder = target.substr(0, target.find('/'));
+                const auto found = std::find(layers.begin(), layers.end(), folder);
+                REQUIRE(found != layers.end());
+                CHECK(static_cast<std::size_t>(found - layers.begin()) <= layer);
+            }
+}
+
+TEST_CASE("layers: all that is ours is included by its installed name") {
+    for (const std::string folder : {"kernel", "algorithms", "io", "cli"})
+        for (const fs::path& file : sources_in(folder))
+            for (const std::string& include : includes_of(file)) {
+                INFO(file << " includes " << include);
+                CHECK_FALSE(fs::exists(file.parent_path() / include));
+                if (const std::string target = ours(include); !target.empty())
+                    CHECK(fs::exists(root / target));
+            }
+}
+
+TEST_CASE("layers: the producer does not use the verifier") {
+    for (const std::string folder : {"kernel", "algorithms", "io"})
+        for (const fs::path& file : sources_in(folder)) {
+            if (is_verifier(fs::relative(file, root).generic_string())) continue;
+            for (const std::string& include : includes_of(file)) {
+                INFO(file << " includes " << include);
+                CHECK_FALSE(is_verifier(ours(include)));
+            }
+        }
+}
+
+TEST_CASE(
+    "layers: the verifier sees value types, GMP, nettle and JSON only, however far one looks") {
+    const std::set<std::string> value_types{"algorithms/core/index_lists.hpp",
+                                            "algorithms/mesh/mesh.hpp",
+                                            "algorithms/core/result.hpp",
+                                            "algorithms/core/sha256.hpp",
+                                            "algorithms/mesh/surface.hpp",
+                                            "kernel/construction.hpp",
+                                            "kernel/point.hpp"};
+    const std::set<std::string> others{"gmpxx.h", "nettle/sha2.h", "nlohmann/json.hpp"};
+    std::vector<std::string> todo;
+    for (const fs::path& file : sources_in("algorithms"))
+        if (const auto name = fs::relative(file, root).generic_string(); is_verifier(name))
+            todo.push_back(name);
+    REQUIRE(todo.size() > 10);
+    std::set<std::string> seen(todo.begin(), todo.end());
+    while (!todo.empty()) {
+        const std::string file = todo.back();
+        todo.pop_back();
+        for (const std::string& include : includes_of(root / file)) {
+            INFO(file << " includes " << include);
+            const std::string target = ours(include);
+            if (target.empty())
+                CHECK((is_standard(include) || others.count(include) == 1));
+            else
+                CHECK((is_verifier(target) || value_types.count(target) == 1));
+            if (!target.empty() && seen.insert(target).second) todo.push_back(target);
+        }
+    }
+}
