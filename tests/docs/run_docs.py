@@ -32,16 +32,24 @@ def line_matches(expected, actual):
     return re.fullmatch(pattern, actual.rstrip()) is not None
 
 
-def output_matches(expected, actual):
-    """Whether the output is the one shown, where a line '...' stands for one line or more."""
-    reachable = {0}  # numbers of actual lines that the expected lines so far can cover
+def lines_covered(expected, actual):
+    """How many actual lines the expected ones can cover, as a set of numbers, after each of them.
+
+    A line '...' stands for one line or more.
+    """
+    covered = [{0}]
     for line in expected:
+        before = covered[-1]
         if line.strip() == ELISION:
-            reachable = set(range(min(reachable) + 1, len(actual) + 1)) if reachable else set()
+            covered.append(set(range(min(before, default=len(actual)) + 1, len(actual) + 1)))
         else:
-            reachable = {n + 1 for n in reachable
-                         if n < len(actual) and line_matches(line, actual[n])}
-    return len(actual) in reachable
+            covered.append({n + 1 for n in before if n < len(actual) and line_matches(line, actual[n])})
+    return covered
+
+
+def output_matches(expected, actual):
+    """Whether the output is the one shown."""
+    return len(actual) in lines_covered(expected, actual)[-1]
 
 
 class Shell:
@@ -79,9 +87,14 @@ class Tally:
 
 
 def shown_difference(expected, actual):
-    lines = difflib.unified_diff([x.rstrip() for x in expected], [x.rstrip() for x in actual],
-                                 "shown in the page", "printed by the command", lineterm="")
-    return "\n".join("    " + line for line in lines)
+    """The first line that the page shows wrongly, and what the command prints instead."""
+    covered = lines_covered(expected, actual)
+    wrong = next((i for i, line in enumerate(expected) if not covered[i + 1]), None)
+    if wrong is None:
+        return f"    {len(actual) - max(covered[-1])} more lines are printed after those shown"
+    after = actual[max(covered[wrong]):] if expected[wrong - 1] != ELISION else actual[min(covered[wrong]):]
+    nearest = difflib.get_close_matches(expected[wrong], after, 1, 0) or ["(nothing)"]
+    return f"    shown:   {expected[wrong]}\n    printed: {nearest[0]}"
 
 
 def run_block(block, page, shell, tally, changes):
@@ -97,7 +110,7 @@ def run_block(block, page, shell, tally, changes):
         tally.commands += 1
         if not output_matches(command.output, actual):
             changes.append((command.output_line, len(command.output), actual))
-            tally.fail(place, "prints something else\n" + shown_difference(command.output, actual))
+            tally.fail(place, "the output differs\n" + shown_difference(command.output, actual))
         asked = index + 1 < len(commands) and "$?" in commands[index + 1].text
         if shell.status != 0 and not asked:
             tally.fail(place, f"ends with status {shell.status}")

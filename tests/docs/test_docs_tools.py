@@ -10,7 +10,9 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent))
 sys.dont_write_bytecode = True
 
 import check_links
+import check_reference
 import run_docs
+from json_keys import key_paths
 from markdown_pages import (PageError, anchors_of, blocks_of, commands_of, links_of, needs_of,
                             site_slug)
 
@@ -155,6 +157,39 @@ class Links(unittest.TestCase):
                 "# One two\n[up](../README.md) [no](#three) [ok](#one-two) [net](https://x.org/y)\n")
             pages, links, others, flaws = check_links.check(root.resolve())
         self.assertEqual((pages, links, others, len(flaws)), (2, 6, 1, 4), flaws)
+
+
+class Reference(unittest.TestCase):
+    TABLES = ["text", "| Key | Meaning |", "|---|---|", "| `a`, `b[].c` | x |", "| `d` | y \\| z |", "",
+              "| List | Meaning |", "|---|---|", "| `e` | x |"]
+
+    def test_rows_of_tables(self):
+        rows = check_reference.rows_of(self.TABLES)
+        self.assertEqual(rows, [["`a`, `b[].c`", "x"], ["`d`", "y | z"], ["`e`", "x"]])
+        self.assertEqual(len(check_reference.rows_of(self.TABLES, "Key")), 2)
+
+    def test_paths_of_keys(self):
+        self.assertEqual(key_paths({"a": [{"b": 1}, {"c": {"d": []}}]}),
+                         {"a", "a[].b", "a[].c", "a[].c.d"})
+        self.assertTrue(check_reference.fits("q.*.min", "q.before.min"))
+        self.assertFalse(check_reference.fits("q.*", "q.before.min"))
+        self.assertEqual(check_reference.schema_paths(
+            {"properties": {"a": {"items": {"type": "object", "properties": {"b": {"default": 1}}}},
+                            "c": {"additionalProperties": {"type": "number"}}}}),
+                         {"a": None, "a[].b": 1, "c": None, "c.*": None})
+
+    def test_both_directions_of_keys(self):
+        findings = []
+        check_reference.compare_keys("page", {"a", "b.*"}, {"a", "c"}, findings)
+        self.assertEqual(len(findings), 2, findings)
+
+    def test_lines_of_help(self):
+        for line, flags, placeholder, text in (
+                ("  --box BOX                   Cut (default: x)", "--box", " BOX", "Cut (default: x)"),
+                ("  -o,--output OUT ... REQUIRED", "-o,--output", " OUT", ""),
+                ("  --edge-length-of NAME=L ... The same", "--edge-length-of", " NAME=L", "The same"),
+                ("  --json                      All", "--json", "", "All")):
+            self.assertEqual(check_reference.OPTION_LINE.match(line).groups(), (flags, placeholder, text))
 
 
 class DataFiles(unittest.TestCase):

@@ -1,0 +1,308 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Compares docs/reference with the program and its sources, in both directions.
+
+check_reference.py build/release/cli/terrane
+
+- each option that `terrane COMMAND --help` prints, with its placeholder and its default
+- each key of the JSON that the program writes, and of the schema of project files
+- error codes, verification rules and names of formats
+"""
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+from json_keys import key_paths
+from markdown_pages import host_slug
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+REFERENCE = ROOT / "docs" / "reference"
+OPTION_LINE = re.compile(r"^  (?=\S)((?:-\w,)?(?:--)?[\w-]+)((?: \S+)*?)(?: \.\.\.)?(?: REQUIRED)?"
+                         r"(?:\s{2,}|(?<=\.\.\.) |$)(.*)$")
+CODE = re.compile(r"`([^`]+)`")
+
+
+class Findings(list):
+    def compare(self, where, documented, true):
+        """Adds a sentence for each name that only one side has."""
+        self += [f"{where}: {name} is not documented" for name in sorted(true - documented)]
+        self += [f"{where}: {name} is documented, but is not there"
+                 for name in sorted(documented - true)]
+
+
+def sections_of(text):
+    """Headings of any level, as anchors, with the lines below each."""
+    sections, lines, fenced = {}, [], False
+    for line in text.splitlines():
+        fenced ^= line.startswith("```")
+        if line.startswith("#") and not fenced:
+            lines = sections.setdefault(host_slug(line.lstrip("# ").replace("`", "")), [])
+        else:
+            lines.append(line)
+    return sections
+
+
+def cells_of(line):
+    return [c.strip().replace("\\|", "|") for c in re.split(r"(?<!\\)\|", line.strip().strip("|"))]
+
+
+def rows_of(lines, header=None):
+    """The cells of the table rows among the lines; only of tables whose first header is `header`."""
+    rows, first, previous = [], None, ""
+    for line in lines:
+        if not line.startswith("|"):
+            first = None
+        elif not previous.startswith("|"):
+            first = cells_of(line)[0]
+        elif not set(line) <= set("|-: "):
+            if header in (None, first):
+                rows.append(cells_of(line))
+        previous = line
+    return rows
+
+
+# ---- Options
+
+def option_key(text):
+    """'-o, --output OUT' as ('-o,--output', 'OUT')."""
+    flags, _, placeholder = text.replace(", ", ",").partition(" ")
+    return flags, placeholder
+
+
+def documented_options(sections, anchor, seen=()):
+    """Options of a section and of the option groups to which it links: key to default."""
+    options = {}
+    lines = sections.get(anchor, [])
+    for row in rows_of(lines):
+        code = CODE.match(row[0])
+        if code and len(row) == 3:
+            options[option_key(code.group(1))] = row[2]
+    for group in re.findall(r"\(#([\w-]+-options)\)", "\n".join(lines)):
+        if group not in seen:
+            options.update(documented_options(sections, group, (*seen, group)))
+    return options
+
+
+def printed_options(program, command):
+    """Options and positionals that --help prints: key to default, or None."""
+    said = subprocess.run([program, *command, "--help"], capture_output=True, text=True, check=True)
+    options, last = {}, None
+    for line in said.stdout.split("\n\n\n")[0:2]:
+        for row in line.splitlines():
+            found = OPTION_LINE.match(row)
+            if found and (found.group(1).startswith("-") or found.group(1).isupper()):
+                last = (found.group(1), re.sub(r":(\{.*\}|POSITIVE)$", "", found.group(2).strip()))
+                options[last] = found.group(3)
+            elif last and row.startswith(" " * 30):
+                options[last] += row.strip()
+    options.pop(("-h,--help", ""), None)
+    defaults = {key: re.search(r"\(default: (.*?)\)$", text) for key, text in options.items()}
+    return {key: found and found.group(1) for key, found in defaults.items()}
+
+
+def check_options(program, findings):
+    sections = sections_of((REFERENCE / "commands.md").read_text())
+    said = subprocess.run([program, "--help"], capture_output=True, text=True, check=True).stdout
+    listed = said.split("Subcommands:\n")[1].split("\n\n")[0]
+    commands = {line.split()[0] for line in listed.splitlines()}
+    findings.compare("commands.md", {a[8:] for a in sections if a.startswith("terrane-")}, commands)
+    count = 0
+    for command in sorted(commands):
+        if command == "tetrahedralize" and not has_tetgen(program):
+            print("skipped: options of tetrahedralize: the program was built without TetGen")
+            continue
+        words = ["bench", "paper"] if command == "bench" else [command]
+        true = printed_options(program, words)
+        documented = documented_options(sections, "terrane-" + command)
+        where = f"commands.md, {command}"
+        findings.compare(where, {" ".join(k).strip() for k in documented},
+                         {" ".join(k).strip() for k in true})
+        for key, default in true.items():
+            if default and default not in documented.get(key, default).replace("`", ""):
+                findings.append(f"{where}: the default of {key[0]} is {default}")
+        count += len(true)
+    return count
+
+
+# ---- JSON keys
+
+def documented_keys(page, headings=None):
+    """Key paths in the first cells of the tables whose header is Key."""
+    keys = set()
+    for anchor, lines in sections_of((REFERENCE / page).read_text()).items():
+        if headings is None or headings(anchor):
+            for row in rows_of(lines, "Key"):
+                keys |= set(CODE.findall(row[0]))
+    return keys
+
+
+def fits(pattern, path):
+    """Whether a documented path, in which * stands for one name, is this one."""
+    return re.fullmatch(re.escape(pattern).replace(r"\*", r"[^.\[\]]+"), path) is not None
+
+
+def compare_keys(where, documented, true, findings, optional=frozenset()):
+    for path in sorted(true):
+        if not any(fits(pattern, path) for pattern in documented):
+            findings.append(f"{where}: {path} is not documented")
+    for pattern in sorted(documented - optional):
+        if not any(fits(pattern, path) for path in true):
+            findings.append(f"{where}: {pattern} is documented, but nothing writes it")
+
+
+PROJECT = {
+    "format": "terrane-project 1", "folder": "built",
+    "surfaces": [{"file": "top.ts"}, {"file": "base.ts"}, {"file": "fault.ts"},
+                 {"file": "seabed.asc", "depth": True}],
+    "fill": [{"surface": "seabed"}],
+    "layers": {"order": [{"surface": "seabed", "hardness": 1}]},
+    "volume_of_interest": {"box": {"low": [0, 0, -1700], "high": [2000, 1500, -700]}},
+    "seal": 20, "extend": 30, "improve": {}, "outputs": {"surfaces": ["vtp"]}}
+
+
+def write_json_files(program, folder):
+    """Runs commands that write all keys there are; the files by the page that lists their keys."""
+    model = ["top.ts", "base.ts", "fault.ts"]
+    box = ["--box", "0,0,-1700,2000,1500,-700"]
+
+    def run(*words, out=None):
+        done = subprocess.run([program, *words], cwd=folder, capture_output=True, check=False)
+        if done.returncode not in (0, 1):
+            raise SystemExit(f"terrane {' '.join(words)}: {done.stderr.decode()}")
+        if out:
+            (folder / out).write_bytes(done.stdout)
+
+    (folder / "project.json").write_text(json.dumps(PROJECT))
+    (folder / "twice.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 2 0\nv 0 0 9\nv 3 3 3\n"
+                                      "g a\nf 1 2 3\nf 1 2 3\nf 1 2 2\nf 1 2 4\nf 1 2 5\nf 1 2 6\n"
+                                      "g b\nf 1 2 3\n")
+    run("build", "project.json")
+    run("improve", *model, *box, "-o", "i.vtp", "--stats", "improve.json")
+    run("volume", *model, *box, "-o", "open")
+    run("volume", *model, *box, "-o", "sealed", "--seal", "20")
+    run("fill", "fold.ts", "-o", "f.vtp", "--stats", "fill.json")
+    run("check", "twice.obj", "--json", out="check.json")
+    run("arrange", *model, "-o", "a.vtp", "--certificate", "certificate.json")
+    run("verify", "certificate.json", "--json", out="valid.json")
+    with (folder / "top.ts").open("a") as changed:
+        changed.write("\n")
+    run("verify", "certificate.json", "--json", out="refuted.json")
+    statistics = ["built/statistics.json", "improve.json", "fill.json"]
+    if has_tetgen(program):
+        run("tetrahedralize", *model, *box, "-o", "t.vtu", "--stats", "tetrahedra.json")
+        statistics.append("tetrahedra.json")
+    return {"statistics.md": statistics, "model.md": ["open/model.json", "sealed/model.json"],
+            "certificate.md": ["certificate.json"], "check": ["check.json"],
+            "verdict": ["valid.json", "refuted.json"]}
+
+
+def check_json(program, findings):
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        for file in (ROOT / "docs" / "data").iterdir():
+            if file.suffix in (".ts", ".asc"):
+                (folder / file.name).write_bytes(file.read_bytes())
+        written = write_json_files(program, folder)
+        true = {page: set().union(*(key_paths(json.loads((folder / f).read_text())) for f in files))
+                for page, files in written.items()}
+    pages = {"statistics.md": documented_keys("statistics.md", lambda a: a != "findings-of-check"),
+             "model.md": documented_keys("model.md"),
+             "certificate.md": documented_keys("certificate.md", lambda a: a != "verdict-of-verify"),
+             "check": documented_keys("statistics.md", lambda a: a == "findings-of-check"),
+             "verdict": documented_keys("certificate.md", lambda a: a == "verdict-of-verify")}
+    optional = set()
+    if not has_tetgen(program):
+        print("skipped: keys of tetrahedra: the program was built without TetGen")
+        optional = {k for k in pages["statistics.md"] if k.startswith("tetrahedra")
+                    or k in ("seconds.tetrahedralize", "seconds.check", "seconds.split")}
+    for page, documented in pages.items():
+        compare_keys(page, documented, true[page], findings, frozenset(optional))
+    return sum(len(paths) for paths in true.values())
+
+
+# ---- The schema of project files
+
+def schema_paths(schema, prefix=""):
+    """Path of each key that the schema allows, with its default or None."""
+    paths = {}
+    if "items" in schema and schema["items"].get("type") == "object":
+        paths.update(schema_paths(schema["items"], prefix + "[]"))
+    inner = dict(schema.get("properties", {}))
+    if isinstance(schema.get("additionalProperties"), dict):
+        inner["*"] = schema["additionalProperties"]
+    for key, value in inner.items():
+        path = f"{prefix}.{key}" if prefix else key
+        paths[path] = value.get("default")
+        paths.update(schema_paths(value, path))
+    return paths
+
+
+def check_project(findings):
+    schema = json.loads((ROOT / "io" / "project.schema.json").read_text())
+    true = schema_paths(schema)
+    findings.compare("project.md", documented_keys("project.md"), set(true))
+    sections = sections_of((REFERENCE / "project.md").read_text())
+    rows = [row for lines in sections.values() for row in rows_of(lines) if len(row) == 3]
+    for row in rows:
+        for key in CODE.findall(row[0]):
+            default = true.get(key)
+            if default is not None and str(default).lower() not in row[2].replace("`", ""):
+                findings.append(f"project.md: the default of {key} is {json.dumps(default)}")
+    return len(true)
+
+
+# ---- Names that the sources list
+
+def source(name):
+    found = [p for top in ("algorithms", "io") for p in (ROOT / top).rglob(name)]
+    if len(found) != 1:
+        raise SystemExit(f"there are {len(found)} files {name}")
+    return found[0].read_text()
+
+
+def enumerators(text, name):
+    body = re.search(rf"enum class {name}\b[^{{]*{{(.*?)}};", text, re.S).group(1)
+    return re.findall(r"^\s*(\w+)", re.sub(r"//.*", "", body), re.M)
+
+
+def first_cells(page, anchor):
+    return {code for row in rows_of(sections_of((REFERENCE / page).read_text())[anchor])
+            for code in CODE.findall(row[0]) or [row[0]]}
+
+
+def check_names(findings):
+    codes = set(enumerators(source("result.hpp"), "ErrorCode"))
+    findings.compare("errors.md", first_cells("errors.md", "kinds-of-errors"), codes)
+    rules = {r.split("_")[0] for r in enumerators(source("verify.hpp"), "Rule")}
+    findings.compare("certificate.md, rules", first_cells("certificate.md", "rules"), rules)
+    listed = set(re.findall(r'{"(\w+)", Format::\w+}', source("files.cpp")))
+    table = rows_of(sections_of((REFERENCE / "formats.md").read_text())["file-formats"])
+    documented = {code.lstrip(".") for row in table for code in CODE.findall(row[1])}
+    findings.compare("formats.md", documented, listed)
+    return len(codes) + len(rules) + len(listed)
+
+
+def has_tetgen(program):
+    said = subprocess.run([program, "--version"], capture_output=True, text=True, check=True).stdout
+    return "without TetGen" not in said
+
+
+def main():
+    program = str(pathlib.Path(sys.argv[1]).resolve())
+    findings = Findings()
+    options = check_options(program, findings)
+    keys = check_json(program, findings)
+    project = check_project(findings)
+    names = check_names(findings)
+    for finding in findings:
+        print(finding)
+    print(f"{options} options, {keys} keys of JSON, {project} keys of projects, {names} names,"
+          f" {len(findings)} findings")
+    return 0 if not findings and min(options, keys, project, names) > 10 else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
