@@ -227,4 +227,5 @@ def main():
     print(f"picture: wrote {target}")
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -73,13 +73,13 @@ def option_key(text):
 
 
 def documented_options(sections, anchor, seen=()):
-    """Options of a section and of the option groups to which it links: key to default."""
+    """Options of a section and of the option groups to which it links: key to cells of the row."""
     options = {}
     lines = sections.get(anchor, [])
     for row in rows_of(lines):
         code = CODE.match(row[0])
         if code and len(row) == 3:
-            options[option_key(code.group(1))] = row[2]
+            options[option_key(code.group(1))] = row
     for group in re.findall(r"\(#([\w-]+-options)\)", "\n".join(lines)):
         if group not in seen:
             options.update(documented_options(sections, group, (*seen, group)))
@@ -103,6 +103,19 @@ def printed_options(program, command):
     return {key: found and found.group(1) for key, found in defaults.items()}
 
 
+def with_named_choices(true, documented):
+    """Placeholders that are choices, upper|lower, become the page's word, if it lists them all."""
+    renamed = {}
+    for (flags, placeholder), default in true.items():
+        if "|" in placeholder:
+            for key, row in documented.items():
+                choices = {c for c in placeholder.split("|") if c.islower()}
+                if key[0] == flags and choices <= set(CODE.findall(row[1])):
+                    placeholder = key[1]
+        renamed[flags, placeholder] = default
+    return renamed
+
+
 def check_options(program, findings):
     sections = sections_of((REFERENCE / "commands.md").read_text())
     said = subprocess.run([program, "--help"], capture_output=True, text=True, check=True).stdout
@@ -115,13 +128,13 @@ def check_options(program, findings):
             print("skipped: options of tetrahedralize: the program was built without TetGen")
             continue
         words = ["bench", "paper"] if command == "bench" else [command]
-        true = printed_options(program, words)
         documented = documented_options(sections, "terrane-" + command)
+        true = with_named_choices(printed_options(program, words), documented)
         where = f"commands.md, {command}"
         findings.compare(where, {" ".join(k).strip() for k in documented},
                          {" ".join(k).strip() for k in true})
         for key, default in true.items():
-            if default and default not in documented.get(key, default).replace("`", ""):
+            if default and key in documented and default not in documented[key][2].replace("`", ""):
                 findings.append(f"{where}: the default of {key[0]} is {default}")
         count += len(true)
     return count
