@@ -142,7 +142,7 @@ void check_inputs(Bytes& bytes, const Twins& t) {
     require(orient3d(p[0], p[1], p[2], p[3]) == oracle::orient3d(e[0], e[1], e[2], e[3]),
             "orient3d is wrong");
     require(orient2d(axis, p[0], p[1], p[2]) == turn, "orient2d is wrong");
-    require(quick_orient2d(axis, p[0], p[1], p[2]).value_or(turn) == turn,
+    require(filtered_orient2d(axis, p[0], p[1], p[2]).value_or(turn) == turn,
             "quick_orient2d is wrong");
     require(turn2d(axis, p[0], p[1], p[2], p[3]) == oracle::turn2d(axis, e[0], e[1], e[2], e[3]),
             "turn2d is wrong");

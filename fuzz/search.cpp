@@ -124,8 +124,7 @@ void check_many(Bytes& bytes) {
     Groups groups;
     if (bytes.flag())
         for (std::uint32_t i = 0; i < boxes.size(); ++i) groups.push_back(i / 3000);
-    require(candidate_pairs(boxes, groups, Search::hierarchy, {.threads = 2}) ==
-                expected(boxes, groups),
+    require(candidate_pairs(boxes, groups, Search::bvh, {.threads = 2}) == expected(boxes, groups),
             "many boxes with two threads: the pairs differ");
 }
 
@@ -149,7 +148,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             if (candidate_pairs(boxes, groups, method) != right) fuzz::fail(name + " differs");
         }
         // The only method that uses threads.
-        require(candidate_pairs(boxes, groups, Search::hierarchy, {.threads = 2}) == right,
+        require(candidate_pairs(boxes, groups, Search::bvh, {.threads = 2}) == right,
                 "hierarchy with two threads differs");
         check_active(boxes, groups, right, bytes);
     }

@@ -58,7 +58,7 @@ public:
         array(
             items, [&](const auto& list) { numbers(list); }, ",\n");
     }
-    void lists(const Lists<std::uint32_t>& lists) {
+    void lists(const IndexLists<std::uint32_t>& lists) {
         out_ += '[';
         for (std::size_t i = 0; i < lists.size(); ++i) {
             if (i > 0) out_ += ",\n";

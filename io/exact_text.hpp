@@ -41,7 +41,7 @@ struct ExactText {
     std::vector<std::uint32_t> input_triangles;       ///< per surface: how many it had
     std::vector<std::array<std::string, 3>> vertices; ///< x, y, z: "-5/3", "7"
     std::vector<Triangle> triangles;                  ///< indices into vertices
-    Lists<std::uint32_t> parents_of;      ///< per triangle: input triangles, sorted, >= 1
+    IndexLists<std::uint32_t> parents_of; ///< per triangle: input triangles, sorted, >= 1
     std::vector<Edge> intersection_edges; ///< sorted, unique
 
     friend bool operator==(const ExactText&, const ExactText&) = default;

@@ -40,8 +40,8 @@ inline std::optional<Sign> sign_beyond(double value, double bound) {
 /// Positive iff a, b, c turn left. With M the largest difference and E its error from the radii,
 /// the two products of differences are off by 2 (2 M E + E^2) from the radii, at most 5 M E for
 /// E <= M / 8, and by 9 unit M^2 from rounding.
-inline std::optional<Sign> quick_orient2d(const ApproximatePoint& a, const ApproximatePoint& b,
-                                          const ApproximatePoint& c) {
+inline std::optional<Sign> filtered_orient2d(const ApproximatePoint& a, const ApproximatePoint& b,
+                                             const ApproximatePoint& c) {
     const double bu = b.u - a.u, bv = b.v - a.v, cu = c.u - a.u, cv = c.v - a.v;
     const double m =
         std::max(std::max(std::fabs(bu), std::fabs(bv)), std::max(std::fabs(cu), std::fabs(cv)));
@@ -56,8 +56,9 @@ inline std::optional<Sign> quick_orient2d(const ApproximatePoint& a, const Appro
 /// E <= M / 1024, and by 132 unit M^4 from rounding (see in_circle). Where that is too coarse, with
 /// the sizes of the terms: 11 unit times their sum from rounding, E times the sum of the partial
 /// derivatives from the radii, and 72 E^2 M^2 and less for all higher orders.
-inline std::optional<Sign> quick_in_circle(const ApproximatePoint& a, const ApproximatePoint& b,
-                                           const ApproximatePoint& c, const ApproximatePoint& d) {
+inline std::optional<Sign> filtered_in_circle(const ApproximatePoint& a, const ApproximatePoint& b,
+                                              const ApproximatePoint& c,
+                                              const ApproximatePoint& d) {
     const double au = a.u - d.u, av = a.v - d.v, bu = b.u - d.u, bv = b.v - d.v;
     const double cu = c.u - d.u, cv = c.v - d.v;
     const double m = std::max(

@@ -13,27 +13,27 @@ namespace terrane {
 /// hi + lo. Correct only in the rounding mode "to nearest". Overflow makes err infinite or NaN, and
 /// nearest() then declines.
 /// Source: Dekker (1971) for the sums and products; the bounds are derived at each operation.
-class Twofold {
+class DoubleDouble {
 public:
-    Twofold() = default;
-    explicit Twofold(double d) : hi_(d) {}
+    DoubleDouble() = default;
+    explicit DoubleDouble(double d) : hi_(d) {}
 
-    friend Twofold operator-(const Twofold& a) { return {-a.hi_, -a.lo_, a.err_}; }
+    friend DoubleDouble operator-(const DoubleDouble& a) { return {-a.hi_, -a.lo_, a.err_}; }
 
     // The sum of the high parts is exact in two numbers; adding the three low ones rounds three
     // times, each time by at most unit / 2 of what is added.
-    friend Twofold operator+(const Twofold& a, const Twofold& b) {
+    friend DoubleDouble operator+(const DoubleDouble& a, const DoubleDouble& b) {
         const double s = a.hi_ + b.hi_, t = s - a.hi_;
         const double rest = (a.hi_ - (s - t)) + (b.hi_ - t);
         const double low = rest + (a.lo_ + b.lo_);
         const double lost = std::fabs(rest) + std::fabs(a.lo_) + std::fabs(b.lo_);
         return normal(s, low, a.err_ + b.err_ + 2 * unit * lost);
     }
-    friend Twofold operator-(const Twofold& a, const Twofold& b) { return a + -b; }
+    friend DoubleDouble operator-(const DoubleDouble& a, const DoubleDouble& b) { return a + -b; }
 
     // The product of the high parts is exact in two numbers (fma); low times low is left out; the
     // mixed terms and their sum round. Without low parts nothing is lost unless it underflows.
-    friend Twofold operator*(const Twofold& a, const Twofold& b) {
+    friend DoubleDouble operator*(const DoubleDouble& a, const DoubleDouble& b) {
         if (a.is_zero() || b.is_zero()) return {};
         const double p = a.hi_ * b.hi_, rest = std::fma(a.hi_, b.hi_, -p);
         const double m = a.hi_ * b.lo_, n = a.lo_ * b.hi_;
@@ -45,13 +45,13 @@ public:
     }
 
     // Two quotients of high parts; what they leave of the dividend bounds the error.
-    friend Twofold operator/(const Twofold& a, const Twofold& b) {
+    friend DoubleDouble operator/(const DoubleDouble& a, const DoubleDouble& b) {
         if (a.is_zero()) return {};
-        const Twofold first(a.hi_ / b.hi_);
-        const Twofold left = a - first * b;
-        const Twofold second(left.hi_ / b.hi_);
-        const Twofold open = left - second * b;
-        Twofold q = first + second;
+        const DoubleDouble first(a.hi_ / b.hi_);
+        const DoubleDouble left = a - first * b;
+        const DoubleDouble second(left.hi_ / b.hi_);
+        const DoubleDouble open = left - second * b;
+        DoubleDouble q = first + second;
         if (open.is_zero()) return q;
         const double least = std::fabs(b.hi_) * (1 - 4 * unit) - std::fabs(b.lo_) - b.err_;
         q.err_ += (least > 0 ? (open.size() + open.err_) / least : HUGE_VAL) * (1 + 8 * unit) +
@@ -84,10 +84,10 @@ private:
     static constexpr double underflow = 0x1p-1000;    ///< more than an underflowing product loses
     static constexpr double least_product = 0x1p-900; ///< of doubles, in two normal numbers
 
-    Twofold(double hi, double lo, double err) : hi_(hi), lo_(lo), err_(err) {}
+    DoubleDouble(double hi, double lo, double err) : hi_(hi), lo_(lo), err_(err) {}
 
     /// |high| >= |low| but for rounding; the factor covers the roundings of the bound itself.
-    static Twofold normal(double high, double low, double err) {
+    static DoubleDouble normal(double high, double low, double err) {
         const double s = high + low, t = s - high;
         return {s, (high - (s - t)) + (low - t), err * (1 + 0x1p-40)};
     }

@@ -19,9 +19,9 @@ namespace terrane {
 /// (1) A sign that side(p) gives is that of orient3d(a, b, c, p).
 /// Right in any rounding mode. The bound is derived at static_orient3d in predicates.cpp: the same
 /// operations in the same order.
-class QuickPlane {
+class PlaneFilter {
 public:
-    QuickPlane(const Point3& a, const Point3& b, const Point3& c) : origin_(a) {
+    PlaneFilter(const Point3& a, const Point3& b, const Point3& c) : origin_(a) {
         const double bx = b.x - a.x, by = b.y - a.y, bz = b.z - a.z;
         const double cx = c.x - a.x, cy = c.y - a.y, cz = c.z - a.z;
         normal_ = {by * cz - bz * cy, bz * cx - bx * cz, bx * cy - by * cx};

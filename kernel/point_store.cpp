@@ -102,23 +102,27 @@ Point3 round_exactly(const ExactPoint& p) {
     return {quotient(p.x), quotient(p.y), quotient(p.z)};
 }
 
-using TwofoldPoint = std::array<Twofold, 3>;
+using TwofoldPoint = std::array<DoubleDouble, 3>;
 
 /// Under the default rounding mode.
 TwofoldPoint twofold_point(std::span<const Point3> input, const Construction& how) {
     const auto at = [&](std::uint32_t v) -> const Point3& { return input[v]; };
     const Point3& base = input[how.v[0]];
-    const auto from_base = [&](const Twofold& x, const Twofold& y, const Twofold& z) {
-        return TwofoldPoint{Twofold(base.x) + x, Twofold(base.y) + y, Twofold(base.z) + z};
+    const auto from_base = [&](const DoubleDouble& x, const DoubleDouble& y,
+                               const DoubleDouble& z) {
+        return TwofoldPoint{DoubleDouble(base.x) + x, DoubleDouble(base.y) + y,
+                            DoubleDouble(base.z) + z};
     };
     if (!polynomial::is_on_line(how)) {
-        const auto h = polynomial::construct<Twofold>(how, at);
+        const auto h = polynomial::construct<DoubleDouble>(how, at);
         return from_base(h.x / h.w, h.y / h.w, h.z / h.w);
     }
-    const auto [d, t, w] = polynomial::construct_on_line<Twofold>(how, at);
-    const Twofold share = t / w; // one division for three
+    const auto [d, t, w] = polynomial::construct_on_line<DoubleDouble>(how, at);
+    const DoubleDouble share = t / w; // one division for three
     const auto p = from_base(d.x * share, d.y * share, d.z * share);
-    const auto is_settled = [](const Twofold& x) { return x.is_double() || !x.may_be_double(); };
+    const auto is_settled = [](const DoubleDouble& x) {
+        return x.is_double() || !x.may_be_double();
+    };
     if (is_settled(p[0]) && is_settled(p[1]) && is_settled(p[2])) return p;
     return from_base(d.x * t / w, d.y * t / w, d.z * t / w); // may show that it is one
 }

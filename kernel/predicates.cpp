@@ -138,7 +138,8 @@ N compare_squares(const N& first, const N& second) {
 
 } // namespace
 
-std::optional<Sign> quick_orient2d(Axis axis, const Point3& a, const Point3& b, const Point3& c) {
+std::optional<Sign> filtered_orient2d(Axis axis, const Point3& a, const Point3& b,
+                                      const Point3& c) {
     const Uv p = project(axis, a);
     return static_turn2d(p, project(axis, b), p, project(axis, c));
 }

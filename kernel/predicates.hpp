@@ -29,7 +29,7 @@ namespace terrane {
 Sign orient3d(const Point3& a, const Point3& b, const Point3& c, const Point3& d);
 
 /// orient2d where the static filter decides, which costs next to nothing. Not counted.
-std::optional<Sign> quick_orient2d(Axis axis, const Point3& a, const Point3& b, const Point3& c);
+std::optional<Sign> filtered_orient2d(Axis axis, const Point3& a, const Point3& b, const Point3& c);
 
 /// Positive iff a, b, c turn left in the projection along `axis`.
 Sign orient2d(Axis axis, const Point3& a, const Point3& b, const Point3& c);

@@ -21,9 +21,9 @@ namespace terrane {
 ///     are at most sqrt(3) 2^-53 M off when they are rounded.
 /// Right in any rounding mode. The bounds without room are derived at static_orient3d and
 /// static_turn2d in predicates.cpp: the same operations in the same order.
-class QuickTriangle {
+class SeparationFilter {
 public:
-    QuickTriangle(const Point3& a, const Point3& b, const Point3& c) : at_{a, b, c} {
+    SeparationFilter(const Point3& a, const Point3& b, const Point3& c) : at_{a, b, c} {
         const double bx = b.x - a.x, by = b.y - a.y, bz = b.z - a.z;
         const double cx = c.x - a.x, cy = c.y - a.y, cz = c.z - a.z;
         normal_ = {by * cz - bz * cy, bz * cx - bx * cz, bx * cy - by * cx};

@@ -23,7 +23,7 @@ mutations=(
     'coplanar-class~tri_tri~algorithms/intersection/intersection.cpp~s/j < 3; \+\+j\)(\s+if \(opposite\(inside)/j < 2; ++j)$1/'
     'corner-on-edge~tri_tri~algorithms/intersection/intersection.cpp~s/if \(inside\[j\] == Sign::Negative\) return std::nullopt;/if (inside[j] != Sign::Positive) return std::nullopt;/'
     'grid-widening~search~algorithms/search/detail/grid.cpp~s/largest\[k\] \* 0\.5 \* \(1 \+ 0x1p-40\)/largest[k] * 0/'
-    'unsorted-threads~search~algorithms/search/search.cpp~s/return search::hierarchy_pairs\(source, groups, run\);/{ auto pairs = search::hierarchy_pairs(source, groups, run); if (run.threads > 1) std::reverse(pairs.begin(), pairs.end()); return pairs; }/'
+    'unsorted-threads~search~algorithms/search/search.cpp~s/return search::bvh_pairs\(source, groups, run\);/{ auto pairs = search::bvh_pairs(source, groups, run); if (run.threads > 1) std::reverse(pairs.begin(), pairs.end()); return pairs; }/'
     'dropped-constraint~arrange~algorithms/arrangement/retriangulation.cpp~s/i \+ 1 < chain\.size\(\)/i + 2 < chain.size()/'
     'merged-points~arrange~kernel/point_store.cpp~s/(const Enclosure a = enclosure\(p\), b = enclosure\(q\);)/$1 if (std::fabs(a.low[0] - b.low[0]) + std::fabs(a.low[1] - b.low[1]) + std::fabs(a.low[2] - b.low[2]) < 1e-12) return std::strong_ordering::equal;/'
     'wrong-parent~arrange~algorithms/arrangement/retriangulation.cpp~s/for \(const std::uint32_t f : faces\) block\.faces_of\.values\.push_back\(f\);/block.faces_of.values.push_back(faces.front());/'

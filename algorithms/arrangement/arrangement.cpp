@@ -18,14 +18,14 @@ namespace terrane {
 namespace {
 
 /// Parents are input triangles: those that became the faces, and their duplicates.
-Lists<std::uint32_t> parents_of_faces(const Soup& soup, const Lists<std::uint32_t>& faces_of,
-                                      const Run& run) {
+IndexLists<std::uint32_t>
+parents_of_faces(const Soup& soup, const IndexLists<std::uint32_t>& faces_of, const Run& run) {
     auto by_first = soup.duplicates;
     std::sort(by_first.begin(), by_first.end(), [](const auto& a, const auto& b) {
         return std::pair{a[1], a[0]} < std::pair{b[1], b[0]};
     });
     const auto first_before = [](const auto& d, std::uint32_t first) { return d[1] < first; };
-    Lists<std::uint32_t> parents;
+    IndexLists<std::uint32_t> parents;
     if (by_first.empty()) { // input_of ascends, so the lists stay sorted
         parents = faces_of;
         const bool kept_all =
@@ -55,8 +55,9 @@ Lists<std::uint32_t> parents_of_faces(const Soup& soup, const Lists<std::uint32_
 }
 
 /// A triangle is in the patch of its face; in none where it has several faces.
-Patches patches_of_faces(Patches of_soup, const Lists<std::uint32_t>& faces_of, const Run& run) {
-    Patches patches;
+InjectivePatches patches_of_faces(InjectivePatches of_soup,
+                                  const IndexLists<std::uint32_t>& faces_of, const Run& run) {
+    InjectivePatches patches;
     patches.axis = std::move(of_soup.axis);
     patches.turn = std::move(of_soup.turn);
     patches.of.resize(faces_of.size());
@@ -68,7 +69,7 @@ Patches patches_of_faces(Patches of_soup, const Lists<std::uint32_t>& faces_of, 
 }
 
 /// Pairs of which one has a constructed point on it, as input triangles.
-std::vector<CandidatePair> neighbours_of_divided(const Soup& soup, const Division& division,
+std::vector<CandidatePair> neighbours_of_divided(const Soup& soup, const Retriangulation& division,
                                                  const Run& run) {
     std::vector<char> has_constructed(soup.triangles.size(), 0);
     const auto inputs = static_cast<PointIndex>(division.points.input_count());
@@ -88,7 +89,7 @@ std::vector<CandidatePair> neighbours_of_divided(const Soup& soup, const Divisio
 }
 
 /// By patch, and by surface where there is none.
-Labels labels_of(const Soup& soup, const Patches& patches, const Run& run) {
+Labels labels_of(const Soup& soup, const InjectivePatches& patches, const Run& run) {
     Labels labels(patches.of.size());
     const auto count = static_cast<std::uint32_t>(patches.axis.size());
     for_ranges(labels.size(), run, [&](std::size_t first, std::size_t last) {
@@ -144,8 +145,8 @@ Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
 
     // (a) one soup of distinct points and triangles
     Soup soup = merge_surfaces(surfaces, run);
-    Patches patches =
-        prove_patches(soup.points, soup.triangles, soup.surface_of, soup.edges, run, soup.turns);
+    InjectivePatches patches = find_injective_patches(soup.points, soup.triangles, soup.surface_of,
+                                                      soup.edges, run, soup.turns);
     a.statistics.seconds_prepare = watch.lap();
     report(0.1);
 
@@ -157,9 +158,10 @@ Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
     if (run.stop.stop_requested()) return interrupted();
 
     // (c) contacts, (d) equal points merged, (e) triangulation of what is touched, (f) one mesh
-    Division division = divide(std::move(soup.points), soup.triangles, candidates, run);
+    Retriangulation division =
+        retriangulate(std::move(soup.points), soup.triangles, candidates, run);
     if (run.stop.stop_requested()) return interrupted();
-    const DivisionStatistics& d = division.statistics;
+    const RetriangulationStatistics& d = division.statistics;
     a.statistics.candidates = candidates.size();
     a.statistics.improper_contacts = d.improper_contacts;
     a.statistics.divided = d.divided;
@@ -190,7 +192,7 @@ Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
     report(0.9);
     a.adjacency = adjacency_after(
         soup.edges, labels,
-        {a.triangles, division.faces_of, division.kept_as, vertex_of, a.vertices.size()}, run);
+        {a.triangles, division.faces_of, division.unchanged_as, vertex_of, a.vertices.size()}, run);
     a.intersection_edges = find_intersection_edges(a.adjacency, a.inputs, a.parents_of);
     a.statistics.seconds_stitch = d.seconds_stitch + watch.lap();
     report(1);

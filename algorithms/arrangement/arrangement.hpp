@@ -52,15 +52,15 @@ struct Arrangement {
                                            ///< constructed ones in lexicographic order
     std::vector<Triangle> triangles;       ///< indices into vertices; unique; oriented as the first
                                            ///< parent
-    Lists<std::uint32_t> parents_of;       ///< per triangle: all input triangles that contain it,
+    IndexLists<std::uint32_t> parents_of;  ///< per triangle: all input triangles that contain it,
                                            ///< duplicates too; sorted, >= 1 (> 1: coplanar overlap)
-    Lists<std::uint32_t> surfaces_of;      ///< per triangle: surfaces of its parents, sorted, >= 1
+    IndexLists<std::uint32_t> surfaces_of; ///< per triangle: surfaces of its parents, sorted, >= 1
     std::vector<Edge> intersection_edges;  ///< in which more than two triangles meet, or two that
                                            ///< differ in their number of distinct parents in some
                                            ///< surface; sorted, unique. The parents of an edge
                                            ///< are those of the triangles at it
     std::vector<std::uint32_t> degenerate; ///< input triangles without area, ascending
-    Patches patches;                       ///< of the triangles: within one, none meet improperly
+    InjectivePatches patches;              ///< of the triangles: within one, none meet improperly
     std::vector<CandidatePair> neighbours; ///< input triangles, one of them with constructed
                                            ///< points, not both within one patch, that meet or may
                                            ///< do so when points are rounded to nearest doubles;

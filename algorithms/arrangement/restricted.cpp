@@ -11,8 +11,9 @@ namespace {
 
 constexpr std::uint32_t unused = UINT32_MAX;
 
-Lists<std::uint32_t> kept_lists(const Lists<std::uint32_t>& lists, const std::vector<bool>& keep) {
-    Lists<std::uint32_t> kept;
+IndexLists<std::uint32_t> kept_lists(const IndexLists<std::uint32_t>& lists,
+                                     const std::vector<bool>& keep) {
+    IndexLists<std::uint32_t> kept;
     for (std::size_t t = 0; t < keep.size(); ++t)
         if (keep[t]) kept.push_back(lists[t]);
     return kept;

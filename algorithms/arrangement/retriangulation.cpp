@@ -31,7 +31,7 @@ public:
         soup_(soup), contacts_(contacts), order_(order) {}
 
     /// One face: its pieces and crossings.
-    void operator()(std::span<const FacePiece> pieces, std::uint32_t first_piece,
+    void operator()(std::span<const FaceConstraint> pieces, std::uint32_t first_piece,
                     std::span<const FaceCrossing> crossings, std::vector<Part>& out) {
         face_.clear();
         const std::uint32_t f = pieces.front().face;
@@ -39,7 +39,7 @@ public:
         face_.corners = t;
         face_.axis = projection_axis(soup_.points[t[0]], soup_.points[t[1]], soup_.points[t[2]]);
         chains_.assign(pieces.size(), {});
-        for (const FacePiece& p : pieces)
+        for (const FaceConstraint& p : pieces)
             for (unsigned e = 0; e < 2; ++e) add_point(p.ends[e], p.place[e]);
         for (const FaceCrossing& c : crossings) {
             const PointIndex p = order_.same_as[c.point];
@@ -57,10 +57,10 @@ public:
 private:
     bool by_rank(PointIndex a, PointIndex b) const { return order_.rank[a] < order_.rank[b]; }
 
-    void add_point(PointIndex point, Place place) {
+    void add_point(PointIndex point, Simplex place) {
         const PointIndex p = order_.same_as[point];
         if (is_edge(place)) face_.edge_points[edge_of(place)].push_back(p);
-        if (place == Place::face) face_.inner_points.push_back(p);
+        if (place == Simplex::face) face_.inner_points.push_back(p);
     }
 
     void sort_unique(std::vector<PointIndex>& points) const {
@@ -69,7 +69,8 @@ private:
         points.erase(std::unique(points.begin(), points.end()), points.end());
     }
 
-    void add_chain(const FacePiece& piece, std::uint32_t line, std::vector<PointIndex>& chain) {
+    void add_chain(const FaceConstraint& piece, std::uint32_t line,
+                   std::vector<PointIndex>& chain) {
         for (const PointIndex e : piece.ends) chain.push_back(order_.same_as[e]);
         sort_unique(chain);
         for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
@@ -98,7 +99,7 @@ private:
 
 std::vector<Part> divide_faces(const TriangleSoup& soup, const Contacts& contacts,
                                const PointOrder& order, const Run& run,
-                               DivisionStatistics& statistics) {
+                               RetriangulationStatistics& statistics) {
     struct Range {
         std::uint32_t piece, piece_end, crossing, crossing_end;
     };
@@ -123,11 +124,12 @@ std::vector<Part> divide_faces(const TriangleSoup& soup, const Contacts& contact
         for_blocks<PartBlock>(faces.size(), 64, run, [&](std::size_t first, std::size_t last) {
             PartBlock block;
             const PredicateCounts before = predicate_counts();
-            Divider divide(soup, contacts, order);
+            Divider retriangulate(soup, contacts, order);
             for (std::size_t i = first; i < last; ++i) {
                 const Range& r = faces[i];
-                divide(pieces.subspan(r.piece, r.piece_end - r.piece), r.piece,
-                       crossings.subspan(r.crossing, r.crossing_end - r.crossing), block.parts);
+                retriangulate(pieces.subspan(r.piece, r.piece_end - r.piece), r.piece,
+                              crossings.subspan(r.crossing, r.crossing_end - r.crossing),
+                              block.parts);
             }
             block.predicates = predicate_counts() - before;
             return block;
@@ -144,13 +146,13 @@ std::vector<Part> divide_faces(const TriangleSoup& soup, const Contacts& contact
 class Stitcher {
 public:
     Stitcher(const TriangleSoup& soup, const Contacts& contacts, std::span<const Part> parts,
-             const Run& run, Division& out) :
+             const Run& run, Retriangulation& out) :
         soup_(soup),
         contacts_(contacts), parts_(parts), run_(run), out_(out) {}
 
     void operator()() {
         collect_repeated();
-        out_.kept_as.resize(soup_.triangles.size());
+        out_.unchanged_as.resize(soup_.triangles.size());
         // Parts that may repeat others are told from them one after the other.
         const std::size_t count = soup_.triangles.size();
         if (any_overlapped_)
@@ -169,7 +171,7 @@ private:
     struct Block {
         std::uint32_t start; ///< triangles before
         std::vector<Triangle> triangles;
-        Lists<std::uint32_t> faces_of; ///< offsets count from the first triangle of all
+        IndexLists<std::uint32_t> faces_of; ///< offsets count from the first triangle of all
 
         [[nodiscard]] std::uint32_t next() const {
             return start + static_cast<std::uint32_t>(triangles.size());
@@ -231,8 +233,8 @@ private:
         block.faces_of.values.reserve(expected);
         block.faces_of.offsets.reserve(expected + 1);
         if (any_overlapped_) {
-            std::fill(out_.kept_as.begin() + static_cast<std::ptrdiff_t>(first),
-                      out_.kept_as.begin() + static_cast<std::ptrdiff_t>(last), none);
+            std::fill(out_.unchanged_as.begin() + static_cast<std::ptrdiff_t>(first),
+                      out_.unchanged_as.begin() + static_cast<std::ptrdiff_t>(last), none);
             for_each_part(first, last, [&](const Part& part) { add_part(part, block); });
             return block;
         }
@@ -243,7 +245,7 @@ private:
                 p == parts_.end() ? last : std::min<std::size_t>(last, p->face);
             add_whole(f, divided, block);
             if (divided == last) break; // its parts, if any, are of the next range
-            out_.kept_as[divided] = none;
+            out_.unchanged_as[divided] = none;
             for (; p != parts_.end() && p->face == divided; ++p) add_part(*p, block);
             f = divided + 1;
         }
@@ -256,9 +258,9 @@ private:
         const std::uint32_t start = block.next();
         block.triangles.insert(block.triangles.end(), whole.begin(), whole.end());
         for (std::size_t f = first; f < last; ++f) {
-            out_.kept_as[f] = start + static_cast<std::uint32_t>(f - first);
+            out_.unchanged_as[f] = start + static_cast<std::uint32_t>(f - first);
             block.faces_of.values.push_back(static_cast<std::uint32_t>(f));
-            block.faces_of.offsets.push_back(out_.kept_as[f] + 1); // each has one face
+            block.faces_of.offsets.push_back(out_.unchanged_as[f] + 1); // each has one face
         }
     }
 
@@ -272,7 +274,7 @@ private:
         const Triangle& whole = soup_.triangles[part.face];
         const bool is_whole = part.corners[0] == whole[0] && part.corners[1] == whole[1] &&
                               part.corners[2] == whole[2];
-        if (faces.size() == 1 && is_whole) out_.kept_as[part.face] = block.next();
+        if (faces.size() == 1 && is_whole) out_.unchanged_as[part.face] = block.next();
         block.triangles.push_back(part.corners);
         for (const std::uint32_t f : faces) block.faces_of.values.push_back(f);
         block.faces_of.offsets.push_back(block.start +
@@ -297,7 +299,7 @@ private:
     const Contacts& contacts_;
     std::span<const Part> parts_;
     const Run& run_;
-    Division& out_;
+    Retriangulation& out_;
     std::vector<Block> blocks_;
     std::unordered_map<Triangle, std::vector<std::uint32_t>, Hash> faces_of_;
     bool any_overlapped_ = false;
@@ -305,10 +307,10 @@ private:
 
 } // namespace
 
-Division divide(std::vector<Point3> points, std::span<const Triangle> triangles,
-                std::span<const CandidatePair> candidates, const Run& run) {
+Retriangulation retriangulate(std::vector<Point3> points, std::span<const Triangle> triangles,
+                              std::span<const CandidatePair> candidates, const Run& run) {
     Stopwatch watch;
-    Division out;
+    Retriangulation out;
     const TriangleSoup soup{points, triangles}; // the points stay where they are when moved
     Contacts contacts = find_contacts(soup, std::move(points), candidates, run);
     find_crossings(soup, contacts, run);

@@ -17,7 +17,7 @@
 
 namespace terrane {
 
-struct DivisionStatistics {
+struct RetriangulationStatistics {
     std::size_t improper_contacts = 0; ///< pairs of triangles
     std::size_t divided = 0;           ///< triangles that were triangulated
     PredicateCounts predicates;
@@ -26,25 +26,26 @@ struct DivisionStatistics {
 
 /// Conforming, unique triangles; each triangle of the soup is exactly the union of those that name
 /// it.
-struct Division {
+struct Retriangulation {
     PointStore points;                  ///< the soup's points, then constructed ones
     std::vector<PointIndex> ascending;  ///< constructed points in use, in lexicographic order,
                                         ///< distinct from each other and from the soup's points
     std::vector<Triangle> triangles;    ///< corners by point; in the order of the soup; oriented
                                         ///< as the first face
-    Lists<std::uint32_t> faces_of;      ///< per triangle: triangles of the soup that contain it,
+    IndexLists<std::uint32_t> faces_of; ///< per triangle: triangles of the soup that contain it,
                                         ///< ascending, >= 1
-    std::vector<std::uint32_t> kept_as; ///< per triangle of the soup: the same triangle here, where
-                                        ///< it came out whole and alone; UINT32_MAX where not
-    std::vector<CandidatePair> near;    ///< candidates whose parts may meet when their points are
-                                        ///< rounded to nearest doubles; all others stay apart
-    DivisionStatistics statistics;
+    std::vector<std::uint32_t>
+        unchanged_as;                ///< per triangle of the soup: the same triangle here, where
+                                     ///< it came out whole and alone; UINT32_MAX where not
+    std::vector<CandidatePair> near; ///< candidates whose parts may meet when their points are
+                                     ///< rounded to nearest doubles; all others stay apart
+    RetriangulationStatistics statistics;
 };
 
 /// Triangles as in TriangleSoup. `candidates` must hold all pairs that meet improperly. Check
 /// run.stop afterwards: a stopped run leaves the result unfinished. Throws std::logic_error where a
 /// promise of the kernel is broken.
-Division divide(std::vector<Point3> points, std::span<const Triangle> triangles,
-                std::span<const CandidatePair> candidates, const Run& run);
+Retriangulation retriangulate(std::vector<Point3> points, std::span<const Triangle> triangles,
+                              std::span<const CandidatePair> candidates, const Run& run);
 
 } // namespace terrane

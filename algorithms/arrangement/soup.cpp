@@ -90,8 +90,8 @@ private:
 
     const Run& run_;
     std::size_t words_ = 0;
-    Unfilled<std::uint32_t> class_of_;  ///< per point
-    std::vector<std::uint64_t> shared_; ///< a bit per class: it has several points
+    UninitializedVector<std::uint32_t> class_of_; ///< per point
+    std::vector<std::uint64_t> shared_;           ///< a bit per class: it has several points
 };
 
 Sign turn_of(const std::vector<Point3>& points, const Triangle& t) {
@@ -210,7 +210,7 @@ void name_corners(Soup& soup, std::span<const Surface> surfaces,
 
 // Those with an area.
 void take_triangles(Soup& soup, const Run& run) {
-    Unfilled<Sign> turns; // per input triangle
+    UninitializedVector<Sign> turns; // per input triangle
     turns.resize(soup.input_corners.size());
     soup.degenerate = concatenated(parts_of_ranges<std::vector<std::uint32_t>>(
         soup.input_corners.size(), run, [&](std::size_t begin, std::size_t end) {

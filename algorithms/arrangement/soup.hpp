@@ -19,14 +19,15 @@ namespace terrane {
 /// Triangles without area and repeated ones are set aside, by number; nothing else changes.
 /// Input vertices and triangles are counted through all surfaces, in order.
 struct Soup {
-    std::vector<Point3> points;            ///< all input vertices
-    Unfilled<Triangle> triangles;          ///< the distinct ones with area; corners are the first
-                                           ///< input vertex with these coordinates
-    Unfilled<Triangle> input_corners;      ///< per input triangle: the same, degenerate or not
-    Unfilled<std::uint32_t> input_of;      ///< per triangle: its input triangle, ascending
-    Unfilled<std::uint32_t> surface_of;    ///< per triangle: the surface of input_of
-    Unfilled<Sign> turns;                  ///< per triangle: its orientation seen along z
-    std::vector<std::uint32_t> degenerate; ///< input triangles without area, ascending
+    std::vector<Point3> points;              ///< all input vertices
+    UninitializedVector<Triangle> triangles; ///< the distinct ones with area; corners are the first
+                                             ///< input vertex with these coordinates
+    UninitializedVector<Triangle>
+        input_corners; ///< per input triangle: the same, degenerate or not
+    UninitializedVector<std::uint32_t> input_of;   ///< per triangle: its input triangle, ascending
+    UninitializedVector<std::uint32_t> surface_of; ///< per triangle: the surface of input_of
+    UninitializedVector<Sign> turns;               ///< per triangle: its orientation seen along z
+    std::vector<std::uint32_t> degenerate;         ///< input triangles without area, ascending
     std::vector<std::array<std::uint32_t, 2>> duplicates; ///< {input triangle, the first with the
                                                           ///< same three points}, ascending
     EdgeSides edges;                                      ///< of the triangles

@@ -43,7 +43,7 @@ std::vector<ImproperContact> contacts_of(const Soup& soup, std::span<const Candi
 
 /// Borders, non-manifold edges and components, from the distinct triangles with area.
 void describe_edges(const Soup& soup, CheckReport& report) {
-    Sets components(soup.triangles.size());
+    DisjointSets components(soup.triangles.size());
     std::vector<std::uint32_t> surfaces;
     soup.edges.for_each([&](std::uint32_t low, std::uint32_t high, auto sides) {
         surfaces.clear();
@@ -100,8 +100,8 @@ Result<CheckReport> check_valid(std::span<const Surface> surfaces, const Run& ru
     return report;
 }
 
-bool along_an_edge(Place p, Place q) {
-    const auto on = [](Place x, unsigned e) {
+bool along_an_edge(Simplex p, Simplex q) {
+    const auto on = [](Simplex x, unsigned e) {
         return is_edge(x) ? edge_of(x) == e
                           : is_corner(x) && (corner_of(x) == e || corner_of(x) == (e + 1) % 3);
     };
@@ -110,7 +110,7 @@ bool along_an_edge(Place p, Place q) {
 
 ContactKind kind_of_point(const ContactPoint& p) {
     if (is_edge(p.place[0]) && is_edge(p.place[1])) return ContactKind::edges_cross;
-    const bool face = p.place[0] == Place::face || p.place[1] == Place::face;
+    const bool face = p.place[0] == Simplex::face || p.place[1] == Simplex::face;
     return face ? ContactKind::vertex_on_face : ContactKind::vertex_on_edge;
 }
 

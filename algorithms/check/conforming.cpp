@@ -62,7 +62,8 @@ std::optional<CandidatePair> first_contact(std::span<const Point3> points,
                                            std::span<const std::uint32_t> label_of,
                                            const Run& run) {
     const EdgeSides edges = group_edges(triangles, points.size(), run);
-    const Patches patches = prove_patches(points, triangles, label_of, edges, run);
+    const InjectivePatches patches =
+        find_injective_patches(points, triangles, label_of, edges, run);
     std::vector<std::uint32_t> all(triangles.size());
     std::iota(all.begin(), all.end(), 0U);
     const auto improper = [&](const CandidatePair& p) {

@@ -19,7 +19,7 @@ Status sound_triangles(std::span<const Point3> points, std::span<const Triangle>
 /// at one place. label_of: per triangle, any; triangles that hang together and have the same one
 /// are tried as a whole, see patches.hpp.
 /// Errors: bad_number, bad_index; improper_contact with the first place where it is not;
-/// interrupted. Cost: that of prove_patches, then a box search and one test per pair of boxes.
+/// interrupted. Cost: that of find_injective_patches, then a box search and one test per pair of boxes.
 Status conforming(std::span<const Point3> points, std::span<const Triangle> triangles,
                   std::span<const std::uint32_t> label_of, const Run& run = {});
 

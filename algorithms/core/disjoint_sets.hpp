@@ -16,9 +16,9 @@ void sort_unique(std::vector<T>& v) {
 }
 
 /// Union-find; the lowest element stands for its set.
-class Sets {
+class DisjointSets {
 public:
-    explicit Sets(std::size_t n) : parent_(n) {
+    explicit DisjointSets(std::size_t n) : parent_(n) {
         std::iota(parent_.begin(), parent_.end(), std::uint32_t{0});
     }
     std::uint32_t find(std::uint32_t i) {

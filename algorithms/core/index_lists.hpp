@@ -10,7 +10,7 @@ namespace terrane {
 
 /// Many short lists in two flat arrays: list i is values[offsets[i], offsets[i + 1]).
 template <class T>
-struct Lists {
+struct IndexLists {
     std::vector<std::uint32_t> offsets{0}; ///< size() + 1, ascending from 0
     std::vector<T> values;                 ///< all lists, one after the other
 
@@ -25,13 +25,13 @@ struct Lists {
         close();
     }
     /// All lists of another one, after these.
-    void append(const Lists& other) {
+    void append(const IndexLists& other) {
         const auto start = static_cast<std::uint32_t>(values.size());
         values.insert(values.end(), other.values.begin(), other.values.end());
         for (std::size_t i = 1; i < other.offsets.size(); ++i)
             offsets.push_back(start + other.offsets[i]);
     }
-    friend bool operator==(const Lists&, const Lists&) = default;
+    friend bool operator==(const IndexLists&, const IndexLists&) = default;
 };
 
 } // namespace terrane

@@ -10,11 +10,11 @@ namespace terrane {
 /// Leaves elements made without a value as they come: a pass over a large array less where each
 /// element is written anyway.
 template <class T>
-struct UnfilledAllocator : std::allocator<T> {
+struct UninitializedAllocator : std::allocator<T> {
     // NOLINTBEGIN(readability-identifier-naming): the names are the standard's
     template <class U>
     struct rebind {
-        using other = UnfilledAllocator<U>;
+        using other = UninitializedAllocator<U>;
     };
     // NOLINTEND(readability-identifier-naming)
 
@@ -29,6 +29,6 @@ struct UnfilledAllocator : std::allocator<T> {
 
 /// resize leaves new elements without a value. For types without a constructor of their own.
 template <class T>
-using Unfilled = std::vector<T, UnfilledAllocator<T>>;
+using UninitializedVector = std::vector<T, UninitializedAllocator<T>>;
 
 } // namespace terrane

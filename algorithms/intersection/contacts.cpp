@@ -18,9 +18,10 @@ namespace {
 struct PairBlock {
     std::size_t improper = 0; ///< pairs
     std::vector<Construction> points;
-    std::array<std::vector<FacePiece>, 2> pieces; ///< of first and of second faces of pairs; ends
-                                                  ///< are indices into points
-    std::vector<std::uint32_t> overlapped;        ///< faces
+    std::array<std::vector<FaceConstraint>, 2>
+        pieces;                            ///< of first and of second faces of pairs; ends
+                                           ///< are indices into points
+    std::vector<std::uint32_t> overlapped; ///< faces
     std::vector<CandidatePair> near;
     PredicateCounts predicates;
 
@@ -53,7 +54,7 @@ PairBlock test_pairs(const TriangleSoup& soup, std::span<const CandidatePair> pa
         return soup.points[soup.triangles[t][i]];
     };
     std::uint32_t last = UINT32_MAX;
-    std::optional<QuickTriangle> first; // pairs come sorted by it
+    std::optional<SeparationFilter> first; // pairs come sorted by it
     for (const CandidatePair& p : pairs) {
         const auto [f, g] = p;
         if (f != last) first.emplace(at(f, 0), at(f, 1), at(f, 2));
@@ -61,7 +62,7 @@ PairBlock test_pairs(const TriangleSoup& soup, std::span<const CandidatePair> pa
         const bool joined = have_common_vertex(soup.triangles[f], soup.triangles[g]);
         if (!joined) {
             if (first->is_beside(at(g, 0), at(g, 1), at(g, 2))) continue;
-            const QuickTriangle second(at(g, 0), at(g, 1), at(g, 2));
+            const SeparationFilter second(at(g, 0), at(g, 1), at(g, 2));
             if (second.is_beside(at(f, 0), at(f, 1), at(f, 2)) ||
                 first->is_beyond(at(g, 0), at(g, 1), at(g, 2)) ||
                 second.is_beyond(at(f, 0), at(f, 1), at(f, 2)))
@@ -76,15 +77,16 @@ PairBlock test_pairs(const TriangleSoup& soup, std::span<const CandidatePair> pa
     return block;
 }
 
-bool has_lower_face(const FacePiece& a, const FacePiece& b) {
+bool has_lower_face(const FaceConstraint& a, const FaceConstraint& b) {
     return a.face < b.face;
 }
 
 /// By face, those of equal faces in the order of pairs: where a face is the second of a pair before
 /// those where it is the first. These are sorted as they come.
-std::vector<FacePiece> by_face(std::vector<FacePiece> of_first, std::vector<FacePiece> of_second) {
+std::vector<FaceConstraint> by_face(std::vector<FaceConstraint> of_first,
+                                    std::vector<FaceConstraint> of_second) {
     std::stable_sort(of_second.begin(), of_second.end(), has_lower_face);
-    std::vector<FacePiece> all(of_first.size() + of_second.size());
+    std::vector<FaceConstraint> all(of_first.size() + of_second.size());
     std::merge(of_second.begin(), of_second.end(), of_first.begin(), of_first.end(), all.begin(),
                has_lower_face);
     return all;
@@ -100,7 +102,7 @@ public:
         for (const Construction& how : block.points) index_.push_back(table_.enter(how));
         for (const std::uint32_t face : block.overlapped) contacts_.overlapped[face] = true;
         for (unsigned k = 0; k < 2; ++k)
-            for (FacePiece piece : block.pieces[k]) {
+            for (FaceConstraint piece : block.pieces[k]) {
                 for (PointIndex& end : piece.ends) end = index_[end];
                 pieces_[k].push_back(piece);
             }
@@ -110,25 +112,25 @@ public:
     }
 
     std::span<const Construction> constructions() const { return table_.constructions(); }
-    std::vector<FacePiece> pieces() && {
+    std::vector<FaceConstraint> pieces() && {
         return by_face(std::move(pieces_[0]), std::move(pieces_[1]));
     }
 
 private:
     ConstructionTable table_;
     Contacts& contacts_;
-    std::array<std::vector<FacePiece>, 2> pieces_; ///< of first and of second faces of pairs
-    std::vector<PointIndex> index_;                ///< of the points of a block
+    std::array<std::vector<FaceConstraint>, 2> pieces_; ///< of first and of second faces of pairs
+    std::vector<PointIndex> index_;                     ///< of the points of a block
 };
 
-bool on_closed_edge(Place p, unsigned e) {
+bool on_closed_edge(Simplex p, unsigned e) {
     if (is_edge(p)) return edge_of(p) == e;
     return is_corner(p) && (corner_of(p) == e || corner_of(p) == (e + 1) % 3);
 }
 
 } // namespace
 
-bool FacePiece::is_inner_segment() const {
+bool FaceConstraint::is_inner_segment() const {
     if (ends[0] == ends[1]) return false;
     for (unsigned e = 0; e < 3; ++e)
         if (on_closed_edge(place[0], e) && on_closed_edge(place[1], e)) return false;
@@ -220,7 +222,7 @@ PointOrder order_points(const TriangleSoup& soup, const Contacts& contacts, cons
         is_used[p] = true;
         used.push_back(p);
     };
-    for (const FacePiece& p : contacts.pieces) {
+    for (const FaceConstraint& p : contacts.pieces) {
         for (const PointIndex c : soup.triangles[p.face]) use(c);
         for (const PointIndex e : p.ends) use(e);
     }

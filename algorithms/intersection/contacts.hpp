@@ -24,7 +24,7 @@ struct TriangleSoup {
 
 /// The line that carries a segment within its triangle's plane: the plane of triangle `other`, or
 /// edge 0..2 of `other` where the two are coplanar.
-struct Support {
+struct SupportLine {
     std::uint32_t other;
     std::uint8_t edge = 3; ///< 3: the plane
 
@@ -32,10 +32,10 @@ struct Support {
 };
 
 /// A point or segment that must appear in triangle `face`.
-struct FacePiece {
+struct FaceConstraint {
     std::uint32_t face;
-    Support support;
-    std::array<Place, 2> place;     ///< of the ends, on the face
+    SupportLine support;
+    std::array<Simplex, 2> place;   ///< of the ends, on the face
     std::array<PointIndex, 2> ends; ///< equal for a point
 
     /// Not a point, and not along an edge of the face.
@@ -51,7 +51,7 @@ struct FaceCrossing {
 
 struct Contacts {
     PointStore points;                   ///< the soup's points, then those of all contacts
-    std::vector<FacePiece> pieces;       ///< by face, then in the order of pairs
+    std::vector<FaceConstraint> pieces;  ///< by face, then in the order of pairs
     std::vector<FaceCrossing> crossings; ///< by face
     std::vector<bool> overlapped;        ///< per triangle: some coplanar one overlaps it
     std::vector<CandidatePair> near;     ///< candidates that may meet when points are rounded to

@@ -163,7 +163,7 @@ public:
         triangles_(triangles), surface_of_(surface_of), edges_(edges), run_(run),
         known_turns_(turns), group_(triangles.size(), no_group) {}
 
-    Patches operator()() {
+    InjectivePatches operator()() {
         // Whole surfaces first: nothing in the proof needs them to be connected.
         patch_of_ = surface_of_;
         count_surfaces();
@@ -288,7 +288,7 @@ private:
 
     /// Connected over edges, same label, not yet in a group.
     void find_components() {
-        Sets sets(triangles_.size());
+        DisjointSets sets(triangles_.size());
         edges_.for_each([&](std::uint32_t, std::uint32_t, auto sides) {
             for (std::size_t i = 1; i < sides.size(); ++i)
                 if (label_[sides[i].triangle] == label_[sides[i - 1].triangle] &&
@@ -404,7 +404,7 @@ private:
     std::vector<std::uint32_t> group_;        ///< the result
     std::vector<Axis> axis_;                  ///< per group
     std::vector<Sign> turn_;                  ///< per group: of all its triangles, or Zero
-    Unfilled<Sign> turns_;                    ///< per triangle, in the projection being tried
+    UninitializedVector<Sign> turns_;         ///< per triangle, in the projection being tried
     std::span<const std::uint32_t> patch_of_; ///< per triangle without a group
     std::vector<std::uint32_t> component_of_; ///< the same, after whole surfaces
     std::vector<std::optional<Axis>> proven_; ///< per patch
@@ -415,18 +415,18 @@ private:
 
 } // namespace
 
-Patches prove_patches(std::span<const Point3> points, std::span<const Triangle> triangles,
-                      std::span<const std::uint32_t> surface_of, const EdgeSides& edges,
-                      const Run& run, std::span<const Sign> turns) {
+InjectivePatches find_injective_patches(std::span<const Point3> points,
+                                        std::span<const Triangle> triangles,
+                                        std::span<const std::uint32_t> surface_of,
+                                        const EdgeSides& edges, const Run& run,
+                                        std::span<const Sign> turns) {
     return Prover(points, triangles, surface_of, edges, run, turns)();
 }
 
-std::vector<bool> confirm_patches(std::span<const Point3> points,
-                                  std::span<const Triangle> triangles, const Adjacency& adjacency,
-                                  std::span<const std::uint32_t> moved,
-                                  const std::vector<bool>& is_moved,
-                                  const std::function<Sign(std::uint32_t, Axis)>& turn,
-                                  const Patches& patches) {
+std::vector<bool> recheck_injective_patches(
+    std::span<const Point3> points, std::span<const Triangle> triangles, const Adjacency& adjacency,
+    std::span<const std::uint32_t> moved, const std::vector<bool>& is_moved,
+    const std::function<Sign(std::uint32_t, Axis)>& turn, const InjectivePatches& patches) {
     std::vector<bool> holds(patches.axis.size(), true), moved_border(patches.axis.size(), false);
     const auto turn_before = [&](std::uint32_t t, std::uint32_t p) {
         return patches.turn[p] != Sign::Zero ? patches.turn[p] : turn(t, patches.axis[p]);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Patches of a surface that provably do not meet themselves: their triangles need no pair tests.
+// InjectivePatches of a surface that provably do not meet themselves: their triangles need no pair tests.
 //
 // Guarantee: two triangles of one patch share a common vertex, a common edge, or nothing.
 // Reason: turn all triangles of a set counterclockwise in a projection in which none is degenerate.
@@ -26,7 +26,7 @@
 
 namespace terrane {
 
-struct Patches {
+struct InjectivePatches {
     std::vector<std::uint32_t> of; ///< per triangle: its patch, or no_group where nothing was shown
     std::vector<Axis> axis;        ///< per patch: the projection in which it is one-to-one
     std::vector<Sign> turn;        ///< per patch: how all its triangles are oriented there, or Zero
@@ -36,9 +36,11 @@ struct Patches {
 /// `turns`: their orientations seen along z, where they are known already.
 /// Tried first: connected components of a surface, in each of the three projections; then their
 /// parts of like orientation.
-Patches prove_patches(std::span<const Point3> points, std::span<const Triangle> triangles,
-                      std::span<const std::uint32_t> surface_of, const EdgeSides& edges,
-                      const Run& run = {}, std::span<const Sign> turns = {});
+InjectivePatches find_injective_patches(std::span<const Point3> points,
+                                        std::span<const Triangle> triangles,
+                                        std::span<const std::uint32_t> surface_of,
+                                        const EdgeSides& edges, const Run& run = {},
+                                        std::span<const Sign> turns = {});
 
 /// Shows the same again after some vertices have moved a little: per patch, whether it holds.
 /// patches.of counts the triangles given here (parts of those for which it was shown), turn(t) is
@@ -46,9 +48,11 @@ Patches prove_patches(std::span<const Point3> points, std::span<const Triangle> 
 /// vertices moved, `moved` lists the triangles at them, `adjacency` was made with patches.of. Cost:
 /// a predicate per triangle with a moved corner, and the borders of the patches that have a moved
 /// vertex on it.
-std::vector<bool> confirm_patches(
-    std::span<const Point3> points, std::span<const Triangle> triangles, const Adjacency& adjacency,
-    std::span<const std::uint32_t> moved, const std::vector<bool>& is_moved,
-    const std::function<Sign(std::uint32_t triangle, Axis axis)>& turn, const Patches& patches);
+std::vector<bool>
+recheck_injective_patches(std::span<const Point3> points, std::span<const Triangle> triangles,
+                          const Adjacency& adjacency, std::span<const std::uint32_t> moved,
+                          const std::vector<bool>& is_moved,
+                          const std::function<Sign(std::uint32_t triangle, Axis axis)>& turn,
+                          const InjectivePatches& patches);
 
 } // namespace terrane

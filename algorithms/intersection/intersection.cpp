@@ -10,11 +10,11 @@
 namespace terrane {
 namespace {
 
-constexpr Place corner(unsigned i) {
-    return static_cast<Place>(i);
+constexpr Simplex corner(unsigned i) {
+    return static_cast<Simplex>(i);
 }
-constexpr Place edge(unsigned i) {
-    return static_cast<Place>(3 + i);
+constexpr Simplex edge(unsigned i) {
+    return static_cast<Simplex>(3 + i);
 }
 constexpr unsigned next(unsigned i) {
     return i == 2 ? 0 : i + 1;
@@ -36,7 +36,7 @@ bool opposite(Sign a, Sign b) {
 
 /// Where a point lies on a triangle, from its sides with respect to the three directed edges
 /// (positive inside); none if outside.
-std::optional<Place> place_from_sides(const Signs& inside) {
+std::optional<Simplex> place_from_sides(const Signs& inside) {
     unsigned zeros = 0, zero = 0, other = 0;
     for (unsigned j = 0; j < 3; ++j) {
         if (inside[j] == Sign::Negative) return std::nullopt;
@@ -47,7 +47,7 @@ std::optional<Place> place_from_sides(const Signs& inside) {
             other = j;
         }
     }
-    if (zeros == 0) return Place::face;
+    if (zeros == 0) return Simplex::face;
     if (zeros == 1) return edge(zero);
     return corner((other + 2) % 3); // opposite to the edge with which the point is not in line
 }
@@ -74,18 +74,18 @@ public:
 
 private:
     const Point3& at(unsigned k, unsigned i) const { return points_[t_[k][i]]; }
-    bool is_shared(unsigned k, unsigned i) const { return shared_[k][i] != Place::face; }
+    bool is_shared(unsigned k, unsigned i) const { return shared_[k][i] != Simplex::face; }
 
     bool quickly_beside_plane(unsigned k) const;
     bool quickly_beside_edge(unsigned k, Axis axis) const;
     Axis likely_axis() const;
     Signs sides(unsigned k) const;
     void set_axis(unsigned k);
-    std::optional<Place> locate_in_plane(unsigned k, unsigned i);
-    std::optional<Place> pierce(unsigned k, unsigned i) const;
-    void add_corner(unsigned k, unsigned i, Place on_other);
-    void add_edge_point(unsigned k, unsigned i, Place on_other);
-    void add(const Construction& how, unsigned k, Place on_k, Place on_other);
+    std::optional<Simplex> locate_in_plane(unsigned k, unsigned i);
+    std::optional<Simplex> pierce(unsigned k, unsigned i) const;
+    void add_corner(unsigned k, unsigned i, Simplex on_other);
+    void add_edge_point(unsigned k, unsigned i, Simplex on_other);
+    void add(const Construction& how, unsigned k, Simplex on_k, Simplex on_other);
     void cross_planes(unsigned k);
     void overlap_in_plane();
     void collect_pieces(unsigned k);
@@ -94,8 +94,8 @@ private:
     std::span<const Point3> points_;
     std::array<Triangle, 2> t_;
     // Per corner: the same vertex's corner of the other triangle, or `face` for none.
-    std::array<std::array<Place, 3>, 2> shared_{
-        {{Place::face, Place::face, Place::face}, {Place::face, Place::face, Place::face}}};
+    std::array<std::array<Simplex, 3>, 2> shared_{{{Simplex::face, Simplex::face, Simplex::face},
+                                                   {Simplex::face, Simplex::face, Simplex::face}}};
     unsigned shared_count_ = 0;
     std::array<Signs, 2> sides_{}; // of the corners of k with respect to the other's plane
     std::array<bool, 2> axis_known_{};
@@ -122,7 +122,7 @@ void TrianglePair::set_axis(unsigned k) {
 }
 
 /// Corner i of triangle k, known to lie in the other's plane, on the other triangle.
-std::optional<Place> TrianglePair::locate_in_plane(unsigned k, unsigned i) {
+std::optional<Simplex> TrianglePair::locate_in_plane(unsigned k, unsigned i) {
     if (is_shared(k, i)) return shared_[k][i];
     const unsigned o = 1 - k;
     set_axis(o);
@@ -135,7 +135,7 @@ std::optional<Place> TrianglePair::locate_in_plane(unsigned k, unsigned i) {
 }
 
 /// Where edge i of triangle k, whose ends lie on opposite sides of the other's plane, pierces it.
-std::optional<Place> TrianglePair::pierce(unsigned k, unsigned i) const {
+std::optional<Simplex> TrianglePair::pierce(unsigned k, unsigned i) const {
     const unsigned o = 1 - k;
     const Sign up = sides_[k][next(i)];
     Signs inside{};
@@ -147,7 +147,7 @@ std::optional<Place> TrianglePair::pierce(unsigned k, unsigned i) const {
     return place_from_sides(inside);
 }
 
-void TrianglePair::add(const Construction& how, unsigned k, Place on_k, Place on_other) {
+void TrianglePair::add(const Construction& how, unsigned k, Simplex on_k, Simplex on_other) {
     const auto end = contact_->points.begin() + contact_->point_count;
     if (std::any_of(contact_->points.begin(), end, [&](const auto& p) { return p.how == how; }))
         return;
@@ -157,13 +157,13 @@ void TrianglePair::add(const Construction& how, unsigned k, Place on_k, Place on
     point.place[1 - k] = on_other;
 }
 
-void TrianglePair::add_corner(unsigned k, unsigned i, Place on_other) {
+void TrianglePair::add_corner(unsigned k, unsigned i, Simplex on_other) {
     Construction how;
     how.v[0] = t_[k][i];
     add(how, k, corner(i), on_other);
 }
 
-void TrianglePair::add_edge_point(unsigned k, unsigned i, Place on_other) {
+void TrianglePair::add_edge_point(unsigned k, unsigned i, Simplex on_other) {
     const unsigned o = 1 - k;
     const std::array line{t_[k][i], t_[k][next(i)]};
     if (is_corner(on_other)) {
@@ -220,7 +220,7 @@ void TrianglePair::overlap_in_plane() {
                 add_edge_point(0, i, edge(j));
 }
 
-bool on_closed_edge(Place p, unsigned j) {
+bool on_closed_edge(Simplex p, unsigned j) {
     return p == edge(j) || p == corner(j) || p == corner(next(j));
 }
 
@@ -247,7 +247,7 @@ bool TrianglePair::only_shared_corners() const {
 /// Whether the static filters alone show that triangle k lies strictly on one side of the other's
 /// plane, but for common corners of which there are at most two.
 bool TrianglePair::quickly_beside_plane(unsigned k) const {
-    const QuickPlane plane(at(1 - k, 0), at(1 - k, 1), at(1 - k, 2));
+    const PlaneFilter plane(at(1 - k, 0), at(1 - k, 1), at(1 - k, 2));
     std::optional<Sign> common;
     for (unsigned i = 0; i < 3; ++i) {
         if (is_shared(k, i)) continue;
@@ -263,7 +263,7 @@ bool TrianglePair::quickly_beside_plane(unsigned k) const {
 /// the other triangle strictly beyond it, but for common corners on that edge.
 bool TrianglePair::quickly_beside_edge(unsigned k, Axis axis) const {
     const unsigned o = 1 - k;
-    const auto turn = quick_orient2d(axis, at(k, 0), at(k, 1), at(k, 2));
+    const auto turn = filtered_orient2d(axis, at(k, 0), at(k, 1), at(k, 2));
     if (!turn || *turn == Sign::Zero) return false;
     for (unsigned j = 0; j < 3; ++j) {
         bool beyond = true;
@@ -272,7 +272,7 @@ bool TrianglePair::quickly_beside_edge(unsigned k, Axis axis) const {
                 beyond = shared_[o][i] != corner((j + 2) % 3);
                 continue;
             }
-            const auto s = quick_orient2d(axis, at(k, j), at(k, next(j)), at(o, i));
+            const auto s = filtered_orient2d(axis, at(k, j), at(k, next(j)), at(o, i));
             beyond = s && *s == -*turn;
         }
         if (beyond) return true;

@@ -19,25 +19,25 @@ namespace terrane {
 
 /// Where on a closed triangle a point lies: corner i, the open edge i (from corner i to i + 1), or
 /// the open face.
-enum class Place : std::uint8_t { corner0, corner1, corner2, edge0, edge1, edge2, face };
+enum class Simplex : std::uint8_t { corner0, corner1, corner2, edge0, edge1, edge2, face };
 
-constexpr bool is_corner(Place p) {
-    return p <= Place::corner2;
+constexpr bool is_corner(Simplex p) {
+    return p <= Simplex::corner2;
 }
-constexpr bool is_edge(Place p) {
-    return p >= Place::edge0 && p <= Place::edge2;
+constexpr bool is_edge(Simplex p) {
+    return p >= Simplex::edge0 && p <= Simplex::edge2;
 }
-constexpr unsigned corner_of(Place p) {
+constexpr unsigned corner_of(Simplex p) {
     return static_cast<unsigned>(p);
 }
-constexpr unsigned edge_of(Place p) {
+constexpr unsigned edge_of(Simplex p) {
     return static_cast<unsigned>(p) - 3;
 }
 
 /// A point that two triangles share.
 struct ContactPoint {
-    Construction how;             ///< of kind input where it is a vertex of one of them
-    std::array<Place, 2> place{}; ///< on the first and on the second triangle
+    Construction how;               ///< of kind input where it is a vertex of one of them
+    std::array<Simplex, 2> place{}; ///< on the first and on the second triangle
 };
 
 /// A point or a segment that two triangles share.

@@ -284,7 +284,7 @@ Status Stacker::note(LayerReport& report, const Set& dropped, const Set& taken, 
     const auto is_taken = [&](std::uint32_t v) {
         return std::binary_search(taken_vertices.begin(), taken_vertices.end(), v);
     };
-    Sets parts(soft.size());
+    DisjointSets parts(soft.size());
     group_edges(corners, a_.vertices.size())
         .for_each([&](std::uint32_t a, std::uint32_t b, auto sides) {
             bool stays = false, goes = false;

@@ -27,9 +27,9 @@ std::vector<std::uint32_t> triangles_near_new(const Divided& divided, std::vecto
                                               const Run& run) {
     const std::size_t count = divided.triangles.size();
     std::vector<char> is_kept(count, 0);
-    for_ranges(divided.kept_as.size(), run, [&](std::size_t first, std::size_t last) {
+    for_ranges(divided.unchanged_as.size(), run, [&](std::size_t first, std::size_t last) {
         for (std::size_t f = first; f < last; ++f)
-            if (divided.kept_as[f] != none) is_kept[divided.kept_as[f]] = 1;
+            if (divided.unchanged_as[f] != none) is_kept[divided.unchanged_as[f]] = 1;
     });
     for (std::size_t t = 0; t < count; ++t)
         if (is_kept[t] == 0)
@@ -58,7 +58,7 @@ Adjacency edges_of_new(const Divided& divided, const Labels& old_labels,
                 if (is_new[v] != 0) part.push_back(v);
             return part;
         }));
-    Unfilled<std::uint32_t> number_of;
+    UninitializedVector<std::uint32_t> number_of;
     number_of.resize(is_new.size());
     for (std::uint32_t k = 0; k < vertices.size(); ++k) number_of[vertices[k]] = k;
     const auto other = static_cast<std::uint32_t>(vertices.size()); // at most one in a triangle
@@ -112,7 +112,8 @@ void merge(Adjacency& a, Adjacency b) {
 
 } // namespace
 
-Labels labels_of(const Lists<std::uint32_t>& surfaces_of, const Lists<std::uint32_t>& parents_of) {
+Labels labels_of(const IndexLists<std::uint32_t>& surfaces_of,
+                 const IndexLists<std::uint32_t>& parents_of) {
     Labels labels;
     labels.reserve(surfaces_of.size());
     for (std::size_t t = 0; t < surfaces_of.size(); ++t)
@@ -147,10 +148,12 @@ Adjacency adjacency_after(const EdgeSides& old, const Labels& old_labels, const 
         inner.reserve((old.starts[last] - old.starts[first]) / 2);
         std::vector<std::uint32_t> triangles;
         old.for_each(first, last, [&](std::uint32_t low, std::uint32_t high, auto sides) {
-            const std::uint32_t named = divided.named_as[low];
+            const std::uint32_t named = divided.vertex_map[low];
             // All triangles at an edge between two vertices of new ones are near.
-            if (is_new[named] != 0 && is_new[divided.named_as[high]] != 0) return;
-            const auto kept = [&](std::size_t i) { return divided.kept_as[sides[i].triangle]; };
+            if (is_new[named] != 0 && is_new[divided.vertex_map[high]] != 0) return;
+            const auto kept = [&](std::size_t i) {
+                return divided.unchanged_as[sides[i].triangle];
+            };
             if (sides.size() == 2 &&
                 is_inner(old_labels[sides[0].triangle], old_labels[sides[1].triangle])) {
                 inner.push_back({kept(0), kept(1)});
@@ -158,7 +161,7 @@ Adjacency adjacency_after(const EdgeSides& old, const Labels& old_labels, const 
             }
             triangles.clear();
             for (std::size_t i = 0; i < sides.size(); ++i) triangles.push_back(kept(i));
-            add_edge(a, {named, divided.named_as[high]}, triangles);
+            add_edge(a, {named, divided.vertex_map[high]}, triangles);
         });
         return a;
     };

@@ -24,23 +24,25 @@ struct Adjacency {
     std::vector<Inner> inner; ///< the two triangles at each inner edge: one with no others at it
                               ///< and of the same label; in any number of lists
     std::vector<Edge> edges;  ///< all other edges, sorted
-    Lists<std::uint32_t> triangles_at; ///< per edge of these: the triangles at it, ascending
+    IndexLists<std::uint32_t> triangles_at; ///< per edge of these: the triangles at it, ascending
 };
 
 /// By surface alone, from the surfaces and parents of triangles.
-Labels labels_of(const Lists<std::uint32_t>& surfaces_of, const Lists<std::uint32_t>& parents_of);
+Labels labels_of(const IndexLists<std::uint32_t>& surfaces_of,
+                 const IndexLists<std::uint32_t>& parents_of);
 
 /// `labels`: per triangle. Cost: linear.
 Adjacency adjacency_of(const EdgeSides& edges, const Labels& labels);
 
 /// A mesh that came from another one by dividing some triangles.
 struct Divided {
-    std::span<const Triangle> triangles;     ///< indices into vertices
-    const Lists<std::uint32_t>& faces_of;    ///< per triangle: the old ones that contain it
-    std::span<const std::uint32_t> kept_as;  ///< per old triangle: the same triangle here, or
-                                             ///< UINT32_MAX for none
-    std::span<const std::uint32_t> named_as; ///< per old vertex: its index here, in the same order;
-                                             ///< anything where it is in no triangle
+    std::span<const Triangle> triangles;         ///< indices into vertices
+    const IndexLists<std::uint32_t>& faces_of;   ///< per triangle: the old ones that contain it
+    std::span<const std::uint32_t> unchanged_as; ///< per old triangle: the same triangle here, or
+                                                 ///< UINT32_MAX for none
+    std::span<const std::uint32_t>
+        vertex_map; ///< per old vertex: its index here, in the same order;
+                    ///< anything where it is in no triangle
     std::size_t vertex_count = 0;
 };
 

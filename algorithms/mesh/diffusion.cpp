@@ -11,7 +11,7 @@ SharedFacet<3> sorted(Triangle t) {
 
 } // namespace
 
-std::vector<std::uint32_t> regions_of_polygons(const Lists<std::uint32_t>& polygons,
+std::vector<std::uint32_t> regions_of_polygons(const IndexLists<std::uint32_t>& polygons,
                                                std::span<const Edge> stops) {
     std::vector<CellFacet<2>> sides;
     sides.reserve(polygons.values.size());

@@ -37,7 +37,7 @@ struct CellFacet {
 template <std::size_t N>
 std::vector<std::uint32_t> diffuse(std::size_t cells, std::vector<CellFacet<N>> facets,
                                    std::span<const SharedFacet<N>> stops) {
-    Sets sets(cells);
+    DisjointSets sets(cells);
     std::sort(facets.begin(), facets.end());
     for (std::size_t i = 0, end = 0; i < facets.size(); i = end) {
         while (end < facets.size() && facets[end].corners == facets[i].corners) ++end;
@@ -54,7 +54,7 @@ std::vector<std::uint32_t> diffuse(std::size_t cells, std::vector<CellFacet<N>> 
 /// Regions of polygons (triangles, quadrilaterals, any mixture): per polygon its corners in order
 /// around it, >= 3. `stops`: edges of the curve, lower vertex first, sorted; parts of edges are
 /// none.
-std::vector<std::uint32_t> regions_of_polygons(const Lists<std::uint32_t>& polygons,
+std::vector<std::uint32_t> regions_of_polygons(const IndexLists<std::uint32_t>& polygons,
                                                std::span<const Edge> stops);
 
 /// Regions of tetrahedra, by diffusion over faces that are on no surface.

@@ -21,8 +21,8 @@ struct EdgeSides {
         friend auto operator<=>(const Side&, const Side&) = default;
     };
     std::vector<std::uint32_t>
-        starts;           ///< per vertex, and the total: sides whose smaller vertex it is
-    Unfilled<Side> sides; ///< by smaller vertex, then larger vertex, then triangle
+        starts; ///< per vertex, and the total: sides whose smaller vertex it is
+    UninitializedVector<Side> sides; ///< by smaller vertex, then larger vertex, then triangle
 
     /// Calls visit(low, high, sides of this edge) for each edge, ascending.
     template <class Visit>

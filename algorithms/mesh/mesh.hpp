@@ -24,14 +24,15 @@ struct SurfaceInfo {
 /// One mesh of several surfaces, with doubles: what writers write and TetGen gets.
 /// A triangle may belong to several surfaces (where they coincide).
 struct Mesh {
-    std::vector<SurfaceInfo> surfaces; ///< order of the input
-    std::vector<Point3> vertices;      ///< unit of the input
-    std::vector<Triangle> triangles;   ///< indices into vertices
-    Lists<std::uint32_t> surfaces_of;  ///< per triangle: indices into surfaces, sorted, >= 1
-    Lists<std::uint32_t> regions_of;   ///< per triangle, parallel to surfaces_of: region of the
-                                       ///< mesh (numbered through all surfaces); or no list at all
-    Lists<std::uint32_t> parents_of;   ///< per triangle: input triangles that contain it, counted
-                                       ///< through all surfaces, sorted, >= 1; or no list at all
+    std::vector<SurfaceInfo> surfaces;     ///< order of the input
+    std::vector<Point3> vertices;          ///< unit of the input
+    std::vector<Triangle> triangles;       ///< indices into vertices
+    IndexLists<std::uint32_t> surfaces_of; ///< per triangle: indices into surfaces, sorted, >= 1
+    IndexLists<std::uint32_t> regions_of;  ///< per triangle, parallel to surfaces_of: region of the
+        ///< mesh (numbered through all surfaces); or no list at all
+    IndexLists<std::uint32_t>
+        parents_of; ///< per triangle: input triangles that contain it, counted
+                    ///< through all surfaces, sorted, >= 1; or no list at all
     std::vector<Edge> intersection_edges; ///< sorted, unique
 };
 
@@ -47,7 +48,7 @@ struct TetrahedralMesh {
     std::vector<Triangle> faces;              ///< faces of tetrahedra that lie on a surface
     std::vector<std::uint32_t> face_triangle; ///< per face: triangle of the mesh it is part of,
                                               ///< or UINT32_MAX on the box
-    Lists<std::uint32_t> surfaces_of;         ///< per face: indices into surfaces, sorted, >= 1
+    IndexLists<std::uint32_t> surfaces_of;    ///< per face: indices into surfaces, sorted, >= 1
     std::vector<std::array<std::uint32_t, 2>>
         twins; ///< pairs of faces, in front of and behind a cut (split_nodes.hpp): corner by
                ///< corner at the same place; none: nodes are not split

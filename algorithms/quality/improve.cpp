@@ -106,7 +106,7 @@ public:
         mesh_.sizes = sizes_.of_vertices;
         reference_.find_alone(run);
         for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t)
-            mesh_.alone[t] = static_cast<char>(reference_.is_alone(t));
+            mesh_.alone[t] = static_cast<char>(reference_.is_isolated(t));
     }
 
     Result<Improved> operator()() {
@@ -162,8 +162,8 @@ private:
         regroup_if_needed();
         collapse_edges(shop_);
         regroup_if_needed();
-        if (pass < 2) shake(shop_);
-        even_out(shop_);
+        if (pass < 2) jitter(shop_);
+        equalize_valences(shop_);
         regroup_if_needed();
         smooth(shop_);
         swap_edges(shop_);
@@ -182,13 +182,13 @@ private:
             swap_edges(shop_);
             slide_curves(shop_);
             smooth(shop_);
-            const std::size_t lifts = lift_worst(shop_, bad_shape);
+            const std::size_t lifts = improve_worst(shop_, bad_shape);
             if (shop_.collapses + shop_.swaps == before && lifts == 0) break;
         }
     }
 
     Result<Improved> assembled();
-    [[nodiscard]] Status judge(const Mesh& after, std::span<const std::uint32_t> sheets);
+    [[nodiscard]] Status check(const Mesh& after, std::span<const std::uint32_t> sheets);
     [[nodiscard]] Result<bool> sides_kept(const Mesh& after,
                                           std::span<const std::uint32_t> sheets) const;
     [[nodiscard]] Mesh output(std::span<const std::uint32_t> used) const;
@@ -201,10 +201,10 @@ private:
     const Run& run_;
     const Features features_;
     const Sizes sizes_;
-    Reference reference_;
+    ReferenceSurface reference_;
     WorkMesh mesh_;
-    Guard guard_;
-    Workshop shop_;
+    ChangeValidator guard_;
+    RemeshContext shop_;
     ImproveReport report_;
 };
 
@@ -266,7 +266,7 @@ WorstCause Improver::cause_of_worst(Triangle t) {
     const Refusals before = guard_.refusals();
     const double below = shape_of(mesh_, t) * (1 + 1e-9);
     shop_.lifted_at.clear(); // tried before, in vain: here for the reasons
-    lift_worst(shop_, below);
+    improve_worst(shop_, below);
     collapse_bad(shop_, below);
     const Refusals& after = guard_.refusals();
     const std::size_t deviation = after.deviation - before.deviation;
@@ -304,7 +304,7 @@ Result<bool> Improver::sides_kept(const Mesh& after, std::span<const std::uint32
 }
 
 /// Quality, before and after; whether it is conforming, and volumes are what they were.
-Status Improver::judge(const Mesh& after, std::span<const std::uint32_t> sheets) {
+Status Improver::check(const Mesh& after, std::span<const std::uint32_t> sheets) {
     std::optional<Status> holds;
     std::optional<Result<bool>> kept;
     both(
@@ -343,7 +343,7 @@ Result<Improved> Improver::assembled() {
     report_.refused_deviation = guard_.refusals().deviation;
     report_.refused_shape = guard_.refusals().shape;
     improved.mesh = output(used);
-    if (auto good = judge(improved.mesh, sheets); !good) return good.error();
+    if (auto good = check(improved.mesh, sheets); !good) return good.error();
     report_.worst_cause = cause_of_worst(mesh_.triangles[used[report_.after.worst]]);
     report_.sheets = features_.first_of.size();
     report_.curves = features_.curves.size();

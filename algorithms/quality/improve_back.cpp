@@ -23,7 +23,7 @@ constexpr double endless = std::numeric_limits<double>::infinity();
 constexpr unsigned most_parts = 16384; ///< of one triangle
 constexpr double most_factor = 8;      ///< of the bound
 
-/// The improved mesh in the sheets of the one before: what a Reference looks at.
+/// The improved mesh in the sheets of the one before: what the reference surface is compared with.
 Features features_of(const Features& before, const Improved& after, const Run& run) {
     Features now;
     now.triangles = after.mesh.triangles;
@@ -89,9 +89,10 @@ public:
     Nearest(const Mesh& after, std::uint32_t surface) :
         surface_(surface_of_mesh(after, surface)), tree_(surface_.vertices, stout(surface_)) {}
 
-    /// Also where follows(part) holds: asked for parts that are large against the bound.
+    /// Also where contains_within_tolerance(part) holds: asked for parts that are large against the bound.
     template <class Follows>
-    [[nodiscard]] bool is_near(const Corners& whole, double bound, const Follows& follows) const {
+    [[nodiscard]] bool is_near(const Corners& whole, double bound,
+                               const Follows& contains_within_tolerance) const {
         std::vector<Corners> parts{whole};
         for (unsigned count = 0; !parts.empty(); ++count) {
             const Corners c = parts.back();
@@ -111,7 +112,7 @@ public:
                 std::max({apart(middle, c[0]), apart(middle, c[1]), apart(middle, c[2])});
             if (there + reach <= bound) continue;
             if (there > bound || count == most_parts) return false;
-            if (reach > 4 * bound && follows(c)) continue;
+            if (reach > 4 * bound && contains_within_tolerance(c)) continue;
             divide(c, parts);
         }
         return true;
@@ -158,8 +159,8 @@ Result<std::vector<double>> shown(const Mesh& before, const Improved& after,
     const Features now = features_of(features, after, run);
     const auto hints = hints_of(features, after);
     std::vector<double> bounds = bounds_of_sheets(before, features, after.report);
-    const Reference reference(after.mesh.vertices, now, bounds);
-    Reference::Search search;
+    const ReferenceSurface reference(after.mesh.vertices, now, bounds);
+    ReferenceSurface::Search search;
     std::vector<double> of_surfaces(before.surfaces.size(), 0);
     std::vector<std::uint32_t> open(features.triangles.size());
     for (std::uint32_t t = 0; t < open.size(); ++t) open[t] = t;
@@ -174,7 +175,8 @@ Result<std::vector<double>> shown(const Mesh& before, const Improved& after,
         return std::all_of(surfaces.begin(), surfaces.end(), [&](std::uint32_t s) {
             if (!nearest[s]) nearest[s].emplace(after.mesh, s);
             return nearest[s]->is_near(corners, bound, [&](const Corners& part) {
-                return hints[t] != none && reference.follows(part, hints[t], search).has_value();
+                return hints[t] != none &&
+                       reference.contains_within_tolerance(part, hints[t], search).has_value();
             });
         });
     };
@@ -185,7 +187,8 @@ Result<std::vector<double>> shown(const Mesh& before, const Improved& after,
                 return Error{ErrorCode::interrupted, "stopped on request", ""};
             const auto& [a, b, c] = features.triangles[t];
             const Corners corners{before.vertices[a], before.vertices[b], before.vertices[c]};
-            if ((hints[t] != none && reference.follows(corners, hints[t], search)) ||
+            if ((hints[t] != none &&
+                 reference.contains_within_tolerance(corners, hints[t], search)) ||
                 is_near(t, corners))
                 raise(t, bounds[features.sheet_of[t]]);
             else

@@ -29,7 +29,7 @@ double area_of(std::span<const Point3> v, const Triangle& t) {
 /// A slot is a triangle in one of its surfaces.
 class Diffusion {
 public:
-    Diffusion(std::span<const Triangle> triangles, const Lists<std::uint32_t>& surfaces_of,
+    Diffusion(std::span<const Triangle> triangles, const IndexLists<std::uint32_t>& surfaces_of,
               std::span<const Edge> stops, const Run& run) :
         triangles_(triangles),
         surfaces_of_(surfaces_of), stops_(stops), run_(run), sets_(surfaces_of.values.size()) {}
@@ -209,17 +209,17 @@ private:
     }
 
     std::span<const Triangle> triangles_;
-    const Lists<std::uint32_t>& surfaces_of_;
+    const IndexLists<std::uint32_t>& surfaces_of_;
     std::span<const Edge> stops_;
     const Run& run_;
-    Sets sets_;
-    Lists<std::uint32_t> at_stop_; ///< per stop: the triangles at it
+    DisjointSets sets_;
+    IndexLists<std::uint32_t> at_stop_; ///< per stop: the triangles at it
 };
 
 } // namespace
 
 Regions find_regions(std::span<const Point3> vertices, std::span<const Triangle> triangles,
-                     const Lists<std::uint32_t>& surfaces_of, const Adjacency& adjacency,
+                     const IndexLists<std::uint32_t>& surfaces_of, const Adjacency& adjacency,
                      std::span<const Edge> intersection_edges, const Run& run) {
     Diffusion diffusion(triangles, surfaces_of, intersection_edges, run);
     diffusion.spread(adjacency);

@@ -29,13 +29,13 @@ struct Region {
 };
 
 struct Regions {
-    Lists<std::uint32_t> regions_of; ///< per triangle, parallel to surfaces_of
+    IndexLists<std::uint32_t> regions_of; ///< per triangle, parallel to surfaces_of
     std::vector<Region> regions;
 };
 
 /// `intersection_edges` are sorted, none of them is an inner edge.
 Regions find_regions(std::span<const Point3> vertices, std::span<const Triangle> triangles,
-                     const Lists<std::uint32_t>& surfaces_of, const Adjacency& adjacency,
+                     const IndexLists<std::uint32_t>& surfaces_of, const Adjacency& adjacency,
                      std::span<const Edge> intersection_edges, const Run& run = {});
 
 } // namespace terrane

@@ -31,7 +31,7 @@ struct SnapGrid {
     }
 
 private:
-    // Division and multiplication by a power of two are exact; the cell of a multiple is itself.
+    // Retriangulation and multiplication by a power of two are exact; the cell of a multiple is itself.
     static double snap(double x, double s) { return s > 0 ? std::nearbyint(x / s) * s : x; }
 };
 
@@ -65,7 +65,8 @@ SnapGrid grid_of_digits(std::span<const Point3> points, int digits) {
 }
 
 /// Input triangles that have parts in the arrangement, but none that names them; ascending.
-std::vector<std::uint32_t> vanished(const Arrangement& a, const Lists<std::uint32_t>& parents_of) {
+std::vector<std::uint32_t> vanished(const Arrangement& a,
+                                    const IndexLists<std::uint32_t>& parents_of) {
     std::vector<bool> present(a.inputs.first.back(), false);
     for (const std::uint32_t p : parents_of.values) present[p] = true;
     std::vector<std::uint32_t> result;
@@ -217,23 +218,23 @@ std::vector<CandidatePair> Rounding::first_contacts() {
         const auto at = [&](unsigned i) { return a.points.input(c[i]); };
         return last_turn = orient2d(axis, at(0), at(1), at(2));
     };
-    Unclear unclear;
+    Unproven unproven;
     both(
         run_,
         [&] {
-            holds = confirm_patches(state_.points, state_.triangles, a.adjacency, dirty,
-                                    state_.is_dirty, turn, a.patches);
+            holds = recheck_injective_patches(state_.points, state_.triangles, a.adjacency, dirty,
+                                              state_.is_dirty, turn, a.patches);
         },
         [&] {
-            unclear = find_unclear({a.points.inputs(), a.inputs.corners, a.vertices, state_.points,
-                                    state_.move, state_.triangles, a.parents_of},
-                                   a.neighbours, run_);
+            unproven = find_unproven({a.points.inputs(), a.inputs.corners, a.vertices,
+                                      state_.points, state_.move, state_.triangles, a.parents_of},
+                                     a.neighbours, run_);
         });
     const auto improper = is_improper();
     std::vector<CandidatePair> pairs;
     {
         const UpwardRounding guard;
-        for (const CandidatePair& p : unclear.pairs)
+        for (const CandidatePair& p : unproven.pairs)
             if (improper(p)) pairs.push_back(p);
     }
     const auto patch_of = [&](std::uint32_t t) {
@@ -241,14 +242,14 @@ std::vector<CandidatePair> Rounding::first_contacts() {
         return p != no_group && holds[p] ? p : no_group;
     };
     for (const std::uint32_t t : dirty)
-        if (patch_of(t) != a.patches.of[t]) unclear.parts.push_back(t);
-    for (const std::uint32_t t : unclear.restless) // two of one patch are known not to meet
-        if (patch_of(t) == no_group) unclear.parts.push_back(t);
-    if (unclear.parts.empty()) return pairs;
-    sort_unique(unclear.parts);
+        if (patch_of(t) != a.patches.of[t]) unproven.parts.push_back(t);
+    for (const std::uint32_t t : unproven.ill_conditioned) // two of one patch are known not to meet
+        if (patch_of(t) == no_group) unproven.parts.push_back(t);
+    if (unproven.parts.empty()) return pairs;
+    sort_unique(unproven.parts);
     std::vector<std::uint32_t> patches(state_.triangles.size());
     for (std::uint32_t t = 0; t < patches.size(); ++t) patches[t] = patch_of(t);
-    const auto more = candidate_pairs_of({state_.points, state_.triangles}, unclear.parts, patches,
+    const auto more = candidate_pairs_of({state_.points, state_.triangles}, unproven.parts, patches,
                                          improper, run_);
     pairs.insert(pairs.end(), more.begin(), more.end());
     sort_unique(pairs);
@@ -283,7 +284,7 @@ bool Rounding::divide_again(std::size_t most_pairs) {
     const auto pairs = contacts();
     if (pairs.size() > most_pairs) return false;
     if (pairs.empty()) return true;
-    Division division = divide(state_.points, state_.triangles, pairs, run_);
+    Retriangulation division = retriangulate(state_.points, state_.triangles, pairs, run_);
     if (run_.stop.stop_requested()) return true;
     const auto first_new = static_cast<std::uint32_t>(state_.points.size());
     std::vector<std::uint32_t> name_of(division.points.size());

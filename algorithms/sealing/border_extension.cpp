@@ -72,7 +72,7 @@ class Builder {
 public:
     Builder(const Arrangement& a, std::span<const StripEdge> edges) : a_(a), edges_(edges) {}
 
-    std::vector<StripTriangle> operator()() {
+    std::vector<ExtensionTriangle> operator()() {
         for (std::uint32_t e = 0; e < edges_.size(); ++e)
             for (const std::uint32_t v : {edges_[e].edge.from, edges_[e].edge.to}) {
                 Vertex& vertex = vertices_[{edges_[e].edge.surface, v}];
@@ -150,7 +150,7 @@ private:
     const Arrangement& a_;
     std::span<const StripEdge> edges_;
     std::map<std::array<std::uint32_t, 2>, Vertex> vertices_; ///< by surface and vertex
-    std::vector<StripTriangle> strips_;
+    std::vector<ExtensionTriangle> strips_;
 };
 
 } // namespace
@@ -201,12 +201,12 @@ std::vector<BorderEdge> open_border_edges(const Arrangement& a, std::vector<bool
     return found;
 }
 
-std::vector<StripTriangle> make_strips(const Arrangement& a, std::span<const StripEdge> edges) {
+std::vector<ExtensionTriangle> make_strips(const Arrangement& a, std::span<const StripEdge> edges) {
     return Builder(a, edges)();
 }
 
-void append_strips(std::vector<Surface>& surfaces, std::span<const StripTriangle> strips) {
-    for (const StripTriangle& t : strips) {
+void append_strips(std::vector<Surface>& surfaces, std::span<const ExtensionTriangle> strips) {
+    for (const ExtensionTriangle& t : strips) {
         Surface& s = surfaces[t.surface];
         const auto first = static_cast<std::uint32_t>(s.vertices.size());
         s.vertices.insert(s.vertices.end(), t.corners.begin(), t.corners.end());

@@ -31,7 +31,7 @@ std::vector<BorderEdge> open_border_edges(const Arrangement& arrangement,
                                           std::vector<bool> ignored = {});
 
 /// What a triangle of a strip is: it lies beyond a border edge, or fans out at the end of a strip.
-struct StripTriangle {
+struct ExtensionTriangle {
     std::uint32_t surface = 0;
     std::uint32_t piece = 0; ///< edges of the border from 0, then fans: the same for both triangles
                              ///< of a quadrilateral
@@ -53,11 +53,11 @@ struct StripEdge {
 
 /// Quadrilaterals beyond the edges, joined at their common vertices, with mitred corners; at the
 /// ends of a chain of edges fans that widen it. Wound like their surface.
-std::vector<StripTriangle> make_strips(const Arrangement& arrangement,
-                                       std::span<const StripEdge> edges);
+std::vector<ExtensionTriangle> make_strips(const Arrangement& arrangement,
+                                           std::span<const StripEdge> edges);
 
 /// Appends the triangles to their surfaces, in order.
-void append_strips(std::vector<Surface>& surfaces, std::span<const StripTriangle> strips);
+void append_strips(std::vector<Surface>& surfaces, std::span<const ExtensionTriangle> strips);
 
 /// Whether both ends of an edge of the arrangement lie on the edge between two input vertices of a
 /// triangle that contains the edge. Exact. The caller holds an UpwardRounding.

@@ -22,7 +22,7 @@ Edge common_edge(const Triangle& t, const Triangle& u) {
 
 class Cells {
 public:
-    Cells(const Arrangement& a, std::span<const StripTriangle> strips, std::vector<bool> keep) :
+    Cells(const Arrangement& a, std::span<const ExtensionTriangle> strips, std::vector<bool> keep) :
         a_(a), strips_(strips), by_input_(strips_by_input(a, strips)),
         strip_of_(strips_by_triangle(a, by_input_)), keep_(std::move(keep)),
         sets_(a.triangles.size()), is_open_(a.triangles.size(), false) {}
@@ -127,7 +127,7 @@ private:
     /// Whether the edge lies on the side of a quadrilateral.
     [[nodiscard]] bool is_side(std::uint32_t t, const Edge& edge) const {
         for (const std::uint32_t p : a_.parents_of[t]) {
-            const StripTriangle& strip = strips_[by_input_[p]];
+            const ExtensionTriangle& strip = strips_[by_input_[p]];
             const Triangle& c = a_.inputs.corners[p];
             const unsigned k = strip.side;
             if (!strip.is_fan && lies_on(a_, edge, p, c[k], c[(k + 1) % 3])) return true;
@@ -136,22 +136,22 @@ private:
     }
 
     const Arrangement& a_;
-    std::span<const StripTriangle> strips_;
+    std::span<const ExtensionTriangle> strips_;
     std::vector<std::uint32_t> by_input_;
     std::vector<std::uint32_t> strip_of_; ///< per triangle of the arrangement
     std::vector<bool> keep_;
     std::vector<StripEdgeSides> edges_;
-    Sets sets_;                 ///< of triangles: cells
+    DisjointSets sets_;         ///< of triangles: cells
     std::vector<bool> is_open_; ///< per cell
 };
 
 } // namespace
 
 std::vector<std::uint32_t> strips_by_input(const Arrangement& a,
-                                           std::span<const StripTriangle> strips) {
+                                           std::span<const ExtensionTriangle> strips) {
     const auto& first = a.inputs.first;
     std::vector<std::uint32_t> count(a.surfaces.size(), 0);
-    for (const StripTriangle& t : strips) ++count[t.surface];
+    for (const ExtensionTriangle& t : strips) ++count[t.surface];
     std::vector<std::uint32_t> next(count.size());
     for (std::size_t s = 0; s < count.size(); ++s) next[s] = first[s + 1] - count[s];
     std::vector<std::uint32_t> by_input(a.inputs.corners.size(), none);
@@ -171,8 +171,8 @@ std::vector<std::uint32_t> strips_by_triangle(const Arrangement& a,
     return of;
 }
 
-std::vector<bool> kept_cells(const Arrangement& arrangement, std::span<const StripTriangle> strips,
-                             std::vector<bool> keep) {
+std::vector<bool> kept_cells(const Arrangement& arrangement,
+                             std::span<const ExtensionTriangle> strips, std::vector<bool> keep) {
     return Cells(arrangement, strips, std::move(keep))();
 }
 

@@ -21,7 +21,7 @@ namespace terrane {
 /// Which strip triangle each input triangle is, or UINT32_MAX. The strips were appended in order
 /// (append_strips), and stand last in each surface.
 std::vector<std::uint32_t> strips_by_input(const Arrangement& arrangement,
-                                           std::span<const StripTriangle> strips);
+                                           std::span<const ExtensionTriangle> strips);
 
 /// Triangles of the arrangement all whose parents are strips: that of the first one, else
 /// UINT32_MAX.
@@ -29,7 +29,7 @@ std::vector<std::uint32_t> strips_by_triangle(const Arrangement& arrangement,
                                               std::span<const std::uint32_t> by_input);
 
 /// Per triangle whether it is kept. `keep` says it for triangles that are no strips.
-std::vector<bool> kept_cells(const Arrangement& arrangement, std::span<const StripTriangle> strips,
-                             std::vector<bool> keep);
+std::vector<bool> kept_cells(const Arrangement& arrangement,
+                             std::span<const ExtensionTriangle> strips, std::vector<bool> keep);
 
 } // namespace terrane

@@ -124,7 +124,7 @@ struct Judged {
     std::vector<Overshoot> overshoots; ///< triangles of the arrangement
 };
 
-Judged judge(const Arrangement& a, std::span<const StripTriangle> strips, double distance,
+Judged judge(const Arrangement& a, std::span<const ExtensionTriangle> strips, double distance,
              const Run& run) {
     const auto of = strips_by_triangle(a, strips_by_input(a, strips));
     std::vector<bool> keep(a.triangles.size());
@@ -144,7 +144,7 @@ Judged judge(const Arrangement& a, std::span<const StripTriangle> strips, double
     return judged;
 }
 
-Result<Arrangement> judged_again(Arrangement a, const std::vector<StripTriangle>& strips,
+Result<Arrangement> judged_again(Arrangement a, const std::vector<ExtensionTriangle>& strips,
                                  double distance, const Run& run) {
     const Judged judged = judge(a, strips, distance, run);
     return restricted(std::move(a), judged.keep, run);
@@ -178,7 +178,7 @@ private:
         if (run_.progress) run_.progress("seal", share);
     }
 
-    [[nodiscard]] std::vector<Surface> with(std::span<const StripTriangle> strips) const {
+    [[nodiscard]] std::vector<Surface> with(std::span<const ExtensionTriangle> strips) const {
         auto surfaces = surfaces_;
         append_strips(surfaces, strips);
         return surfaces;
@@ -209,12 +209,12 @@ private:
     /// The ends of border edges, in order, that have a strip already.
     [[nodiscard]] std::set<std::array<Point3, 2>> edges_with_strip() const {
         std::set<std::array<Point3, 2>> edges;
-        for (const StripTriangle& t : strips_)
+        for (const ExtensionTriangle& t : strips_)
             if (t.is_base[0] && t.is_base[1]) edges.insert(in_order(t.corners[0], t.corners[1]));
         return edges;
     }
 
-    [[nodiscard]] std::vector<StripTriangle> new_strips(bool along) {
+    [[nodiscard]] std::vector<ExtensionTriangle> new_strips(bool along) {
         const Distances distances(kept_, options_.distance);
         const Distances farther(kept_, 2 * options_.distance);
         std::vector<StripEdge> edges;
@@ -235,7 +235,7 @@ private:
             gaps_.push_back(std::move(gap));
         }
         auto strips = make_strips(kept_, edges);
-        for (const StripTriangle& t : strips)
+        for (const ExtensionTriangle& t : strips)
             gaps_.resize(std::max(gaps_.size(), t.piece + std::size_t{1})); // fans have no gap
         return strips;
     }
@@ -249,7 +249,7 @@ private:
     }
 
     /// Takes the fresh strips in, and those out of which no part closes a gap, until all do.
-    Status add_useful(std::vector<StripTriangle> fresh) {
+    Status add_useful(std::vector<ExtensionTriangle> fresh) {
         strips_.insert(strips_.end(), fresh.begin(), fresh.end());
         for (unsigned round = 0; round < most_rounds; ++round) {
             if (auto done = update(); !done) return done;
@@ -267,7 +267,8 @@ private:
             if (of[t] != none && judged_.keep[t])
                 for (const std::uint32_t p : whole_.parents_of[t])
                     used[strips_[by_input[p]].piece] = true;
-        return std::erase_if(strips_, [&](const StripTriangle& t) { return !used[t.piece]; }) > 0;
+        return std::erase_if(strips_, [&](const ExtensionTriangle& t) { return !used[t.piece]; }) >
+               0;
     }
 
     void finish() {
@@ -290,9 +291,9 @@ private:
 
     /// Strips whose pieces share corners of the border are one change.
     void list_extended() {
-        Sets sets(gaps_.size());
+        DisjointSets sets(gaps_.size());
         std::map<std::pair<std::uint32_t, Point3>, std::uint32_t> at_corner;
-        for (const StripTriangle& t : strips_)
+        for (const ExtensionTriangle& t : strips_)
             for (unsigned k = 0; k < 3; ++k) {
                 if (!t.is_base[k]) continue;
                 const auto [it, is_new] =
@@ -301,7 +302,7 @@ private:
             }
         std::map<std::uint32_t, SealChange> changes;
         std::vector<bool> counted(gaps_.size(), false);
-        for (const StripTriangle& t : strips_) {
+        for (const ExtensionTriangle& t : strips_) {
             SealChange& change = changes[sets.find(t.piece)];
             change.surface = t.surface;
             if (t.is_fan || counted[t.piece]) continue;
@@ -328,7 +329,7 @@ private:
     const std::vector<Surface> surfaces_; ///< of the input
     const SealOptions& options_;
     const Run& run_;
-    std::vector<StripTriangle> strips_;
+    std::vector<ExtensionTriangle> strips_;
     std::vector<Gap> gaps_; ///< per piece of strips, ever made
     Arrangement whole_;     ///< of the surfaces with strips_
     Judged judged_;         ///< of whole_

@@ -16,7 +16,7 @@ using Pairs = std::vector<CandidatePair>;
 constexpr std::array names{
     std::pair{Search::automatic, "auto"}, std::pair{Search::grid, "grid"},
     std::pair{Search::ab, "ab"},          std::pair{Search::ab_balanced, "ab-balanced"},
-    std::pair{Search::mixed, "mixed"},    std::pair{Search::hierarchy, "hierarchy"},
+    std::pair{Search::mixed, "mixed"},    std::pair{Search::bvh, "hierarchy"},
     std::pair{Search::brute, "brute"}};
 
 /// All boxes asked, one after the other.
@@ -105,14 +105,14 @@ std::optional<Search> search_named(std::string_view name) {
 }
 
 Search choose(std::size_t boxes) {
-    return boxes <= 24 ? Search::brute : Search::hierarchy;
+    return boxes <= 24 ? Search::brute : Search::bvh;
 }
 
 std::vector<CandidatePair> candidate_pairs(const BoxSource& source,
                                            std::span<const std::uint32_t> groups, Search method,
                                            const Run& run) {
     if (method == Search::automatic) method = choose(source.size());
-    if (method == Search::hierarchy) return search::hierarchy_pairs(source, groups, run);
+    if (method == Search::bvh) return search::bvh_pairs(source, groups, run);
     const std::vector<Box> boxes = source.listed();
     switch (method) {
     case Search::grid:

@@ -19,12 +19,12 @@
 namespace terrane {
 
 enum class Search : std::uint8_t {
-    automatic,   ///< hierarchy, or brute for a handful of boxes (see choose)
+    automatic,   ///< bvh, or brute for a handful of boxes (see choose)
     grid,        ///< structured search, paper 2.1
     ab,          ///< alternating binary tree in the order of insertion, paper 2.2: a list at worst
     ab_balanced, ///< alternating binary tree balanced by quantiles, paper 2.2 and Table 1
     mixed,       ///< reduction to cells that several groups share, then a balanced tree, paper 2.3
-    hierarchy,   ///< the same idea for speed and any mixture of sizes: reduction to shared cells,
+    bvh,         ///< the same idea for speed and any mixture of sizes: reduction to shared cells,
                  ///< then flat trees of boxes joined leaf by leaf; the only one that uses threads
     brute,       ///< every box against every box
 };
@@ -107,7 +107,7 @@ std::vector<CandidatePair> candidate_pairs_of(const BoxSource& boxes,
                                               std::span<const std::uint32_t> groups = {},
                                               const PairFilter& filter = {}, const Run& run = {});
 
-/// What `automatic` stands for: brute for so few boxes that nothing need be built, else hierarchy.
+/// What `automatic` stands for: brute for so few boxes that nothing need be built, else the hierarchy.
 /// (Measured on the paper's models, see `terrane bench paper`: the grid is faster by a fifth to a
 /// third for two uniform surfaces of up to 70 000 triangles that meet everywhere, slower on all
 /// others, 10 times for localised and 100 times for non-uniform ones. So neither the spread of

@@ -28,11 +28,11 @@ std::vector<std::uint32_t> vertex_ranks(const Mesh& mesh, std::span<const std::u
 
 /// Triangles that are equal in the order `before`, list by list, ascending.
 template <class Before>
-Lists<std::uint32_t> grouped(std::size_t count, const Before& before) {
+IndexLists<std::uint32_t> grouped(std::size_t count, const Before& before) {
     std::vector<std::uint32_t> order(count);
     std::iota(order.begin(), order.end(), 0U);
     std::stable_sort(order.begin(), order.end(), before);
-    Lists<std::uint32_t> groups;
+    IndexLists<std::uint32_t> groups;
     for (std::size_t i = 0; i < count; ++i) {
         if (i > 0 && before(order[i - 1], order[i])) groups.close();
         groups.values.push_back(order[i]);
@@ -103,7 +103,7 @@ private:
     }
 
     void find_patches() {
-        Sets sets(mesh_.triangles.size());
+        DisjointSets sets(mesh_.triangles.size());
         edges_.for_each([&](std::uint32_t, std::uint32_t, auto sides) {
             if (sides.size() == 2 &&
                 out_.interface_of[sides[0].triangle] == out_.interface_of[sides[1].triangle])

@@ -144,7 +144,7 @@ private:
     std::vector<bool> on_split_;         ///< per vertex: a corner of a split face
     std::vector<FaceSides> sides_;       ///< per face
     std::vector<Triangle> split_;        ///< corners of split faces, ascending; sorted
-    Sets sets_;                          ///< corners of tetrahedra with one node
+    DisjointSets sets_;                  ///< corners of tetrahedra with one node
     std::vector<std::uint32_t> node_of_; ///< per set, by its lowest element
     std::vector<std::uint32_t> copies_;  ///< per added node: the vertex that it is a copy of
 };

@@ -45,7 +45,7 @@ void drop_faces(TetrahedralMesh& m) {
     const auto left = faces_of(m.tetrahedra);
     std::vector<Triangle> faces;
     std::vector<std::uint32_t> face_triangle;
-    Lists<std::uint32_t> surfaces_of;
+    IndexLists<std::uint32_t> surfaces_of;
     for (std::size_t f = 0; f < m.faces.size(); ++f) {
         if (m.face_triangle[f] == none ||
             !std::binary_search(left.begin(), left.end(), sorted(m.faces[f])))

@@ -241,7 +241,7 @@ bool FaceTriangulation::on_one_line(Local a, Local b, Local c) const {
 }
 
 Sign FaceTriangulation::turn(Local a, Local b, Local c) const {
-    if (const auto sign = quick_orient2d(flat_[a], flat_[b], flat_[c])) {
+    if (const auto sign = filtered_orient2d(flat_[a], flat_[b], flat_[c])) {
         ++predicate_counts().static_filter;
         return *sign;
     }
@@ -250,7 +250,8 @@ Sign FaceTriangulation::turn(Local a, Local b, Local c) const {
 }
 
 Sign FaceTriangulation::in_circle(const Cell& c, Local d) const {
-    if (const auto sign = quick_in_circle(flat_[c.v[0]], flat_[c.v[1]], flat_[c.v[2]], flat_[d])) {
+    if (const auto sign =
+            filtered_in_circle(flat_[c.v[0]], flat_[c.v[1]], flat_[c.v[2]], flat_[d])) {
         ++predicate_counts().static_filter;
         return *sign;
     }

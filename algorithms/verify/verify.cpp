@@ -201,7 +201,7 @@ void check_first(std::uint32_t parent, std::span<const std::uint32_t> children,
     check_partition(parent, children, Partition(corners, mesh), mesh, found);
 }
 
-void check_set_aside_parents(const SetAside& set_aside, const Lists<std::uint32_t>& children,
+void check_set_aside_parents(const SetAside& set_aside, const IndexLists<std::uint32_t>& children,
                              Violations& found) {
     for (const std::uint32_t t : set_aside.degenerate) {
         if (children[t].empty()) continue;

@@ -23,7 +23,7 @@ namespace terrane {
 struct ArrangementClaim {
     std::vector<Construction> vertices;    ///< pairwise distinct points
     std::vector<Triangle> triangles;       ///< indices into vertices; unique as sets
-    Lists<std::uint32_t> parents_of;       ///< per triangle: all input triangles that contain it
+    IndexLists<std::uint32_t> parents_of;  ///< per triangle: all input triangles that contain it
                                            ///< (duplicates too), sorted, >= 1
     std::vector<Edge> intersection_edges;  ///< sorted, unique; see rule R7
     std::vector<std::uint32_t> degenerate; ///< input triangles without area, sorted

@@ -50,15 +50,16 @@ struct CertifiedInput {
 /// What a certificate says of the mesh of doubles.
 struct RoundedClaim {
     std::vector<Point3> vertices;
-    std::vector<Triangle> triangles;                ///< indices into vertices
-    Lists<std::uint32_t> parents_of;                ///< per triangle: input triangles, sorted, >= 1
-    std::vector<Edge> intersection_edges;           ///< sorted, unique
-    std::optional<Lists<std::uint32_t>> regions_of; ///< per triangle: its region in each surface of
-                                                    ///< its parents, by surface
-    bool clean = false;                             ///< conforming
-    std::uint32_t rounds = 0;                       ///< of snapping; not judged
-    double max_move = 0, deviation = 0;             ///< unit of the input
-    std::vector<std::uint32_t> vanished;            ///< input triangles, sorted
+    std::vector<Triangle> triangles;      ///< indices into vertices
+    IndexLists<std::uint32_t> parents_of; ///< per triangle: input triangles, sorted, >= 1
+    std::vector<Edge> intersection_edges; ///< sorted, unique
+    std::optional<IndexLists<std::uint32_t>>
+        regions_of;                      ///< per triangle: its region in each surface of
+                                         ///< its parents, by surface
+    bool clean = false;                  ///< conforming
+    std::uint32_t rounds = 0;            ///< of snapping; not judged
+    double max_move = 0, deviation = 0;  ///< unit of the input
+    std::vector<std::uint32_t> vanished; ///< input triangles, sorted
 };
 
 struct Certificate {

@@ -166,7 +166,7 @@ std::vector<Triangle> enclosed(const std::vector<Triangle>& all, std::size_t poi
     for (Edge& s : segments)
         if (s[0] > s[1]) std::swap(s[0], s[1]);
     std::sort(segments.begin(), segments.end());
-    Sets sets(all.size() + 1); // the last one is the outside
+    DisjointSets sets(all.size() + 1); // the last one is the outside
     const auto outside = static_cast<std::uint32_t>(all.size());
     for (std::uint32_t t = 0; t < all.size(); ++t)
         if (all[t][0] < 3 || all[t][1] < 3 || all[t][2] < 3) sets.join(t, outside);

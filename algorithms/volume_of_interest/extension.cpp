@@ -34,7 +34,7 @@ class Directions {
 public:
     Directions(const Arrangement& a, std::span<const BorderEdge> edges, double limit) :
         a_(a), edges_(edges), limit_(limit) {
-        Sets sets(edges.size());
+        DisjointSets sets(edges.size());
         for (std::uint32_t e = 0; e < edges.size(); ++e) {
             for (const std::uint32_t v : {edges[e].from, edges[e].to}) {
                 auto& at = at_vertex_[{edges[e].surface, v}];
@@ -65,7 +65,7 @@ public:
 
 private:
     /// Doubles the windows along borders whose strip runs backwards somewhere.
-    void widen_where_folded(Sets& borders) {
+    void widen_where_folded(DisjointSets& borders) {
         std::vector<bool> folded(edges_.size(), false);
         for (std::uint32_t e = 0; e < edges_.size(); ++e) {
             const BorderEdge& edge = edges_[e];
@@ -123,8 +123,8 @@ std::vector<BorderEdge> borders_inside(const Arrangement& inside) {
     return edges;
 }
 
-std::vector<StripTriangle> strips_beyond(const Arrangement& a, std::span<const BorderEdge> edges,
-                                         double limit) {
+std::vector<ExtensionTriangle> strips_beyond(const Arrangement& a,
+                                             std::span<const BorderEdge> edges, double limit) {
     const Directions directions(a, edges, limit);
     std::vector<StripEdge> wanted;
     for (std::uint32_t e = 0; e < edges.size(); ++e) {
@@ -140,7 +140,7 @@ std::vector<StripTriangle> strips_beyond(const Arrangement& a, std::span<const B
 /// Whether a part of a strip, inside the volume, reaches the strip's outer edge, or its outer
 /// corner: it ends inside. Exact.
 bool ends_here(const Arrangement& a, std::uint32_t t, std::uint32_t parent,
-               const StripTriangle& strip) {
+               const ExtensionTriangle& strip) {
     const Triangle &corners = a.inputs.corners[parent], &part = a.triangles[t];
     for (unsigned k = 0; k < 3; ++k) {
         const unsigned next = (k + 1) % 3;
@@ -157,8 +157,8 @@ bool ends_here(const Arrangement& a, std::uint32_t t, std::uint32_t parent,
 
 /// Per piece, of which there are so many and fans, whether it comes out of the volume all along.
 Result<std::vector<bool>> find_reached(std::vector<Surface> surfaces,
-                                       std::span<const StripTriangle> strips, std::size_t pieces,
-                                       std::span<const std::uint32_t> boundary,
+                                       std::span<const ExtensionTriangle> strips,
+                                       std::size_t pieces, std::span<const std::uint32_t> boundary,
                                        const ExtendOptions& options, const Run& run) {
     append_strips(surfaces, strips);
     const auto a = arrange(surfaces, options.arrange, run);
@@ -166,9 +166,9 @@ Result<std::vector<bool>> find_reached(std::vector<Surface> surfaces,
     const auto where = locate(a.value(), boundary, run);
     if (!where) return where.error();
     const auto by_input = strips_by_input(a.value(), strips);
-    for (const StripTriangle& t : strips) pieces = std::max(pieces, t.piece + std::size_t{1});
+    for (const ExtensionTriangle& t : strips) pieces = std::max(pieces, t.piece + std::size_t{1});
     std::vector<bool> reached(pieces, false);
-    for (const StripTriangle& t : strips) reached[t.piece] = true; // but for those without area
+    for (const ExtensionTriangle& t : strips) reached[t.piece] = true; // but for those without area
     const UpwardRounding guard;
     for (std::uint32_t t = 0; t < a.value().triangles.size(); ++t) {
         if (where.value()[t] != Where::inside) continue;
@@ -180,21 +180,22 @@ Result<std::vector<bool>> find_reached(std::vector<Surface> surfaces,
 }
 
 /// Fans beside pieces that are gone.
-void drop_lone_fans(std::vector<StripTriangle>& strips) {
+void drop_lone_fans(std::vector<ExtensionTriangle>& strips) {
     std::set<std::pair<Point3, Point3>> sides;
-    const auto side_of = [](const StripTriangle& t) {
+    const auto side_of = [](const ExtensionTriangle& t) {
         return std::minmax({t.corners[t.side], t.corners[(t.side + 1) % 3]});
     };
-    for (const StripTriangle& t : strips)
+    for (const ExtensionTriangle& t : strips)
         if (!t.is_fan) sides.insert(side_of(t));
-    std::erase_if(strips,
-                  [&](const StripTriangle& t) { return t.is_fan && !sides.contains(side_of(t)); });
+    std::erase_if(strips, [&](const ExtensionTriangle& t) {
+        return t.is_fan && !sides.contains(side_of(t));
+    });
 }
 
 /// Connected edges with the same fate are one entry.
 std::vector<ExtendedBorder> list(const Arrangement& inside, std::span<const BorderEdge> edges,
                                  const std::vector<bool>& reached) {
-    Sets sets(edges.size());
+    DisjointSets sets(edges.size());
     std::map<std::tuple<std::uint32_t, bool, std::uint32_t>, std::uint32_t> first;
     for (std::uint32_t e = 0; e < edges.size(); ++e)
         for (const std::uint32_t v : {edges[e].from, edges[e].to})
@@ -235,7 +236,7 @@ Result<Extended> extend(std::vector<Surface> surfaces, std::span<const std::uint
     auto strips = strips_beyond(inside, edges, options.limit);
     const auto reached = find_reached(surfaces, strips, edges.size(), boundary, options, run);
     if (!reached) return reached.error();
-    std::erase_if(strips, [&](const StripTriangle& t) { return !reached.value()[t.piece]; });
+    std::erase_if(strips, [&](const ExtensionTriangle& t) { return !reached.value()[t.piece]; });
     drop_lone_fans(strips);
     append_strips(surfaces, strips);
     return Extended{std::move(surfaces), list(inside, edges, reached.value())};

@@ -75,7 +75,7 @@ private:
 
     const Volumes& volumes_;
     const std::vector<bool>& in_boundary_;
-    Sets parts_;                       ///< of volumes
+    DisjointSets parts_;               ///< of volumes
     std::vector<std::uint8_t> parity_; ///< per part
 };
 
@@ -144,7 +144,7 @@ void for_joined(const Arrangement& a, const Join& join) {
 /// Connected pieces of each surface.
 void count_pieces(const Arrangement& a, std::vector<SurfaceCut>& cuts) {
     const auto& offsets = a.surfaces_of.offsets;
-    Sets pieces(a.surfaces_of.values.size()); // one element per triangle and surface of it
+    DisjointSets pieces(a.surfaces_of.values.size()); // one element per triangle and surface of it
     const auto element = [&](std::uint32_t s, std::uint32_t t) {
         const auto of = a.surfaces_of[t];
         return offsets[t] +
@@ -169,7 +169,7 @@ std::vector<OpenBorder> open_borders(const Arrangement& a, std::span<const std::
     }
     std::vector<OpenBorder> borders;
     for (const auto& [surface, open] : edges) {
-        Sets sets(open.size());
+        DisjointSets sets(open.size());
         std::map<std::uint32_t, std::uint32_t> at_vertex;
         for (std::uint32_t i = 0; i < open.size(); ++i)
             for (const std::uint32_t v : open[i])

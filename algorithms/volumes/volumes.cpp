@@ -21,7 +21,7 @@ namespace {
 constexpr std::uint32_t none = UINT32_MAX;
 
 /// Per vertex its place in the lexicographic order of all.
-std::vector<std::uint32_t> lexicographic_ranks(const Sheets& sheets) {
+std::vector<std::uint32_t> lexicographic_ranks(const TriangleComplex& sheets) {
     const UpwardRounding guard;
     std::vector<std::uint32_t> order(sheets.vertices.size());
     std::iota(order.begin(), order.end(), 0U);
@@ -49,7 +49,7 @@ SideKey key_of(Triangle ranks, bool is_front) {
 /// Step (c): numbers for classes of sides.
 class Numbering {
 public:
-    Numbering(const Sheets& sheets, Sets& sides) :
+    Numbering(const TriangleComplex& sheets, DisjointSets& sides) :
         sheets_(sheets), sides_(sides),
         outside_(2 * static_cast<std::uint32_t>(sheets.triangles.size())),
         rank_(lexicographic_ranks(sheets)) {}
@@ -128,8 +128,8 @@ private:
         return volumes;
     }
 
-    const Sheets& sheets_;
-    Sets& sides_;
+    const TriangleComplex& sheets_;
+    DisjointSets& sides_;
     const std::uint32_t outside_; ///< as an element of sides_
     std::vector<std::uint32_t> rank_;
     std::vector<std::uint32_t> least_;  ///< per set: the rank of its least vertex
@@ -142,14 +142,14 @@ Error interrupted() {
     return {ErrorCode::interrupted, "stopped on request", ""};
 }
 
-Result<Volumes> find(const Sheets& sheets, const Run& run) {
+Result<Volumes> find(const TriangleComplex& sheets, const Run& run) {
     const auto report = [&](double share) {
         if (run.progress) run.progress("volumes", share);
         return !run.stop.stop_requested();
     };
     if (!report(0)) return interrupted();
     Stopwatch watch;
-    Sets sides(2 * sheets.triangles.size() + 1);
+    DisjointSets sides(2 * sheets.triangles.size() + 1);
     join_round_edges(sheets, sides);
     const double shells = watch.lap();
     if (!report(0.3)) return interrupted();
@@ -197,7 +197,7 @@ public:
         edges_(group_edges(mesh.triangles, mesh.vertices.size())) {
         std::iota(vertices_.begin(), vertices_.end(), PointIndex{0});
     }
-    [[nodiscard]] Sheets view() const {
+    [[nodiscard]] TriangleComplex view() const {
         return {points_, vertices_, mesh_.triangles, edges_, mesh_.triangles, nullptr};
     }
 

@@ -43,7 +43,7 @@ std::string cell_text(const PaperRow& row, std::size_t m) {
     std::string text = s < 0 ? "-" : seconds_text(s);
     if (s < 0 && paper_methods[m] == Search::ab && row.ab_share < 1)
         text = fmt::format("limit at {:.0f} %", 100 * row.ab_share);
-    return paper_methods[m] == Search::hierarchy ? text : with_paper(text, row.paper[m]);
+    return paper_methods[m] == Search::bvh ? text : with_paper(text, row.paper[m]);
 }
 
 std::string search_table(const PaperTable& table) {

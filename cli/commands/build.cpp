@@ -218,10 +218,10 @@ private:
     }
 
 #ifdef TERRANE_HAS_TETGEN
-    [[nodiscard]] TetrahedraWishes wishes() const {
+    [[nodiscard]] TetrahedraRequest wishes() const {
         const ProjectTetrahedra& t = project_.tetrahedra;
         const std::string start = source_ + ": tetrahedra.";
-        TetrahedraWishes w;
+        TetrahedraRequest w;
         w.options.edge_length = t.edge_length;
         w.options.max_volume = t.max_volume;
         w.options.radius_edge_ratio = t.quality;
@@ -367,7 +367,7 @@ private:
     Inputs inputs_;
     std::vector<SurfaceInfo> as_read_; ///< per surface of a file
     std::vector<Surface> boundary_;    ///< of the volume of interest, until surfaces are arranged
-    Mended mended_;                    ///< where the project asks for it
+    Preprocessed mended_;              ///< where the project asks for it
     std::optional<Arranged> arranged_;
     std::optional<Improved> better_; ///< where the project asks for it
     std::optional<Model> model_;

@@ -92,8 +92,8 @@ Status add_sizes(const std::vector<std::string>& texts, const char* option,
     return Done{};
 }
 
-Result<TetrahedraWishes> wishes_of(const TetrahedralizeCommand& command) {
-    TetrahedraWishes wishes;
+Result<TetrahedraRequest> wishes_of(const TetrahedralizeCommand& command) {
+    TetrahedraRequest wishes;
     wishes.options = command.options;
     if (!command.around.empty()) {
         wishes.options.box = parse_box(command.around);
@@ -109,7 +109,7 @@ Result<TetrahedraWishes> wishes_of(const TetrahedralizeCommand& command) {
     return wishes;
 }
 
-Result<Filled> fill(const Mesh& mesh, const Inputs& inputs, const TetrahedraWishes& wishes,
+Result<Filled> fill(const Mesh& mesh, const Inputs& inputs, const TetrahedraRequest& wishes,
                     Session& session, Json& statistics) {
     session.begin("volumes", Phase::computing);
     const auto volumes = find_volumes(mesh, session.run());

@@ -86,7 +86,7 @@ double measure_search(Search method, const RedAndBlue& all, const PaperSettings&
 /// How many red triangles there are to test for each blue one.
 void measure_d(const RedAndBlue& all, PaperRow& row) {
     std::vector<std::size_t> count(all.boxes.size() - all.red);
-    for (const auto& [red, blue] : candidate_pairs(all.boxes, all.groups, Search::hierarchy))
+    for (const auto& [red, blue] : candidate_pairs(all.boxes, all.groups, Search::bvh))
         ++count[blue - all.red];
     search::Grid grid(std::span(all.boxes).first(all.red));
     std::size_t filled = 0, looking = 0, looked_at = 0;

@@ -16,7 +16,7 @@ namespace terrane::cli {
 
 /// The columns: the paper's four methods, then ours.
 constexpr std::array paper_methods{Search::grid, Search::ab, Search::ab_balanced, Search::mixed,
-                                   Search::hierarchy};
+                                   Search::bvh};
 
 /// Seconds; negative where there is none.
 using MethodTimes = std::array<double, paper_methods.size()>;

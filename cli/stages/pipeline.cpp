@@ -101,7 +101,7 @@ void add_settings(CLI::App& command, ArrangeSettings& settings) {
     static const std::map<std::string, Search> methods = [] {
         std::map<std::string, Search> all;
         for (const auto m : {Search::automatic, Search::grid, Search::ab, Search::ab_balanced,
-                             Search::mixed, Search::hierarchy, Search::brute})
+                             Search::mixed, Search::bvh, Search::brute})
             all.emplace(name_of(m), m);
         return all;
     }();

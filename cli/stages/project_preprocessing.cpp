@@ -79,8 +79,8 @@ Result<std::vector<Layer>> order_of(const ProjectLayers& layers, const std::stri
     return order;
 }
 
-Status fill(const std::vector<FillTask>& tasks, Inputs& inputs, Mended& mended, Session& session,
-            Json& statistics) {
+Status fill(const std::vector<FillTask>& tasks, Inputs& inputs, Preprocessed& mended,
+            Session& session, Json& statistics) {
     Stopwatch watch;
     auto work = find_holes(inputs, tasks, session);
     if (!work) return work.error();
@@ -99,8 +99,8 @@ Status fill(const std::vector<FillTask>& tasks, Inputs& inputs, Mended& mended, 
     return Done{};
 }
 
-Status stack(const std::vector<Layer>& order, double min_thickness, Inputs& inputs, Mended& mended,
-             Session& session, Json& statistics) {
+Status stack(const std::vector<Layer>& order, double min_thickness, Inputs& inputs,
+             Preprocessed& mended, Session& session, Json& statistics) {
     const auto layered =
         layer_inputs(inputs, order, {.min_thickness = min_thickness}, session, statistics);
     if (!layered) return layered.error();
@@ -114,8 +114,8 @@ Status stack(const std::vector<Layer>& order, double min_thickness, Inputs& inpu
 
 } // namespace
 
-Result<Mended> mend(const Project& project, const std::string& source, Inputs& inputs,
-                    Session& session, Json& statistics) {
+Result<Preprocessed> mend(const Project& project, const std::string& source, Inputs& inputs,
+                          Session& session, Json& statistics) {
     const auto tasks = tasks_of(project, source, inputs);
     if (!tasks) return tasks.error();
     std::vector<Layer> order;
@@ -124,7 +124,7 @@ Result<Mended> mend(const Project& project, const std::string& source, Inputs& i
         if (!found) return found.error();
         order = std::move(found).value();
     }
-    Mended mended;
+    Preprocessed mended;
     if (!tasks.value().empty())
         if (auto done = fill(tasks.value(), inputs, mended, session, statistics); !done)
             return done.error();

@@ -14,7 +14,7 @@
 
 namespace terrane::cli {
 
-struct Mended {
+struct Preprocessed {
     std::string said;                 ///< what was invented and replaced, for people
     std::string refused;              ///< why nothing can be made of it; empty: all is well
     std::optional<FillWork> filled{}; ///< where the project has "fill"
@@ -25,7 +25,7 @@ struct Mended {
 /// messages.
 /// Errors: bad_option with the key, for names that no surface has or two entries share; those of
 /// find_border_loops, stack_layers and fill_holes.
-Result<Mended> mend(const Project& project, const std::string& source, Inputs& inputs,
-                    Session& session, Json& statistics);
+Result<Preprocessed> mend(const Project& project, const std::string& source, Inputs& inputs,
+                          Session& session, Json& statistics);
 
 } // namespace terrane::cli

@@ -22,19 +22,20 @@ constexpr std::size_t most_regions = 50; ///< listed on the terminal
 
 // ---- Names
 
-Error nothing_called(const char* what, const Named& named) {
+Error nothing_called(const char* what, const NameOnCommandLine& named) {
     return {ErrorCode::bad_option, fmt::format("no {} is called {}", what, named.name),
             named.place};
 }
 
-Result<std::vector<std::uint32_t>> surfaces_of(const BlocksOfMesh& blocks, const Named& named) {
+Result<std::vector<std::uint32_t>> surfaces_of(const BlocksOfMesh& blocks,
+                                               const NameOnCommandLine& named) {
     auto found = surfaces_called(named.name, blocks.mesh.surfaces, blocks.labels);
     if (found.empty()) return nothing_called("surface", named);
     return found;
 }
 
 /// By number, else by name.
-Result<std::uint32_t> block_of(const BlocksOfMesh& blocks, const Named& named) {
+Result<std::uint32_t> block_of(const BlocksOfMesh& blocks, const NameOnCommandLine& named) {
     const auto& all = blocks.structure.blocks;
     std::uint32_t number = 0;
     const char* const end = named.name.data() + named.name.size();
@@ -55,7 +56,7 @@ std::vector<std::uint32_t> shown_numbers(const Volumes& own, const Volumes& show
     return number;
 }
 
-Result<TetrahedraOptions> options_of(const BlocksOfMesh& blocks, const TetrahedraWishes& wishes,
+Result<TetrahedraOptions> options_of(const BlocksOfMesh& blocks, const TetrahedraRequest& wishes,
                                      std::span<const std::uint32_t> shown) {
     TetrahedraOptions options = wishes.options;
     for (const NamedSize& size : wishes.size_of) {
@@ -79,10 +80,10 @@ Result<TetrahedraOptions> options_of(const BlocksOfMesh& blocks, const Tetrahedr
 }
 
 Result<std::vector<std::uint32_t>> surfaces_to_split(const BlocksOfMesh& blocks,
-                                                     const std::vector<Named>& split) {
+                                                     const std::vector<NameOnCommandLine>& split) {
     std::vector<std::uint32_t> all;
     const auto& surfaces = blocks.mesh.surfaces;
-    for (const Named& named : split) {
+    for (const NameOnCommandLine& named : split) {
         auto found = surfaces_called(named.name, surfaces, blocks.labels);
         if (named.name == "fault")
             for (std::uint32_t s = 0; s < surfaces.size(); ++s)
@@ -134,7 +135,7 @@ void add_statistics(Json& json, const Filled& filled) {
 }
 
 /// Without the outside, then cut.
-Status finish(const TetrahedraWishes& wishes, std::span<const std::uint32_t> split,
+Status finish(const TetrahedraRequest& wishes, std::span<const std::uint32_t> split,
               TetrahedralMesh& mesh, std::size_t& added_nodes) {
     if (!wishes.outside) mesh = without_outside(std::move(mesh));
     if (mesh.tetrahedra.empty())
@@ -167,7 +168,7 @@ std::string region_text(const Filled& filled) {
 
 } // namespace
 
-Result<Filled> fill_and_check(const BlocksOfMesh& blocks, const TetrahedraWishes& wishes,
+Result<Filled> fill_and_check(const BlocksOfMesh& blocks, const TetrahedraRequest& wishes,
                               Session& session, Json& statistics) {
     Stopwatch watch;
     session.begin("tetrahedralize", Phase::computing);

@@ -19,22 +19,22 @@
 namespace terrane::cli {
 
 /// A surface or a block, as the user calls it.
-struct Named {
+struct NameOnCommandLine {
     std::string name;
     std::string place; ///< where the user said so: "--size-of", "tetrahedra.split[0]"
 };
 
 struct NamedSize {
-    Named of;
+    NameOnCommandLine of;
     double edge_length = 0;
 };
 
-struct TetrahedraWishes {
-    TetrahedraOptions options{};      ///< without sizes of blocks and surfaces
-    std::vector<NamedSize> size_of{}; ///< by surface
-    std::vector<NamedSize> size_in{}; ///< by block: its number or its name
-    std::vector<Named> split{};       ///< surfaces, or "fault": all with that role
-    bool outside = true;              ///< whether region 0 gets tetrahedra, too
+struct TetrahedraRequest {
+    TetrahedraOptions options{};            ///< without sizes of blocks and surfaces
+    std::vector<NamedSize> size_of{};       ///< by surface
+    std::vector<NamedSize> size_in{};       ///< by block: its number or its name
+    std::vector<NameOnCommandLine> split{}; ///< surfaces, or "fault": all with that role
+    bool outside = true;                    ///< whether region 0 gets tetrahedra, too
 };
 
 /// A mesh and its blocks by the numbers that the user sees.
@@ -55,7 +55,7 @@ struct Filled {
 /// Tetrahedra, their checks, and what was wished for. Adds to `statistics`. Where the checks find
 /// violations, nodes are not split. Errors: bad_option with the place of a name that nothing has;
 /// those of tetrahedralize and split_nodes.
-Result<Filled> fill_and_check(const BlocksOfMesh& blocks, const TetrahedraWishes& wishes,
+Result<Filled> fill_and_check(const BlocksOfMesh& blocks, const TetrahedraRequest& wishes,
                               Session& session, Json& statistics);
 
 /// Counts, per region too, the checks and the shapes.

@@ -62,7 +62,7 @@ public:
     }
 
     void add_triangles(const std::vector<Triangle>& triangles,
-                       const Lists<std::uint32_t>& surfaces_of, std::size_t surface_count,
+                       const IndexLists<std::uint32_t>& surfaces_of, std::size_t surface_count,
                        std::span<const CutSide> sides = {}) {
         for (std::size_t t = 0; t < triangles.size(); ++t)
             for (const auto s : surfaces_of[t]) {

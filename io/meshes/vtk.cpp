@@ -133,7 +133,8 @@ public:
         out_ += "</Array>\n";
     }
 
-    void field(const std::vector<SurfaceInfo>& surfaces, const Lists<std::uint32_t>& surfaces_of) {
+    void field(const std::vector<SurfaceInfo>& surfaces,
+               const IndexLists<std::uint32_t>& surfaces_of) {
         text("<FieldData>");
         in_field_ = true;
         std::vector<std::string_view> names, roles;
@@ -187,12 +188,12 @@ private:
 };
 
 /// The first value of each list; -1 for an empty one.
-void append_first(std::vector<std::int32_t>& out, const Lists<std::uint32_t>& lists) {
+void append_first(std::vector<std::int32_t>& out, const IndexLists<std::uint32_t>& lists) {
     for (std::size_t i = 0; i < lists.size(); ++i)
         out.push_back(lists[i].empty() ? -1 : static_cast<std::int32_t>(lists[i][0]));
 }
 
-void append_counts(std::vector<std::int32_t>& out, const Lists<std::uint32_t>& lists) {
+void append_counts(std::vector<std::int32_t>& out, const IndexLists<std::uint32_t>& lists) {
     for (std::size_t i = 0; i < lists.size(); ++i)
         out.push_back(static_cast<std::int32_t>(lists[i].size()));
 }

@@ -33,7 +33,7 @@ double bytes_of(const std::vector<T>& values) {
 }
 
 template <class T>
-double bytes_of(const Lists<T>& lists) {
+double bytes_of(const IndexLists<T>& lists) {
     return bytes_of(lists.offsets) + bytes_of(lists.values);
 }
 

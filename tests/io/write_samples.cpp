@@ -39,7 +39,7 @@ Mesh grid(std::uint32_t n) {
 }
 
 template <class T>
-json lists_json(const Lists<T>& lists) {
+json lists_json(const IndexLists<T>& lists) {
     auto result = json::array();
     for (std::size_t i = 0; i < lists.size(); ++i)
         result.push_back(std::vector<T>(lists[i].begin(), lists[i].end()));

@@ -63,11 +63,11 @@ TEST_CASE("approximate law 2: with radius 0 the filters agree with the predicate
     for (const Family family : all_families)
         for (int i = 0; i < cases(20'000); ++i) {
             const auto p = points_of(random, family, 4);
-            if (const auto s = quick_orient2d(flat(p[0]), flat(p[1]), flat(p[2]))) {
+            if (const auto s = filtered_orient2d(flat(p[0]), flat(p[1]), flat(p[2]))) {
                 ++decided;
                 REQUIRE(*s == orient2d(Axis::z, p[0], p[1], p[2]));
             }
-            if (const auto s = quick_in_circle(flat(p[0]), flat(p[1]), flat(p[2]), flat(p[3]))) {
+            if (const auto s = filtered_in_circle(flat(p[0]), flat(p[1]), flat(p[2]), flat(p[3]))) {
                 ++decided;
                 REQUIRE(*s == in_circle(Axis::z, p[0], p[1], p[2], p[3]));
             }
@@ -82,8 +82,8 @@ TEST_CASE("approximate law 1: a sign holds for all points within the radii") {
         const auto p = points_of(random, i % 2 == 0 ? Family::uniform : Family::utm, 4);
         const double radius = std::ldexp(1.0, random_int(random, -40, 2));
         const auto a = [&](int k) { return flat(p[static_cast<std::size_t>(k)], radius); };
-        const auto turn = quick_orient2d(a(0), a(1), a(2));
-        const auto circle = quick_in_circle(a(0), a(1), a(2), a(3));
+        const auto turn = filtered_orient2d(a(0), a(1), a(2));
+        const auto circle = filtered_in_circle(a(0), a(1), a(2), a(3));
         decided += turn.has_value() + circle.has_value();
         for (int tries = 0; tries < 4; ++tries) {
             std::array<Point3, 4> q;
@@ -103,7 +103,7 @@ TEST_CASE("quick plane law 1: a side is the sign of orient3d, in any rounding mo
             for (int i = 0; i < cases(5'000); ++i) {
                 const auto p = points_of(random, family, 4);
                 std::fesetround(mode);
-                const auto side = QuickPlane(p[0], p[1], p[2]).side(p[3]);
+                const auto side = PlaneFilter(p[0], p[1], p[2]).side(p[3]);
                 std::fesetround(FE_TONEAREST);
                 if (!side) continue;
                 ++decided;
@@ -122,7 +122,7 @@ TEST_CASE("quick triangle law 1: what it tells apart is so after rounding, in an
                 const auto p = points_of(random, family, 6);
                 const Corners t{p[0], p[1], p[2]}, u{p[3], p[4], p[5]};
                 std::fesetround(mode);
-                const QuickTriangle quick(t[0], t[1], t[2]);
+                const SeparationFilter quick(t[0], t[1], t[2]);
                 const bool is_beside = quick.is_beside(u[0], u[1], u[2]);
                 const bool is_beyond = quick.is_beyond(u[0], u[1], u[2]);
                 std::fesetround(FE_TONEAREST);

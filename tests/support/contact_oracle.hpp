@@ -26,9 +26,9 @@ using terrane::Axis;
 using terrane::Construction;
 using terrane::Contact;
 using terrane::ContactPiece;
-using terrane::Place;
 using terrane::Point3;
 using terrane::Sign;
+using terrane::Simplex;
 using terrane::Triangle;
 using Epeck = CGAL::Exact_predicates_exact_constructions_kernel;
 using Rational = CGAL::Exact_rational;
@@ -136,7 +136,8 @@ inline Spots by_terrane(const Corners& corners, const Triangle& s, const Triangl
 }
 
 /// Whether p lies on the triangle where `place` says.
-inline bool is_at(const Corners& corners, const oracle::Point& p, const Triangle& t, Place place) {
+inline bool is_at(const Corners& corners, const oracle::Point& p, const Triangle& t,
+                  Simplex place) {
     std::array<oracle::Point, 3> c;
     for (unsigned i = 0; i < 3; ++i) c[i] = corners.exact[t[i]];
     if (is_corner(place)) return oracle::compare(p, c[corner_of(place)]) == 0;
@@ -165,7 +166,7 @@ inline bool places_are_right(const Corners& corners, const Triangle& s, const Tr
     return true;
 }
 
-inline bool on_closed_edge(Place p, unsigned e) {
+inline bool on_closed_edge(Simplex p, unsigned e) {
     if (is_edge(p)) return edge_of(p) == e;
     return is_corner(p) && (corner_of(p) == e || corner_of(p) == (e + 1) % 3);
 }
@@ -190,7 +191,7 @@ inline bool pieces_are_right(const Contact& c, unsigned k) {
     return pieces == c.piece_count[k];
 }
 
-using Named = std::set<std::pair<Construction, std::array<Place, 2>>>;
+using Named = std::set<std::pair<Construction, std::array<Simplex, 2>>>;
 
 inline Named named(const Contact& c, bool swapped) {
     Named all;

@@ -63,7 +63,7 @@ inline std::string metamorphic_flaw(const Surfaces& surfaces, const Arrangement&
 
 /// Searched in another way and with two threads it is the same to the last index.
 inline std::string run_flaw(const Surfaces& surfaces, const Arrangement& a) {
-    for (const Search search : {Search::grid, Search::hierarchy}) {
+    for (const Search search : {Search::grid, Search::bvh}) {
         const auto made = arrange(surfaces, {.search = search}, {.threads = 2});
         if (!made) return made.error().message();
         const Arrangement& b = made.value();

@@ -65,7 +65,7 @@ inline void add_triangle(ArrangementClaim& claim, const Triangle& triangle,
 /// Gives a triangle other parents, or drops it if there are none to give.
 inline void change_parents(ArrangementClaim& claim, std::size_t triangle,
                            const std::optional<Indices>& parents) {
-    Lists<std::uint32_t> lists;
+    IndexLists<std::uint32_t> lists;
     for (std::size_t t = 0; t < claim.parents_of.size(); ++t) {
         if (t != triangle) lists.push_back(claim.parents_of[t]);
         if (t == triangle && parents) lists.push_back(*parents);

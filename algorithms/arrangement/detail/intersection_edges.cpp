@@ -18,9 +18,10 @@ std::uint32_t InputTriangles::first_same(std::uint32_t triangle) const {
     return it != duplicates.end() && (*it)[0] == triangle ? (*it)[1] : triangle;
 }
 
-Lists<std::uint32_t> surfaces_of_parents(const InputTriangles& inputs,
-                                         const Lists<std::uint32_t>& parents_of, const Run& run) {
-    Lists<std::uint32_t> surfaces;
+IndexLists<std::uint32_t> surfaces_of_parents(const InputTriangles& inputs,
+                                              const IndexLists<std::uint32_t>& parents_of,
+                                              const Run& run) {
+    IndexLists<std::uint32_t> surfaces;
     if (parents_of.values.size() == parents_of.size()) { // one each
         surfaces.offsets = parents_of.offsets;
         surfaces.values.resize(parents_of.size());
@@ -56,7 +57,7 @@ namespace {
 /// What must agree across an edge that is no intersection.
 class Signatures {
 public:
-    Signatures(const InputTriangles& inputs, const Lists<std::uint32_t>& parents_of) :
+    Signatures(const InputTriangles& inputs, const IndexLists<std::uint32_t>& parents_of) :
         inputs_(inputs), parents_of_(parents_of) {}
 
     [[nodiscard]] bool agree(std::uint32_t s, std::uint32_t t) const {
@@ -81,13 +82,13 @@ private:
     }
 
     const InputTriangles& inputs_;
-    const Lists<std::uint32_t>& parents_of_;
+    const IndexLists<std::uint32_t>& parents_of_;
 };
 
 } // namespace
 
 std::vector<Edge> find_intersection_edges(const Adjacency& adjacency, const InputTriangles& inputs,
-                                          const Lists<std::uint32_t>& parents_of) {
+                                          const IndexLists<std::uint32_t>& parents_of) {
     const Signatures signatures(inputs, parents_of);
     std::vector<Edge> found;
     for (std::size_t e = 0; e < adjacency.edges.size(); ++e) {

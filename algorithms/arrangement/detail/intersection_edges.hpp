@@ -18,7 +18,7 @@ namespace terrane {
 struct InputTriangles {
     std::vector<std::uint32_t> first;        ///< per surface, and the total at the end
     std::vector<std::uint32_t> first_vertex; ///< the same for input vertices
-    Unfilled<Triangle> corners;              ///< per input triangle: input vertices at the first
+    UninitializedVector<Triangle> corners;   ///< per input triangle: input vertices at the first
                                              ///< place where their coordinates occur
     std::vector<std::array<std::uint32_t, 2>> duplicates; ///< {input triangle, the first with the
                                                           ///< same three points}, ascending
@@ -29,13 +29,13 @@ struct InputTriangles {
 };
 
 /// Sorted surfaces of each list of input triangles, each once.
-Lists<std::uint32_t> surfaces_of_parents(const InputTriangles& inputs,
-                                         const Lists<std::uint32_t>& parents_of,
-                                         const Run& run = {});
+IndexLists<std::uint32_t> surfaces_of_parents(const InputTriangles& inputs,
+                                              const IndexLists<std::uint32_t>& parents_of,
+                                              const Run& run = {});
 
 /// The edges in which more than two triangles meet, or two that differ in the number of distinct
 /// parents they have in some surface (duplicates within one surface count once). Sorted.
 std::vector<Edge> find_intersection_edges(const Adjacency& adjacency, const InputTriangles& inputs,
-                                          const Lists<std::uint32_t>& parents_of);
+                                          const IndexLists<std::uint32_t>& parents_of);
 
 } // namespace terrane

@@ -63,7 +63,7 @@ bool is_on_by_name(const Construction& how, const InnerSegment& s) {
     }
 }
 
-bool have_common_end(const FacePiece& a, const FacePiece& b) {
+bool have_common_end(const FaceConstraint& a, const FaceConstraint& b) {
     return a.ends[0] == b.ends[0] || a.ends[0] == b.ends[1] || a.ends[1] == b.ends[0] ||
            a.ends[1] == b.ends[1];
 }
@@ -88,7 +88,7 @@ public:
     }
 
 private:
-    const FacePiece& piece(const InnerSegment& s) const { return contacts_.pieces[s.piece]; }
+    const FaceConstraint& piece(const InnerSegment& s) const { return contacts_.pieces[s.piece]; }
 
     void collect(std::uint32_t first, std::uint32_t last) {
         segments_.clear();
@@ -102,7 +102,7 @@ private:
     }
 
     InnerSegment describe(std::uint32_t p) const {
-        const Support& support = contacts_.pieces[p].support;
+        const SupportLine& support = contacts_.pieces[p].support;
         const Triangle& t = soup_.triangles[support.other];
         InnerSegment s{};
         s.piece = p;
@@ -132,8 +132,8 @@ private:
 
     /// Whether the ends of the other segment lie strictly on both sides of the line of s.
     bool separates(const InnerSegment& s, const InnerSegment& of) const {
-        const auto quick_a = quick_orient2d(s.ends[0], s.ends[1], of.ends[0]);
-        const auto quick_b = quick_orient2d(s.ends[0], s.ends[1], of.ends[1]);
+        const auto quick_a = filtered_orient2d(s.ends[0], s.ends[1], of.ends[0]);
+        const auto quick_b = filtered_orient2d(s.ends[0], s.ends[1], of.ends[1]);
         if (quick_a && quick_b) return *quick_a != *quick_b;
         const Sign a = side(s, piece(of).ends[0]);
         return a != Sign::Zero && side(s, piece(of).ends[1]) == -a;

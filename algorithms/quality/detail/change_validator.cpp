@@ -57,10 +57,11 @@ bool are_parted(const std::array<Point3, 6>& points, const Triangle& other) {
 
 } // namespace
 
-void Guard::group_again(const Run& run) {
+void ChangeValidator::group_again(const Run& run) {
     mesh_.compact();
     const EdgeSides edges = group_edges(mesh_.triangles, mesh_.points.size(), run);
-    Patches patches = prove_patches(mesh_.points, mesh_.triangles, mesh_.sheet_of, edges, run);
+    InjectivePatches patches =
+        find_injective_patches(mesh_.points, mesh_.triangles, mesh_.sheet_of, edges, run);
     patch_of_ = std::move(patches.of);
     axis_ = std::move(patches.axis);
     turn_.assign(axis_.size(), Sign::Zero);
@@ -75,7 +76,7 @@ void Guard::group_again(const Run& run) {
     ungrouped_ = 0;
 }
 
-void Guard::find_whole_sheets() {
+void ChangeValidator::find_whole_sheets() {
     std::vector<std::uint32_t> patch_of_sheet;
     is_whole_.clear();
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
@@ -89,7 +90,7 @@ void Guard::find_whole_sheets() {
     }
 }
 
-void Guard::fill_grid() {
+void ChangeValidator::fill_grid() {
     // Long slivers are in the coarser cells; what comes is as long as is wanted.
     double edges = 0, wanted = 0;
     const auto count = static_cast<double>(mesh_.triangles.size());
@@ -105,24 +106,24 @@ void Guard::fill_grid() {
     }
 }
 
-bool Guard::in_one_patch(std::span<const std::uint32_t> triangles) const {
+bool ChangeValidator::in_one_patch(std::span<const std::uint32_t> triangles) const {
     const std::uint32_t p = patch_of_[triangles[0]];
     return p != no_group && std::all_of(triangles.begin(), triangles.end(),
                                         [&](std::uint32_t t) { return patch_of_[t] == p; });
 }
 
-Corners Guard::corners_of(const Change& change, const Triangle& t) const {
+Corners ChangeValidator::corners_of(const Change& change, const Triangle& t) const {
     return {change.point(mesh_.points, t[0]), change.point(mesh_.points, t[1]),
             change.point(mesh_.points, t[2])};
 }
 
 /// How an added triangle is wound in the projection of a patch.
-Sign Guard::turn_of(const Change& change, const Triangle& t, std::uint32_t patch) const {
+Sign ChangeValidator::turn_of(const Change& change, const Triangle& t, std::uint32_t patch) const {
     return turn_in(axis_[patch], corners_of(change, t), {0, 1, 2});
 }
 
 /// With area, facing as before; in a proven patch, wound as all of it.
-bool Guard::shapes_hold(const Change& change, std::uint32_t patch) const {
+bool ChangeValidator::shapes_hold(const Change& change, std::uint32_t patch) const {
     for (std::size_t i = 0; i < change.added.size(); ++i) {
         const Triangle& t = change.added[i];
         const auto [a, b, c] = corners_of(change, t);
@@ -142,12 +143,13 @@ bool Guard::shapes_hold(const Change& change, std::uint32_t patch) const {
     return true;
 }
 
-bool Guard::bounds_hold(const Change& change, Judgement& judgement, Bench& bench) const {
+bool ChangeValidator::bounds_hold(const Change& change, CheckedChange& judgement,
+                                  ThreadScratch& bench) const {
     judgement.hints.clear();
     judgement.alone.clear();
     for (std::size_t i = 0; i < change.added.size(); ++i) {
-        const auto hint = reference_.follows(corners_of(change, change.added[i]),
-                                             mesh_.hint_of[change.from[i]], bench.search);
+        const auto hint = reference_.contains_within_tolerance(
+            corners_of(change, change.added[i]), mesh_.hint_of[change.from[i]], bench.search);
         if (!hint) return false;
         judgement.hints.push_back(hint->hint);
         judgement.alone.push_back(static_cast<char>(hint->alone));
@@ -155,7 +157,7 @@ bool Guard::bounds_hold(const Change& change, Judgement& judgement, Bench& bench
     return true;
 }
 
-void Guard::box_added(const Change& change, Judgement& judgement) const {
+void ChangeValidator::box_added(const Change& change, CheckedChange& judgement) const {
     judgement.boxes.clear();
     for (const Triangle& t : change.added)
         judgement.boxes.push_back(grid_.scaled(box_of(corners_of(change, t), {0, 1, 2})));
@@ -163,7 +165,8 @@ void Guard::box_added(const Change& change, Judgement& judgement) const {
 
 /// Whether the other triangle is strictly on one side of the plane of `t`, but for common corners:
 /// then they share no more than the hull of those.
-bool Guard::is_beside(const QuickPlane& plane, const Triangle& t, const Triangle& other) const {
+bool ChangeValidator::is_beside(const PlaneFilter& plane, const Triangle& t,
+                                const Triangle& other) const {
     std::optional<Sign> common;
     for (const std::uint32_t v : other) {
         if (has(t, v)) continue;
@@ -175,7 +178,7 @@ bool Guard::is_beside(const QuickPlane& plane, const Triangle& t, const Triangle
 }
 
 /// Whether two triangles meet improperly after the change.
-bool Guard::meet(const Change& change, const Triangle& t, const Triangle& other) const {
+bool ChangeValidator::meet(const Change& change, const Triangle& t, const Triangle& other) const {
     std::array<Point3, 6> points;
     Triangle second{};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -188,7 +191,7 @@ bool Guard::meet(const Change& change, const Triangle& t, const Triangle& other)
 }
 
 /// The cone from a corner of all added triangles over the removed ones, where they were.
-void Guard::sweep(const Change& change, Bench& bench) const {
+void ChangeValidator::sweep(const Change& change, ThreadScratch& bench) const {
     bench.swept.clear();
     bench.not_swept.resize(mesh_.points.size() + 1, 0);
     const auto note = [&](const Triangle& t) {
@@ -219,7 +222,7 @@ void Guard::sweep(const Change& change, Bench& bench) const {
 
 /// Whether a corner that the change does not have is in what it sweeps, or at the place of its top:
 /// pair tests take different vertices to be at different places.
-bool Guard::is_swept(const Triangle& t, Bench& bench) const {
+bool ChangeValidator::is_swept(const Triangle& t, ThreadScratch& bench) const {
     for (const std::uint32_t v : t) {
         if (bench.not_swept[v] == bench.change) continue;
         bench.not_swept[v] = bench.change;
@@ -236,7 +239,8 @@ bool Guard::is_swept(const Triangle& t, Bench& bench) const {
     return false;
 }
 
-bool Guard::meets_properly(const Change& change, const Judgement& judgement, Bench& bench) const {
+bool ChangeValidator::meets_properly(const Change& change, const CheckedChange& judgement,
+                                     ThreadScratch& bench) const {
     ++bench.change;
     if (bench.change == 0) { // counted round
         std::fill(bench.seen.begin(), bench.seen.end(), 0);
@@ -278,7 +282,7 @@ bool Guard::meets_properly(const Change& change, const Judgement& judgement, Ben
 }
 
 /// All triangles are wound in the patch as it is.
-bool Guard::are_wound(const Change& change, std::uint32_t patch) const {
+bool ChangeValidator::are_wound(const Change& change, std::uint32_t patch) const {
     for (std::size_t i = 0; i < change.added.size(); ++i)
         if (patch_of_[change.from[i]] == patch &&
             turn_of(change, change.added[i], patch) != turn_[patch])
@@ -288,7 +292,8 @@ bool Guard::are_wound(const Change& change, std::uint32_t patch) const {
 
 /// The patches of what is added: of the only one of what is removed; where a curve changes, of
 /// those that are shown to stay what they are. False where a whole sheet would not stay one patch.
-bool Guard::find_patches(const Change& change, Judgement& judgement, Bench& bench) const {
+bool ChangeValidator::find_patches(const Change& change, CheckedChange& judgement,
+                                   ThreadScratch& bench) const {
     std::vector<std::uint32_t>& patches = judgement.patches;
     patches.assign(change.added.size(), no_group);
     if (!change.on_border) {
@@ -314,14 +319,14 @@ bool Guard::find_patches(const Change& change, Judgement& judgement, Bench& benc
 }
 
 /// Nothing that is added can meet anything else, by its patch and by what it follows.
-bool Guard::is_free(const Change& change, const Judgement& judgement) const {
+bool ChangeValidator::is_free(const Change& change, const CheckedChange& judgement) const {
     for (std::size_t i = 0; i < change.added.size(); ++i)
         if (judgement.alone[i] == 0 || is_whole_[mesh_.sheet_of[change.from[i]]] == 0) return false;
     return true;
 }
 
-void Guard::find_reach(const Change& change, Judgement& judgement) const {
-    Reach& reach = judgement.reach;
+void ChangeValidator::find_reach(const Change& change, CheckedChange& judgement) const {
+    Footprint& reach = judgement.reach;
     reach.around = judgement.boxes.front();
     for (const GridBox& b : judgement.boxes) reach.around.widen(b);
     for (const std::uint32_t r : change.removed) reach.around.widen(box_of_[r]);
@@ -333,38 +338,39 @@ void Guard::find_reach(const Change& change, Judgement& judgement) const {
     if (change.on_border)
         for (const std::uint32_t r : change.removed) {
             const std::uint32_t p = patch_of_[r];
-            const auto is_it = [p](const Reach::Border& b) { return b.patch == p; };
+            const auto is_it = [p](const Footprint::Border& b) { return b.patch == p; };
             if (p != no_group && std::none_of(reach.borders.begin(), reach.borders.end(), is_it))
                 reach.borders.push_back({p, axis_[p]});
         }
     reach.is_free = is_free(change, judgement);
 }
 
-Verdict Guard::verdict_on(const Change& change, Judgement& judgement, Bench& bench) {
+Outcome ChangeValidator::verdict_on(const Change& change, CheckedChange& judgement,
+                                    ThreadScratch& bench) {
     const bool in_one = !change.on_border && in_one_patch(change.removed);
     if (!shapes_hold(change, in_one ? patch_of_[change.removed[0]] : no_group))
-        return Verdict::shape;
-    if (!bounds_hold(change, judgement, bench)) return Verdict::deviation;
+        return Outcome::shape;
+    if (!bounds_hold(change, judgement, bench)) return Outcome::deviation;
     box_added(change, judgement);
-    if (!find_patches(change, judgement, bench)) return Verdict::contact;
+    if (!find_patches(change, judgement, bench)) return Outcome::contact;
     find_reach(change, judgement);
     if (!judgement.reach.is_free && !meets_properly(change, judgement, bench))
-        return Verdict::contact;
-    return Verdict::allowed;
+        return Outcome::contact;
+    return Outcome::allowed;
 }
 
-Verdict Guard::judge(const Change& change, Judgement& judgement) {
-    Bench& bench = benches_.local();
-    const Verdict verdict = verdict_on(change, judgement, bench);
-    bench.refusals.shape += verdict == Verdict::shape;
-    bench.refusals.deviation += verdict == Verdict::deviation;
-    bench.refusals.contact += verdict == Verdict::contact;
+Outcome ChangeValidator::check(const Change& change, CheckedChange& judgement) {
+    ThreadScratch& bench = benches_.local();
+    const Outcome verdict = verdict_on(change, judgement, bench);
+    bench.refusals.shape += verdict == Outcome::shape;
+    bench.refusals.deviation += verdict == Outcome::deviation;
+    bench.refusals.contact += verdict == Outcome::contact;
     return verdict;
 }
 
-Refusals Guard::refusals() const {
+Refusals ChangeValidator::refusals() const {
     Refusals sum;
-    for (const Bench& b : benches_) {
+    for (const ThreadScratch& b : benches_) {
         sum.shape += b.refusals.shape;
         sum.deviation += b.refusals.deviation;
         sum.contact += b.refusals.contact;
@@ -373,7 +379,7 @@ Refusals Guard::refusals() const {
 }
 
 /// Before the mesh is changed.
-void Guard::leave_patches(const Change& change, const Judgement& judgement) {
+void ChangeValidator::leave_patches(const Change& change, const CheckedChange& judgement) {
     if (!change.in_place)
         for (const std::uint32_t t : change.removed)
             if (!is_quiet(t)) grid_.leave(t, box_of_[t]);
@@ -389,7 +395,7 @@ void Guard::leave_patches(const Change& change, const Judgement& judgement) {
     }
 }
 
-void Guard::carry_out(const Change& change, const Judgement& judgement) {
+void ChangeValidator::carry_out(const Change& change, const CheckedChange& judgement) {
     leave_patches(change, judgement);
     mesh_.apply(change, judgement.hints, numbers_);
     if (mesh_.triangles.size() > patch_of_.size()) {

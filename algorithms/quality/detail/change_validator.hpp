@@ -44,10 +44,10 @@ struct Refusals {
     std::size_t shape = 0;     ///< turned over, or without area
 };
 
-enum class Verdict : std::uint8_t { allowed, contact, deviation, shape };
+enum class Outcome : std::uint8_t { allowed, contact, deviation, shape };
 
 /// Where a change is.
-struct Reach {
+struct Footprint {
     /// A proven patch whose border is changed.
     struct Border {
         std::uint32_t patch = 0;
@@ -59,7 +59,7 @@ struct Reach {
     std::vector<Border> borders; ///< where a curve is changed
 
     /// Whether what was allowed before the other change is so after it; they share no vertex.
-    [[nodiscard]] bool is_apart(const Reach& other) const {
+    [[nodiscard]] bool is_apart(const Footprint& other) const {
         for (const Border& b : borders)
             for (const Border& c : other.borders)
                 if (b.patch == c.patch && around.overlaps_along(b.axis, other.around)) return false;
@@ -69,18 +69,18 @@ struct Reach {
 };
 
 /// What the guard has found out about a change.
-struct Judgement {
+struct CheckedChange {
     std::vector<std::uint32_t> hints;   ///< per added triangle
     std::vector<char> alone;            ///< per added: all that it follows is
     std::vector<std::uint32_t> patches; ///< per added, or no_group
     std::vector<GridBox> boxes;         ///< per added
-    Reach reach{};
+    Footprint reach{};
 };
 
-class Guard {
+class ChangeValidator {
 public:
     /// What is named must outlive it.
-    Guard(WorkMesh& mesh, const Reference& reference) :
+    ChangeValidator(WorkMesh& mesh, const ReferenceSurface& reference) :
         mesh_(mesh), reference_(reference), borders_(mesh) {}
 
     /// Proves patches anew. To be called first, and when many triangles have left theirs.
@@ -92,9 +92,9 @@ public:
 
     /// Whether the change is allowed to the mesh as it is. Several threads may ask at the same
     /// time.
-    Verdict judge(const Change& change, Judgement& judgement);
+    Outcome check(const Change& change, CheckedChange& judgement);
     /// Carries out what is allowed to the mesh as it is.
-    void carry_out(const Change& change, const Judgement& judgement);
+    void carry_out(const Change& change, const CheckedChange& judgement);
 
     /// Of all changes judged.
     [[nodiscard]] Refusals refusals() const;
@@ -103,14 +103,14 @@ public:
 
 private:
     /// What each thread has to itself.
-    struct Bench {
+    struct ThreadScratch {
         struct Tetrahedron {
             std::array<Point3, 4> corners; ///< positively oriented
             Box box;
         };
-        Reference::Search search;
+        ReferenceSurface::Search search;
         Borders::Search border_search;
-        std::vector<QuickPlane> planes;       ///< of the added triangles
+        std::vector<PlaneFilter> planes;      ///< of the added triangles
         Point3 top{};                         ///< of what the change sweeps
         std::vector<Tetrahedron> swept;       ///< by it
         std::vector<std::uint32_t> not_swept; ///< per vertex: the last change that had it, or
@@ -122,30 +122,31 @@ private:
 
     void find_whole_sheets();
     void fill_grid();
-    Verdict verdict_on(const Change& change, Judgement& judgement, Bench& bench);
+    Outcome verdict_on(const Change& change, CheckedChange& judgement, ThreadScratch& bench);
     [[nodiscard]] Corners corners_of(const Change& change, const Triangle& t) const;
     [[nodiscard]] bool shapes_hold(const Change& change, std::uint32_t patch) const;
-    bool bounds_hold(const Change& change, Judgement& judgement, Bench& bench) const;
-    void box_added(const Change& change, Judgement& judgement) const;
-    void find_reach(const Change& change, Judgement& judgement) const;
-    [[nodiscard]] bool is_beside(const QuickPlane& plane, const Triangle& t,
+    bool bounds_hold(const Change& change, CheckedChange& judgement, ThreadScratch& bench) const;
+    void box_added(const Change& change, CheckedChange& judgement) const;
+    void find_reach(const Change& change, CheckedChange& judgement) const;
+    [[nodiscard]] bool is_beside(const PlaneFilter& plane, const Triangle& t,
                                  const Triangle& other) const;
     [[nodiscard]] bool meet(const Change& change, const Triangle& t, const Triangle& other) const;
-    void sweep(const Change& change, Bench& bench) const;
-    [[nodiscard]] bool is_swept(const Triangle& t, Bench& bench) const;
-    bool meets_properly(const Change& change, const Judgement& judgement, Bench& bench) const;
+    void sweep(const Change& change, ThreadScratch& bench) const;
+    [[nodiscard]] bool is_swept(const Triangle& t, ThreadScratch& bench) const;
+    bool meets_properly(const Change& change, const CheckedChange& judgement,
+                        ThreadScratch& bench) const;
     [[nodiscard]] Sign turn_of(const Change& change, const Triangle& t, std::uint32_t patch) const;
     [[nodiscard]] bool are_wound(const Change& change, std::uint32_t patch) const;
-    bool find_patches(const Change& change, Judgement& judgement, Bench& bench) const;
+    bool find_patches(const Change& change, CheckedChange& judgement, ThreadScratch& bench) const;
     /// Nothing can meet it, by its patch and by what it follows: it is not in the grid.
     [[nodiscard]] bool is_quiet(std::uint32_t t) const {
         return mesh_.alone[t] != 0 && is_whole_[mesh_.sheet_of[t]] != 0;
     }
-    [[nodiscard]] bool is_free(const Change& change, const Judgement& judgement) const;
-    void leave_patches(const Change& change, const Judgement& judgement);
+    [[nodiscard]] bool is_free(const Change& change, const CheckedChange& judgement) const;
+    void leave_patches(const Change& change, const CheckedChange& judgement);
 
     WorkMesh& mesh_;
-    const Reference& reference_;
+    const ReferenceSurface& reference_;
 
     std::vector<std::uint32_t> patch_of_; ///< per triangle, or no_group
     std::vector<Axis> axis_;              ///< per patch
@@ -156,7 +157,7 @@ private:
     Grid grid_;
     std::size_t ungrouped_ = 0;
 
-    tbb::enumerable_thread_specific<Bench> benches_;
+    tbb::enumerable_thread_specific<ThreadScratch> benches_;
     std::vector<std::uint32_t> numbers_; ///< of what it adds
 };
 

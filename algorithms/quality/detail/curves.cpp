@@ -36,7 +36,7 @@ std::vector<CurveEdge> curve_edges(const WorkMesh& mesh, const std::vector<Curve
 }
 
 /// Where an end of an edge is on the curve.
-std::array<double, 2> places_of(const Workshop& shop, const CurveEdge& e) {
+std::array<double, 2> places_of(const RemeshContext& shop, const CurveEdge& e) {
     return {shop.mesh.place_at(shop.curves, e.curve, e.from, e.to),
             shop.mesh.kinds[e.from] == VertexKind::corner &&
                     shop.mesh.kinds[e.to] == VertexKind::corner
@@ -44,7 +44,7 @@ std::array<double, 2> places_of(const Workshop& shop, const CurveEdge& e) {
                 : shop.mesh.place_at(shop.curves, e.curve, e.to, e.from)};
 }
 
-bool propose_curve_split(Workshop& shop, const CurveEdge& e, Proposal& proposal) {
+bool propose_curve_split(RemeshContext& shop, const CurveEdge& e, Proposal& proposal) {
     const WorkMesh& mesh = shop.mesh;
     const auto [from, to] = places_of(shop, e);
     proposal.at = from + (to - from) / 2;
@@ -65,7 +65,7 @@ bool propose_curve_split(Workshop& shop, const CurveEdge& e, Proposal& proposal)
         change.add(with(mesh.triangles[t], e.to, m), t);
         change.add(with(mesh.triangles[t], e.from, m), t);
     }
-    return shop.guard.judge(change, proposal.judgement) == Verdict::allowed;
+    return shop.guard.check(change, proposal.judgement) == Outcome::allowed;
 }
 
 void after_split(WorkMesh& mesh, const CurveEdge& e, const Proposal& proposal) {
@@ -89,7 +89,7 @@ double badness_of_added(const WorkMesh& mesh, const Change& change) {
     return sum;
 }
 
-bool propose_slide_to(Workshop& shop, std::uint32_t v, double at, Proposal& proposal) {
+bool propose_slide_to(RemeshContext& shop, std::uint32_t v, double at, Proposal& proposal) {
     const WorkMesh& mesh = shop.mesh;
     const std::uint32_t curve = mesh.curve_of[v];
     const auto [before, after] = mesh.along[v];
@@ -98,18 +98,18 @@ bool propose_slide_to(Workshop& shop, std::uint32_t v, double at, Proposal& prop
         return false;
     proposal.at = at;
     Change& change = proposal.change;
-    look_at(mesh, v, change);
+    collect_star(mesh, v, change);
     change.on_border = true;
     change.place = mesh.points[v];
     const double before_it = badness_of_added(mesh, change);
     change.place = point_on(shop, curve, at);
     if (!(badness_of_added(mesh, change) < before_it * (1 - least_gain))) return false;
     set_facing(mesh, change);
-    return shop.guard.judge(change, proposal.judgement) == Verdict::allowed;
+    return shop.guard.check(change, proposal.judgement) == Outcome::allowed;
 }
 
 /// Halfway between its neighbours, or half of the way there.
-bool propose_slide(Workshop& shop, std::uint32_t v, Proposal& proposal) {
+bool propose_slide(RemeshContext& shop, std::uint32_t v, Proposal& proposal) {
     const WorkMesh& mesh = shop.mesh;
     if (mesh.kinds[v] != VertexKind::curve) return false;
     const std::uint32_t curve = mesh.curve_of[v];
@@ -122,7 +122,7 @@ bool propose_slide(Workshop& shop, std::uint32_t v, Proposal& proposal) {
 }
 
 /// Into the nearer neighbour on the curve, where that is short.
-bool propose_curve_collapse(Workshop& shop, std::uint32_t v, Proposal& proposal) {
+bool propose_curve_collapse(RemeshContext& shop, std::uint32_t v, Proposal& proposal) {
     const WorkMesh& mesh = shop.mesh;
     if (mesh.kinds[v] != VertexKind::curve) return false;
     const auto [before, after] = mesh.along[v];
@@ -142,7 +142,7 @@ std::vector<std::uint32_t> curve_vertices(const WorkMesh& mesh) {
 
 } // namespace
 
-Point3 point_on(const Workshop& shop, std::uint32_t curve, double at) {
+Point3 point_on(const RemeshContext& shop, std::uint32_t curve, double at) {
     const Curve& c = shop.curves[curve];
     const auto after = std::upper_bound(c.at.begin() + 1, c.at.end() - 1, at);
     const auto i = static_cast<std::size_t>(after - c.at.begin());
@@ -152,7 +152,7 @@ Point3 point_on(const Workshop& shop, std::uint32_t curve, double at) {
     return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y), a.z + share * (b.z - a.z)};
 }
 
-bool chord_follows(const Workshop& shop, std::uint32_t curve, double from, double to) {
+bool chord_follows(const RemeshContext& shop, std::uint32_t curve, double from, double to) {
     const Curve& c = shop.curves[curve];
     const Point3 a = point_on(shop, curve, from), b = point_on(shop, curve, to);
     const Point3 d = minus(b, a);
@@ -169,7 +169,7 @@ bool chord_follows(const Workshop& shop, std::uint32_t curve, double from, doubl
     return true;
 }
 
-std::size_t split_curves(Workshop& shop) {
+std::size_t split_curves(RemeshContext& shop) {
     std::size_t count = 0;
     for (unsigned round = 0; round < 32 && !shop.run.stop.stop_requested(); ++round) {
         std::vector<CurveEdge> edges = curve_edges(shop.mesh, shop.curves);
@@ -190,7 +190,7 @@ std::size_t split_curves(Workshop& shop) {
     return count;
 }
 
-std::size_t collapse_curves(Workshop& shop) {
+std::size_t collapse_curves(RemeshContext& shop) {
     const std::size_t count = in_windows(
         shop, curve_vertices(shop.mesh),
         [&](std::uint32_t v, Proposal& p) { return propose_curve_collapse(shop, v, p); },
@@ -201,7 +201,7 @@ std::size_t collapse_curves(Workshop& shop) {
     return count;
 }
 
-std::size_t slide_curves(Workshop& shop) {
+std::size_t slide_curves(RemeshContext& shop) {
     const std::size_t count = in_windows(
         shop, curve_vertices(shop.mesh),
         [&](std::uint32_t v, Proposal& p) { return propose_slide(shop, v, p); },

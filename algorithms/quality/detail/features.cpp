@@ -19,7 +19,7 @@ double angle_between(const Point3& a, const Point3& b) {
 }
 
 template <class T>
-bool same_list(const Lists<T>& lists, std::uint32_t i, std::uint32_t j) {
+bool same_list(const IndexLists<T>& lists, std::uint32_t i, std::uint32_t j) {
     return std::equal(lists[i].begin(), lists[i].end(), lists[j].begin(), lists[j].end());
 }
 
@@ -87,7 +87,7 @@ private:
     }
 
     void find_sheets() {
-        Sets sets(mesh_.triangles.size());
+        DisjointSets sets(mesh_.triangles.size());
         for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t)
             for (const std::uint32_t u : out_.across[t])
                 if (u != none) sets.join(t, u);
@@ -182,7 +182,7 @@ private:
     /// one curve edge to the other.
     [[nodiscard]] bool fans_are_plain(std::uint32_t v,
                                       const std::vector<std::uint32_t>& star) const {
-        Sets fans(star.size());
+        DisjointSets fans(star.size());
         const auto index = [&](std::uint32_t t) {
             return static_cast<std::uint32_t>(std::find(star.begin(), star.end(), t) -
                                               star.begin());

@@ -35,7 +35,7 @@ constexpr double least_shape = 0.3;     ///< that collapses may leave where ther
 /// A change on its way, and where what leads to it is noted.
 struct Proposal {
     Change change{};
-    Judgement judgement{};
+    CheckedChange judgement{};
     bool is_allowed = false;    ///< as the mesh was then
     bool is_looked_at = false;  ///< smoothing: there was reason to
     std::uint32_t gone = none;  ///< a collapse: the vertex
@@ -46,10 +46,10 @@ struct Proposal {
 };
 
 /// What all operations work on; what is named must outlive them.
-struct Workshop {
+struct RemeshContext {
     WorkMesh& mesh;
-    Guard& guard;
-    const Reference& reference;
+    ChangeValidator& guard;
+    const ReferenceSurface& reference;
     std::span<const Point3> points;   ///< of the input
     const std::vector<Curve>& curves; ///< of the input
     std::vector<double> curve_bound;  ///< per curve: how far an edge may be from it
@@ -65,12 +65,12 @@ struct Workshop {
 
 /// Whether the straight edge between two places of a curve is within its bound of all between them,
 /// and the reverse: nearest points run through the whole edge, as they change continuously.
-bool chord_follows(const Workshop& shop, std::uint32_t curve, double from, double to);
+bool chord_follows(const RemeshContext& shop, std::uint32_t curve, double from, double to);
 /// The point at this length along a curve.
-Point3 point_on(const Workshop& shop, std::uint32_t curve, double at);
+Point3 point_on(const RemeshContext& shop, std::uint32_t curve, double at);
 
 /// The change that moves a vertex, but for where to.
-void look_at(const WorkMesh& mesh, std::uint32_t v, Change& change);
+void collect_star(const WorkMesh& mesh, std::uint32_t v, Change& change);
 /// Sums of normals of the triangles that are removed.
 void set_facing(const WorkMesh& mesh, Change& change);
 
@@ -80,29 +80,29 @@ inline double shape_of(const WorkMesh& mesh, const Triangle& t) {
 }
 
 // Each returns how many changes were made.
-std::size_t split_curves(Workshop& shop);
-std::size_t collapse_curves(Workshop& shop);
-std::size_t slide_curves(Workshop& shop);
-std::size_t split_edges(Workshop& shop);
-std::size_t collapse_edges(Workshop& shop);
+std::size_t split_curves(RemeshContext& shop);
+std::size_t collapse_curves(RemeshContext& shop);
+std::size_t slide_curves(RemeshContext& shop);
+std::size_t split_edges(RemeshContext& shop);
+std::size_t collapse_edges(RemeshContext& shop);
 /// Collapses at triangles worse than `below`, where the worst gets better.
-std::size_t collapse_bad(Workshop& shop, double below);
-std::size_t swap_edges(Workshop& shop);
+std::size_t collapse_bad(RemeshContext& shop, double below);
+std::size_t swap_edges(RemeshContext& shop);
 /// Swaps that bring numbers of edges at vertices nearer to six, unless an angle becomes large: what
 /// smoothing then makes better than what was.
-std::size_t even_out(Workshop& shop);
-std::size_t smooth(Workshop& shop);
+std::size_t equalize_valences(RemeshContext& shop);
+std::size_t smooth(RemeshContext& shop);
 /// Moves inner vertices a little, by their number, where all triangles are like halves of squares
 /// or worse: a regular grid of those is a balance that smoothing alone does not leave, though not
 /// the best one.
-std::size_t shake(Workshop& shop);
+std::size_t jitter(RemeshContext& shop);
 /// Moves inner vertices of triangles worse than `below` so that the worst of them gets better.
-std::size_t lift_worst(Workshop& shop, double below);
+std::size_t improve_worst(RemeshContext& shop, double below);
 
 // Shared by the passes.
 /// Whether moving one vertex into the other is allowed, and makes no edge longer than that and no
 /// triangle worse than `least`, or than what was there.
-bool propose_collapse(Workshop& shop, const Edge& gone_kept, double longest, double least,
+bool propose_collapse(RemeshContext& shop, const Edge& gone_kept, double longest, double least,
                       Proposal& proposal);
 /// What is left to be done when that was carried out.
 void after_collapse(WorkMesh& mesh, const Proposal& proposal);

@@ -50,8 +50,8 @@ double to_triangle(const Point3& p, const Point3& a, const Point3& b, const Poin
     return std::min(least, length(minus(p, foot)));
 }
 
-Reference::Reference(std::span<const Point3> points, const Features& features,
-                     std::span<const double> bound_of) :
+ReferenceSurface::ReferenceSurface(std::span<const Point3> points, const Features& features,
+                                   std::span<const double> bound_of) :
     points_(points),
     features_(features), bound_of_(bound_of), facets_(features.triangles.size()) {
     double largest = 0;
@@ -77,7 +77,7 @@ Reference::Reference(std::span<const Point3> points, const Features& features,
 }
 
 /// Whether all corners of triangle t are beyond the plane of another one, by more than the gap.
-bool Reference::is_beyond_plane(std::uint32_t t, std::uint32_t of, double gap) const {
+bool ReferenceSurface::is_beyond_plane(std::uint32_t t, std::uint32_t of, double gap) const {
     const Facet& plane = facets_[of];
     const double size = length(plane.normal);
     int sum = 0;
@@ -90,7 +90,7 @@ bool Reference::is_beyond_plane(std::uint32_t t, std::uint32_t of, double gap) c
     return sum == 3 || sum == -3;
 }
 
-void Reference::find_alone(const Run& run) {
+void ReferenceSurface::find_alone(const Run& run) {
     const auto count = static_cast<std::uint32_t>(features_.triangles.size());
     for (Facet& f : facets_) f.alone = true;
     std::vector<Box> boxes;
@@ -118,21 +118,21 @@ void Reference::find_alone(const Run& run) {
     candidate_pairs_of(boxes, all, features_.sheet_of, mark, one);
 }
 
-Reference::Frame Reference::frame_of(Axis axis) {
+ReferenceSurface::Frame ReferenceSurface::frame_of(Axis axis) {
     const Point3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
     if (axis == Axis::x) return {y, z, x, axis};
     if (axis == Axis::y) return {z, x, y, axis};
     return {x, y, z, axis};
 }
 
-int Reference::turn_of(std::uint32_t t, const Frame& frame) const {
+int ReferenceSurface::turn_of(std::uint32_t t, const Frame& frame) const {
     const Facet& facet = facets_[t];
     if (frame.axis) return facet.turns[static_cast<std::size_t>(*frame.axis)];
     const double along = dot(facet.normal, frame.w);
     return along > facet.lean ? 1 : along < -facet.lean ? -1 : 0;
 }
 
-Reference::Frame Reference::frame_along(const Point3& normal, const Point3& side) {
+ReferenceSurface::Frame ReferenceSurface::frame_along(const Point3& normal, const Point3& side) {
     const double size = length(normal), base = length(side);
     Frame frame;
     frame.w = {normal.x / size, normal.y / size, normal.z / size};
@@ -141,7 +141,7 @@ Reference::Frame Reference::frame_along(const Point3& normal, const Point3& side
     return frame;
 }
 
-void Reference::set_measures(Target& target) {
+void ReferenceSurface::set_measures(Target& target) {
     const Frame& frame = target.frame;
     Target::Measures& m = target.measures;
     for (std::size_t j = 0; j < 3; ++j) {
@@ -160,8 +160,8 @@ void Reference::set_measures(Target& target) {
     m.z[3] = frame.w.z - target.slope_u * frame.u.z - target.slope_v * frame.v.z;
 }
 
-std::optional<Reference::Target> Reference::target_of(const Corners& triangle, double bound,
-                                                      bool along_axis) {
+std::optional<ReferenceSurface::Target> ReferenceSurface::target_of(const Corners& triangle,
+                                                                    double bound, bool along_axis) {
     const Point3& a = triangle[0];
     const Point3 ab = minus(triangle[1], a), ac = minus(triangle[2], a), n = cross(ab, ac);
     const double x = std::fabs(n.x), y = std::fabs(n.y), z = std::fabs(n.z);
@@ -193,8 +193,8 @@ std::optional<Reference::Target> Reference::target_of(const Corners& triangle, d
 }
 
 /// From triangle to triangle, always over an edge that has the goal beyond it.
-Reference::Walk Reference::walk(const Frame& frame, const Point3& origin, const Flat& to, int turn,
-                                std::uint32_t from) const {
+ReferenceSurface::Walk ReferenceSurface::walk(const Frame& frame, const Point3& origin,
+                                              const Flat& to, int turn, std::uint32_t from) const {
     std::uint32_t t = from, before = none;
     for (unsigned step = 0; step < most_steps; ++step) {
         if (turn_of(t, frame) != turn) return {t, false};
@@ -222,8 +222,8 @@ Reference::Walk Reference::walk(const Frame& frame, const Point3& origin, const 
 
 /// Of the heights of a triangle over the target's plane, given at its corners: whether all over the
 /// target are within its bound.
-bool Reference::is_near(const Target& target, const Corners& facet,
-                        const std::array<double, 3>& heights) {
+bool ReferenceSurface::is_near(const Target& target, const Corners& facet,
+                               const std::array<double, 3>& heights) {
     std::array<Flat, 3> corners;
     for (std::size_t i = 0; i < 3; ++i)
         corners[i] = target.frame.flat(minus(facet[i], target.origin));
@@ -257,7 +257,8 @@ bool Reference::is_near(const Target& target, const Corners& facet,
 }
 
 /// Looks at one triangle under the target.
-Reference::Cover Reference::visit(const Target& target, std::uint32_t t, Search& search) const {
+ReferenceSurface::Cover ReferenceSurface::visit(const Target& target, std::uint32_t t,
+                                                Search& search) const {
     if (turn_of(t, target.frame) != target.turn) return Cover::open;
     const Facet& facet = facets_[t];
     const Target::Measures& m = target.measures;
@@ -310,8 +311,8 @@ Reference::Cover Reference::visit(const Target& target, std::uint32_t t, Search&
     return all_near || is_near(target, facet.corners, heights) ? Cover::near : Cover::far;
 }
 
-Reference::Cover Reference::covered(const Target& target, std::uint32_t start,
-                                    Search& search) const {
+ReferenceSurface::Cover ReferenceSurface::covered(const Target& target, std::uint32_t start,
+                                                  Search& search) const {
     ++search.number_;
     if (search.number_ == 0) { // counted round
         std::fill(search.seen_.begin(), search.seen_.end(), 0);
@@ -330,15 +331,15 @@ Reference::Cover Reference::covered(const Target& target, std::uint32_t start,
     return Cover::near;
 }
 
-bool Reference::near_one(const Corners& triangle, std::uint32_t t, double bound) const {
+bool ReferenceSurface::near_one(const Corners& triangle, std::uint32_t t, double bound) const {
     const Corners& of = facets_[t].corners;
     return std::all_of(triangle.begin(), triangle.end(), [&](const Point3& p) {
         return to_triangle(p, of[0], of[1], of[2]) <= bound;
     });
 }
 
-bool Reference::part_follows(const Corners& triangle, Followed& followed, double bound,
-                             unsigned& budget, Search& search) const {
+bool ReferenceSurface::part_follows(const Corners& triangle, Followed& followed, double bound,
+                                    unsigned& budget, Search& search) const {
     if (budget == 0) return false;
     --budget;
     for (const bool along_axis : {false, true}) {
@@ -371,13 +372,15 @@ bool Reference::part_follows(const Corners& triangle, Followed& followed, double
     const std::uint32_t hint = followed.hint;
     if (!part_follows({a, middle, c}, followed, bound, budget, search)) return false;
     Followed other{hint, followed.alone};
-    const bool follows = part_follows({middle, b, c}, other, bound, budget, search);
+    const bool contains_within_tolerance =
+        part_follows({middle, b, c}, other, bound, budget, search);
     followed.alone = other.alone;
-    return follows;
+    return contains_within_tolerance;
 }
 
-std::optional<Reference::Followed> Reference::follows(const Corners& triangle, std::uint32_t hint,
-                                                      Search& search) const {
+std::optional<ReferenceSurface::Followed>
+ReferenceSurface::contains_within_tolerance(const Corners& triangle, std::uint32_t hint,
+                                            Search& search) const {
     search.seen_.resize(facets_.size(), 0);
     unsigned budget = most_parts;
     Followed followed{hint, true};
@@ -386,8 +389,8 @@ std::optional<Reference::Followed> Reference::follows(const Corners& triangle, s
     return followed;
 }
 
-std::optional<Reference::Place> Reference::above(const Point3& p, const Point3& normal,
-                                                 std::uint32_t hint) const {
+std::optional<ReferenceSurface::Place>
+ReferenceSurface::above(const Point3& p, const Point3& normal, std::uint32_t hint) const {
     const double x = std::fabs(normal.x), y = std::fabs(normal.y), z = std::fabs(normal.z);
     const Axis axis = z >= x && z >= y ? Axis::z : x >= y ? Axis::x : Axis::y;
     const Frame frame = frame_of(axis);

@@ -2,7 +2,7 @@
 //
 // The surface as it was: what an improved mesh is held to. Private to improve.
 //
-// Guarantee of follows(): every point of the triangle is within the bound of its sheet as it was.
+// Guarantee of contains_within_tolerance(): every point of the triangle is within the bound of its sheet as it was.
 // Two reasons are tried, on the triangle and, where both fail, on parts of it:
 // (1) Along its normal, or along an axis, the triangle, drawn in a little, is covered. A set of
 //     triangles of the sheet, all wound alike in this projection, is spread from one that meets it
@@ -40,17 +40,17 @@ using Corners = std::array<Point3, 3>;
 /// however ill-shaped.
 double to_triangle(const Point3& p, const Point3& a, const Point3& b, const Point3& c);
 
-class Reference {
+class ReferenceSurface {
 public:
     /// bound_of: per sheet. Of the features, the triangles, sheet_of and across are looked at.
     /// What is named must outlive it.
-    Reference(std::span<const Point3> points, const Features& features,
-              std::span<const double> bound_of);
+    ReferenceSurface(std::span<const Point3> points, const Features& features,
+                     std::span<const double> bound_of);
 
     /// Finds the triangles that are alone; until then none is.
     void find_alone(const Run& run);
 
-    [[nodiscard]] bool is_alone(std::uint32_t t) const { return facets_[t].alone; }
+    [[nodiscard]] bool is_isolated(std::uint32_t t) const { return facets_[t].alone; }
 
     /// The least bound that is told apart from rounding errors.
     [[nodiscard]] double least_bound() const { return 1e3 * slack_; }
@@ -63,15 +63,15 @@ public:
     };
     /// What a thread that asks has to itself; its contents mean nothing to it.
     class Search {
-        friend class Reference;
+        friend class ReferenceSurface;
         std::vector<std::uint32_t> seen_; ///< per triangle: the last search that saw it
         std::uint32_t number_ = 0;        ///< of the search at hand
         std::vector<std::uint32_t> front_;
         bool all_alone_ = true; ///< of the triangles that it has visited
     };
     /// Whether the triangle is shown to be within the bound of the sheet of the triangle `hint`.
-    [[nodiscard]] std::optional<Followed> follows(const Corners& triangle, std::uint32_t hint,
-                                                  Search& search) const;
+    [[nodiscard]] std::optional<Followed>
+    contains_within_tolerance(const Corners& triangle, std::uint32_t hint, Search& search) const;
 
     struct Place {
         Point3 point;           ///< on the surface, but for rounding

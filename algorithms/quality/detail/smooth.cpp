@@ -83,9 +83,9 @@ bool is_below(const WorkMesh& mesh, std::uint32_t v, const Point3& p, const Badn
     return true;
 }
 
-/// Whether it may move, after look_at, to the place on the surface above or below `to`, and comes
+/// Whether it may move, after collect_star, to the place on the surface above or below `to`, and comes
 /// below the limits there.
-bool propose_move(const Workshop& shop, const Point3& to, const Badness& limits,
+bool propose_move(const RemeshContext& shop, const Point3& to, const Badness& limits,
                   Proposal& proposal) {
     const WorkMesh& mesh = shop.mesh;
     Change& change = proposal.change;
@@ -96,18 +96,18 @@ bool propose_move(const Workshop& shop, const Point3& to, const Badness& limits,
         shop.reference.above(to, change.facing[0].second, mesh.hint_of[change.removed[0]]);
     if (!place || !is_below(mesh, v, place->point, limits)) return false;
     change.place = place->point;
-    return shop.guard.judge(change, proposal.judgement) == Verdict::allowed;
+    return shop.guard.check(change, proposal.judgement) == Outcome::allowed;
 }
 
 Point3 between(const Point3& a, const Point3& b, double share) {
     return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y), a.z + share * (b.z - a.z)};
 }
 
-bool propose_smoothing(const Workshop& shop, std::uint32_t v, Proposal& proposal) {
+bool propose_smoothing(const RemeshContext& shop, std::uint32_t v, Proposal& proposal) {
     const WorkMesh& mesh = shop.mesh;
     proposal.is_looked_at = mesh.changed_since(v, shop.smoothed_at[v]);
     if (!proposal.is_looked_at) return false;
-    look_at(mesh, v, proposal.change);
+    collect_star(mesh, v, proposal.change);
     const Point3 &from = mesh.points[v], to = drawn(mesh, v);
     const Badness better{badness_at(mesh, v, from).sum * (1 - least_gain), endless};
     // A triangle slides the vertex along its base only, which is half of a way on the mean.
@@ -118,14 +118,14 @@ bool propose_smoothing(const Workshop& shop, std::uint32_t v, Proposal& proposal
 
 /// From where it is in eight directions in the plane across the normal, by steps that are halved:
 /// the last place on the way that was better than those before.
-bool propose_lift(const Workshop& shop, std::uint32_t v, double below, Proposal& proposal) {
+bool propose_lift(const RemeshContext& shop, std::uint32_t v, double below, Proposal& proposal) {
     const WorkMesh& mesh = shop.mesh;
     proposal.is_looked_at =
         mesh.changed_since(v, shop.lifted_at[v]) &&
         std::any_of(mesh.star[v].begin(), mesh.star[v].end(),
                     [&](std::uint32_t t) { return shape_of(mesh, mesh.triangles[t]) < below; });
     if (!proposal.is_looked_at) return false;
-    look_at(mesh, v, proposal.change);
+    collect_star(mesh, v, proposal.change);
     set_facing(mesh, proposal.change);
     Point3 n = proposal.change.facing[0].second;
     const double size = std::sqrt(dot(n, n));
@@ -137,7 +137,7 @@ bool propose_lift(const Workshop& shop, std::uint32_t v, double below, Proposal&
     const Point3 w = cross(n, u);
     bool moves = false;
     Point3 p = mesh.points[v];
-    Judgement of_p;
+    CheckedChange of_p;
     double largest = badness_at(mesh, v, p).largest, step = mesh.sizes[v] / 4;
     for (unsigned halving = 0; halving < 4; ++halving, step /= 2)
         for (unsigned k = 0; k < 8; ++k) {
@@ -170,7 +170,7 @@ Point3 scattered(std::uint32_t v) {
 }
 
 /// Inner vertices: those in one patch, and the rest.
-std::array<std::vector<std::uint32_t>, 2> inner_vertices(const Workshop& shop) {
+std::array<std::vector<std::uint32_t>, 2> inner_vertices(const RemeshContext& shop) {
     std::array<std::vector<std::uint32_t>, 2> lists;
     for (std::uint32_t v = 0; v < shop.mesh.kinds.size(); ++v) {
         const WorkMesh::Star& star = shop.mesh.star[v];
@@ -182,7 +182,7 @@ std::array<std::vector<std::uint32_t>, 2> inner_vertices(const Workshop& shop) {
 
 } // namespace
 
-void look_at(const WorkMesh& mesh, std::uint32_t v, Change& change) {
+void collect_star(const WorkMesh& mesh, std::uint32_t v, Change& change) {
     change.clear();
     change.in_place = true;
     change.placed = v;
@@ -190,7 +190,7 @@ void look_at(const WorkMesh& mesh, std::uint32_t v, Change& change) {
     for (const std::uint32_t t : change.removed) change.add(mesh.triangles[t], t);
 }
 
-std::size_t smooth(Workshop& shop) {
+std::size_t smooth(RemeshContext& shop) {
     ++shop.mesh.now;
     shop.smoothed_at.resize(shop.mesh.kinds.size(), 0);
     std::size_t count = 0;
@@ -206,14 +206,14 @@ std::size_t smooth(Workshop& shop) {
     return count;
 }
 
-std::size_t shake(Workshop& shop) {
+std::size_t jitter(RemeshContext& shop) {
     const WorkMesh& mesh = shop.mesh;
     const auto propose = [&](std::uint32_t v, Proposal& proposal) {
         if (!std::all_of(mesh.star[v].begin(), mesh.star[v].end(), [&](std::uint32_t t) {
                 return shape_of(mesh, mesh.triangles[t]) < square_shape;
             }))
             return false;
-        look_at(mesh, v, proposal.change);
+        collect_star(mesh, v, proposal.change);
         const double size = shake_share * mesh.sizes[v];
         const Point3& p = mesh.points[v];
         const auto off = scattered(v);
@@ -227,7 +227,7 @@ std::size_t shake(Workshop& shop) {
     return count;
 }
 
-std::size_t lift_worst(Workshop& shop, double below) {
+std::size_t improve_worst(RemeshContext& shop, double below) {
     ++shop.mesh.now;
     shop.lifted_at.resize(shop.mesh.kinds.size(), 0);
     std::size_t count = 0;

@@ -24,7 +24,7 @@ double length_class(double ratio) {
 
 /// What list(t, items) adds for each triangle in use, in their order.
 template <class Item, class List>
-std::vector<Item> from_triangles(const Workshop& shop, const List& list) {
+std::vector<Item> from_triangles(const RemeshContext& shop, const List& list) {
     const WorkMesh& mesh = shop.mesh;
     const auto of_range = [&](std::size_t first, std::size_t last) {
         std::vector<Item> items;
@@ -38,7 +38,7 @@ std::vector<Item> from_triangles(const Workshop& shop, const List& list) {
 
 /// Inner edges with the lower vertex first, each once, from the triangles in their order.
 template <class Wanted>
-std::vector<std::pair<double, Edge>> inner_edges(const Workshop& shop, const Wanted& wanted) {
+std::vector<std::pair<double, Edge>> inner_edges(const RemeshContext& shop, const Wanted& wanted) {
     using Measured = std::pair<double, Edge>;
     const WorkMesh& mesh = shop.mesh;
     return from_triangles<Measured>(shop, [&](std::uint32_t t, std::vector<Measured>& edges) {
@@ -84,7 +84,7 @@ bool promises(const WorkMesh& mesh, std::uint32_t a, std::uint32_t b, std::uint3
 
 /// Inner edges as their triangles have them that promise something, where a triangle at them has
 /// changed at this time or later, and some more.
-std::vector<Edge> edges_to_swap(const Workshop& shop, std::uint32_t time, Aim aim) {
+std::vector<Edge> edges_to_swap(const RemeshContext& shop, std::uint32_t time, Aim aim) {
     const WorkMesh& mesh = shop.mesh;
     std::vector<char> is_near(mesh.points.size(), 0);
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
@@ -102,7 +102,8 @@ std::vector<Edge> edges_to_swap(const Workshop& shop, std::uint32_t time, Aim ai
 }
 
 /// Whether splitting the edge is allowed, unless one of its triangles has changed since then.
-bool propose_edge_split(Workshop& shop, const Edge& e, std::uint32_t since, Proposal& proposal) {
+bool propose_edge_split(RemeshContext& shop, const Edge& e, std::uint32_t since,
+                        Proposal& proposal) {
     const WorkMesh& mesh = shop.mesh;
     const auto [a, b] = e;
     Change& change = proposal.change;
@@ -126,10 +127,10 @@ bool propose_edge_split(Workshop& shop, const Edge& e, std::uint32_t since, Prop
         shop.reference.above(middle, change.facing[0].second, mesh.hint_of[change.removed[0]]);
     if (above) {
         change.place = above->point;
-        if (shop.guard.judge(change, proposal.judgement) == Verdict::allowed) return true;
+        if (shop.guard.check(change, proposal.judgement) == Outcome::allowed) return true;
     }
     change.place = middle;
-    return shop.guard.judge(change, proposal.judgement) == Verdict::allowed;
+    return shop.guard.check(change, proposal.judgement) == Outcome::allowed;
 }
 
 /// The largest angle of a triangle, as the least cosine.
@@ -145,7 +146,7 @@ double least_cosine(const WorkMesh& mesh, const Triangle& t) {
 }
 
 /// The edge is one of edges_to_swap.
-bool propose_swap(Workshop& shop, const Edge& e, Aim aim, Proposal& proposal) {
+bool propose_swap(RemeshContext& shop, const Edge& e, Aim aim, Proposal& proposal) {
     const WorkMesh& mesh = shop.mesh;
     const auto [a, b] = e;
     Change& change = proposal.change;
@@ -173,10 +174,10 @@ bool propose_swap(Workshop& shop, const Edge& e, Aim aim, Proposal& proposal) {
     set_facing(mesh, change);
     change.add(left, t);
     change.add(right, u);
-    return shop.guard.judge(change, proposal.judgement) == Verdict::allowed;
+    return shop.guard.check(change, proposal.judgement) == Outcome::allowed;
 }
 
-std::size_t swap_those(Workshop& shop, std::uint32_t changed_since, Aim aim) {
+std::size_t swap_those(RemeshContext& shop, std::uint32_t changed_since, Aim aim) {
     const std::size_t count = in_windows(
         shop, edges_to_swap(shop, changed_since, aim),
         [&](const Edge& e, Proposal& p) { return propose_swap(shop, e, aim, p); }, nothing_more);
@@ -208,7 +209,7 @@ bool keeps_topology(const WorkMesh& mesh, std::uint32_t gone, std::uint32_t kept
 }
 
 /// On a curve: the neighbour on the other side, and whether the new edge follows the curve.
-bool curve_allows(const Workshop& shop, std::uint32_t gone, std::uint32_t kept,
+bool curve_allows(const RemeshContext& shop, std::uint32_t gone, std::uint32_t kept,
                   std::uint32_t& other) {
     const WorkMesh& mesh = shop.mesh;
     const std::uint32_t curve = mesh.curve_of[gone];
@@ -220,7 +221,8 @@ bool curve_allows(const Workshop& shop, std::uint32_t gone, std::uint32_t kept,
 }
 
 /// One of the two ends of a short edge into the other, unless nothing there has changed since then.
-bool propose_edge_collapse(Workshop& shop, const Edge& e, std::uint32_t since, Proposal& proposal) {
+bool propose_edge_collapse(RemeshContext& shop, const Edge& e, std::uint32_t since,
+                           Proposal& proposal) {
     const WorkMesh& mesh = shop.mesh;
     const auto [a, b] = e;
     if (mesh.kinds[a] == VertexKind::unused || mesh.kinds[b] == VertexKind::unused) return false;
@@ -237,7 +239,7 @@ bool propose_edge_collapse(Workshop& shop, const Edge& e, std::uint32_t since, P
 }
 
 /// One of the ends of the shortest edge into the other, or of that which is next.
-bool propose_collapse_at(Workshop& shop, const Triangle& c, Proposal& proposal) {
+bool propose_collapse_at(RemeshContext& shop, const Triangle& c, Proposal& proposal) {
     const WorkMesh& mesh = shop.mesh;
     std::array<std::pair<double, std::size_t>, 3> by_length;
     for (std::size_t i = 0; i < 3; ++i) by_length[i] = {mesh.edge_length(c[i], c[(i + 1) % 3]), i};
@@ -258,7 +260,7 @@ bool propose_collapse_at(Workshop& shop, const Triangle& c, Proposal& proposal) 
 
 } // namespace
 
-bool propose_collapse(Workshop& shop, const Edge& gone_kept, double longest, double least,
+bool propose_collapse(RemeshContext& shop, const Edge& gone_kept, double longest, double least,
                       Proposal& proposal) {
     const WorkMesh& mesh = shop.mesh;
     const auto [gone, kept] = gone_kept;
@@ -299,7 +301,7 @@ bool propose_collapse(Workshop& shop, const Edge& gone_kept, double longest, dou
     }
     if (!keeps_topology(mesh, gone, kept, proposal)) return false;
     set_facing(mesh, change);
-    return shop.guard.judge(change, proposal.judgement) == Verdict::allowed;
+    return shop.guard.check(change, proposal.judgement) == Outcome::allowed;
 }
 
 void after_collapse(WorkMesh& mesh, const Proposal& proposal) {
@@ -335,7 +337,7 @@ void set_facing(const WorkMesh& mesh, Change& change) {
     }
 }
 
-std::size_t split_edges(Workshop& shop) {
+std::size_t split_edges(RemeshContext& shop) {
     const WorkMesh& mesh = shop.mesh;
     std::size_t count = 0;
     for (unsigned round = 0; round < 32 && !shop.run.stop.stop_requested(); ++round) {
@@ -362,7 +364,7 @@ std::size_t split_edges(Workshop& shop) {
     return count;
 }
 
-std::size_t collapse_edges(Workshop& shop) {
+std::size_t collapse_edges(RemeshContext& shop) {
     const WorkMesh& mesh = shop.mesh;
     std::size_t count = 0;
     const auto classes = by_class(inner_edges(shop, [&](std::uint32_t a, std::uint32_t b) {
@@ -382,7 +384,7 @@ std::size_t collapse_edges(Workshop& shop) {
     return count;
 }
 
-std::size_t collapse_bad(Workshop& shop, double below) {
+std::size_t collapse_bad(RemeshContext& shop, double below) {
     using Triangles = std::vector<std::uint32_t>;
     const WorkMesh& mesh = shop.mesh;
     const auto is_bad = [&](std::uint32_t t) {
@@ -403,13 +405,13 @@ std::size_t collapse_bad(Workshop& shop, double below) {
     return count;
 }
 
-std::size_t even_out(Workshop& shop) {
+std::size_t equalize_valences(RemeshContext& shop) {
     const std::size_t count = swap_those(shop, shop.evened_at, Aim::evenness);
     shop.evened_at = ++shop.mesh.now;
     return count;
 }
 
-std::size_t swap_edges(Workshop& shop) {
+std::size_t swap_edges(RemeshContext& shop) {
     std::size_t count = 0;
     for (unsigned round = 0; round < 6 && !shop.run.stop.stop_requested(); ++round) {
         const std::uint32_t since = shop.swapped_at;

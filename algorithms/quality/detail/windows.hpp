@@ -30,14 +30,14 @@ public:
         reaches_.clear();
         for (auto& side : sides_) side.clear();
     }
-    void add(const Reach& reach) {
+    void add(const Footprint& reach) {
         reaches_.push_back(reach);
         for (std::size_t k = 0; k < 3; ++k) {
             sides_[k].push_back(reach.around.low[k]);
             sides_[3 + k].push_back(reach.around.high[k]);
         }
     }
-    [[nodiscard]] bool are_apart(const Reach& reach) const {
+    [[nodiscard]] bool are_apart(const Footprint& reach) const {
         const auto& [low, high] = reach.around;
         int near = 0, in_some_projection = 0;
         for (std::size_t i = 0; i < reaches_.size(); ++i) { // without branches, several in one
@@ -51,12 +51,13 @@ public:
             in_some_projection |= (x & y) | (y & z) | (z & x);
         }
         if (!reach.borders.empty()) near = in_some_projection;
-        return near == 0 || std::all_of(reaches_.begin(), reaches_.end(),
-                                        [&](const Reach& other) { return reach.is_apart(other); });
+        return near == 0 ||
+               std::all_of(reaches_.begin(), reaches_.end(),
+                           [&](const Footprint& other) { return reach.is_apart(other); });
     }
 
 private:
-    std::vector<Reach> reaches_;
+    std::vector<Footprint> reaches_;
     std::array<std::vector<float>, 6> sides_; ///< per coordinate: low ones, then high ones
 };
 
@@ -70,7 +71,7 @@ constexpr auto nothing_more = [](const auto&, const Proposal&, bool) {};
 /// was carried out since then, or is not shown to be apart from it, is proposed again when its turn
 /// comes. So the result does not depend on the threads.
 template <class Item, class Propose, class Done>
-std::size_t in_windows(Workshop& shop, const std::vector<Item>& items, const Propose& propose,
+std::size_t in_windows(RemeshContext& shop, const std::vector<Item>& items, const Propose& propose,
                        const Done& done) {
     if (items.empty()) return 0;
     WorkMesh& mesh = shop.mesh;

@@ -160,7 +160,7 @@ private:
     std::vector<std::array<Side, 3>> across_; ///< per side the one beyond, or none at a border
     std::vector<std::array<bool, 3>> shared_; ///< per side: at an edge of more than two triangles
     std::vector<std::array<bool, 3>> seen_;
-    Sets parts_{soup_.triangles.size()};
+    DisjointSets parts_{soup_.triangles.size()};
     std::vector<TracedLoop> loops_;
 };
 

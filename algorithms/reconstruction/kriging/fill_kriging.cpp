@@ -18,7 +18,7 @@
 namespace terrane {
 namespace {
 
-using detail::HoleData;
+using detail::KrigingData;
 
 constexpr std::size_t most_places = 20'000;
 constexpr std::size_t most_validated = 400;
@@ -62,7 +62,7 @@ double longest_pair(const std::vector<Point3>& points) {
 }
 
 /// Each border edge has the surface on one side and the filling on the other.
-Status check_sides(const HoleData& data, std::span<const Point3> points,
+Status check_sides(const KrigingData& data, std::span<const Point3> points,
                    std::span<const Triangle> triangles) {
     std::map<std::array<std::uint32_t, 2>, std::uint32_t> third_of;
     for (const Triangle& t : triangles)
@@ -94,7 +94,7 @@ struct FlatFilling {
     std::vector<Triangle> triangles; ///< front up
 };
 
-Result<FlatFilling> mesh_of(const HoleData& data, double mesh_size, const Run& run) {
+Result<FlatFilling> mesh_of(const KrigingData& data, double mesh_size, const Run& run) {
     FlatFilling flat;
     for (const Polygon& polygon : data.borders) flat.border += polygon.size();
     std::vector<Point3> points(data.points.begin(),
@@ -171,7 +171,7 @@ double area_of(const Surface& s) {
 
 /// All data at the borders; of the others as many as make `Kriging::most_at_once`, spread evenly
 /// through the rings. All, where that would leave too few.
-std::vector<Point3> thinned(const HoleData& data, std::size_t border) {
+std::vector<Point3> thinned(const KrigingData& data, std::size_t border) {
     const auto& all = data.points;
     if (all.size() <= Kriging::most_at_once || 2 * border > Kriging::most_at_once) return all;
     std::vector<Point3> kept(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(border));
@@ -180,7 +180,7 @@ std::vector<Point3> thinned(const HoleData& data, std::size_t border) {
     return kept;
 }
 
-Kriging model_of(const HoleData& data, std::size_t border, const FitOptions& options,
+Kriging model_of(const KrigingData& data, std::size_t border, const FitOptions& options,
                  FillReport& report) {
     const auto choice = detail::choose_model(data.points, data.edges, longest_pair(data.points),
                                              data.noise, options);
@@ -203,9 +203,9 @@ Result<Filling> fill_by_kriging(const Surface& surface, const BorderLoop& loop,
         return Error{ErrorCode::bad_option, "rings and mesh size must be positive", ""};
     // 1. the data, and whether they are a graph
     const auto loops = loops_within(surface, loop, options.loops);
-    auto found = detail::data_round(surface, loops, options.rings);
+    auto found = detail::collect_data(surface, loops, options.rings);
     if (!found) return found.error();
-    const HoleData& data = found.value();
+    const KrigingData& data = found.value();
     const double area = detail::signed_area(data.points, data.borders[0]);
     double mesh_size =
         options.mesh_size > 0 ? options.mesh_size : median_edge(data.points, data.borders[0]);

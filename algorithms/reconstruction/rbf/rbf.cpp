@@ -36,7 +36,7 @@ double least_size(const BorderLoop& loop, const RbfOptions& options) {
 }
 
 /// The edges at which the data end, but for the border of the hole, as triangles without area.
-std::vector<Triangle> rim_of(const HoleData& data) {
+std::vector<Triangle> rim_of(const RbfData& data) {
     std::vector<Triangle> rim;
     group_edges(data.triangles, data.points.size())
         .for_each([&](std::uint32_t low, std::uint32_t high, auto sides) {
@@ -48,10 +48,10 @@ std::vector<Triangle> rim_of(const HoleData& data) {
 }
 
 /// What lies under the surface away from the border, or beyond where the data end.
-class Outside {
+class DomainMask {
 public:
     /// `tree`: of the data's triangles.
-    Outside(const HoleData& data, const TriangleTree& tree, double size) :
+    DomainMask(const RbfData& data, const TriangleTree& tree, double size) :
         points_(data.points), size_(size), surface_(tree), rim_(data.points, rim_of(data)),
         border_(data.points, border_edges(data)) {}
 
@@ -82,7 +82,7 @@ public:
     }
 
 private:
-    static std::vector<Triangle> border_edges(const HoleData& data) {
+    static std::vector<Triangle> border_edges(const RbfData& data) {
         std::vector<Triangle> edges;
         for (std::uint32_t i = 0; i < data.next.size(); ++i)
             edges.push_back({i, data.next[i], data.next[i]});
@@ -112,9 +112,9 @@ private:
 };
 
 /// Step (5).
-Result<Surface> mesh_zero_level(const Implicit& f, const HoleData& data, const TriangleTree& tree,
+Result<Surface> mesh_zero_level(const Implicit& f, const RbfData& data, const TriangleTree& tree,
                                 double size, const Run& run) {
-    Outside outside(data, tree, size);
+    DomainMask outside(data, tree, size);
     ZeroLevelOptions options;
     options.size = size;
     options.seeds = std::span(data.points).first(data.next.size());
@@ -125,7 +125,7 @@ Result<Surface> mesh_zero_level(const Implicit& f, const HoleData& data, const T
 }
 
 /// Per place the expected error; 0 over the surface.
-std::vector<double> deviation_at(std::span<const Point3> places, const HoleData& data,
+std::vector<double> deviation_at(std::span<const Point3> places, const RbfData& data,
                                  const RbfChoice& choice, double nugget, const Run& run) {
     std::vector<double> deviation(places.size(), no_number);
     if (!std::isfinite(choice.expected)) return deviation;
@@ -138,7 +138,7 @@ std::vector<double> deviation_at(std::span<const Point3> places, const HoleData&
 /// The level over the hole, as far as it is meshed.
 struct Level {
     const Implicit& f;
-    const HoleData& data;
+    const RbfData& data;
     const TriangleTree& tree; ///< of the data's triangles
     const RbfChoice& choice;
 };
@@ -246,8 +246,8 @@ Status validate_options(const RbfOptions& o) {
 
 Result<Filling> fill_valid(const Surface& surface, const BorderLoop& loop,
                            const RbfOptions& options, RbfReport& report, const Run& run) {
-    const auto data = data_round(surface, loop, options.loops,
-                                 {options.reach, options.rings, options.long_edges});
+    const auto data = collect_data(surface, loop, options.loops,
+                                   {options.reach, options.rings, options.long_edges});
     if (!data) return data.error();
     const auto choice = choose_form(data.value(), options, run);
     if (!choice) return choice.error();

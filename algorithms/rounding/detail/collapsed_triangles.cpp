@@ -13,12 +13,13 @@ Side side_of(const Triangle& t, unsigned i) {
     return {low, high};
 }
 
-LostLines::LostLines(std::span<const Point3> points, std::span<const Triangle> triangles,
-                     std::span<const std::uint32_t> lost) :
+CollapsedTriangles::CollapsedTriangles(std::span<const Point3> points,
+                                       std::span<const Triangle> triangles,
+                                       std::span<const std::uint32_t> lost) :
     points_(points) {
     if (lost.empty()) return;
     is_corner_.assign(points.size(), false);
-    Sets lines(lost.size());
+    DisjointSets lines(lost.size());
     for (std::uint32_t k = 0; k < lost.size(); ++k)
         for (unsigned i = 0; i < 3; ++i) {
             const Side side = side_of(triangles[lost[k]], i);
@@ -37,7 +38,7 @@ LostLines::LostLines(std::span<const Point3> points, std::span<const Triangle> t
     }
 }
 
-PointsInSides LostLines::within(const Triangle& t) const {
+PointsInSides CollapsedTriangles::within(const Triangle& t) const {
     PointsInSides result;
     if (is_corner_.empty()) return result;
     for (unsigned i = 0; i < 3; ++i)
@@ -47,7 +48,7 @@ PointsInSides LostLines::within(const Triangle& t) const {
 }
 
 /// On a line, the lexicographic order is the order along it.
-std::vector<std::uint32_t> LostLines::within(std::uint32_t from, std::uint32_t to) const {
+std::vector<std::uint32_t> CollapsedTriangles::within(std::uint32_t from, std::uint32_t to) const {
     const auto line = line_of_.find({std::min(from, to), std::max(from, to)});
     if (line == line_of_.end()) return {};
     const auto& corners = corners_on_[line->second];

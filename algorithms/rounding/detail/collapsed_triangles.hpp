@@ -25,12 +25,12 @@ using PointsInSides = std::array<std::vector<std::uint32_t>, 3>;
 /// their corners. Then these sides fit again: the borders of the lost parts of one input triangle
 /// add up to nothing between corners next to each other on the line, so the sides of its other
 /// parts do so, too, as far as they did before.
-class LostLines {
+class CollapsedTriangles {
 public:
     /// Precondition: points with the same coordinates have the same index; the lost triangles are
     /// without area.
-    LostLines(std::span<const Point3> points, std::span<const Triangle> triangles,
-              std::span<const std::uint32_t> lost);
+    CollapsedTriangles(std::span<const Point3> points, std::span<const Triangle> triangles,
+                       std::span<const std::uint32_t> lost);
 
     /// Cost: three look-ups if two corners of t are corners of lost triangles, else nothing.
     [[nodiscard]] PointsInSides within(const Triangle& t) const;

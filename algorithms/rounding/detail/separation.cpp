@@ -65,7 +65,7 @@ public:
         moved_(moved), meeting_(meeting), move_(most_of(moved.moves)),
         faces_(moved, meeting, move_, run) {}
 
-    [[nodiscard]] Unclear operator()(const Run& run);
+    [[nodiscard]] Unproven operator()(const Run& run);
 
 private:
     /// Parts of f are to be told clear of g.
@@ -98,14 +98,16 @@ private:
 };
 
 /// a^2 >= 64 d l; also false where anything has underflown.
-bool is_calm(const Sizes& s, double d) {
+bool is_well_conditioned(const Sizes& s, double d) {
     return s.altitude > smallest_area && s.altitude * s.altitude >= 64 * d * s.longest;
 }
 
 /// Parts of it that may meet another one of it improperly.
 void Prover::add_restless(const Face& f, std::vector<std::uint32_t>& parts) const {
     if (f.part_end - f.part == 1) return;
-    const auto calm = [&](std::uint32_t v) { return is_calm(faces_.sizes[v], 4 * move_); };
+    const auto calm = [&](std::uint32_t v) {
+        return is_well_conditioned(faces_.sizes[v], 4 * move_);
+    };
     for (std::uint32_t e = f.part; e < f.part_end; ++e) {
         const Triangle& c = faces_.corners[e];
         if (!std::all_of(c.begin(), c.end(), calm)) parts.push_back(faces_.parts[e]);
@@ -178,7 +180,7 @@ bool Prover::is_clear_as_a_whole(std::uint32_t f_slot, std::uint32_t g_slot,
     if (!on_f.is_usable || !on_g.is_usable || !(least > least_edge_sine)) return false;
     if (common.first == g_slot) {
         const double k = s / (2 + 2 / least);
-        return is_calm(common.sizes, 2 * move_ / k);
+        return is_well_conditioned(common.sizes, 2 * move_ / k);
     }
     if (!on_f.is_certain || !on_g.is_certain) return false;
     const double gap = std::max(on_g.low - on_f.high, on_f.low - on_g.high) / 2;
@@ -189,7 +191,7 @@ bool Prover::is_clear_as_a_whole(std::uint32_t f_slot, std::uint32_t g_slot,
 /// calm.
 double least_rise(const Sizes& there, double longest, double d) {
     const double l = std::max(there.longest, longest);
-    if (!is_calm({there.altitude, l}, d)) return infinity;
+    if (!is_well_conditioned({there.altitude, l}, d)) return infinity;
     const double ratio = l / there.altitude;
     return 128 * d * ratio * ratio;
 }
@@ -374,7 +376,7 @@ void Prover::test_group(std::size_t first, std::size_t last, Scratch& scratch, F
     }
 }
 
-Unclear Prover::operator()(const Run& run) {
+Unproven Prover::operator()(const Run& run) {
     std::vector<std::size_t> groups; // first pairs, and the end
     for (std::size_t i = 0; i < meeting_.size(); ++i)
         if (i == 0 || meeting_[i].first != meeting_[i - 1].first) groups.push_back(i);
@@ -387,22 +389,22 @@ Unclear Prover::operator()(const Run& run) {
                 test_group(groups[i], groups[i + 1], scratch.local(), found);
             return found;
         });
-    Unclear all;
+    Unproven all;
     for (const Found& b : blocks) {
         all.pairs.insert(all.pairs.end(), b.pairs.begin(), b.pairs.end());
         all.parts.insert(all.parts.end(), b.parts.begin(), b.parts.end());
     }
-    for (const Face& f : faces_.faces) add_restless(f, all.restless);
+    for (const Face& f : faces_.faces) add_restless(f, all.ill_conditioned);
     sort_unique(all.pairs);
     sort_unique(all.parts);
-    sort_unique(all.restless);
+    sort_unique(all.ill_conditioned);
     return all;
 }
 
 } // namespace
 
-Unclear find_unclear(const MovedParts& moved, std::span<const CandidatePair> meeting,
-                     const Run& run) {
+Unproven find_unproven(const MovedParts& moved, std::span<const CandidatePair> meeting,
+                       const Run& run) {
     return Prover(moved, meeting, run)(run);
 }
 

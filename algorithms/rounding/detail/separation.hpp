@@ -52,28 +52,28 @@ namespace terrane {
 
 /// Divided faces and their parts, after the move.
 struct MovedParts {
-    std::span<const Point3> face_points;  ///< exact corners of faces
-    std::span<const Triangle> faces;      ///< indices into face_points
-    std::span<const PointIndex> names;    ///< per point: its index into face_points, if it is one
-                                          ///< of them; else no index of these
-    std::span<const Point3> points;       ///< moved vertices of the parts
-    std::span<const double> moves;        ///< per point: at most this far from its exact place
-    std::span<const Triangle> parts;      ///< indices into points
-    const Lists<std::uint32_t>& faces_of; ///< per part: the faces that contain it, sorted
+    std::span<const Point3> face_points; ///< exact corners of faces
+    std::span<const Triangle> faces;     ///< indices into face_points
+    std::span<const PointIndex> names;   ///< per point: its index into face_points, if it is one
+                                         ///< of them; else no index of these
+    std::span<const Point3> points;      ///< moved vertices of the parts
+    std::span<const double> moves;       ///< per point: at most this far from its exact place
+    std::span<const Triangle> parts;     ///< indices into points
+    const IndexLists<std::uint32_t>& faces_of; ///< per part: the faces that contain it, sorted
 };
 
 /// Of parts whose faces are a pair of `meeting`, whatever meets improperly is among `pairs` or has
-/// one of `parts` in it; of parts of one face, it has one of `restless` in it.
-struct Unclear {
-    std::vector<CandidatePair> pairs;    ///< of parts; sorted, unique
-    std::vector<std::uint32_t> parts;    ///< ascending
-    std::vector<std::uint32_t> restless; ///< ascending
+/// one of `parts` in it; of parts of one face, it has one of `ill_conditioned` in it.
+struct Unproven {
+    std::vector<CandidatePair> pairs;           ///< of parts; sorted, unique
+    std::vector<std::uint32_t> parts;           ///< ascending
+    std::vector<std::uint32_t> ill_conditioned; ///< ascending
 };
 
 /// `meeting`: pairs of faces of which one is divided; sorted.
 /// Cost: linear in all parts of the mesh, and in the common vertices of pairs; where a pair is not
 /// clear as a whole, in the parts of its faces.
-Unclear find_unclear(const MovedParts& moved, std::span<const CandidatePair> meeting,
-                     const Run& run);
+Unproven find_unproven(const MovedParts& moved, std::span<const CandidatePair> meeting,
+                       const Run& run);
 
 } // namespace terrane

@@ -23,7 +23,7 @@ std::array<Point3, 3> corners_of(const MovedParts& moved, std::uint32_t face) {
 void refine(Face& f) {
     const ToNearest mode;
     using namespace polynomial;
-    const auto at = [&](unsigned i) { return cartesian<Twofold>(f.corners[i]); };
+    const auto at = [&](unsigned i) { return cartesian<DoubleDouble>(f.corners[i]); };
     const auto n = polynomial::cross(difference(at(1), at(0)), difference(at(2), at(0)));
     const Point3 normal{n.x.value(), n.y.value(), n.z.value()};
     const double size = length(normal), factor = 1 / size;

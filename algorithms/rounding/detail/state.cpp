@@ -175,7 +175,7 @@ bool RoundingState::tidy(const Run& run) {
     std::vector<bool> gone(triangles.size(), false);
     for (const std::uint32_t t : lost) gone[t] = true;
     if (!lost.empty()) find_gaps(gone);
-    const LostLines lines(points, triangles, lost);
+    const CollapsedTriangles lines(points, triangles, lost);
     join_equal(found_dirty, gone);
     if (!lost.empty() && divide_sides(lines)) {
         gone.assign(triangles.size(), false);
@@ -186,9 +186,9 @@ bool RoundingState::tidy(const Run& run) {
 
 /// Divides triangles at the points of lost lines inside their sides. Those points are dirty then,
 /// as the corners between which they lie may be. True if there are any.
-bool RoundingState::divide_sides(const LostLines& lines) {
+bool RoundingState::divide_sides(const CollapsedTriangles& lines) {
     std::vector<Triangle> fresh;
-    Lists<std::uint32_t> faces_of;
+    IndexLists<std::uint32_t> faces_of;
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {
         const auto within = lines.within(triangles[t]);
         const std::size_t first = fresh.size();
@@ -214,7 +214,7 @@ void RoundingState::join_equal(std::span<const std::uint32_t> dirty, std::vector
         auto& list = extra[it->second];
         list.insert(list.end(), parents_of[t].begin(), parents_of[t].end());
     }
-    Lists<std::uint32_t> parents;
+    IndexLists<std::uint32_t> parents;
     parents.offsets.reserve(parents_of.offsets.size());
     parents.values.reserve(parents_of.values.size());
     std::size_t kept = 0;
@@ -237,8 +237,8 @@ void RoundingState::join_equal(std::span<const std::uint32_t> dirty, std::vector
 }
 
 void RoundingState::replace_triangles(std::vector<Triangle> fresh,
-                                      const Lists<std::uint32_t>& faces_of) {
-    Lists<std::uint32_t> parents;
+                                      const IndexLists<std::uint32_t>& faces_of) {
+    IndexLists<std::uint32_t> parents;
     parents.offsets.reserve(fresh.size() + 1);
     std::vector<std::uint32_t> list;
     for (std::size_t t = 0; t < fresh.size(); ++t) {

@@ -16,7 +16,7 @@
 
 namespace terrane {
 
-class LostLines;
+class CollapsedTriangles;
 
 /// The mesh of doubles between rounds of snapping.
 ///
@@ -31,11 +31,11 @@ struct RoundingState {
     std::vector<double> move;   ///< per point: at most this far from its exact point
     std::vector<bool> is_dirty; ///< per point
     std::vector<Triangle> triangles;
-    Lists<std::uint32_t> parents_of; ///< per triangle, sorted
-    std::size_t input_vertices = 0;  ///< the first points are input vertices
-    std::size_t merged = 0;          ///< points that became another one
-    std::size_t collapsed = 0;       ///< triangles that lost their area
-    double deviation = 0;            ///< sum over the ended rounds of the largest move
+    IndexLists<std::uint32_t> parents_of; ///< per triangle, sorted
+    std::size_t input_vertices = 0;       ///< the first points are input vertices
+    std::size_t merged = 0;               ///< points that became another one
+    std::size_t collapsed = 0;            ///< triangles that lost their area
+    double deviation = 0;                 ///< sum over the ended rounds of the largest move
     std::vector<std::uint32_t>
         found_dirty; ///< dirty_triangles(), if the last tidy() changed nothing
 
@@ -58,7 +58,7 @@ struct RoundingState {
     bool tidy(const Run& run);
 
     /// Takes new triangles, each contained in the triangles faces_of names.
-    void replace_triangles(std::vector<Triangle> fresh, const Lists<std::uint32_t>& faces_of);
+    void replace_triangles(std::vector<Triangle> fresh, const IndexLists<std::uint32_t>& faces_of);
 
     void drop_unused_points();
 
@@ -70,7 +70,7 @@ private:
     bool merge_points(const Run& run);
     void join_equal(std::span<const std::uint32_t> dirty, std::vector<bool>& gone);
     void find_gaps(const std::vector<bool>& gone);
-    bool divide_sides(const LostLines& lines);
+    bool divide_sides(const CollapsedTriangles& lines);
 
     double largest_move_ = 0;
     double largest_gap_ = 0; ///< half the length of a line to which triangles collapsed and that no

@@ -124,8 +124,8 @@ std::vector<CandidatePair> sorted(const Blocks& blocks, std::size_t count) {
     return pairs;
 }
 
-std::vector<CandidatePair> hierarchy_pairs(const BoxSource& boxes,
-                                           std::span<const std::uint32_t> groups, const Run& run) {
+std::vector<CandidatePair> bvh_pairs(const BoxSource& boxes, std::span<const std::uint32_t> groups,
+                                     const Run& run) {
     const PairFilter none;
     if (groups.empty())
         return sorted(join_all(select_all(boxes), {boxes, groups, none, run}), boxes.size());

@@ -13,10 +13,10 @@
 
 namespace terrane::search {
 
-/// Search::hierarchy. A tree per group (one for all where groups are many), each joined with itself
+/// Search::bvh. A tree per group (one for all where groups are many), each joined with itself
 /// or with the others. Cost: linear in boxes and pairs but for the depth of the trees.
-std::vector<CandidatePair> hierarchy_pairs(const BoxSource& boxes,
-                                           std::span<const std::uint32_t> groups, const Run& run);
+std::vector<CandidatePair> bvh_pairs(const BoxSource& boxes, std::span<const std::uint32_t> groups,
+                                     const Run& run);
 
 /// All pairs of which at least one is active (ascending indices) and that the filter keeps.
 std::vector<CandidatePair> active_pairs(const BoxSource& boxes,

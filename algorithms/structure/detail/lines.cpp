@@ -186,8 +186,8 @@ private:
     const std::vector<std::uint32_t>& ranks_;
     Structure& out_;
     std::vector<LineEdge> edges_;
-    Lists<std::uint32_t> triangles_;       ///< per line edge
-    Lists<std::uint32_t> patches_;         ///< of these triangles, ascending
+    IndexLists<std::uint32_t> triangles_;  ///< per line edge
+    IndexLists<std::uint32_t> patches_;    ///< of these triangles, ascending
     std::vector<std::uint32_t> starts_;    ///< per vertex, and the total: into at_vertex_
     std::vector<std::uint32_t> at_vertex_; ///< line edges
     std::vector<bool> is_corner_;          ///< per vertex

@@ -26,7 +26,7 @@ struct RegionBound {
 /// What TetGen gets: convex planar facets that meet in shared vertices and edges only.
 struct TetgenInput {
     std::vector<Point3> points;       ///< pairwise distinct, all used
-    Lists<std::uint32_t> facets;      ///< per facet its corners, in order around it
+    IndexLists<std::uint32_t> facets; ///< per facet its corners, in order around it
     bool keep_facets = true;          ///< split none: not with any of the last four
     bool improve = true;              ///< flip and smooth where shapes are bad
     bool sort_points = true;          ///< insert them along a curve, not as they come

@@ -9,7 +9,7 @@ bool all_below(std::span<const std::uint32_t> values, std::size_t count) {
     return std::all_of(values.begin(), values.end(), [count](auto value) { return value < count; });
 }
 
-bool well_formed(const Lists<std::uint32_t>& lists, std::size_t count) {
+bool well_formed(const IndexLists<std::uint32_t>& lists, std::size_t count) {
     const Numbers& offsets = lists.offsets;
     return offsets.size() == count + 1 && offsets.front() == 0 &&
            offsets.back() == lists.values.size() && std::is_sorted(offsets.begin(), offsets.end());

@@ -25,7 +25,7 @@ bool sorted_and_unique(std::span<const T> values) {
 bool all_below(std::span<const std::uint32_t> values, std::size_t count);
 
 /// As many lists as `count`, with offsets that ascend from 0 to the number of values.
-bool well_formed(const Lists<std::uint32_t>& lists, std::size_t count);
+bool well_formed(const IndexLists<std::uint32_t>& lists, std::size_t count);
 
 /// `name`: "vertex", ...
 void check_finite(std::span<const Point3> vertices, const std::string& name, Rule rule,

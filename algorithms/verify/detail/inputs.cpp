@@ -70,8 +70,9 @@ SetAside find_set_aside(const Inputs& inputs, std::span<const Vector4> points) {
     return result;
 }
 
-Lists<std::uint32_t> children_of(const Lists<std::uint32_t>& parents_of, std::size_t input_count) {
-    Lists<std::uint32_t> children;
+IndexLists<std::uint32_t> children_of(const IndexLists<std::uint32_t>& parents_of,
+                                      std::size_t input_count) {
+    IndexLists<std::uint32_t> children;
     children.offsets.assign(input_count + 1, 0);
     children.values.resize(parents_of.values.size());
     for (const std::uint32_t parent : parents_of.values) ++children.offsets[parent + 1];

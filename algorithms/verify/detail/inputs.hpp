@@ -48,12 +48,13 @@ SetAside find_set_aside(const Inputs& inputs, std::span<const Vector4> points);
 
 /// Per input triangle, the triangles that name it as a parent, sorted.
 /// Precondition: the parents are in range.
-Lists<std::uint32_t> children_of(const Lists<std::uint32_t>& parents_of, std::size_t input_count);
+IndexLists<std::uint32_t> children_of(const IndexLists<std::uint32_t>& parents_of,
+                                      std::size_t input_count);
 
 /// Triangles and the input triangles they are part of.
 struct Parts {
     std::span<const Triangle> triangles;
-    const Lists<std::uint32_t>& parents_of; ///< per triangle
+    const IndexLists<std::uint32_t>& parents_of; ///< per triangle
 };
 
 /// What rule R7 calls intersection edges, sorted.

@@ -130,8 +130,8 @@ std::uint32_t index(const Node& node) {
     return node.index();
 }
 
-Lists<std::uint32_t> lists(const Node& array) {
-    Lists<std::uint32_t> result;
+IndexLists<std::uint32_t> lists(const Node& array) {
+    IndexLists<std::uint32_t> result;
     for (std::size_t i = 0, n = array.size(); i < n; ++i) result.push_back(each(array[i], index));
     return result;
 }

@@ -54,7 +54,7 @@ void check_conforming(const RoundedClaim& rounded, Violations& found) {
 
 // --- R12: parents -----------------------------------------------------------------------------
 
-void check_degenerate_parents(const Lists<std::uint32_t>& children, const SetAside& set_aside,
+void check_degenerate_parents(const IndexLists<std::uint32_t>& children, const SetAside& set_aside,
                               Violations& found) {
     for (const std::uint32_t t : set_aside.degenerate)
         for (const std::uint32_t child : children[t])
@@ -70,7 +70,7 @@ void check_degenerate_parents(const Lists<std::uint32_t>& children, const SetAsi
                                  " are the same, but not the parents of the same triangles"});
 }
 
-void check_vanished(const Inputs& inputs, const Lists<std::uint32_t>& children,
+void check_vanished(const Inputs& inputs, const IndexLists<std::uint32_t>& children,
                     const SetAside& set_aside, const RoundedClaim& rounded, Violations& found) {
     Numbers gone;
     for (std::uint32_t t = 0; t < inputs.triangles.size(); ++t)
@@ -161,7 +161,7 @@ void check_moves(const Scaled& scaled, const ArrangementClaim& exact, const Roun
 // --- R18: coverage ----------------------------------------------------------------------------
 
 void check_coverage(const Inputs& inputs, const Scaled& scaled,
-                    const Lists<std::uint32_t>& children, const SetAside& set_aside,
+                    const IndexLists<std::uint32_t>& children, const SetAside& set_aside,
                     const RoundedClaim& rounded, Violations& found) {
     for (std::uint32_t parent = 0; parent < inputs.triangles.size(); ++parent) {
         if (children[parent].empty() || set_aside.first_of[parent] != parent ||
@@ -202,8 +202,8 @@ private:
 };
 
 /// Per triangle, the surfaces of its parents, sorted, each once.
-Lists<std::uint32_t> surfaces_of_parents(const Inputs& inputs, const RoundedClaim& rounded) {
-    Lists<std::uint32_t> surfaces;
+IndexLists<std::uint32_t> surfaces_of_parents(const Inputs& inputs, const RoundedClaim& rounded) {
+    IndexLists<std::uint32_t> surfaces;
     for (std::size_t t = 0; t < rounded.triangles.size(); ++t) {
         Numbers all;
         for (const std::uint32_t parent : rounded.parents_of[t])
@@ -234,7 +234,7 @@ std::vector<std::array<std::uint32_t, 2>> joined_triangles(const RoundedClaim& r
 }
 
 /// Joins the places in `surfaces` of two triangles wherever they have a surface in common.
-void join_common(const Lists<std::uint32_t>& surfaces, std::uint32_t s, std::uint32_t t,
+void join_common(const IndexLists<std::uint32_t>& surfaces, std::uint32_t s, std::uint32_t t,
                  JoinedSets& sets) {
     for (std::uint32_t i = surfaces.offsets[s]; i < surfaces.offsets[s + 1]; ++i)
         for (std::uint32_t j = surfaces.offsets[t]; j < surfaces.offsets[t + 1]; ++j)

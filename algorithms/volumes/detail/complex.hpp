@@ -16,15 +16,16 @@
 namespace terrane {
 
 /// A view; what it names must outlive it.
-struct Sheets {
+struct TriangleComplex {
     const PointStore& points;
     std::span<const PointIndex> vertices; ///< per vertex: its point; pairwise distinct
     std::span<const Triangle> triangles;  ///< indices into vertices; with area, unique
     const EdgeSides& edges;               ///< of the triangles
     std::span<const Triangle> planes;     ///< per triangle: three input points that span its plane,
                                           ///< wound like the triangle
-    const Lists<std::uint32_t>* parents;  ///< per triangle, sorted: triangles with a common parent
-                                          ///< are coplanar; nullptr where nothing is known
+    const IndexLists<std::uint32_t>*
+        parents; ///< per triangle, sorted: triangles with a common parent
+                 ///< are coplanar; nullptr where nothing is known
 };
 
 /// A triangle has two sides, numbered 2 t and 2 t + 1. The front is the side from which its corners
@@ -41,7 +42,7 @@ constexpr std::uint32_t opposite(std::uint32_t side) {
 
 /// Which side of the triangle's plane a vertex lies on: Positive in front. The caller holds an
 /// UpwardRounding.
-inline Sign side_of(const Sheets& sheets, std::uint32_t triangle, std::uint32_t vertex) {
+inline Sign side_of(const TriangleComplex& sheets, std::uint32_t triangle, std::uint32_t vertex) {
     const Triangle& p = sheets.planes[triangle];
     return sheets.points.side_of_plane(p[0], p[1], p[2], sheets.vertices[vertex]);
 }

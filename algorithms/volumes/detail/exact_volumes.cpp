@@ -30,34 +30,35 @@ void for_sides(const std::array<std::uint32_t, 2>& sides, const Add& add) {
 
 // ---- With about 106 bits -----------------------------------------------------------------------
 
-using TwofoldVector = polynomial::Vector<Twofold>;
+using TwofoldVector = polynomial::Vector<DoubleDouble>;
 
-TwofoldVector relative_to(const Point3& origin, const Sheets& sheets, PointIndex p) {
+TwofoldVector relative_to(const Point3& origin, const TriangleComplex& sheets, PointIndex p) {
     const Construction how = sheets.points.construction(p);
     const auto at = [&](std::uint32_t v) -> const Point3& { return sheets.points.input(v); };
     const Point3& base = at(how.v[0]);
-    const auto from = [](double a, double b) { return Twofold(a) - Twofold(b); };
+    const auto from = [](double a, double b) { return DoubleDouble(a) - DoubleDouble(b); };
     const TwofoldVector d{from(base.x, origin.x), from(base.y, origin.y), from(base.z, origin.z)};
     if (how.kind == Construction::Kind::input) return d;
-    const auto h = polynomial::construct<Twofold>(how, at);
+    const auto h = polynomial::construct<DoubleDouble>(how, at);
     return {d.x + h.x / h.w, d.y + h.y / h.w, d.z + h.z / h.w};
 }
 
-std::vector<TwofoldVector> relative_to(const Point3& origin, const Sheets& sheets) {
+std::vector<TwofoldVector> relative_to(const Point3& origin, const TriangleComplex& sheets) {
     std::vector<TwofoldVector> vectors;
     vectors.reserve(sheets.vertices.size());
     for (const PointIndex p : sheets.vertices) vectors.push_back(relative_to(origin, sheets, p));
     return vectors;
 }
 
-std::vector<Twofold> quick_sums(const Sheets& sheets, VolumeSides of_sides, std::size_t count) {
-    std::vector<Twofold> sums(count);
+std::vector<DoubleDouble> quick_sums(const TriangleComplex& sheets, VolumeSides of_sides,
+                                     std::size_t count) {
+    std::vector<DoubleDouble> sums(count);
     if (sheets.triangles.empty()) return sums;
     const Construction first = sheets.points.construction(sheets.vertices[0]);
     const auto at = relative_to(sheets.points.input(first.v[0]), sheets);
     for (std::size_t t = 0; t < sheets.triangles.size(); ++t) {
         const Triangle& corners = sheets.triangles[t];
-        std::optional<Twofold> determinant; // made when first needed
+        std::optional<DoubleDouble> determinant; // made when first needed
         for_sides(of_sides[t], [&](std::uint32_t volume, int sign) {
             if (!determinant)
                 determinant = dot(cross(at[corners[0]], at[corners[1]]), at[corners[2]]);
@@ -97,7 +98,7 @@ private:
 /// Exact measure of one volume. Triangles of input points are summed without denominators.
 class ExactSum {
 public:
-    void add(const Sheets& sheets, const Triangle& t, int sign) {
+    void add(const TriangleComplex& sheets, const Triangle& t, int sign) {
         const std::array p{sheets.vertices[t[0]], sheets.vertices[t[1]], sheets.vertices[t[2]]};
         const auto at = [&](unsigned i) { return sheets.points.exact(p[i]); };
         const ExactPoint a = at(0), b = at(1), c = at(2);
@@ -121,7 +122,7 @@ private:
 };
 
 /// Of the volumes that are wanted; the others stay 0.
-std::vector<ExactSum> exact_sums(const Sheets& sheets, VolumeSides of_sides,
+std::vector<ExactSum> exact_sums(const TriangleComplex& sheets, VolumeSides of_sides,
                                  const std::vector<bool>& wanted) {
     std::vector<ExactSum> sums(wanted.size());
     for (std::size_t t = 0; t < sheets.triangles.size(); ++t)
@@ -137,12 +138,13 @@ double nearest_double(const mpq_class& q) {
 
 } // namespace
 
-std::vector<double> measure_volumes(const Sheets& sheets, VolumeSides of_sides, std::size_t count) {
+std::vector<double> measure_volumes(const TriangleComplex& sheets, VolumeSides of_sides,
+                                    std::size_t count) {
     const auto sums = quick_sums(sheets, of_sides, count);
     std::vector<double> measures(count, 0);
     std::vector<bool> in_doubt(count, false);
     for (std::size_t v = 0; v < count; ++v) {
-        const auto nearest = (sums[v] / Twofold(6)).nearest();
+        const auto nearest = (sums[v] / DoubleDouble(6)).nearest();
         in_doubt[v] = !nearest.has_value();
         measures[v] = nearest.value_or(0);
     }
@@ -153,7 +155,7 @@ std::vector<double> measure_volumes(const Sheets& sheets, VolumeSides of_sides, 
     return measures;
 }
 
-std::vector<std::string> exact_measures(const Sheets& sheets, VolumeSides of_sides,
+std::vector<std::string> exact_measures(const TriangleComplex& sheets, VolumeSides of_sides,
                                         std::size_t count, int base) {
     std::vector<std::string> texts;
     for (const ExactSum& sum : exact_sums(sheets, of_sides, std::vector<bool>(count, true)))

@@ -19,10 +19,11 @@ using VolumeSides = std::span<const std::array<std::uint32_t, 2>>;
 /// Per volume the double nearest to its exact measure: sums of determinants with about 106 bits and
 /// their error bounds, and the exact sum where those leave a doubt. [0] is what the other volumes
 /// fill. To be called in the rounding mode "to nearest".
-std::vector<double> measure_volumes(const Sheets& sheets, VolumeSides of_sides, std::size_t count);
+std::vector<double> measure_volumes(const TriangleComplex& sheets, VolumeSides of_sides,
+                                    std::size_t count);
 
 /// The exact ones as reduced fractions.
-std::vector<std::string> exact_measures(const Sheets& sheets, VolumeSides of_sides,
+std::vector<std::string> exact_measures(const TriangleComplex& sheets, VolumeSides of_sides,
                                         std::size_t count, int base);
 
 } // namespace terrane

@@ -20,7 +20,7 @@ bool have_common_value(std::span<const std::uint32_t> a, std::span<const std::ui
 /// Directions of triangles away from one edge, compared by angle.
 class Directions {
 public:
-    Directions(const Sheets& sheets, std::uint32_t low, const Side& reference) :
+    Directions(const TriangleComplex& sheets, std::uint32_t low, const Side& reference) :
         sheets_(sheets), low_(low), reference_(reference) {}
 
     /// Strictly smaller angle, counted from the reference in [0, 2 pi).
@@ -51,27 +51,27 @@ private:
         return runs_along(sheets_.triangles[p.triangle], low_, p.high) ? side : -side;
     }
 
-    const Sheets& sheets_;
+    const TriangleComplex& sheets_;
     std::uint32_t low_; ///< vertex of the edge
     const Side reference_;
 };
 
 /// The side of the triangle that faces growing angles.
-std::uint32_t ahead(const Sheets& sheets, std::uint32_t low, const Side& s) {
+std::uint32_t ahead(const TriangleComplex& sheets, std::uint32_t low, const Side& s) {
     const bool upward = runs_along(sheets.triangles[s.triangle], low, s.high);
     return upward ? front_of(s.triangle) : back_of(s.triangle);
 }
 
 } // namespace
 
-void sort_round_edge(const Sheets& sheets, std::uint32_t low, std::span<Side> sides) {
+void sort_round_edge(const TriangleComplex& sheets, std::uint32_t low, std::span<Side> sides) {
     if (sides.size() < 3) return;
     const Directions directions(sheets, low, sides[0]);
     std::sort(sides.begin(), sides.end(),
               [&](const Side& p, const Side& q) { return directions.before(p, q); });
 }
 
-void join_round_edges(const Sheets& sheets, Sets& sides) {
+void join_round_edges(const TriangleComplex& sheets, DisjointSets& sides) {
     const UpwardRounding guard;
     std::vector<Side> round;
     sheets.edges.for_each([&](std::uint32_t low, std::uint32_t, std::span<const Side> at_edge) {

@@ -16,12 +16,13 @@ namespace terrane {
 /// the first one staying first. Exact; triangles that share a parent cost no exact numbers.
 /// Precondition: no two triangles overlap, so that no two lie in the same direction.
 /// Throws std::logic_error where two do. The caller holds an UpwardRounding.
-void sort_round_edge(const Sheets& sheets, std::uint32_t low, std::span<EdgeSides::Side> sides);
+void sort_round_edge(const TriangleComplex& sheets, std::uint32_t low,
+                     std::span<EdgeSides::Side> sides);
 
 /// Joins the sides of triangles that face each other round each edge: what is joined is a shell,
 /// and lies on one volume. Two triangles at an edge need no predicate; one, at a free border, joins
 /// its front with its back. `sides` has two elements per triangle (see sheets.hpp). Cost: linear
 /// but for edges with many triangles, O(k log k) each; one allocation.
-void join_round_edges(const Sheets& sheets, Sets& sides);
+void join_round_edges(const TriangleComplex& sheets, DisjointSets& sides);
 
 } // namespace terrane

@@ -42,7 +42,7 @@ double coordinate(const Point3& p, unsigned k) {
 /// Lines along one axis, and what they pass through.
 class Bundle {
 public:
-    Bundle(const Sheets& sheets, Axis axis) :
+    Bundle(const TriangleComplex& sheets, Axis axis) :
         sheets_(sheets), axis_(axis), k_(static_cast<unsigned>(axis)) {}
 
     void add_line_through(std::uint32_t triangle) {
@@ -51,7 +51,7 @@ public:
     }
     [[nodiscard]] bool empty() const { return lines_.empty(); }
 
-    void join(Sets& sides, std::uint32_t outside) {
+    void join(DisjointSets& sides, std::uint32_t outside) {
         find_hits();
         std::sort(hits_.begin(), hits_.end(), [this](const Hit& a, const Hit& b) {
             if (a.line != b.line) return a.line < b.line;
@@ -95,7 +95,7 @@ private:
         if (seen != lines_.size()) throw std::logic_error("a line misses its own triangle");
     }
 
-    const Sheets& sheets_;
+    const TriangleComplex& sheets_;
     Axis axis_;
     unsigned k_;
     std::vector<Line> lines_;
@@ -131,8 +131,8 @@ Line Bundle::inside(std::uint32_t triangle) const {
 /// Positive iff the shifted line passes to the left of a b in the projection; Zero only where a and
 /// b coincide there. The shift adds (b - a) x (epsilon, epsilon^2).
 Sign Bundle::turn(PointIndex a, PointIndex b, const Line& line) const {
-    if (const auto quick = quick_orient2d(sheets_.points.approximate(axis_, a),
-                                          sheets_.points.approximate(axis_, b), line.about)) {
+    if (const auto quick = filtered_orient2d(sheets_.points.approximate(axis_, a),
+                                             sheets_.points.approximate(axis_, b), line.about)) {
         ++predicate_counts().static_filter;
         return *quick;
     }
@@ -211,7 +211,8 @@ struct ExactHeight {
     std::array<Exact, 3> numerators;
     Exact denominator; ///< > 0
 
-    ExactHeight(const Sheets& sheets, std::uint32_t triangle, unsigned k, const ExactPoint& line) {
+    ExactHeight(const TriangleComplex& sheets, std::uint32_t triangle, unsigned k,
+                const ExactPoint& line) {
         const Triangle& plane = sheets.planes[triangle];
         const auto at = [&](unsigned i) {
             return polynomial::cartesian<Exact>(sheets.points.input(plane[i]));
@@ -245,7 +246,7 @@ bool Bundle::below(const Hit& a, const Hit& b) const {
 }
 
 /// Along which axis the triangle is seen best.
-Axis best_axis(const Sheets& sheets, std::uint32_t triangle) {
+Axis best_axis(const TriangleComplex& sheets, std::uint32_t triangle) {
     const Triangle& p = sheets.planes[triangle];
     return projection_axis(sheets.points.input(p[0]), sheets.points.input(p[1]),
                            sheets.points.input(p[2]));
@@ -253,9 +254,10 @@ Axis best_axis(const Sheets& sheets, std::uint32_t triangle) {
 
 } // namespace
 
-void join_nested(const Sheets& sheets, Sets& sides) {
+void join_nested(const TriangleComplex& sheets, DisjointSets& sides) {
     const auto count = static_cast<std::uint32_t>(sheets.triangles.size());
-    Sets components = sides; // front and back of a triangle hang together, and so do its neighbours
+    DisjointSets components =
+        sides; // front and back of a triangle hang together, and so do its neighbours
     for (std::uint32_t t = 0; t < count; ++t) components.join(front_of(t), back_of(t));
     const UpwardRounding guard;
     std::array<Bundle, 3> bundles{Bundle(sheets, Axis::x), Bundle(sheets, Axis::y),

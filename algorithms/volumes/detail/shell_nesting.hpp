@@ -25,6 +25,6 @@ namespace terrane {
 /// Cost: per axis in use a pass over all triangles, with a search among the lines (one per
 /// component) for each; exact numbers only where filters can't tell. Throws std::logic_error where
 /// triangles overlap.
-void join_nested(const Sheets& sheets, Sets& sides);
+void join_nested(const TriangleComplex& sheets, DisjointSets& sides);
 
 } // namespace terrane

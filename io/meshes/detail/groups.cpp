@@ -33,7 +33,7 @@ std::vector<CutSide> cut_sides(const TetrahedralMesh& mesh) {
     return sides;
 }
 
-std::vector<SurfaceGroup> surface_groups(const Lists<std::uint32_t>& surfaces_of,
+std::vector<SurfaceGroup> surface_groups(const IndexLists<std::uint32_t>& surfaces_of,
                                          std::size_t surface_count,
                                          std::span<const CutSide> sides) {
     using Key = std::pair<std::vector<std::uint32_t>, CutSide>;

@@ -35,7 +35,7 @@ struct SurfaceGroup {
 /// One group per set of surfaces that some triangle has and side of a cut, in lexicographic order;
 /// sets of several, and sides, are numbered surface_count + 1, ... in that order. `sides`: per
 /// triangle, or empty.
-[[nodiscard]] std::vector<SurfaceGroup> surface_groups(const Lists<std::uint32_t>& surfaces_of,
+[[nodiscard]] std::vector<SurfaceGroup> surface_groups(const IndexLists<std::uint32_t>& surfaces_of,
                                                        std::size_t surface_count,
                                                        std::span<const CutSide> sides = {});
 

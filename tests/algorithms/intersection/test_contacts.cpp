@@ -25,7 +25,7 @@ struct Used {
         const auto count = static_cast<std::uint32_t>(points.size());
         for (std::uint32_t v = 0; v < count; ++v) {
             triangles.push_back({v, (v + 1) % count, (v + 2) % count});
-            contacts.pieces.push_back({v, {0}, {Place::corner0, Place::corner0}, {v, v}});
+            contacts.pieces.push_back({v, {0}, {Simplex::corner0, Simplex::corner0}, {v, v}});
         }
         contacts.points = std::move(store);
     }

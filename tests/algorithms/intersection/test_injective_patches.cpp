@@ -96,7 +96,8 @@ struct Found {
 Found examine(const Sheet& m) {
     const std::vector<std::uint32_t> surface_of(m.triangles.size(), 0);
     const auto edges = group_edges(m.triangles, m.points.size());
-    const Patches patches = prove_patches(m.points, m.triangles, surface_of, edges);
+    const InjectivePatches patches =
+        find_injective_patches(m.points, m.triangles, surface_of, edges);
     Found found;
     for (std::size_t i = 0; i < m.triangles.size(); ++i) {
         ++(patches.of[i] == no_group ? found.unproven : found.proven);
@@ -135,7 +136,8 @@ TEST_CASE("patches: scattered triangles are proven one by one") {
     }
     std::vector<std::uint32_t> surface_of(m.triangles.size(), 0);
     const EdgeSides edges = group_edges(m.triangles, m.points.size());
-    const Patches patches = prove_patches(m.points, m.triangles, surface_of, edges);
+    const InjectivePatches patches =
+        find_injective_patches(m.points, m.triangles, surface_of, edges);
     std::vector<std::uint32_t> groups = patches.of;
     std::sort(groups.begin(), groups.end());
     CHECK(std::adjacent_find(groups.begin(), groups.end()) == groups.end());

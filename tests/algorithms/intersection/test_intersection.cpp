@@ -15,7 +15,7 @@ using namespace terrane;
 using Kind = Construction::Kind;
 
 /// "c0" corner, "e1" edge, "f" face.
-std::string text(Place p) {
+std::string text(Simplex p) {
     if (is_corner(p)) return "c" + std::to_string(corner_of(p));
     return is_edge(p) ? "e" + std::to_string(edge_of(p)) : "f";
 }

@@ -21,8 +21,8 @@ using namespace test_support;
 namespace {
 
 /// n x n quadrilaterals; vertex (i, j) is i * (n + 1) + j.
-Lists<std::uint32_t> grid(std::uint32_t n) {
-    Lists<std::uint32_t> quads;
+IndexLists<std::uint32_t> grid(std::uint32_t n) {
+    IndexLists<std::uint32_t> quads;
     for (std::uint32_t i = 0; i < n; ++i)
         for (std::uint32_t j = 0; j < n; ++j) {
             const std::uint32_t a = i * (n + 1) + j, b = a + n + 1;
@@ -63,7 +63,7 @@ TEST_CASE("diffusion: a closed curve cuts a region out", "[regions]") {
 
 TEST_CASE("diffusion: polygons of any number of corners; more than two at an edge stop it",
           "[regions]") {
-    Lists<std::uint32_t> mixed;
+    IndexLists<std::uint32_t> mixed;
     mixed.push_back(std::array<std::uint32_t, 3>{0, 1, 2});
     mixed.push_back(std::array<std::uint32_t, 5>{2, 1, 3, 4, 5});
     mixed.push_back(std::array<std::uint32_t, 4>{3, 4, 6, 7}); // three at 3 4 with the next
@@ -121,7 +121,7 @@ TEST_CASE("diffusion: of triangles it finds the regions of find_regions", "[regi
         for (const Surface& surface : model.surfaces) {
             const auto a = arrange(std::vector{surface});
             REQUIRE(a);
-            Lists<std::uint32_t> triangles;
+            IndexLists<std::uint32_t> triangles;
             for (const Triangle& t : a.value().triangles) triangles.push_back(t);
             std::vector<Point3> places;
             for (const PointIndex p : a.value().vertices)

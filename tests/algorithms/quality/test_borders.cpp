@@ -46,12 +46,12 @@ struct Sheet {
     Mesh mesh;
     Features features;
     WorkMesh work;
-    Patches patches;
+    InjectivePatches patches;
 
     explicit Sheet(Random& random) :
         mesh(holed_sheet(random)), features(find_features(mesh, {0.8, 3.2})), work(mesh, features),
-        patches(prove_patches(work.points, work.triangles, features.sheet_of,
-                              group_edges(work.triangles, work.points.size(), {}))) {}
+        patches(find_injective_patches(work.points, work.triangles, features.sheet_of,
+                                       group_edges(work.triangles, work.points.size(), {}))) {}
 
     [[nodiscard]] bool is_one_to_one(std::uint32_t patch) const {
         for (std::uint32_t t = 0; t < work.triangles.size(); ++t)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // Parts are moved by far more than rounding would, so that some do meet: what is not listed as
-// unclear must be proper, pair by pair.
+// unproven must be proper, pair by pair.
 #include "support/effort.hpp"
 #include "support/points.hpp"
 
@@ -99,18 +99,19 @@ Point3 between(const Point3& a, const Point3& b, double at) {
     return {a.x + at * (b.x - a.x), a.y + at * (b.y - a.y), a.z + at * (b.z - a.z)};
 }
 
-/// As find_unclear promises: restless parts are told of pairs within a face alone.
-bool is_listed(const Arrangement& a, const Unclear& unclear, const CandidatePair& p) {
+/// As find_unproven promises: ill_conditioned parts are told of pairs within a face alone.
+bool is_listed(const Arrangement& a, const Unproven& unproven, const CandidatePair& p) {
     const auto has = [](const auto& list, const auto& value) {
         return std::binary_search(list.begin(), list.end(), value);
     };
-    if (has(unclear.pairs, p) || has(unclear.parts, p.first) || has(unclear.parts, p.second))
+    if (has(unproven.pairs, p) || has(unproven.parts, p.first) || has(unproven.parts, p.second))
         return true;
     const auto faces = a.parents_of[p.first], others = a.parents_of[p.second];
     const bool within_a_face = std::any_of(faces.begin(), faces.end(), [&](std::uint32_t f) {
         return std::find(others.begin(), others.end(), f) != others.end();
     });
-    return within_a_face && (has(unclear.restless, p.first) || has(unclear.restless, p.second));
+    return within_a_face &&
+           (has(unproven.ill_conditioned, p.first) || has(unproven.ill_conditioned, p.second));
 }
 
 void examine(Random& random, const Surface& surface, double size, Found& found) {
@@ -118,11 +119,11 @@ void examine(Random& random, const Surface& surface, double size, Found& found) 
     if (!a.degenerate.empty() || !a.inputs.duplicates.empty() || a.triangles.size() > 400) return;
     const Moved m = moved(random, a, size);
     if (has_flat(m, a.triangles)) return;
-    const Unclear unclear = find_unclear({a.points.inputs(), a.inputs.corners, a.vertices, m.points,
-                                          m.moves, a.triangles, a.parents_of},
-                                         all_pairs(a.inputs.first.back()), {});
+    const Unproven unproven = find_unproven({a.points.inputs(), a.inputs.corners, a.vertices,
+                                             m.points, m.moves, a.triangles, a.parents_of},
+                                            all_pairs(a.inputs.first.back()), {});
     for (const CandidatePair& p : all_pairs(static_cast<std::uint32_t>(a.triangles.size()))) {
-        const bool listed = is_listed(a, unclear, p);
+        const bool listed = is_listed(a, unproven, p);
         const bool improper =
             improper_contact(m.points, a.triangles[p.first], a.triangles[p.second]).has_value();
         found.improper += improper;
@@ -161,21 +162,21 @@ TEST_CASE("clearance: the same of a face with so many parts that far ones are le
                                             [](auto p) { return p == 0; });
         REQUIRE(of_first > 256);
         const Moved m = moved(random, a, std::pow(10, random_real(random, -4, -1)));
-        const Unclear unclear = find_unclear({a.points.inputs(), a.inputs.corners, a.vertices,
-                                              m.points, m.moves, a.triangles, a.parents_of},
-                                             all_pairs(a.inputs.first.back()), {});
+        const Unproven unproven = find_unproven({a.points.inputs(), a.inputs.corners, a.vertices,
+                                                 m.points, m.moves, a.triangles, a.parents_of},
+                                                all_pairs(a.inputs.first.back()), {});
         const auto pairs = candidate_pairs({m.points, a.triangles}, {}, Search::automatic);
         for (const CandidatePair& p : pairs) {
             if (!improper_contact(m.points, a.triangles[p.first], a.triangles[p.second])) continue;
             ++improper;
-            REQUIRE(is_listed(a, unclear, p));
+            REQUIRE(is_listed(a, unproven, p));
         }
-        CHECK(unclear.parts.size() < a.triangles.size());
+        CHECK(unproven.parts.size() < a.triangles.size());
     }
     CHECK(improper > 20);
 }
 
-TEST_CASE("clearance: what is not listed as unclear is proper") {
+TEST_CASE("clearance: what is not listed as unproven is proper") {
     Random random(111);
     for (const Shape shape : all_shapes) {
         Found found;
@@ -218,16 +219,16 @@ TEST_CASE("clearance: two triangles that cross at a small angle, in a short line
     CHECK(found.clear > found.improper);
 }
 
-TEST_CASE("clearance: hardly any part of a smooth sheet is unclear after rounding") {
+TEST_CASE("clearance: hardly any part of a smooth sheet is unproven after rounding") {
     Random random(112);
     std::size_t unclear_pairs = 0, parts = 0;
     for (int i = 0; i < cases(200); ++i) {
         const Arrangement a = arrange(std::vector{crossed_sheet(random)}).value();
         const Moved m = moved(random, a, 1e-15);
-        const Unclear unclear = find_unclear({a.points.inputs(), a.inputs.corners, a.vertices,
-                                              m.points, m.moves, a.triangles, a.parents_of},
-                                             all_pairs(a.inputs.first.back()), {});
-        unclear_pairs += unclear.pairs.size();
+        const Unproven unproven = find_unproven({a.points.inputs(), a.inputs.corners, a.vertices,
+                                                 m.points, m.moves, a.triangles, a.parents_of},
+                                                all_pairs(a.inputs.first.back()), {});
+        unclear_pairs += unproven.pairs.size();
         parts += a.triangles.size();
     }
     CHECK(unclear_pairs < parts / 5);

@@ -194,7 +194,7 @@ TEST_CASE("searches: thousands of boxes of all sizes, some with a group, by seve
     for (const Groups& g : {groups, many}) {
         check(boxes, g);
         const Run run{.threads = 2};
-        CHECK(candidate_pairs(boxes, g, Search::hierarchy, run) == expected(boxes, g));
+        CHECK(candidate_pairs(boxes, g, Search::bvh, run) == expected(boxes, g));
     }
     for (int i = 0; i < count; ++i) groups[static_cast<std::size_t>(i)] = i % 2; // red and blue
     check(boxes, groups);
@@ -336,7 +336,7 @@ TEST_CASE("names of searches") {
     CHECK(name_of(Search::ab) == "ab");
     CHECK(name_of(Search::ab_balanced) == "ab-balanced");
     CHECK(name_of(Search::mixed) == "mixed");
-    CHECK(name_of(Search::hierarchy) == "hierarchy");
+    CHECK(name_of(Search::bvh) == "hierarchy");
     CHECK(name_of(Search::brute) == "brute");
     CHECK(!search_named("best"));
 }

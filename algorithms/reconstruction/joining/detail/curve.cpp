@@ -100,7 +100,7 @@ Status LineFinder::find_curve() {
 
 /// The connected part of the curve that passes the most walls.
 Status LineFinder::find_line() {
-    Sets sets(a_.vertices.size());
+    DisjointSets sets(a_.vertices.size());
     for (const CurveEdge& e : curve_) sets.join(e.ends[0], e.ends[1]);
     std::map<std::uint32_t, std::vector<std::uint32_t>> parts;
     for (std::uint32_t e = 0; e < curve_.size(); ++e)
@@ -204,7 +204,7 @@ public:
     }
 
     Result<InnerPart> operator()() {
-        Sets sets(corners_.size());
+        DisjointSets sets(corners_.size());
         const auto flaws = join_neighbours(sets);
         if (const auto done = spread(sets, flaws); !done) return done.error();
         if (!is_disk_with_holes())
@@ -220,8 +220,8 @@ private:
         std::vector<std::uint32_t> border, crowded;
     };
     [[nodiscard]] Point3 point(std::uint32_t v) const { return a_.points.nearest(a_.vertices[v]); }
-    [[nodiscard]] Flaws join_neighbours(Sets& sets) const;
-    Status spread(Sets& sets, const Flaws& flaws);
+    [[nodiscard]] Flaws join_neighbours(DisjointSets& sets) const;
+    Status spread(DisjointSets& sets, const Flaws& flaws);
     [[nodiscard]] bool is_disk_with_holes() const;
     [[nodiscard]] Result<InnerPart> part() const;
 
@@ -249,7 +249,7 @@ private:
 };
 
 /// Joins triangles of the filling over all edges but those of lines.
-InnerPartFinder::Flaws InnerPartFinder::join_neighbours(Sets& sets) const {
+InnerPartFinder::Flaws InnerPartFinder::join_neighbours(DisjointSets& sets) const {
     std::vector<Edge> stops;
     for (const auto& line : lines_)
         if (line)
@@ -268,7 +268,7 @@ InnerPartFinder::Flaws InnerPartFinder::join_neighbours(Sets& sets) const {
 
 /// From the inner side of the hole's line; lines of other borders that are reached are those of
 /// islands. The surface lies on the left of each, so what is to be filled lies on the right.
-Status InnerPartFinder::spread(Sets& sets, const Flaws& flaws) {
+Status InnerPartFinder::spread(DisjointSets& sets, const Flaws& flaws) {
     std::vector<bool> reached(corners_.size(), false);
     beside(*lines_[0], [&](std::uint32_t t, bool left) {
         if (!left) reached[sets.find(t)] = true;
@@ -302,7 +302,7 @@ Status InnerPartFinder::spread(Sets& sets, const Flaws& flaws) {
 /// Connected, with the lines as its only borders: V - E + F = 2 - number of lines.
 bool InnerPartFinder::is_disk_with_holes() const {
     std::vector<std::uint32_t> vertices;
-    Sets sets(a_.vertices.size());
+    DisjointSets sets(a_.vertices.size());
     for (const std::uint32_t t : inside_)
         for (const std::uint32_t v : a_.triangles[t]) {
             vertices.push_back(v);

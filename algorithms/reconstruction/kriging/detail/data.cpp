@@ -302,8 +302,8 @@ bool is_inside(std::span<const Point3> points, const Polygon& polygon, double x,
     return inside;
 }
 
-Result<HoleData> data_round(const Surface& surface, std::span<const BorderLoop* const> loops,
-                            std::size_t rings) {
+Result<KrigingData> collect_data(const Surface& surface, std::span<const BorderLoop* const> loops,
+                                 std::size_t rings) {
     const Soup soup = merge_surfaces(std::span(&surface, 1));
     std::vector<std::uint32_t> border;
     for (const BorderLoop* loop : loops)
@@ -317,7 +317,7 @@ Result<HoleData> data_round(const Surface& surface, std::span<const BorderLoop* 
     if (const auto status = near.start(border); !status) return status.error();
     for (std::size_t ring = 1; ring < rings; ++ring) near.spread();
 
-    HoleData data;
+    KrigingData data;
     std::unordered_map<std::uint32_t, std::uint32_t> number;
     const auto number_of = [&](std::uint32_t v) {
         const auto [at, added] = number.try_emplace(v, static_cast<std::uint32_t>(number.size()));

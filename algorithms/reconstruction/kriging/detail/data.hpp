@@ -15,7 +15,7 @@
 namespace terrane::detail {
 
 /// Points of the surface near a hole.
-struct HoleData {
+struct KrigingData {
     std::vector<Point3> points;                      ///< distinct; the border's come first, in the
                                                      ///< order of the loops
     std::vector<Polygon> borders;                    ///< the loops, by indices into points
@@ -27,8 +27,8 @@ struct HoleData {
 
 /// Corners of `rings` rings of triangles round the loops, as far as they are a graph over x and y.
 /// Errors: unsupported where those next to the border are none.
-Result<HoleData> data_round(const Surface& surface, std::span<const BorderLoop* const> loops,
-                            std::size_t rings);
+Result<KrigingData> collect_data(const Surface& surface, std::span<const BorderLoop* const> loops,
+                                 std::size_t rings);
 
 /// Places a mesh size apart within the outer polygon (others are not looked at: points within them
 /// do no harm) and 0.7 mesh sizes from any border, at most about `most`: sizes double away from

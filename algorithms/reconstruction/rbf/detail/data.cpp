@@ -19,13 +19,13 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-Lists<std::uint32_t> neighbours_in(const Soup& soup) {
+IndexLists<std::uint32_t> neighbours_in(const Soup& soup) {
     std::vector<std::vector<std::uint32_t>> lists(soup.points.size());
     soup.edges.for_each([&](std::uint32_t low, std::uint32_t high, auto) {
         lists[low].push_back(high);
         lists[high].push_back(low);
     });
-    Lists<std::uint32_t> flat;
+    IndexLists<std::uint32_t> flat;
     for (const auto& l : lists) flat.push_back(l);
     return flat;
 }
@@ -68,7 +68,7 @@ std::vector<double> distances_from(const Soup& soup, std::span<const std::uint32
 
 /// Turns triangles so that they run along the loops, spreading from those over edges of two
 /// triangles.
-void wind_by_loops(HoleData& data) {
+void wind_by_loops(RbfData& data) {
     auto& triangles = data.triangles;
     const std::size_t border = data.next.size();
     const EdgeSides edges = group_edges(triangles, data.points.size());
@@ -106,7 +106,7 @@ void wind_by_loops(HoleData& data) {
     }
 }
 
-void find_normals(HoleData& data) {
+void find_normals(RbfData& data) {
     data.normals.assign(data.points.size(), {});
     for (const Triangle& t : data.triangles)
         for (unsigned k = 0; k < 3; ++k) { // weighted by the angle
@@ -173,7 +173,7 @@ Status validate_loop(const Surface& surface, const BorderLoop& loop) {
     return Done{};
 }
 
-double median_edge(const HoleData& data) {
+double median_edge(const RbfData& data) {
     std::vector<double> edges;
     for (std::size_t i = 0; i < data.next.size(); ++i)
         edges.push_back(length(minus(data.points[data.next[i]], data.points[i])));
@@ -184,11 +184,11 @@ double median_edge(const HoleData& data) {
 
 } // namespace
 
-Result<HoleData> data_round(const Surface& surface, const BorderLoop& loop,
-                            std::span<const BorderLoop> loops, DataRange range) {
+Result<RbfData> collect_data(const Surface& surface, const BorderLoop& loop,
+                             std::span<const BorderLoop> loops, DataRange range) {
     if (const auto valid = validate(std::span(&surface, 1)); !valid) return valid.error();
     if (const auto valid = validate_loop(surface, loop); !valid) return valid.error();
-    HoleData data;
+    RbfData data;
     data.radius = std::sqrt(std::max(loop.area, 0.0) / std::acos(-1.0));
     std::vector<const BorderLoop*> borders{&loop};
     const WithinLoop within(surface, loop, data.radius);

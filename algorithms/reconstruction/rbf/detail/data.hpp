@@ -18,7 +18,7 @@ namespace terrane {
 /// Vertices near a border, along the surface, and where asked for points on edges that are long
 /// (long_edges.hpp). Those of the hole's border come first, in its order, then those of islands in
 /// it.
-struct HoleData {
+struct RbfData {
     std::vector<Point3> points;      ///< distinct
     std::vector<Point3> normals;     ///< per point: unit, the surface on the loop's left
     std::vector<double> distances;   ///< per point: from the border along edges
@@ -40,7 +40,7 @@ struct DataRange {
 /// are the outer ones of other parts within the hole, seen along its mean normal, and not farther
 /// from it than its radius. Cost: linear in the surface, n log n in the data. Errors: bad_option,
 /// bad_index (a loop that is none), bad_number.
-Result<HoleData> data_round(const Surface& surface, const BorderLoop& loop,
-                            std::span<const BorderLoop> loops, DataRange range);
+Result<RbfData> collect_data(const Surface& surface, const BorderLoop& loop,
+                             std::span<const BorderLoop> loops, DataRange range);
 
 } // namespace terrane

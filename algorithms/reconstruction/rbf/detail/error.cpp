@@ -22,7 +22,7 @@ double cubed_distance(const Point3& a, const Point3& b) {
 }
 
 /// Half of them near the border, the others anywhere.
-std::vector<std::uint32_t> chosen(const HoleData& data, double margin) {
+std::vector<std::uint32_t> chosen(const RbfData& data, double margin) {
     std::vector<bool> near, far;
     for (const double d : data.distances) near.push_back(d <= margin + data.radius / 4);
     auto points = well_spread(data.points, most_points / 2, near);
@@ -35,7 +35,7 @@ std::vector<std::uint32_t> chosen(const HoleData& data, double margin) {
 
 } // namespace
 
-RbfError::RbfError(const HoleData& data, const RbfPolynomial& polynomial, double margin,
+RbfError::RbfError(const RbfData& data, const RbfPolynomial& polynomial, double margin,
                    double nugget) :
     basis_(polynomial) {
     basis_.in_space = false; // along the surface is what counts

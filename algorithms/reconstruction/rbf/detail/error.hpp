@@ -22,7 +22,7 @@ namespace terrane {
 class RbfError {
 public:
     /// `margin`: distance of the data nearest to the hole. `nugget`: of each of the data.
-    RbfError(const HoleData& data, const RbfPolynomial& polynomial, double margin, double nugget);
+    RbfError(const RbfData& data, const RbfPolynomial& polynomial, double margin, double nugget);
 
     /// Per place, >= 0; times what no other part of the library knows: see RbfChoice::expected.
     /// With `measured` that of another noisy datum there.

@@ -29,7 +29,7 @@ std::size_t start_size(const RbfOptions& options) {
 /// What all forms have in common.
 struct Start {
     /// `tree`: of the data's triangles.
-    Start(const HoleData& data, const TriangleTree& tree, const RbfOptions& options) :
+    Start(const RbfData& data, const TriangleTree& tree, const RbfOptions& options) :
         centres(well_spread(data.points, start_size(options),
                             std::vector<bool>(data.points.size(), true))),
         offset(options.offset > 0 ? options.offset : std::max(data.radius / 20, data.edge / 2)),
@@ -50,7 +50,7 @@ struct Start {
 
 class Fitter {
 public:
-    Fitter(const HoleData& data, const Start& start, const RbfForm& form, const RbfOptions& options,
+    Fitter(const RbfData& data, const Start& start, const RbfForm& form, const RbfOptions& options,
            RbfReport& report, const Run& run) :
         data_(data),
         start_(start), form_(form), options_(options), report_(report), run_(run) {}
@@ -238,7 +238,7 @@ private:
         note_errors(errors);
     }
 
-    const HoleData& data_;
+    const RbfData& data_;
     const Start& start_;
     const RbfForm& form_;
     const RbfOptions& options_;
@@ -251,11 +251,11 @@ private:
     double spacing_ = 0;
 };
 
-LeftOut leave_out(const HoleData& data) {
+LeftOut leave_out(const RbfData& data) {
     const double most = *std::max_element(data.distances.begin(), data.distances.end());
     LeftOut result;
     result.width = std::max(std::min(data.radius / 4, most / 3), 1.5 * data.edge);
-    HoleData& kept = result.kept;
+    RbfData& kept = result.kept;
     std::vector<std::uint32_t> name(data.points.size(), UINT32_MAX);
     for (std::uint32_t i = 0; i < data.points.size(); ++i) {
         if (data.distances[i] < result.width) {
@@ -294,7 +294,7 @@ struct Trial {
 
 /// The data left out, and what all trials share.
 struct Trials {
-    Trials(const HoleData& all, const RbfOptions& given) :
+    Trials(const RbfData& all, const RbfOptions& given) :
         data(all), left(leave_out(all)), tree(left.kept.points, left.kept.triangles),
         options(fewer(given)), start(left.kept, tree, options) {}
 
@@ -305,7 +305,7 @@ struct Trials {
         return options;
     }
 
-    const HoleData& data;
+    const RbfData& data;
     LeftOut left;
     TriangleTree tree; ///< of the others
     RbfOptions options;
@@ -315,7 +315,7 @@ struct Trials {
 /// `quick`: without step (3).
 Result<Trial> try_form(const Trials& trials, const RbfForm& form, bool quick, const Run& run) {
     RbfReport unused;
-    const HoleData& data = trials.data;
+    const RbfData& data = trials.data;
     Fitter fitter(trials.left.kept, trials.start, form, trials.options, unused, run);
     const auto f = quick ? fitter.quick() : fitter(false);
     if (run.stop.stop_requested()) return Error{ErrorCode::interrupted, "stopped on request", ""};
@@ -329,7 +329,7 @@ Result<Trial> try_form(const Trials& trials, const RbfForm& form, bool quick, co
 }
 
 /// Axes along and across the hole: the last along the mean normal of its border.
-std::array<Point3, 3> axes_of(const HoleData& data) {
+std::array<Point3, 3> axes_of(const RbfData& data) {
     Point3 n;
     for (std::size_t i = 0; i < data.next.size(); ++i) n = along(n, 1, data.normals[i]);
     const double size = length(n);
@@ -344,7 +344,7 @@ std::array<Point3, 3> axes_of(const HoleData& data) {
 
 /// The cosine of the angle to the axis that all normals but the worst twentieth keep: noise tilts
 /// some, a fold many.
-double steepest_slope(const HoleData& data, const Point3& axis) {
+double steepest_slope(const RbfData& data, const Point3& axis) {
     std::vector<double> cosines;
     for (const Point3& n : data.normals)
         if (!(n == Point3{})) cosines.push_back(dot(n, axis));
@@ -356,7 +356,7 @@ double steepest_slope(const HoleData& data, const Point3& axis) {
 
 /// Those worth a trial, by rising degree. Along the axis only where the data are a graph over its
 /// plane, along normals only where they are steep, and then with polynomials in space last.
-std::vector<RbfForm> forms_for(const HoleData& data, const RbfOptions& options) {
+std::vector<RbfForm> forms_for(const RbfData& data, const RbfOptions& options) {
     RbfForm form;
     form.polynomial.axes = axes_of(data);
     const double steepest = steepest_slope(data, form.polynomial.axes[2]);
@@ -411,16 +411,16 @@ std::vector<std::uint32_t> well_spread(const std::vector<Point3>& points, std::s
     return chosen;
 }
 
-Result<Implicit> fit_hole(const HoleData& data, const TriangleTree& tree, const RbfForm& form,
+Result<Implicit> fit_hole(const RbfData& data, const TriangleTree& tree, const RbfForm& form,
                           const RbfOptions& options, RbfReport& report, const Run& run) {
     return Fitter(data, Start(data, tree, options), form, options, report, run)(true);
 }
 
-Result<RbfChoice> choose_form(const HoleData& data, const RbfOptions& options, const Run& run) {
+Result<RbfChoice> choose_form(const RbfData& data, const RbfOptions& options, const Run& run) {
     const auto forms = forms_for(data, options);
     RbfChoice best{forms[0], no_number, no_number};
     const Trials trials(data, options);
-    const HoleData& kept = trials.left.kept;
+    const RbfData& kept = trials.left.kept;
     if (kept.points.size() < 10 || trials.left.points.empty()) return best;
     Trial least;
     const auto consider = [&](const RbfForm& form, const Trial& trial, double share) {

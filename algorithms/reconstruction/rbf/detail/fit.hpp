@@ -36,12 +36,12 @@ struct RbfForm {
 
 /// `tree`: of the data's triangles. `report` gets what happened. Errors: those of fit_rbf;
 /// interrupted.
-Result<Implicit> fit_hole(const HoleData& data, const TriangleTree& tree, const RbfForm& form,
+Result<Implicit> fit_hole(const RbfData& data, const TriangleTree& tree, const RbfForm& form,
                           const RbfOptions& options, RbfReport& report, const Run& run);
 
 /// The data without those nearest to the hole, as if it were larger.
 struct LeftOut {
-    HoleData kept;
+    RbfData kept;
     std::vector<std::uint32_t> points; ///< left out: of the data
     double width = 0;                  ///< how much larger, unit of the surface
 };
@@ -56,7 +56,7 @@ struct RbfChoice {
 
 /// The form that misses least of the data left out; one of a higher degree must be better by a
 /// tenth. Errors: interrupted.
-Result<RbfChoice> choose_form(const HoleData& data, const RbfOptions& options, const Run& run);
+Result<RbfChoice> choose_form(const RbfData& data, const RbfOptions& options, const Run& run);
 
 /// Up to `count` of the points for which `of` holds, each as far as can be from those before it.
 std::vector<std::uint32_t> well_spread(const std::vector<Point3>& points, std::size_t count,

@@ -50,16 +50,17 @@ WideKernel wide_kernel(const Matrix& points) {
     kernel.reserve(static_cast<std::size_t>(n * (n - 1) / 2));
     for (Eigen::Index i = 0; i < n; ++i)
         for (Eigen::Index j = 0; j < i; ++j) {
-            Twofold square;
+            DoubleDouble square;
             for (Eigen::Index k = 0; k < 3; ++k) {
-                const Twofold d = Twofold(points(i, k)) - Twofold(points(j, k));
+                const DoubleDouble d = DoubleDouble(points(i, k)) - DoubleDouble(points(j, k));
                 square = square + d * d;
             }
             const double root = std::sqrt(square.value()); // and one of Newton's steps
-            const Twofold left = square - Twofold(root) * Twofold(root);
-            const Twofold value = square * (Twofold(root) + Twofold(left.value() / (2 * root)));
+            const DoubleDouble left = square - DoubleDouble(root) * DoubleDouble(root);
+            const DoubleDouble value =
+                square * (DoubleDouble(root) + DoubleDouble(left.value() / (2 * root)));
             const double high = value.value();
-            kernel.push_back({high, (value - Twofold(high)).value()});
+            kernel.push_back({high, (value - DoubleDouble(high)).value()});
         }
     return kernel;
 }

@@ -16,8 +16,7 @@ namespace {
 
 class LongEdges {
 public:
-    LongEdges(HoleData& data, double limit, double near) :
-        data_(data), limit_(limit), near_(near) {}
+    LongEdges(RbfData& data, double limit, double near) : data_(data), limit_(limit), near_(near) {}
 
     /// Halves all that are long now. False where none is.
     bool halve() {
@@ -103,7 +102,7 @@ private:
         for (std::uint32_t v = 0; v < data_.points.size(); ++v)
             if (!taken[v]) order.push_back(v);
         std::vector<std::uint32_t> name(order.size());
-        HoleData sorted;
+        RbfData sorted;
         for (const std::uint32_t v : order) {
             name[v] = static_cast<std::uint32_t>(sorted.points.size());
             sorted.points.push_back(data_.points[v]);
@@ -115,14 +114,14 @@ private:
         data_.next.swap(next);
     }
 
-    HoleData& data_;
+    RbfData& data_;
     double limit_, near_;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles_; ///< per halved edge
 };
 
 } // namespace
 
-void divide_long_edges(HoleData& data, double limit, double near) {
+void divide_long_edges(RbfData& data, double limit, double near) {
     constexpr int most = 10; // a thousandth of an edge is enough
     LongEdges edges(data, limit, near);
     for (int k = 0; k < most && edges.halve(); ++k) {

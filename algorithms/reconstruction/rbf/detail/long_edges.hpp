@@ -13,6 +13,6 @@ namespace terrane {
 /// then can't be joined along them. The surface stays as it is, and conforming where it was; points
 /// keep their order (distances; normals are not made). Cost: linear in the data where no edge is
 /// long.
-void divide_long_edges(HoleData& data, double limit, double near);
+void divide_long_edges(RbfData& data, double limit, double near);
 
 } // namespace terrane

@@ -29,7 +29,7 @@ Surface cliff(double lift) {
                    disk(115, 110, 52));
 }
 
-double area(const HoleData& data) {
+double area(const RbfData& data) {
     double sum = 0;
     for (const Triangle& t : data.triangles) {
         const Point3 n = cross(minus(data.points[t[1]], data.points[t[0]]),
@@ -40,14 +40,14 @@ double area(const HoleData& data) {
 }
 
 /// Per edge, in the direction in which a triangle runs along it, how often that is.
-std::map<std::pair<std::uint32_t, std::uint32_t>, int> sides(const HoleData& data) {
+std::map<std::pair<std::uint32_t, std::uint32_t>, int> sides(const RbfData& data) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> count;
     for (const Triangle& t : data.triangles)
         for (unsigned k = 0; k < 3; ++k) ++count[{t[k], t[(k + 1) % 3]}];
     return count;
 }
 
-double longest_near(const HoleData& data, double near) {
+double longest_near(const RbfData& data, double near) {
     double longest = 0;
     for (const auto& [edge, times] : sides(data)) {
         if (std::max(data.distances[edge.first], data.distances[edge.second]) > near) continue;
@@ -61,9 +61,9 @@ double longest_near(const HoleData& data, double near) {
 
 TEST_CASE("rbf: long edges near a border are divided, and the surface stays", "[rbf]") {
     const Surface s = cliff(100);
-    const auto data = data_round(s, hole_of(s), {}, {});
+    const auto data = collect_data(s, hole_of(s), {}, {});
     REQUIRE(data);
-    HoleData divided = data.value();
+    RbfData divided = data.value();
     const double near = 30, limit = 15;
     CHECK(longest_near(divided, near) > 90);
     divide_long_edges(divided, limit, near);
@@ -101,9 +101,9 @@ TEST_CASE("rbf: long edges near a border are divided, and the surface stays", "[
 
 TEST_CASE("rbf: what is short, or far from the border, is not divided", "[rbf]") {
     const Surface s = cliff(100);
-    const auto data = data_round(s, hole_of(s), {}, {});
+    const auto data = collect_data(s, hole_of(s), {}, {});
     REQUIRE(data);
-    HoleData same = data.value();
+    RbfData same = data.value();
     divide_long_edges(same, 120, 30);
     CHECK((same.points == data.value().points));
     CHECK((same.triangles == data.value().triangles));

@@ -92,8 +92,8 @@ struct Plain {
     }
 };
 
-HoleData data_at(const std::vector<Point3>& points) {
-    HoleData data;
+RbfData data_at(const std::vector<Point3>& points) {
+    RbfData data;
     data.points = points;
     data.distances.assign(points.size(), 0);
     data.radius = 3;
