@@ -269,8 +269,8 @@ def check_project(findings):
 
 # ---- Names that the sources list
 
-def source(name):
-    found = [p for top in ("algorithms", "io") for p in (ROOT / top).rglob(name)]
+def source(name, folders=("algorithms", "io")):
+    found = [p for top in folders for p in (ROOT / top).rglob(name)]
     if len(found) != 1:
         raise SystemExit(f"there are {len(found)} files {name}")
     return found[0].read_text()
@@ -286,9 +286,25 @@ def first_cells(page, anchor):
             for code in CODE.findall(row[0]) or [row[0]]}
 
 
+def statuses(codes):
+    """The exit status of each error code, from the switch that maps them."""
+    text = source("console.cpp", ("cli",))
+    body = re.search(r"ExitStatus status_of\(ErrorCode code\) \{(.*?)\n\}", text, re.S).group(1)
+    number = {"negative": "1", "bad_input": "2", "internal": "3"}
+    other = re.search(r"default:\s*return ExitStatus::(\w+)", body).group(1)
+    found = dict.fromkeys(codes, number[other])
+    for cases, status in re.findall(r"((?:case ErrorCode::\w+:\s*)+)return ExitStatus::(\w+)", body):
+        found.update(dict.fromkeys(re.findall(r"::(\w+)", cases), number[status]))
+    return found
+
+
 def check_names(findings):
     codes = set(enumerators(source("result.hpp"), "ErrorCode"))
-    findings.compare("errors.md", first_cells("errors.md", "kinds-of-errors"), codes)
+    rows = rows_of(sections_of((REFERENCE / "errors.md").read_text())["kinds-of-errors"], "Code")
+    documented = {row[0].strip("`"): row[2] for row in rows}
+    findings.compare("errors.md", set(documented), codes)
+    findings += [f"errors.md: the status of {code} is {status}"
+                 for code, status in statuses(codes).items() if documented.get(code, status) != status]
     rules = {r.split("_")[0] for r in enumerators(source("verify.hpp"), "Rule")}
     findings.compare("certificate.md, rules", first_cells("certificate.md", "rules"), rules)
     listed = set(re.findall(r'{"(\w+)", Format::\w+}', source("files.cpp")))
