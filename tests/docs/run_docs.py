@@ -13,6 +13,7 @@ import os
 import pathlib
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -21,7 +22,6 @@ import time
 from markdown_pages import PageError, blocks_of, commands_of, needs_of
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-SECONDS_PER_COMMAND = 60
 SHELLS = {"sh", "bash", "shell", "zsh", "shell-session"}
 ELISION = "..."
 
@@ -55,8 +55,8 @@ def output_matches(expected, actual):
 class Shell:
     """Runs commands one after the other, as a terminal does: the folder and $? carry over."""
 
-    def __init__(self, program, folder, scratch):
-        self.folder, self.scratch, self.status = folder, scratch, 0
+    def __init__(self, program, folder, scratch, seconds=60):
+        self.folder, self.scratch, self.seconds, self.status = folder, scratch, seconds, 0
         binaries = scratch / "bin"
         binaries.mkdir()
         (binaries / "terrane").symlink_to(program)
@@ -67,13 +67,18 @@ class Shell:
         """The lines that the command prints on both streams, in the order of a terminal."""
         after = self.scratch / "folder"
         script = f"(exit {self.status})\n{command}\nstatus=$?\npwd > {after}\nexit $status"
-        done = subprocess.run(["stdbuf", "-oL", "bash", "--norc", "-c", script], cwd=self.folder,
-                              env=self.environment, stdin=subprocess.DEVNULL, timeout=SECONDS_PER_COMMAND,
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
-        self.status = done.returncode
+        with subprocess.Popen(["stdbuf", "-oL", "bash", "--norc", "-c", script], cwd=self.folder,
+                              env=self.environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT, start_new_session=True) as shell:
+            try:
+                printed, _ = shell.communicate(timeout=self.seconds)
+            except subprocess.TimeoutExpired:
+                os.killpg(shell.pid, signal.SIGKILL)  # with all that it started
+                raise
+        self.status = shell.returncode
         if after.exists():
             self.folder = pathlib.Path(after.read_text().strip())
-        return done.stdout.decode("utf-8", "replace").splitlines()
+        return printed.decode("utf-8", "replace").splitlines()
 
 
 class Tally:
@@ -105,7 +110,7 @@ def run_block(block, page, shell, tally, changes):
         try:
             actual = shell.run(command.text)
         except subprocess.TimeoutExpired:
-            tally.fail(place, f"did not end within {SECONDS_PER_COMMAND} s")
+            tally.fail(place, f"did not end within {shell.seconds} s")
             return
         tally.commands += 1
         if not output_matches(command.output, actual):
@@ -185,7 +190,8 @@ def run_all(options, tally):
             prepare(folder)
             started = time.monotonic()
             before = tally.commands
-            changes = run_page(path, page, Shell(options.program, folder, scratch), tally)
+            shell = Shell(options.program, folder, scratch, options.seconds)
+            changes = run_page(path, page, shell, tally)
             print(f"{page}: {tally.commands - before} commands, {time.monotonic() - started:.1f} s")
             if options.update:
                 update(path, changes)
@@ -201,6 +207,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--program", required=True, type=lambda p: pathlib.Path(p).resolve())
     parser.add_argument("--update", action="store_true", help="write the true output to the pages")
+    parser.add_argument("--seconds", type=float, default=60, help="limit of time for each command")
     parser.add_argument("--keep", help="folder in which the pages' folders are made and kept")
     parser.add_argument("pages", nargs="*", type=lambda p: pathlib.Path(p).resolve())
     options = parser.parse_args()
