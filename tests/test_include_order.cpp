@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Who may include whom: kernel <- algorithms <- io <- cli, and next to nothing for the verifier.
+// What the verifier may include, and how includes are written. Which folder may include which one is
+// checked by tests/test_include_graph.py.
 #include <catch2/catch.hpp>
 
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <regex>
 #include <set>
 #include <string>
@@ -58,22 +57,7 @@ bool is_standard(const std::string& include) {
 
 } // namespace
 
-TEST_CASE("layers: a folder includes only itself and those below it") {
-    const std::vector<std::string> layers{"kernel", "algorithms", "io", "cli"};
-    for (std::size_t layer = 0; layer < layers.size(); ++layer)
-        for (const fs::path& file : sources_in(layers[layer]))
-            for (const std::string& include : includes_of(file)) {
-                const std::string target = ours(include);
-                if (target.empty()) continue;
-                INFO(file << " includes " << include);
-                const auto folder = target.substr(0, target.find('/'));
-                const auto found = std::find(layers.begin(), layers.end(), folder);
-                REQUIRE(found != layers.end());
-                CHECK(static_cast<std::size_t>(found - layers.begin()) <= layer);
-            }
-}
-
-TEST_CASE("layers: all that is ours is included by its installed name") {
+TEST_CASE("includes: all that is ours is included by its installed name") {
     for (const std::string folder : {"kernel", "algorithms", "io", "cli"})
         for (const fs::path& file : sources_in(folder))
             for (const std::string& include : includes_of(file)) {
@@ -84,7 +68,7 @@ TEST_CASE("layers: all that is ours is included by its installed name") {
             }
 }
 
-TEST_CASE("layers: the producer does not use the verifier") {
+TEST_CASE("includes: the producer does not use the verifier") {
     for (const std::string folder : {"kernel", "algorithms", "io"})
         for (const fs::path& file : sources_in(folder)) {
             if (is_verifier(fs::relative(file, root).generic_string())) continue;
@@ -96,7 +80,7 @@ TEST_CASE("layers: the producer does not use the verifier") {
 }
 
 TEST_CASE(
-    "layers: the verifier sees value types, GMP, nettle and JSON only, however far one looks") {
+    "includes: the verifier sees value types, GMP, nettle and JSON only, however far one looks") {
     const std::set<std::string> value_types{"algorithms/core/index_lists.hpp",
                                             "algorithms/mesh/mesh.hpp",
                                             "algorithms/core/result.hpp",

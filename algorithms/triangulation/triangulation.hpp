@@ -4,6 +4,7 @@
 // unique: Delaunay in a projection, ties broken by a symbolic perturbation that depends on the
 // order of the points alone. So two coplanar triangles triangulate a common part in the same way.
 // Source: Lawson flips; Sloan (1993) for constraints; Devillers and Teillaud (2003) for ties.
+// detail/segments.cpp defines the insertion of segments, triangulation.cpp all else.
 #pragma once
 
 #include <array>

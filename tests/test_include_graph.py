@@ -1,0 +1,99 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""The include graph of the source tree has arrows in one direction only.
+
+Judges the tree itself, then small trees that break one rule each: the judge must see all of them.
+"""
+import re
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT / "scripts"))
+import include_graph  # noqa: E402
+
+
+class TheTree(unittest.TestCase):
+    def test_has_arrows_in_one_direction(self):
+        arrows, problems = include_graph.judge(ROOT)
+        self.assertEqual(problems, [])
+        self.assertEqual(include_graph.cycle_in(arrows), [])
+        self.assertGreater(len(arrows), 100)
+
+    def test_has_no_empty_folder_in_the_order(self):
+        folders = {include_graph.folder_of(path) for path in include_graph.sources(ROOT)}
+        self.assertEqual(folders, set(include_graph.ORDER))
+
+    def test_is_what_cmake_builds(self):
+        text = (ROOT / "CMakeLists.txt").read_text()
+        for variable, top in (("terrane_stages", "algorithms"), ("terrane_formats", "io")):
+            listed = re.search(rf"set\({variable} ([^)]*)\)", text).group(1).split()
+            listed = [f"{top}/{folder}" for folder in listed]
+            own_targets = {"algorithms/tetgen", "algorithms/verify"}
+            known = [f for f in include_graph.ORDER
+                     if f.startswith(top + "/") and f not in own_targets]
+            self.assertEqual(listed, known)
+
+
+class Damage(unittest.TestCase):
+    ORDER = ["kernel", "algorithms/mesh", "algorithms/check", "io"]
+    SOUND = {
+        "kernel/point.hpp": "",
+        "algorithms/mesh/mesh.hpp": "#include <terrane/kernel/point.hpp>\n",
+        "algorithms/mesh/detail/fan.hpp": "",
+        "algorithms/mesh/mesh.cpp": "#include <terrane/algorithms/mesh/detail/fan.hpp>\n",
+        "algorithms/check/check.hpp": "#include <terrane/algorithms/mesh/mesh.hpp>\n",
+        "io/obj.cpp": "# include \"terrane/algorithms/check/check.hpp\"\n",
+    }
+
+    def judge(self, **changes):
+        with tempfile.TemporaryDirectory() as folder:
+            for name, text in {**self.SOUND, **changes.get("files", {})}.items():
+                path = Path(folder) / name
+                path.parent.mkdir(parents=True, exist_ok=True)
+                path.write_text(text)
+            arrows, problems = include_graph.judge(Path(folder), changes.get("order", self.ORDER))
+            return problems, include_graph.cycle_in(arrows)
+
+    def test_sound_tree_passes(self):
+        self.assertEqual(self.judge(), ([], []))
+
+    def test_arrow_that_points_back(self):
+        problems, cycle = self.judge(files={
+            "algorithms/mesh/edges.cpp": "#include <terrane/algorithms/check/check.hpp>\n"})
+        self.assertEqual(len(problems), 1)
+        self.assertIn("points back", problems[0])
+        self.assertEqual(cycle, ["algorithms/check", "algorithms/mesh", "algorithms/check"])
+
+    def test_kernel_knows_nothing(self):
+        problems, _ = self.judge(files={
+            "kernel/sign.hpp": "#include <terrane/algorithms/mesh/mesh.hpp>\n"})
+        self.assertEqual(len(problems), 1)
+
+    def test_detail_from_outside(self):
+        problems, _ = self.judge(files={
+            "io/off.cpp": "#include <terrane/algorithms/mesh/detail/fan.hpp>\n"})
+        self.assertEqual(len(problems), 1)
+        self.assertIn("private to algorithms/mesh", problems[0])
+
+    def test_file_in_no_known_folder(self):
+        for name in ("algorithms/loose.cpp", "algorithms/mesh/deep/loose.cpp"):
+            problems, _ = self.judge(files={name: ""})
+            self.assertEqual(len(problems), 1, name)
+            self.assertIn("no known folder", problems[0])
+
+    def test_include_of_what_is_not_there(self):
+        problems, _ = self.judge(files={
+            "io/off.cpp": "#include <terrane/algorithms/mesh/lost.hpp>\n"})
+        self.assertEqual(len(problems), 1)
+        self.assertIn("does not exist", problems[0])
+
+    def test_cycle_that_an_order_would_allow(self):
+        arrows = {("a", "b"): set(), ("b", "c"): set(), ("c", "a"): set(), ("d", "a"): set()}
+        self.assertEqual(include_graph.cycle_in(arrows), ["a", "b", "c", "a"])
+
+
+if __name__ == "__main__":
+    unittest.main()
