@@ -9,6 +9,7 @@ import unittest
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 sys.dont_write_bytecode = True
 
+import check_licences
 import check_links
 import check_reference
 import run_docs
@@ -208,6 +209,27 @@ class DataFiles(unittest.TestCase):
         import make_data
         for name, text in make_data.files().items():
             self.assertEqual((data / name).read_text(), text, name)
+
+
+class Licences(unittest.TestCase):
+    def test_each_flaw_is_found(self):
+        with tempfile.TemporaryDirectory() as folder:
+            root = pathlib.Path(folder)
+            (root / "LICENSES").mkdir()
+            for identifier, title in check_licences.TITLES.items():
+                (root / "LICENSES" / f"{identifier}.txt").write_text(title + "\n")
+            (root / "LICENSE").write_text("GNU LESSER GENERAL PUBLIC LICENSE\n")
+            (root / "kernel").mkdir()
+            source = root / "kernel" / "sign.hpp"
+            source.write_text("// SPDX-License-Identifier: LGPL-3.0-or-later\n")
+            self.assertEqual(check_licences.check(root), (1, []))
+            source.write_text("// SPDX-License-Identifier: MIT\n")
+            self.assertIn("MIT", check_licences.check(root)[1][0])
+            source.write_text("// nothing\n")
+            self.assertIn("no licence", check_licences.check(root)[1][0])
+            (root / "LICENSES" / "AGPL-3.0-or-later.txt").unlink()
+            (root / "LICENSE").unlink()
+            self.assertEqual(len(check_licences.check(root)[1]), 3)
 
 
 if __name__ == "__main__":
