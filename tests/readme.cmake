@@ -4,7 +4,8 @@
 file(READ ${README} readme)
 file(READ ${EXAMPLE} example)
 string(REGEX REPLACE "^.*// \\[readme\\]\n(.*)    // \\[readme\\].*$" "\\1" lines "${example}")
-string(REGEX REPLACE "(^|\n)    " "\\1" lines "${lines}")
+string(REPLACE "\n    " "\n" lines "\n${lines}") # one level of indentation goes
+string(REGEX REPLACE "^\n" "" lines "${lines}")
 string(FIND "${readme}" "```cpp\n${lines}```" place)
 if(lines STREQUAL example OR place EQUAL -1)
   message(FATAL_ERROR "README.md does not show exactly these lines:\n${lines}")

@@ -15,14 +15,13 @@ int fail(const terrane::Error& error) {
 
 int arrange_file(const char* in, const char* out) {
     // [readme]
-    const auto surfaces = terrane::read_surfaces(in);
-    if (!surfaces) return fail(surfaces.error());
-    const auto exact = terrane::arrange(surfaces.value(), {}, {.threads = 2});
-    if (!exact) return fail(exact.error());
-    const auto rounded = terrane::round_to_doubles(exact.value());
+    const auto rounded =
+        terrane::read_surfaces(in)
+            .and_then([](auto&& surfaces) { return terrane::arrange(surfaces); })
+            .and_then([](auto&& exact) { return terrane::round_to_doubles(exact); });
     if (!rounded) return fail(rounded.error());
-    if (!rounded.value().report.clean) return 1; // report.contacts names the pairs in the way
-    const terrane::Mesh& mesh = rounded.value().mesh;
+    if (!rounded->report.clean) return 1; // report.contacts names the pairs in the way
+    const terrane::Mesh& mesh = rounded->mesh;
     std::printf("%zu triangles, %zu vertices\n", mesh.triangles.size(), mesh.vertices.size());
     const auto written = terrane::write_mesh(mesh, out);
     // [readme]
