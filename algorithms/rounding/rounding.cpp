@@ -7,7 +7,6 @@
 #include <new>
 #include <optional>
 #include <stdexcept>
-#include <unordered_set>
 #include <utility>
 
 #include <terrane/algorithms/arrangement/retriangulation.hpp>
@@ -16,53 +15,18 @@
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/algorithms/rounding/detail/separation.hpp>
+#include <terrane/algorithms/rounding/detail/snapped_input.hpp>
 #include <terrane/algorithms/rounding/detail/state.hpp>
+#include <terrane/algorithms/rounding/detail/tuning.hpp>
 #include <terrane/kernel/predicates.hpp>
 
 namespace terrane {
 namespace {
 
-/// A power of two per axis; all multiples of it below 2^53 are doubles.
-struct SnapGrid {
-    std::array<double, 3> step{};
-
-    [[nodiscard]] Point3 snap(const Point3& p) const {
-        return {snap(p.x, step[0]), snap(p.y, step[1]), snap(p.z, step[2])};
-    }
-
-private:
-    // Retriangulation and multiplication by a power of two are exact; the cell of a multiple is itself.
-    static double snap(double x, double s) { return s > 0 ? std::nearbyint(x / s) * s : x; }
-};
-
-/// Sizes of cells, in binary digits of the last place of the largest coordinate on each axis.
-/// First what crosses is snapped where it lies, with fine grids, so that as little as possible
-/// moves. That is enough for single mishaps; sheets that are nearly coplanar over an area multiply
-/// under it (touching_ridges_turned), so where the contacts do not shrink to a quarter in a round,
-/// the input triangles concerned are snapped instead and arranged anew: at once where contacts are
-/// crowded from the start (coplanar_half_turned), since fine rounds only multiply them.
-constexpr std::array fine_digits{4, 8, 12};
-constexpr std::array coarse_digits{16, 20, 24, 28, 32};
-constexpr std::size_t many = 1024;    ///< fewer contacts are no crowd
-constexpr std::size_t crowded = 8;    ///< fewer triangles per contact are one
-constexpr std::size_t multiplied = 8; ///< so many times the contacts: snapping made it worse
-constexpr unsigned widenings = 3;     ///< how often more input triangles join before a coarser grid
-
-SnapGrid grid_of_digits(std::span<const Point3> points, int digits) {
-    std::array<double, 3> largest{};
-    for (const Point3& p : points) {
-        largest[0] = std::max(largest[0], std::fabs(p.x));
-        largest[1] = std::max(largest[1], std::fabs(p.y));
-        largest[2] = std::max(largest[2], std::fabs(p.z));
-    }
-    SnapGrid grid;
-    for (unsigned k = 0; k < 3; ++k)
-        if (largest[k] > 0) {
-            const int ulp = std::ilogb(largest[k]) - 52;
-            grid.step[k] = std::ldexp(1.0, std::max(ulp + digits, -1074));
-        }
-    return grid;
-}
+using rounding::detail::grid_of_digits;
+using rounding::detail::rounding_tuning;
+using rounding::detail::SnapGrid;
+using rounding::detail::SnappedInput;
 
 /// Input triangles that have parts in the arrangement, but none that names them; ascending.
 std::vector<std::uint32_t> vanished(const Arrangement& a,
@@ -90,8 +54,8 @@ public:
         state_.only_dirty(pairs);
         find_first_regions();
         out_.report.naive_contacts = pairs.size();
-        left_crowded_ = !even_crowded_ && pairs.size() >= many &&
-                        crowded * pairs.size() > arrangement_.triangles.size();
+        left_crowded_ = !even_crowded_ && pairs.size() >= rounding_tuning.many &&
+                        rounding_tuning.crowded * pairs.size() > arrangement_.triangles.size();
         if (!pairs.empty() && !left_crowded_) repair(pairs);
         if (run_.stop.stop_requested())
             return Error{ErrorCode::interrupted, "stopped on request", ""};
@@ -165,7 +129,7 @@ void Rounding::to_nearest() {
 
 /// Rounds of local snapping, as long as they help; the mesh with fewest contacts stays.
 void Rounding::repair(std::vector<CandidatePair>& pairs) {
-    for (const int digits : fine_digits) {
+    for (const int digits : rounding_tuning.fine_digits) {
         if (out_.report.rounds == options_.max_rounds || run_.stop.stop_requested()) return;
         ++out_.report.rounds;
         const RoundingState before = state_;
@@ -174,7 +138,7 @@ void Rounding::repair(std::vector<CandidatePair>& pairs) {
             return;
         }
         auto left = contacts();
-        const bool helps = 4 * left.size() <= pairs.size();
+        const bool helps = rounding_tuning.shrinking * left.size() <= pairs.size();
         if (left.size() < pairs.size())
             pairs = std::move(left);
         else
@@ -261,7 +225,7 @@ bool Rounding::snap_round(std::span<const CandidatePair> pairs, const SnapGrid& 
     changed_ = true;
     snap_corners(pairs, grid);
     state_.tidy(run_);
-    if (!divide_again(multiplied * pairs.size())) return false;
+    if (!divide_again(rounding_tuning.multiplied * pairs.size())) return false;
     state_.end_round();
     state_.tidy(run_);
     return true;
@@ -369,96 +333,6 @@ void Rounding::finish(std::span<const CandidatePair> pairs) {
     out_.regions = std::move(regions_->regions);
 }
 
-} // namespace
-
-namespace {
-
-/// Input vertices moved to a grid where their triangles cannot be rounded otherwise.
-class SnappedInput {
-public:
-    explicit SnappedInput(const Arrangement& a) :
-        arrangement_(a), chosen_(a.points.input_count(), false) {}
-
-    /// Chooses the corners of all parents of the triangles in contact. False if no corner is new.
-    bool choose(const RoundedMesh& rounded) {
-        bool any = false;
-        for (const ImproperContact& c : rounded.report.contacts)
-            for (const std::uint32_t t : c.triangles)
-                for (const std::uint32_t parent : rounded.mesh.parents_of[t])
-                    for (const std::uint32_t v : arrangement_.inputs.corners[parent]) {
-                        any = any || !chosen_[v];
-                        chosen_[v] = true;
-                    }
-        return any;
-    }
-
-    /// The surfaces with the chosen vertices, and all that share their cells, on the grid.
-    std::vector<Surface> surfaces(int digits) {
-        const auto inputs = arrangement_.points.inputs();
-        const SnapGrid grid = grid_of_digits(inputs, digits);
-        std::unordered_set<Point3, PointHash> cells;
-        for (std::size_t v = 0; v < inputs.size(); ++v)
-            if (chosen_[v]) cells.insert(grid.snap(inputs[v]));
-        std::vector<Surface> out;
-        moved_ = 0;
-        largest_ = 0;
-        const InputTriangles& in = arrangement_.inputs;
-        for (std::size_t s = 0; s + 1 < in.first.size(); ++s) {
-            Surface& surface = out.emplace_back();
-            for (std::uint32_t v = in.first_vertex[s]; v < in.first_vertex[s + 1]; ++v)
-                surface.vertices.push_back(place(inputs[v], grid, cells));
-        }
-        // Corners count through all surfaces and may name a vertex of an earlier one with the same
-        // coordinates: each triangle gets its own corners' coordinates back.
-        for (std::size_t s = 0; s + 1 < in.first.size(); ++s)
-            for (std::uint32_t t = in.first[s]; t < in.first[s + 1]; ++t)
-                out[s].triangles.push_back(own_corners(s, corners_of(t), out));
-        return out;
-    }
-
-    [[nodiscard]] double largest_move() const { return largest_; }
-    [[nodiscard]] std::size_t moved() const { return moved_; }
-
-private:
-    Point3 place(const Point3& p, const SnapGrid& grid,
-                 const std::unordered_set<Point3, PointHash>& cells) {
-        const Point3 cell = grid.snap(p);
-        if (cell == p || !cells.contains(cell)) return p;
-        ++moved_;
-        largest_ = std::max(largest_, distance_bound({{p.x, p.y, p.z}, {p.x, p.y, p.z}}, cell));
-        return cell;
-    }
-
-    /// What has no area must not get one from the grid: all its corners become the first.
-    [[nodiscard]] Triangle corners_of(std::uint32_t t) const {
-        const Triangle& c = arrangement_.inputs.corners[t];
-        const auto& degenerate = arrangement_.degenerate;
-        if (!std::binary_search(degenerate.begin(), degenerate.end(), t)) return c;
-        return {c[0], c[0], c[0]};
-    }
-
-    /// Corners as indices into surface s; vertices of other surfaces are added to it.
-    Triangle own_corners(std::size_t s, Triangle corners, std::vector<Surface>& surfaces) const {
-        const auto& first = arrangement_.inputs.first_vertex;
-        for (std::uint32_t& v : corners) {
-            if (v >= first[s] && v < first[s + 1]) {
-                v -= first[s];
-                continue;
-            }
-            const auto owner = static_cast<std::size_t>(
-                std::upper_bound(first.begin(), first.end(), v) - first.begin() - 1);
-            surfaces[s].vertices.push_back(surfaces[owner].vertices[v - first[owner]]);
-            v = static_cast<std::uint32_t>(surfaces[s].vertices.size() - 1);
-        }
-        return corners;
-    }
-
-    const Arrangement& arrangement_;
-    std::vector<bool> chosen_; ///< per input vertex
-    double largest_ = 0;
-    std::size_t moved_ = 0;
-};
-
 /// The largest distance between exact vertices and those of a mesh with the same triangles; 0 for
 /// another mesh: its vertices have no exact points of their own.
 double largest_distance(const Arrangement& a, const Mesh& mesh) {
@@ -523,8 +397,8 @@ Result<RoundedMesh> snap_input(const Arrangement& a, RoundedMesh first,
     SnappedInput snapped(a);
     snapped.choose(first);
     unsigned rounds = first.report.rounds;
-    for (const int digits : coarse_digits)
-        for (unsigned w = 0; w < widenings && rounds < options.max_rounds; ++w) {
+    for (const int digits : rounding_tuning.coarse_digits)
+        for (unsigned w = 0; w < rounding_tuning.widenings && rounds < options.max_rounds; ++w) {
             auto again = arrange(snapped.surfaces(digits), {}, run);
             if (!again) return again.error();
             name_input(a, again.value());
