@@ -41,10 +41,10 @@ struct Part {
 /// The distance is 1-Lipschitz: from the middle, no point is farther than its reach.
 Part part_of(const TriangleTree& tree, const Corners& c, double& least) {
     const Point3 middle = weighted(c, 1.0 / 3, 1.0 / 3, 1.0 / 3);
-    const double reach = std::max({apart(middle, c[0]), apart(middle, c[1]), apart(middle, c[2])});
+    const double radius = std::max({apart(middle, c[0]), apart(middle, c[1]), apart(middle, c[2])});
     const double there = tree.distance(middle, endless);
     least = std::max(least, there);
-    return {there + reach, c};
+    return {there + radius, c};
 }
 
 } // namespace

@@ -95,18 +95,18 @@ public:
             mesh, {options.crease_angle * pi / 180, options.curve_angle * pi / 180}, run)),
         sizes_(find_sizes(mesh, features_, options)),
         reference_(mesh.vertices, features_, sizes_.bound_of), mesh_(mesh, features_),
-        guard_(mesh_, reference_), shop_{mesh_,
-                                         guard_,
-                                         reference_,
-                                         mesh.vertices,
-                                         features_.curves,
-                                         bounds_of_curves(mesh_, features_.curves.size(),
-                                                          sizes_.bound_of),
-                                         run} {
+        validator_(mesh_, reference_), context_{mesh_,
+                                                validator_,
+                                                reference_,
+                                                mesh.vertices,
+                                                features_.curves,
+                                                bounds_of_curves(mesh_, features_.curves.size(),
+                                                                 sizes_.bound_of),
+                                                run} {
         mesh_.sizes = sizes_.of_vertices;
-        reference_.find_alone(run);
+        reference_.find_isolated(run);
         for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t)
-            mesh_.alone[t] = static_cast<char>(reference_.is_isolated(t));
+            mesh_.isolated[t] = static_cast<char>(reference_.is_isolated(t));
     }
 
     Result<Improved> operator()() {
@@ -117,7 +117,7 @@ public:
         for (std::size_t s = 0; s < sizes_.bound_of.size(); ++s)
             for (const std::uint32_t surface : input_.surfaces_of[features_.first_of[s]])
                 report_.bound_of[surface] = std::max(report_.bound_of[surface], sizes_.bound_of[s]);
-        guard_.group_again(run_);
+        validator_.group_again(run_);
         for (unsigned pass = 0; pass < options_.passes && !stopped(); ++pass)
             if (!one_pass(pass)) break;
         if (!stopped()) finish();
@@ -129,22 +129,22 @@ private:
     [[nodiscard]] bool stopped() const { return run_.stop.stop_requested(); }
 
     void regroup_if_needed() {
-        if (!stopped() && 20 * guard_.ungrouped() > mesh_.triangles.size())
-            guard_.group_again(run_);
+        if (!stopped() && 20 * validator_.ungrouped() > mesh_.triangles.size())
+            validator_.group_again(run_);
     }
 
     /// Slivers would only be split into more of them.
     void clean_first() {
-        collapse_curves(shop_);
+        collapse_curves(context_);
         regroup_if_needed();
-        collapse_edges(shop_);
+        collapse_edges(context_);
         regroup_if_needed();
-        swap_edges(shop_);
+        swap_edges(context_);
         regroup_if_needed();
     }
 
     [[nodiscard]] std::size_t changes() const {
-        return shop_.splits + shop_.collapses + shop_.swaps + shop_.moves;
+        return context_.splits + context_.collapses + context_.swaps + context_.moves;
     }
 
     /// Returns whether the next one is worth it.
@@ -154,21 +154,21 @@ private:
         ++report_.passes;
         const std::size_t before = changes();
         if (pass == 0) clean_first();
-        split_curves(shop_);
-        collapse_curves(shop_);
-        slide_curves(shop_);
+        split_curves(context_);
+        collapse_curves(context_);
+        slide_curves(context_);
         regroup_if_needed();
-        split_edges(shop_);
+        split_edges(context_);
         regroup_if_needed();
-        collapse_edges(shop_);
+        collapse_edges(context_);
         regroup_if_needed();
-        if (pass < 2) jitter(shop_);
-        equalize_valences(shop_);
+        if (pass < 2) jitter(context_);
+        equalize_valences(context_);
         regroup_if_needed();
-        smooth(shop_);
-        swap_edges(shop_);
+        smooth(context_);
+        swap_edges(context_);
         regroup_if_needed();
-        smooth(shop_);
+        smooth(context_);
         return 10 * (changes() - before) > mesh_.triangles.size();
     }
 
@@ -177,13 +177,13 @@ private:
         if (run_.progress) run_.progress("improve", options_.passes / (options_.passes + 1.0));
         for (unsigned round = 0; round < 2 && !stopped(); ++round) {
             regroup_if_needed();
-            const std::size_t before = shop_.collapses + shop_.swaps;
-            collapse_bad(shop_, bad_shape);
-            swap_edges(shop_);
-            slide_curves(shop_);
-            smooth(shop_);
-            const std::size_t lifts = improve_worst(shop_, bad_shape);
-            if (shop_.collapses + shop_.swaps == before && lifts == 0) break;
+            const std::size_t before = context_.collapses + context_.swaps;
+            collapse_bad(context_, bad_shape);
+            swap_edges(context_);
+            slide_curves(context_);
+            smooth(context_);
+            const std::size_t improved = improve_worst(context_, bad_shape);
+            if (context_.collapses + context_.swaps == before && improved == 0) break;
         }
     }
 
@@ -203,8 +203,8 @@ private:
     const Sizes sizes_;
     ReferenceSurface reference_;
     WorkMesh mesh_;
-    ChangeValidator guard_;
-    RemeshContext shop_;
+    ChangeValidator validator_;
+    RemeshContext context_;
     ImproveReport report_;
 };
 
@@ -263,12 +263,12 @@ WorstCause Improver::cause_of_worst(Triangle t) {
         mesh_.kinds[t[(shortest + 1) % 3]] == VertexKind::corner)
         return WorstCause::short_curve;
     if (all_on_curves) return WorstCause::close_curves;
-    const Refusals before = guard_.refusals();
+    const Refusals before = validator_.refusals();
     const double below = shape_of(mesh_, t) * (1 + 1e-9);
-    shop_.lifted_at.clear(); // tried before, in vain: here for the reasons
-    improve_worst(shop_, below);
-    collapse_bad(shop_, below);
-    const Refusals& after = guard_.refusals();
+    context_.improved_at.clear(); // tried before, in vain: here for the reasons
+    improve_worst(context_, below);
+    collapse_bad(context_, below);
+    const Refusals& after = validator_.refusals();
     const std::size_t deviation = after.deviation - before.deviation;
     const std::size_t contact = after.contact - before.contact;
     if (deviation == 0 && contact == 0) return WorstCause::shape;
@@ -335,13 +335,13 @@ Result<Improved> Improver::assembled() {
         sheets.push_back(mesh_.sheet_of[t]);
         improved.near_of.push_back(mesh_.hint_of[t]);
     }
-    report_.splits = shop_.splits;
-    report_.collapses = shop_.collapses;
-    report_.swaps = shop_.swaps;
-    report_.moves = shop_.moves;
-    report_.refused_contact = guard_.refusals().contact;
-    report_.refused_deviation = guard_.refusals().deviation;
-    report_.refused_shape = guard_.refusals().shape;
+    report_.splits = context_.splits;
+    report_.collapses = context_.collapses;
+    report_.swaps = context_.swaps;
+    report_.moves = context_.moves;
+    report_.refused_contact = validator_.refusals().contact;
+    report_.refused_deviation = validator_.refusals().deviation;
+    report_.refused_shape = validator_.refusals().shape;
     improved.mesh = output(used);
     if (auto good = check(improved.mesh, sheets); !good) return good.error();
     report_.worst_cause = cause_of_worst(mesh_.triangles[used[report_.after.worst]]);

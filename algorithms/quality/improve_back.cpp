@@ -87,7 +87,8 @@ std::vector<double> bounds_of_sheets(const Mesh& before, const Features& feature
 class Nearest {
 public:
     Nearest(const Mesh& after, std::uint32_t surface) :
-        surface_(surface_of_mesh(after, surface)), tree_(surface_.vertices, stout(surface_)) {}
+        surface_(surface_of_mesh(after, surface)),
+        tree_(surface_.vertices, without_slivers(surface_)) {}
 
     /// Also where contains_within_tolerance(part) holds: asked for parts that are large against the bound.
     template <class Follows>
@@ -108,11 +109,11 @@ public:
             };
             if (std::max({off(c[0]), off(c[1]), off(c[2])}) <= bound) continue;
             const double there = off(middle);
-            const double reach =
+            const double radius =
                 std::max({apart(middle, c[0]), apart(middle, c[1]), apart(middle, c[2])});
-            if (there + reach <= bound) continue;
+            if (there + radius <= bound) continue;
             if (there > bound || count == most_parts) return false;
-            if (reach > 4 * bound && contains_within_tolerance(c)) continue;
+            if (radius > 4 * bound && contains_within_tolerance(c)) continue;
             divide(c, parts);
         }
         return true;
@@ -121,7 +122,7 @@ public:
 private:
     /// Without triangles so thin that what is nearest on them is lost in rounding: a part of the
     /// surface is no nearer than all of it.
-    static std::vector<Triangle> stout(const Surface& surface) {
+    static std::vector<Triangle> without_slivers(const Surface& surface) {
         std::vector<Triangle> kept;
         for (const Triangle& t : surface.triangles) {
             const Point3 &a = surface.vertices[t[0]], &b = surface.vertices[t[1]],

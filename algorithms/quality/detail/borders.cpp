@@ -45,13 +45,13 @@ bool apart(Axis axis, const Point3& a, const Point3& b, const std::array<Point3,
     if (first != Sign::Zero && orient2d(axis, a, b, t[1]) == first &&
         orient2d(axis, a, b, t[2]) == first)
         return true;
-    const Sign turn = orient2d(axis, t[0], t[1], t[2]);
+    const Sign orientation = orient2d(axis, t[0], t[1], t[2]);
     for (std::size_t i = 0; i < 3; ++i) {
         const Point3 &from = t[i], &to = t[(i + 1) % 3];
         const Sign side = orient2d(axis, from, to, a);
         if (side == Sign::Zero || orient2d(axis, from, to, b) != side) continue;
         // A triangle without area is in any of its lines.
-        if (turn == Sign::Zero || side != turn) return true;
+        if (orientation == Sign::Zero || side != orientation) return true;
     }
     return false;
 }
@@ -63,10 +63,10 @@ bool apart_but_for(Axis axis, const Point3& a, const Point3& b, const Point3& p,
         if ((end[k] < at[k] && r[k] >= at[k] && s[k] >= at[k]) ||
             (end[k] > at[k] && r[k] <= at[k] && s[k] <= at[k]))
             return true;
-    const Sign turn = orient2d(axis, a, p, q);
+    const Sign orientation = orient2d(axis, a, p, q);
     const Sign to_p = orient2d(axis, a, p, b), to_q = orient2d(axis, a, q, b);
-    if (turn == Sign::Zero) return to_p != Sign::Zero && to_q != Sign::Zero;
-    return (to_p != Sign::Zero && to_p != turn) || to_q == turn;
+    if (orientation == Sign::Zero) return to_p != Sign::Zero && to_q != Sign::Zero;
+    return (to_p != Sign::Zero && to_p != orientation) || to_q == orientation;
 }
 
 } // namespace

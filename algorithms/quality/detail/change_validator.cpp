@@ -22,7 +22,7 @@ void widen(Box& box, const Box& by) {
     }
 }
 
-Sign turn_in(Axis axis, std::span<const Point3> points, const Triangle& t) {
+Sign orientation_in(Axis axis, std::span<const Point3> points, const Triangle& t) {
     return orient2d(axis, points[t[0]], points[t[1]], points[t[2]]);
 }
 
@@ -35,23 +35,23 @@ bool are_parted(const std::array<Point3, 6>& points, const Triangle& other) {
     const Point3 n = cross(minus(points[1], points[0]), minus(points[2], points[0]));
     const double x = std::fabs(n.x), y = std::fabs(n.y), z = std::fabs(n.z);
     const Axis axis = z >= x && z >= y ? Axis::z : x >= y ? Axis::x : Axis::y;
-    const auto turn = [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
+    const auto orientation = [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
         return orient2d(axis, points[i], points[j], points[k]);
     };
     const auto is_opposite = [](Sign a, Sign b) { return a != Sign::Zero && a == -b; };
     if (count == 2) {
         const std::size_t own = !is_shared(0) ? 0 : !is_shared(1) ? 1 : 2;
         const std::uint32_t a = other[(own + 1) % 3], b = other[(own + 2) % 3];
-        return is_opposite(turn(a, b, 3 - a - b), turn(a, b, other[own]));
+        return is_opposite(orientation(a, b, 3 - a - b), orientation(a, b, other[own]));
     }
     const std::size_t at = is_shared(0) ? 0 : is_shared(1) ? 1 : 2;
     const std::uint32_t v = other[at], r = other[(at + 1) % 3], s = other[(at + 2) % 3];
     const std::uint32_t p = (v + 1) % 3, q = (v + 2) % 3;
-    const Sign pq = turn(v, p, q), pr = turn(v, p, r), ps = turn(v, p, s);
+    const Sign pq = orientation(v, p, q), pr = orientation(v, p, r), ps = orientation(v, p, s);
     if (pr == ps && is_opposite(pq, pr)) return true; // the line through v and p
-    const Sign qr = turn(v, q, r), qs = turn(v, q, s);
+    const Sign qr = orientation(v, q, r), qs = orientation(v, q, s);
     if (qr == qs && qr == pq && pq != Sign::Zero) return true;
-    const Sign rs = turn(v, r, s);
+    const Sign rs = orientation(v, r, s);
     return (pr == qr && pr == rs && rs != Sign::Zero) || (ps == qs && is_opposite(ps, rs));
 }
 
@@ -64,11 +64,11 @@ void ChangeValidator::group_again(const Run& run) {
         find_injective_patches(mesh_.points, mesh_.triangles, mesh_.sheet_of, edges, run);
     patch_of_ = std::move(patches.of);
     axis_ = std::move(patches.axis);
-    turn_.assign(axis_.size(), Sign::Zero);
+    orientation_.assign(axis_.size(), Sign::Zero);
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
         const std::uint32_t p = patch_of_[t];
-        if (p != no_group && turn_[p] == Sign::Zero)
-            turn_[p] = turn_in(axis_[p], mesh_.points, mesh_.triangles[t]);
+        if (p != no_group && orientation_[p] == Sign::Zero)
+            orientation_[p] = orientation_in(axis_[p], mesh_.points, mesh_.triangles[t]);
     }
     borders_.find(patch_of_, axis_.size());
     find_whole_sheets();
@@ -102,7 +102,7 @@ void ChangeValidator::fill_grid() {
     box_of_.resize(mesh_.triangles.size());
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
         box_of_[t] = grid_.scaled(box_of(mesh_.points, mesh_.triangles[t]));
-        if (!is_quiet(t)) grid_.enter(t, box_of_[t], patch_of_[t]);
+        if (!is_contact_free(t)) grid_.enter(t, box_of_[t], patch_of_[t]);
     }
 }
 
@@ -118,8 +118,9 @@ Corners ChangeValidator::corners_of(const Change& change, const Triangle& t) con
 }
 
 /// How an added triangle is wound in the projection of a patch.
-Sign ChangeValidator::turn_of(const Change& change, const Triangle& t, std::uint32_t patch) const {
-    return turn_in(axis_[patch], corners_of(change, t), {0, 1, 2});
+Sign ChangeValidator::orientation_of(const Change& change, const Triangle& t,
+                                     std::uint32_t patch) const {
+    return orientation_in(axis_[patch], corners_of(change, t), {0, 1, 2});
 }
 
 /// With area, facing as before; in a proven patch, wound as all of it.
@@ -135,7 +136,7 @@ bool ChangeValidator::shapes_hold(const Change& change, std::uint32_t patch) con
         const Point3& f = facing->second;
         if (!(dot(n, f) > least_cosine * std::sqrt(dot(n, n) * dot(f, f)))) return false;
         if (patch != no_group) {
-            if (turn_of(change, t, patch) != turn_[patch]) return false;
+            if (orientation_of(change, t, patch) != orientation_[patch]) return false;
         } else if (collinear(a, b, c)) {
             return false;
         }
@@ -143,24 +144,24 @@ bool ChangeValidator::shapes_hold(const Change& change, std::uint32_t patch) con
     return true;
 }
 
-bool ChangeValidator::bounds_hold(const Change& change, CheckedChange& judgement,
-                                  ThreadScratch& bench) const {
-    judgement.hints.clear();
-    judgement.alone.clear();
+bool ChangeValidator::bounds_hold(const Change& change, CheckedChange& checked,
+                                  ThreadScratch& scratch) const {
+    checked.hints.clear();
+    checked.isolated.clear();
     for (std::size_t i = 0; i < change.added.size(); ++i) {
         const auto hint = reference_.contains_within_tolerance(
-            corners_of(change, change.added[i]), mesh_.hint_of[change.from[i]], bench.search);
+            corners_of(change, change.added[i]), mesh_.hint_of[change.from[i]], scratch.search);
         if (!hint) return false;
-        judgement.hints.push_back(hint->hint);
-        judgement.alone.push_back(static_cast<char>(hint->alone));
+        checked.hints.push_back(hint->hint);
+        checked.isolated.push_back(static_cast<char>(hint->isolated));
     }
     return true;
 }
 
-void ChangeValidator::box_added(const Change& change, CheckedChange& judgement) const {
-    judgement.boxes.clear();
+void ChangeValidator::box_added(const Change& change, CheckedChange& checked) const {
+    checked.boxes.clear();
     for (const Triangle& t : change.added)
-        judgement.boxes.push_back(grid_.scaled(box_of(corners_of(change, t), {0, 1, 2})));
+        checked.boxes.push_back(grid_.scaled(box_of(corners_of(change, t), {0, 1, 2})));
 }
 
 /// Whether the other triangle is strictly on one side of the plane of `t`, but for common corners:
@@ -191,11 +192,11 @@ bool ChangeValidator::meet(const Change& change, const Triangle& t, const Triang
 }
 
 /// The cone from a corner of all added triangles over the removed ones, where they were.
-void ChangeValidator::sweep(const Change& change, ThreadScratch& bench) const {
-    bench.swept.clear();
-    bench.not_swept.resize(mesh_.points.size() + 1, 0);
+void ChangeValidator::sweep(const Change& change, ThreadScratch& scratch) const {
+    scratch.swept.clear();
+    scratch.not_swept.resize(mesh_.points.size() + 1, 0);
     const auto note = [&](const Triangle& t) {
-        for (const std::uint32_t v : t) bench.not_swept[v] = bench.change;
+        for (const std::uint32_t v : t) scratch.not_swept[v] = scratch.change;
     };
     for (const Triangle& t : change.added) note(t);
     std::uint32_t apex = change.in_place ? change.placed : none;
@@ -204,31 +205,31 @@ void ChangeValidator::sweep(const Change& change, ThreadScratch& bench) const {
                                         [v](const Triangle& t) { return has(t, v); }))
             apex = v;
     if (apex == none) return; // no operation makes such changes
-    bench.top = change.point(mesh_.points, apex);
+    scratch.top = change.point(mesh_.points, apex);
     for (const std::uint32_t r : change.removed) {
         const Triangle& t = mesh_.triangles[r];
         note(t);
         if (!change.in_place && has(t, apex)) continue;
         std::array<Point3, 4> c{mesh_.points[t[0]], mesh_.points[t[1]], mesh_.points[t[2]],
-                                bench.top};
+                                scratch.top};
         const Sign side = orient3d(c[0], c[1], c[2], c[3]);
         if (side == Sign::Zero) continue;
         if (side == Sign::Negative) std::swap(c[0], c[1]);
         Box box = box_of(c, Triangle{0, 1, 2});
         widen(box, box_of(c, Triangle{1, 2, 3}));
-        bench.swept.push_back({c, box});
+        scratch.swept.push_back({c, box});
     }
 }
 
 /// Whether a corner that the change does not have is in what it sweeps, or at the place of its top:
 /// pair tests take different vertices to be at different places.
-bool ChangeValidator::is_swept(const Triangle& t, ThreadScratch& bench) const {
+bool ChangeValidator::is_swept(const Triangle& t, ThreadScratch& scratch) const {
     for (const std::uint32_t v : t) {
-        if (bench.not_swept[v] == bench.change) continue;
-        bench.not_swept[v] = bench.change;
+        if (scratch.not_swept[v] == scratch.change) continue;
+        scratch.not_swept[v] = scratch.change;
         const Point3& p = mesh_.points[v];
-        if (p == bench.top) return true;
-        for (const auto& [c, box] : bench.swept)
+        if (p == scratch.top) return true;
+        for (const auto& [c, box] : scratch.swept)
             if (box.overlaps({{p.x, p.y, p.z}, {p.x, p.y, p.z}}) &&
                 orient3d(c[0], c[1], c[2], p) != Sign::Negative &&
                 orient3d(c[0], c[3], c[1], p) != Sign::Negative &&
@@ -239,40 +240,40 @@ bool ChangeValidator::is_swept(const Triangle& t, ThreadScratch& bench) const {
     return false;
 }
 
-bool ChangeValidator::meets_properly(const Change& change, const CheckedChange& judgement,
-                                     ThreadScratch& bench) const {
-    ++bench.change;
-    if (bench.change == 0) { // counted round
-        std::fill(bench.seen.begin(), bench.seen.end(), 0);
-        std::fill(bench.not_swept.begin(), bench.not_swept.end(), 0);
-        ++bench.change;
+bool ChangeValidator::meets_properly(const Change& change, const CheckedChange& checked,
+                                     ThreadScratch& scratch) const {
+    ++scratch.change;
+    if (scratch.change == 0) { // counted round
+        std::fill(scratch.seen.begin(), scratch.seen.end(), 0);
+        std::fill(scratch.not_swept.begin(), scratch.not_swept.end(), 0);
+        ++scratch.change;
     }
-    bench.seen.resize(mesh_.triangles.size(), 0);
-    for (const std::uint32_t t : change.removed) bench.seen[t] = bench.change;
-    bench.planes.clear();
+    scratch.seen.resize(mesh_.triangles.size(), 0);
+    for (const std::uint32_t t : change.removed) scratch.seen[t] = scratch.change;
+    scratch.planes.clear();
     for (const Triangle& t : change.added) {
         const auto [a, b, c] = corners_of(change, t);
-        bench.planes.emplace_back(a, b, c);
+        scratch.planes.emplace_back(a, b, c);
     }
-    sweep(change, bench);
-    const auto& boxes = judgement.boxes;
-    const auto& patches = judgement.patches;
+    sweep(change, scratch);
+    const auto& boxes = checked.boxes;
+    const auto& patches = checked.patches;
     const auto are_shown = [&](std::size_t i, std::uint32_t patch) {
         return patches[i] != no_group && patches[i] == patch;
     };
     const auto proper = [&](std::uint32_t t, const GridBox& box) {
-        if (bench.seen[t] == bench.change) return true;
-        bench.seen[t] = bench.change;
+        if (scratch.seen[t] == scratch.change) return true;
+        scratch.seen[t] = scratch.change;
         const Triangle& other = mesh_.triangles[t];
-        if (is_swept(other, bench)) return false;
+        if (is_swept(other, scratch)) return false;
         for (std::size_t i = 0; i < change.added.size(); ++i)
             if (boxes[i].overlaps(box) && !are_shown(i, patch_of_[t]) &&
-                !is_beside(bench.planes[i], change.added[i], other) &&
+                !is_beside(scratch.planes[i], change.added[i], other) &&
                 meet(change, change.added[i], other))
                 return false;
         return true;
     };
-    if (!grid_.visit(judgement.reach.around, judgement.reach.patch, proper)) return false;
+    if (!grid_.visit(checked.footprint.around, checked.footprint.patch, proper)) return false;
     for (std::size_t i = 0; i < change.added.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)
             if (boxes[i].overlaps(boxes[j]) && !are_shown(i, patches[j]) &&
@@ -282,19 +283,19 @@ bool ChangeValidator::meets_properly(const Change& change, const CheckedChange& 
 }
 
 /// All triangles are wound in the patch as it is.
-bool ChangeValidator::are_wound(const Change& change, std::uint32_t patch) const {
+bool ChangeValidator::keeps_orientation(const Change& change, std::uint32_t patch) const {
     for (std::size_t i = 0; i < change.added.size(); ++i)
         if (patch_of_[change.from[i]] == patch &&
-            turn_of(change, change.added[i], patch) != turn_[patch])
+            orientation_of(change, change.added[i], patch) != orientation_[patch])
             return false;
     return true;
 }
 
 /// The patches of what is added: of the only one of what is removed; where a curve changes, of
 /// those that are shown to stay what they are. False where a whole sheet would not stay one patch.
-bool ChangeValidator::find_patches(const Change& change, CheckedChange& judgement,
-                                   ThreadScratch& bench) const {
-    std::vector<std::uint32_t>& patches = judgement.patches;
+bool ChangeValidator::find_patches(const Change& change, CheckedChange& checked,
+                                   ThreadScratch& scratch) const {
+    std::vector<std::uint32_t>& patches = checked.patches;
     patches.assign(change.added.size(), no_group);
     if (!change.on_border) {
         if (in_one_patch(change.removed))
@@ -303,14 +304,15 @@ bool ChangeValidator::find_patches(const Change& change, CheckedChange& judgemen
     }
     for (std::size_t i = 0; i < patches.size(); ++i) {
         const std::uint32_t p = patch_of_[change.from[i]];
-        const auto is_his = [&](std::uint32_t t) { return patch_of_[t] == p; };
+        const auto is_of_patch = [&](std::uint32_t t) { return patch_of_[t] == p; };
         const auto first = static_cast<std::size_t>(
-            std::find_if(change.from.begin(), change.from.end(), is_his) - change.from.begin());
+            std::find_if(change.from.begin(), change.from.end(), is_of_patch) -
+            change.from.begin());
         if (p == no_group) continue;
         if (first < i)
             patches[i] = patches[first];
-        else if (are_wound(change, p) &&
-                 borders_.keeps(change, patch_of_, p, axis_[p], bench.border_search))
+        else if (keeps_orientation(change, p) &&
+                 borders_.keeps(change, patch_of_, p, axis_[p], scratch.border_search))
             patches[i] = p;
         else if (is_whole_[mesh_.sheet_of[change.from[i]]] != 0)
             return false;
@@ -319,58 +321,60 @@ bool ChangeValidator::find_patches(const Change& change, CheckedChange& judgemen
 }
 
 /// Nothing that is added can meet anything else, by its patch and by what it follows.
-bool ChangeValidator::is_free(const Change& change, const CheckedChange& judgement) const {
+bool ChangeValidator::is_contact_free(const Change& change, const CheckedChange& checked) const {
     for (std::size_t i = 0; i < change.added.size(); ++i)
-        if (judgement.alone[i] == 0 || is_whole_[mesh_.sheet_of[change.from[i]]] == 0) return false;
+        if (checked.isolated[i] == 0 || is_whole_[mesh_.sheet_of[change.from[i]]] == 0)
+            return false;
     return true;
 }
 
-void ChangeValidator::find_reach(const Change& change, CheckedChange& judgement) const {
-    Footprint& reach = judgement.reach;
-    reach.around = judgement.boxes.front();
-    for (const GridBox& b : judgement.boxes) reach.around.widen(b);
-    for (const std::uint32_t r : change.removed) reach.around.widen(box_of_[r]);
-    const auto& patches = judgement.patches;
+void ChangeValidator::find_footprint(const Change& change, CheckedChange& checked) const {
+    Footprint& footprint = checked.footprint;
+    footprint.around = checked.boxes.front();
+    for (const GridBox& b : checked.boxes) footprint.around.widen(b);
+    for (const std::uint32_t r : change.removed) footprint.around.widen(box_of_[r]);
+    const auto& patches = checked.patches;
     const bool is_one = std::all_of(patches.begin(), patches.end(),
                                     [&](std::uint32_t p) { return p == patches[0]; });
-    reach.patch = is_one ? patches[0] : no_group;
-    reach.borders.clear();
+    footprint.patch = is_one ? patches[0] : no_group;
+    footprint.borders.clear();
     if (change.on_border)
         for (const std::uint32_t r : change.removed) {
             const std::uint32_t p = patch_of_[r];
             const auto is_it = [p](const Footprint::Border& b) { return b.patch == p; };
-            if (p != no_group && std::none_of(reach.borders.begin(), reach.borders.end(), is_it))
-                reach.borders.push_back({p, axis_[p]});
+            if (p != no_group &&
+                std::none_of(footprint.borders.begin(), footprint.borders.end(), is_it))
+                footprint.borders.push_back({p, axis_[p]});
         }
-    reach.is_free = is_free(change, judgement);
+    footprint.is_contact_free = is_contact_free(change, checked);
 }
 
-Outcome ChangeValidator::verdict_on(const Change& change, CheckedChange& judgement,
-                                    ThreadScratch& bench) {
+Outcome ChangeValidator::check_with(const Change& change, CheckedChange& checked,
+                                    ThreadScratch& scratch) {
     const bool in_one = !change.on_border && in_one_patch(change.removed);
     if (!shapes_hold(change, in_one ? patch_of_[change.removed[0]] : no_group))
         return Outcome::shape;
-    if (!bounds_hold(change, judgement, bench)) return Outcome::deviation;
-    box_added(change, judgement);
-    if (!find_patches(change, judgement, bench)) return Outcome::contact;
-    find_reach(change, judgement);
-    if (!judgement.reach.is_free && !meets_properly(change, judgement, bench))
+    if (!bounds_hold(change, checked, scratch)) return Outcome::deviation;
+    box_added(change, checked);
+    if (!find_patches(change, checked, scratch)) return Outcome::contact;
+    find_footprint(change, checked);
+    if (!checked.footprint.is_contact_free && !meets_properly(change, checked, scratch))
         return Outcome::contact;
     return Outcome::allowed;
 }
 
-Outcome ChangeValidator::check(const Change& change, CheckedChange& judgement) {
-    ThreadScratch& bench = benches_.local();
-    const Outcome verdict = verdict_on(change, judgement, bench);
-    bench.refusals.shape += verdict == Outcome::shape;
-    bench.refusals.deviation += verdict == Outcome::deviation;
-    bench.refusals.contact += verdict == Outcome::contact;
-    return verdict;
+Outcome ChangeValidator::check(const Change& change, CheckedChange& checked) {
+    ThreadScratch& scratch = scratches_.local();
+    const Outcome outcome = check_with(change, checked, scratch);
+    scratch.refusals.shape += outcome == Outcome::shape;
+    scratch.refusals.deviation += outcome == Outcome::deviation;
+    scratch.refusals.contact += outcome == Outcome::contact;
+    return outcome;
 }
 
 Refusals ChangeValidator::refusals() const {
     Refusals sum;
-    for (const ThreadScratch& b : benches_) {
+    for (const ThreadScratch& b : scratches_) {
         sum.shape += b.refusals.shape;
         sum.deviation += b.refusals.deviation;
         sum.contact += b.refusals.contact;
@@ -379,36 +383,36 @@ Refusals ChangeValidator::refusals() const {
 }
 
 /// Before the mesh is changed.
-void ChangeValidator::leave_patches(const Change& change, const CheckedChange& judgement) {
+void ChangeValidator::leave_patches(const Change& change, const CheckedChange& checked) {
     if (!change.in_place)
         for (const std::uint32_t t : change.removed)
-            if (!is_quiet(t)) grid_.leave(t, box_of_[t]);
-    if (!change.on_border && judgement.patches[0] != no_group) return; // the border stays
+            if (!is_contact_free(t)) grid_.leave(t, box_of_[t]);
+    if (!change.on_border && checked.patches[0] != no_group) return; // the border stays
     std::vector<std::uint32_t> done;
     for (const std::uint32_t t : change.removed) {
         const std::uint32_t p = patch_of_[t];
         if (p == no_group || std::find(done.begin(), done.end(), p) != done.end()) continue;
         done.push_back(p);
-        const bool is_kept = std::find(judgement.patches.begin(), judgement.patches.end(), p) !=
-                             judgement.patches.end();
+        const bool is_kept =
+            std::find(checked.patches.begin(), checked.patches.end(), p) != checked.patches.end();
         borders_.update(change, patch_of_, p, is_kept);
     }
 }
 
-void ChangeValidator::carry_out(const Change& change, const CheckedChange& judgement) {
-    leave_patches(change, judgement);
-    mesh_.apply(change, judgement.hints, numbers_);
+void ChangeValidator::carry_out(const Change& change, const CheckedChange& checked) {
+    leave_patches(change, checked);
+    mesh_.apply(change, checked.hints, numbers_);
     if (mesh_.triangles.size() > patch_of_.size()) {
         patch_of_.resize(mesh_.triangles.size(), no_group);
         box_of_.resize(mesh_.triangles.size());
     }
     for (std::size_t i = 0; i < numbers_.size(); ++i) {
-        const std::uint32_t t = numbers_[i], patch = judgement.patches[i];
-        const GridBox& box = judgement.boxes[i];
+        const std::uint32_t t = numbers_[i], patch = checked.patches[i];
+        const GridBox& box = checked.boxes[i];
         ungrouped_ += patch == no_group && patch_of_[t] != no_group;
-        const bool was_there = change.in_place && !is_quiet(t);
-        mesh_.alone[t] = judgement.alone[i];
-        const bool is_there = !is_quiet(t);
+        const bool was_there = change.in_place && !is_contact_free(t);
+        mesh_.isolated[t] = checked.isolated[i];
+        const bool is_there = !is_contact_free(t);
         if (was_there && is_there && patch_of_[t] == patch) {
             grid_.move(t, box_of_[t], box, patch);
         } else {

@@ -55,7 +55,8 @@ struct Footprint {
     };
     GridBox around{};        ///< of what is added and what is removed
     std::uint32_t patch = 0; ///< of all that is added, or no_group
-    bool is_free = false; ///< nothing that is added can meet anything, by patch and what it follows
+    bool is_contact_free =
+        false; ///< nothing that is added can meet anything, by patch and what it follows
     std::vector<Border> borders; ///< where a curve is changed
 
     /// Whether what was allowed before the other change is so after it; they share no vertex.
@@ -63,18 +64,18 @@ struct Footprint {
         for (const Border& b : borders)
             for (const Border& c : other.borders)
                 if (b.patch == c.patch && around.overlaps_along(b.axis, other.around)) return false;
-        return is_free || other.is_free || !around.overlaps(other.around) ||
+        return is_contact_free || other.is_contact_free || !around.overlaps(other.around) ||
                (patch != no_group && patch == other.patch);
     }
 };
 
-/// What the guard has found out about a change.
+/// What the validator has found out about a change.
 struct CheckedChange {
     std::vector<std::uint32_t> hints;   ///< per added triangle
-    std::vector<char> alone;            ///< per added: all that it follows is
+    std::vector<char> isolated;         ///< per added: all that it follows is
     std::vector<std::uint32_t> patches; ///< per added, or no_group
     std::vector<GridBox> boxes;         ///< per added
-    Footprint reach{};
+    Footprint footprint{};
 };
 
 class ChangeValidator {
@@ -92,9 +93,9 @@ public:
 
     /// Whether the change is allowed to the mesh as it is. Several threads may ask at the same
     /// time.
-    Outcome check(const Change& change, CheckedChange& judgement);
+    Outcome check(const Change& change, CheckedChange& checked);
     /// Carries out what is allowed to the mesh as it is.
-    void carry_out(const Change& change, const CheckedChange& judgement);
+    void carry_out(const Change& change, const CheckedChange& checked);
 
     /// Of all changes judged.
     [[nodiscard]] Refusals refusals() const;
@@ -122,42 +123,43 @@ private:
 
     void find_whole_sheets();
     void fill_grid();
-    Outcome verdict_on(const Change& change, CheckedChange& judgement, ThreadScratch& bench);
+    Outcome check_with(const Change& change, CheckedChange& checked, ThreadScratch& scratch);
     [[nodiscard]] Corners corners_of(const Change& change, const Triangle& t) const;
     [[nodiscard]] bool shapes_hold(const Change& change, std::uint32_t patch) const;
-    bool bounds_hold(const Change& change, CheckedChange& judgement, ThreadScratch& bench) const;
-    void box_added(const Change& change, CheckedChange& judgement) const;
-    void find_reach(const Change& change, CheckedChange& judgement) const;
+    bool bounds_hold(const Change& change, CheckedChange& checked, ThreadScratch& scratch) const;
+    void box_added(const Change& change, CheckedChange& checked) const;
+    void find_footprint(const Change& change, CheckedChange& checked) const;
     [[nodiscard]] bool is_beside(const PlaneFilter& plane, const Triangle& t,
                                  const Triangle& other) const;
     [[nodiscard]] bool meet(const Change& change, const Triangle& t, const Triangle& other) const;
-    void sweep(const Change& change, ThreadScratch& bench) const;
-    [[nodiscard]] bool is_swept(const Triangle& t, ThreadScratch& bench) const;
-    bool meets_properly(const Change& change, const CheckedChange& judgement,
-                        ThreadScratch& bench) const;
-    [[nodiscard]] Sign turn_of(const Change& change, const Triangle& t, std::uint32_t patch) const;
-    [[nodiscard]] bool are_wound(const Change& change, std::uint32_t patch) const;
-    bool find_patches(const Change& change, CheckedChange& judgement, ThreadScratch& bench) const;
+    void sweep(const Change& change, ThreadScratch& scratch) const;
+    [[nodiscard]] bool is_swept(const Triangle& t, ThreadScratch& scratch) const;
+    bool meets_properly(const Change& change, const CheckedChange& checked,
+                        ThreadScratch& scratch) const;
+    [[nodiscard]] Sign orientation_of(const Change& change, const Triangle& t,
+                                      std::uint32_t patch) const;
+    [[nodiscard]] bool keeps_orientation(const Change& change, std::uint32_t patch) const;
+    bool find_patches(const Change& change, CheckedChange& checked, ThreadScratch& scratch) const;
     /// Nothing can meet it, by its patch and by what it follows: it is not in the grid.
-    [[nodiscard]] bool is_quiet(std::uint32_t t) const {
-        return mesh_.alone[t] != 0 && is_whole_[mesh_.sheet_of[t]] != 0;
+    [[nodiscard]] bool is_contact_free(std::uint32_t t) const {
+        return mesh_.isolated[t] != 0 && is_whole_[mesh_.sheet_of[t]] != 0;
     }
-    [[nodiscard]] bool is_free(const Change& change, const CheckedChange& judgement) const;
-    void leave_patches(const Change& change, const CheckedChange& judgement);
+    [[nodiscard]] bool is_contact_free(const Change& change, const CheckedChange& checked) const;
+    void leave_patches(const Change& change, const CheckedChange& checked);
 
     WorkMesh& mesh_;
     const ReferenceSurface& reference_;
 
     std::vector<std::uint32_t> patch_of_; ///< per triangle, or no_group
     std::vector<Axis> axis_;              ///< per patch
-    std::vector<Sign> turn_;              ///< per patch: of all its triangles there
+    std::vector<Sign> orientation_;       ///< per patch: of all its triangles there
     std::vector<char> is_whole_;  ///< per sheet: all its triangles are in one patch, and stay there
     std::vector<GridBox> box_of_; ///< per triangle
     Borders borders_;
     Grid grid_;
     std::size_t ungrouped_ = 0;
 
-    tbb::enumerable_thread_specific<ThreadScratch> benches_;
+    tbb::enumerable_thread_specific<ThreadScratch> scratches_;
     std::vector<std::uint32_t> numbers_; ///< of what it adds
 };
 

@@ -36,20 +36,20 @@ std::vector<CurveEdge> curve_edges(const WorkMesh& mesh, const std::vector<Curve
 }
 
 /// Where an end of an edge is on the curve.
-std::array<double, 2> places_of(const RemeshContext& shop, const CurveEdge& e) {
-    return {shop.mesh.place_at(shop.curves, e.curve, e.from, e.to),
-            shop.mesh.kinds[e.from] == VertexKind::corner &&
-                    shop.mesh.kinds[e.to] == VertexKind::corner
-                ? shop.curves[e.curve].at.back()
-                : shop.mesh.place_at(shop.curves, e.curve, e.to, e.from)};
+std::array<double, 2> places_of(const RemeshContext& context, const CurveEdge& e) {
+    return {context.mesh.place_at(context.curves, e.curve, e.from, e.to),
+            context.mesh.kinds[e.from] == VertexKind::corner &&
+                    context.mesh.kinds[e.to] == VertexKind::corner
+                ? context.curves[e.curve].at.back()
+                : context.mesh.place_at(context.curves, e.curve, e.to, e.from)};
 }
 
-bool propose_curve_split(RemeshContext& shop, const CurveEdge& e, Proposal& proposal) {
-    const WorkMesh& mesh = shop.mesh;
-    const auto [from, to] = places_of(shop, e);
+bool propose_curve_split(RemeshContext& context, const CurveEdge& e, Proposal& proposal) {
+    const WorkMesh& mesh = context.mesh;
+    const auto [from, to] = places_of(context, e);
     proposal.at = from + (to - from) / 2;
-    if (!chord_follows(shop, e.curve, from, proposal.at) ||
-        !chord_follows(shop, e.curve, proposal.at, to))
+    if (!chord_within_bound(context, e.curve, from, proposal.at) ||
+        !chord_within_bound(context, e.curve, proposal.at, to))
         return false;
     Change& change = proposal.change;
     change.clear();
@@ -58,14 +58,14 @@ bool propose_curve_split(RemeshContext& shop, const CurveEdge& e, Proposal& prop
     set_facing(mesh, change);
     const std::uint32_t m = mesh.next_vertex();
     change.placed = m;
-    change.place = point_on(shop, e.curve, proposal.at);
+    change.place = point_on(context, e.curve, proposal.at);
     change.kind = VertexKind::curve;
     change.size = mesh.wanted_length(e.from, e.to);
     for (const std::uint32_t t : change.removed) {
         change.add(with(mesh.triangles[t], e.to, m), t);
         change.add(with(mesh.triangles[t], e.from, m), t);
     }
-    return shop.guard.check(change, proposal.judgement) == Outcome::allowed;
+    return context.validator.check(change, proposal.checked) == Outcome::allowed;
 }
 
 void after_split(WorkMesh& mesh, const CurveEdge& e, const Proposal& proposal) {
@@ -89,12 +89,12 @@ double badness_of_added(const WorkMesh& mesh, const Change& change) {
     return sum;
 }
 
-bool propose_slide_to(RemeshContext& shop, std::uint32_t v, double at, Proposal& proposal) {
-    const WorkMesh& mesh = shop.mesh;
+bool propose_slide_to(RemeshContext& context, std::uint32_t v, double at, Proposal& proposal) {
+    const WorkMesh& mesh = context.mesh;
     const std::uint32_t curve = mesh.curve_of[v];
     const auto [before, after] = mesh.along[v];
-    if (!chord_follows(shop, curve, mesh.place_at(shop.curves, curve, before, v), at) ||
-        !chord_follows(shop, curve, at, mesh.place_at(shop.curves, curve, after, v)))
+    if (!chord_within_bound(context, curve, mesh.place_at(context.curves, curve, before, v), at) ||
+        !chord_within_bound(context, curve, at, mesh.place_at(context.curves, curve, after, v)))
         return false;
     proposal.at = at;
     Change& change = proposal.change;
@@ -102,35 +102,35 @@ bool propose_slide_to(RemeshContext& shop, std::uint32_t v, double at, Proposal&
     change.on_border = true;
     change.place = mesh.points[v];
     const double before_it = badness_of_added(mesh, change);
-    change.place = point_on(shop, curve, at);
+    change.place = point_on(context, curve, at);
     if (!(badness_of_added(mesh, change) < before_it * (1 - least_gain))) return false;
     set_facing(mesh, change);
-    return shop.guard.check(change, proposal.judgement) == Outcome::allowed;
+    return context.validator.check(change, proposal.checked) == Outcome::allowed;
 }
 
 /// Halfway between its neighbours, or half of the way there.
-bool propose_slide(RemeshContext& shop, std::uint32_t v, Proposal& proposal) {
-    const WorkMesh& mesh = shop.mesh;
+bool propose_slide(RemeshContext& context, std::uint32_t v, Proposal& proposal) {
+    const WorkMesh& mesh = context.mesh;
     if (mesh.kinds[v] != VertexKind::curve) return false;
     const std::uint32_t curve = mesh.curve_of[v];
-    const double from = mesh.place_at(shop.curves, curve, mesh.along[v][0], v);
-    const double to = mesh.place_at(shop.curves, curve, mesh.along[v][1], v);
+    const double from = mesh.place_at(context.curves, curve, mesh.along[v][0], v);
+    const double to = mesh.place_at(context.curves, curve, mesh.along[v][1], v);
     const double middle = from + (to - from) / 2, here = mesh.place_on[v];
     if (std::fabs(middle - here) < 0.05 * (to - from)) return false;
-    return propose_slide_to(shop, v, middle, proposal) ||
-           propose_slide_to(shop, v, here + (middle - here) / 2, proposal);
+    return propose_slide_to(context, v, middle, proposal) ||
+           propose_slide_to(context, v, here + (middle - here) / 2, proposal);
 }
 
 /// Into the nearer neighbour on the curve, where that is short.
-bool propose_curve_collapse(RemeshContext& shop, std::uint32_t v, Proposal& proposal) {
-    const WorkMesh& mesh = shop.mesh;
+bool propose_curve_collapse(RemeshContext& context, std::uint32_t v, Proposal& proposal) {
+    const WorkMesh& mesh = context.mesh;
     if (mesh.kinds[v] != VertexKind::curve) return false;
     const auto [before, after] = mesh.along[v];
     const double back = mesh.edge_length(v, before), on = mesh.edge_length(v, after);
     const std::uint32_t kept = back < on ? before : after;
     const double wanted = mesh.wanted_length(v, kept);
     return std::min(back, on) < short_share * wanted && back + on < long_share * wanted &&
-           propose_collapse(shop, {v, kept}, 2 * wanted, least_shape, proposal);
+           propose_collapse(context, {v, kept}, 2 * wanted, least_shape, proposal);
 }
 
 std::vector<std::uint32_t> curve_vertices(const WorkMesh& mesh) {
@@ -142,73 +142,74 @@ std::vector<std::uint32_t> curve_vertices(const WorkMesh& mesh) {
 
 } // namespace
 
-Point3 point_on(const RemeshContext& shop, std::uint32_t curve, double at) {
-    const Curve& c = shop.curves[curve];
+Point3 point_on(const RemeshContext& context, std::uint32_t curve, double at) {
+    const Curve& c = context.curves[curve];
     const auto after = std::upper_bound(c.at.begin() + 1, c.at.end() - 1, at);
     const auto i = static_cast<std::size_t>(after - c.at.begin());
-    const Point3 &a = shop.points[c.vertices[i - 1]], &b = shop.points[c.vertices[i]];
+    const Point3 &a = context.points[c.vertices[i - 1]], &b = context.points[c.vertices[i]];
     const double piece = c.at[i] - c.at[i - 1];
     const double share = piece > 0 ? std::clamp((at - c.at[i - 1]) / piece, 0.0, 1.0) : 0;
     return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y), a.z + share * (b.z - a.z)};
 }
 
-bool chord_follows(const RemeshContext& shop, std::uint32_t curve, double from, double to) {
-    const Curve& c = shop.curves[curve];
-    const Point3 a = point_on(shop, curve, from), b = point_on(shop, curve, to);
+bool chord_within_bound(const RemeshContext& context, std::uint32_t curve, double from, double to) {
+    const Curve& c = context.curves[curve];
+    const Point3 a = point_on(context, curve, from), b = point_on(context, curve, to);
     const Point3 d = minus(b, a);
     const double square = dot(d, d);
     auto i =
         static_cast<std::size_t>(std::upper_bound(c.at.begin(), c.at.end(), from) - c.at.begin());
     for (; i < c.at.size() && c.at[i] < to; ++i) {
-        const Point3 w = minus(shop.points[c.vertices[i]], a);
+        const Point3 w = minus(context.points[c.vertices[i]], a);
         const double share = square > 0 ? std::clamp(dot(w, d) / square, 0.0, 1.0) : 0;
         const Point3 off{w.x - share * d.x, w.y - share * d.y, w.z - share * d.z};
-        if (!(std::sqrt(dot(off, off)) + shop.reference.rounding() <= shop.curve_bound[curve]))
+        if (!(std::sqrt(dot(off, off)) + context.reference.rounding() <=
+              context.curve_bound[curve]))
             return false;
     }
     return true;
 }
 
-std::size_t split_curves(RemeshContext& shop) {
+std::size_t split_curves(RemeshContext& context) {
     std::size_t count = 0;
-    for (unsigned round = 0; round < 32 && !shop.run.stop.stop_requested(); ++round) {
-        std::vector<CurveEdge> edges = curve_edges(shop.mesh, shop.curves);
+    for (unsigned round = 0; round < 32 && !context.run.stop.stop_requested(); ++round) {
+        std::vector<CurveEdge> edges = curve_edges(context.mesh, context.curves);
         std::erase_if(edges, [&](const CurveEdge& e) {
-            const auto [from, to] = places_of(shop, e);
-            return !(to - from > long_share * shop.mesh.wanted_length(e.from, e.to));
+            const auto [from, to] = places_of(context, e);
+            return !(to - from > long_share * context.mesh.wanted_length(e.from, e.to));
         });
         const std::size_t more = in_windows(
-            shop, edges,
-            [&](const CurveEdge& e, Proposal& p) { return propose_curve_split(shop, e, p); },
+            context, edges,
+            [&](const CurveEdge& e, Proposal& p) { return propose_curve_split(context, e, p); },
             [&](const CurveEdge& e, const Proposal& p, bool is_made) {
-                if (is_made) after_split(shop.mesh, e, p);
+                if (is_made) after_split(context.mesh, e, p);
             });
         if (more == 0) break;
-        shop.splits += more;
+        context.splits += more;
         count += more;
     }
     return count;
 }
 
-std::size_t collapse_curves(RemeshContext& shop) {
+std::size_t collapse_curves(RemeshContext& context) {
     const std::size_t count = in_windows(
-        shop, curve_vertices(shop.mesh),
-        [&](std::uint32_t v, Proposal& p) { return propose_curve_collapse(shop, v, p); },
+        context, curve_vertices(context.mesh),
+        [&](std::uint32_t v, Proposal& p) { return propose_curve_collapse(context, v, p); },
         [&](std::uint32_t, const Proposal& p, bool is_made) {
-            if (is_made) after_collapse(shop.mesh, p);
+            if (is_made) after_collapse(context.mesh, p);
         });
-    shop.collapses += count;
+    context.collapses += count;
     return count;
 }
 
-std::size_t slide_curves(RemeshContext& shop) {
+std::size_t slide_curves(RemeshContext& context) {
     const std::size_t count = in_windows(
-        shop, curve_vertices(shop.mesh),
-        [&](std::uint32_t v, Proposal& p) { return propose_slide(shop, v, p); },
+        context, curve_vertices(context.mesh),
+        [&](std::uint32_t v, Proposal& p) { return propose_slide(context, v, p); },
         [&](std::uint32_t v, const Proposal& p, bool is_made) {
-            if (is_made) shop.mesh.place_on[v] = p.at;
+            if (is_made) context.mesh.place_on[v] = p.at;
         });
-    shop.moves += count;
+    context.moves += count;
     return count;
 }
 

@@ -34,7 +34,7 @@ public:
         out_.across.assign(mesh_.triangles.size(), {none, none, none});
         find_curve_edges();
         find_sheets();
-        wind_alike();
+        orient_consistently();
         find_corners();
         trace_curves();
         return std::move(out_);
@@ -102,7 +102,7 @@ private:
 
     /// From the first triangle of each sheet over all others; an edge over which that fails becomes
     /// a curve edge.
-    void wind_alike() {
+    void orient_consistently() {
         std::vector<bool> seen(mesh_.triangles.size(), false);
         std::vector<std::uint32_t> front;
         bool cut = false;

@@ -35,9 +35,9 @@ constexpr double least_shape = 0.3;     ///< that collapses may leave where ther
 /// A change on its way, and where what leads to it is noted.
 struct Proposal {
     Change change{};
-    CheckedChange judgement{};
+    CheckedChange checked{};
     bool is_allowed = false;    ///< as the mesh was then
-    bool is_looked_at = false;  ///< smoothing: there was reason to
+    bool is_tried = false;      ///< smoothing: there was reason to
     std::uint32_t gone = none;  ///< a collapse: the vertex
     std::uint32_t kept = none;  ///< a collapse: that into which it goes
     std::uint32_t other = none; ///< a collapse on a curve: the neighbour on the other side
@@ -48,7 +48,7 @@ struct Proposal {
 /// What all operations work on; what is named must outlive them.
 struct RemeshContext {
     WorkMesh& mesh;
-    ChangeValidator& guard;
+    ChangeValidator& validator;
     const ReferenceSurface& reference;
     std::span<const Point3> points;   ///< of the input
     const std::vector<Curve>& curves; ///< of the input
@@ -56,18 +56,18 @@ struct RemeshContext {
     const Run& run;
     std::size_t splits = 0, collapses = 0, swaps = 0, moves = 0; ///< made so far
     // When sweeps were made last: what has not changed since need not be looked at.
-    std::uint32_t evened_at = 0, swapped_at = 0, collapsed_at = 0;
+    std::uint32_t equalized_at = 0, swapped_at = 0, collapsed_at = 0;
     std::vector<std::uint32_t> smoothed_at{}; ///< per vertex: when it was tried in vain
-    std::vector<std::uint32_t> lifted_at{};   ///< the same
+    std::vector<std::uint32_t> improved_at{}; ///< the same
     std::vector<Proposal> window{};           ///< those at hand
     std::vector<std::uint32_t> touched_at{};  ///< per vertex: when a change had it last
 };
 
 /// Whether the straight edge between two places of a curve is within its bound of all between them,
 /// and the reverse: nearest points run through the whole edge, as they change continuously.
-bool chord_follows(const RemeshContext& shop, std::uint32_t curve, double from, double to);
+bool chord_within_bound(const RemeshContext& context, std::uint32_t curve, double from, double to);
 /// The point at this length along a curve.
-Point3 point_on(const RemeshContext& shop, std::uint32_t curve, double at);
+Point3 point_on(const RemeshContext& context, std::uint32_t curve, double at);
 
 /// The change that moves a vertex, but for where to.
 void collect_star(const WorkMesh& mesh, std::uint32_t v, Change& change);
@@ -80,29 +80,29 @@ inline double shape_of(const WorkMesh& mesh, const Triangle& t) {
 }
 
 // Each returns how many changes were made.
-std::size_t split_curves(RemeshContext& shop);
-std::size_t collapse_curves(RemeshContext& shop);
-std::size_t slide_curves(RemeshContext& shop);
-std::size_t split_edges(RemeshContext& shop);
-std::size_t collapse_edges(RemeshContext& shop);
+std::size_t split_curves(RemeshContext& context);
+std::size_t collapse_curves(RemeshContext& context);
+std::size_t slide_curves(RemeshContext& context);
+std::size_t split_edges(RemeshContext& context);
+std::size_t collapse_edges(RemeshContext& context);
 /// Collapses at triangles worse than `below`, where the worst gets better.
-std::size_t collapse_bad(RemeshContext& shop, double below);
-std::size_t swap_edges(RemeshContext& shop);
+std::size_t collapse_bad(RemeshContext& context, double below);
+std::size_t swap_edges(RemeshContext& context);
 /// Swaps that bring numbers of edges at vertices nearer to six, unless an angle becomes large: what
 /// smoothing then makes better than what was.
-std::size_t equalize_valences(RemeshContext& shop);
-std::size_t smooth(RemeshContext& shop);
+std::size_t equalize_valences(RemeshContext& context);
+std::size_t smooth(RemeshContext& context);
 /// Moves inner vertices a little, by their number, where all triangles are like halves of squares
 /// or worse: a regular grid of those is a balance that smoothing alone does not leave, though not
 /// the best one.
-std::size_t jitter(RemeshContext& shop);
+std::size_t jitter(RemeshContext& context);
 /// Moves inner vertices of triangles worse than `below` so that the worst of them gets better.
-std::size_t improve_worst(RemeshContext& shop, double below);
+std::size_t improve_worst(RemeshContext& context, double below);
 
 // Shared by the passes.
 /// Whether moving one vertex into the other is allowed, and makes no edge longer than that and no
 /// triangle worse than `least`, or than what was there.
-bool propose_collapse(RemeshContext& shop, const Edge& gone_kept, double longest, double least,
+bool propose_collapse(RemeshContext& context, const Edge& gone_kept, double longest, double least,
                       Proposal& proposal);
 /// What is left to be done when that was carried out.
 void after_collapse(WorkMesh& mesh, const Proposal& proposal);

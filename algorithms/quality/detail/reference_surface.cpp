@@ -67,7 +67,7 @@ ReferenceSurface::ReferenceSurface(std::span<const Point3> points, const Feature
         facet.lean = 4 * facet.error + 64 * unit * length(facet.normal);
         facet.across = features.across[t];
         for (const Axis axis : {Axis::x, Axis::y, Axis::z})
-            facet.turns[static_cast<std::size_t>(axis)] =
+            facet.orientations[static_cast<std::size_t>(axis)] =
                 static_cast<std::int8_t>(orient2d(axis, a, b, c));
         for (const std::uint32_t v : features.triangles[t])
             largest = std::max(
@@ -90,9 +90,9 @@ bool ReferenceSurface::is_beyond_plane(std::uint32_t t, std::uint32_t of, double
     return sum == 3 || sum == -3;
 }
 
-void ReferenceSurface::find_alone(const Run& run) {
+void ReferenceSurface::find_isolated(const Run& run) {
     const auto count = static_cast<std::uint32_t>(features_.triangles.size());
-    for (Facet& f : facets_) f.alone = true;
+    for (Facet& f : facets_) f.isolated = true;
     std::vector<Box> boxes;
     std::vector<std::uint32_t> all(count);
     std::iota(all.begin(), all.end(), 0U);
@@ -106,11 +106,11 @@ void ReferenceSurface::find_alone(const Run& run) {
         boxes.push_back(box);
     }
     const auto mark = [&](const CandidatePair& p) {
-        if (!facets_[p.first].alone && !facets_[p.second].alone) return false;
+        if (!facets_[p.first].isolated && !facets_[p.second].isolated) return false;
         const double gap = bound_of_[features_.sheet_of[p.first]] +
                            bound_of_[features_.sheet_of[p.second]] + 4 * slack_;
         if (!is_beyond_plane(p.first, p.second, gap) && !is_beyond_plane(p.second, p.first, gap))
-            facets_[p.first].alone = facets_[p.second].alone = false;
+            facets_[p.first].isolated = facets_[p.second].isolated = false;
         return false; // none need be kept
     };
     Run one = run; // marks are not shared between threads
@@ -125,9 +125,9 @@ ReferenceSurface::Frame ReferenceSurface::frame_of(Axis axis) {
     return {x, y, z, axis};
 }
 
-int ReferenceSurface::turn_of(std::uint32_t t, const Frame& frame) const {
+int ReferenceSurface::orientation_of(std::uint32_t t, const Frame& frame) const {
     const Facet& facet = facets_[t];
-    if (frame.axis) return facet.turns[static_cast<std::size_t>(*frame.axis)];
+    if (frame.axis) return facet.orientations[static_cast<std::size_t>(*frame.axis)];
     const double along = dot(facet.normal, frame.w);
     return along > facet.lean ? 1 : along < -facet.lean ? -1 : 0;
 }
@@ -146,14 +146,14 @@ void ReferenceSurface::set_measures(Target& target) {
     Target::Measures& m = target.measures;
     for (std::size_t j = 0; j < 3; ++j) {
         const Flat &p = target.corners[j], &q = target.corners[(j + 1) % 3];
-        const double u = (q.u - p.u) * target.turn, v = (q.v - p.v) * target.turn;
+        const double u = (q.u - p.u) * target.orientation, v = (q.v - p.v) * target.orientation;
         m.x[j] = u * frame.v.x - v * frame.u.x;
         m.y[j] = u * frame.v.y - v * frame.u.y;
         m.z[j] = u * frame.v.z - v * frame.u.z;
         m.off[j] = u * p.v - v * p.u;
         target.spread =
             std::max(target.spread, std::fabs(m.x[j]) + std::fabs(m.y[j]) + std::fabs(m.z[j]));
-        target.reach = std::max(target.reach, std::fabs(p.u) + std::fabs(p.v));
+        target.radius = std::max(target.radius, std::fabs(p.u) + std::fabs(p.v));
     }
     m.x[3] = frame.w.x - target.slope_u * frame.u.x - target.slope_v * frame.v.x;
     m.y[3] = frame.w.y - target.slope_u * frame.u.y - target.slope_v * frame.v.y;
@@ -174,30 +174,31 @@ std::optional<ReferenceSurface::Target> ReferenceSurface::target_of(const Corner
     target.frame = along_axis ? frame_of(axis) : frame_along(n, ab);
     target.origin = a;
     const Flat normal = target.frame.flat(n);
-    target.turn = normal.w > 0 ? 1 : -1;
+    target.orientation = normal.w > 0 ? 1 : -1;
     target.slope_u = along_axis ? -normal.u / normal.w : 0;
     target.slope_v = along_axis ? -normal.v / normal.w : 0;
     const std::array<Flat, 3> whole{Flat{}, target.frame.flat(ab), target.frame.flat(ac)};
     target.middle = {(whole[1].u + whole[2].u) / 3, (whole[1].v + whole[2].v) / 3,
                      (whole[1].w + whole[2].w) / 3};
-    const double reach = 2 * longest / 3; // no corner is farther from the middle
-    const double share = std::min(0.25, bound / 4 / reach);
+    const double radius = 2 * longest / 3; // no corner is farther from the middle
+    const double share = std::min(0.25, bound / 4 / radius);
     for (std::size_t i = 0; i < 3; ++i)
         target.corners[i] = {whole[i].u + share * (target.middle.u - whole[i].u),
                              whole[i].v + share * (target.middle.v - whole[i].v),
                              whole[i].w + share * (target.middle.w - whole[i].w)};
     set_measures(target);
     target.error = 64 * unit * longest * longest / along;
-    target.bound = bound - share * reach;
+    target.bound = bound - share * radius;
     return target;
 }
 
 /// From triangle to triangle, always over an edge that has the goal beyond it.
 ReferenceSurface::Walk ReferenceSurface::walk(const Frame& frame, const Point3& origin,
-                                              const Flat& to, int turn, std::uint32_t from) const {
+                                              const Flat& to, int orientation,
+                                              std::uint32_t from) const {
     std::uint32_t t = from, before = none;
     for (unsigned step = 0; step < most_steps; ++step) {
-        if (turn_of(t, frame) != turn) return {t, false};
+        if (orientation_of(t, frame) != orientation) return {t, false};
         const Facet& facet = facets_[t];
         std::array<Flat, 3> p;
         for (std::size_t i = 0; i < 3; ++i) p[i] = frame.flat(minus(facet.corners[i], origin));
@@ -206,7 +207,7 @@ ReferenceSurface::Walk ReferenceSurface::walk(const Frame& frame, const Point3& 
         for (std::size_t i = 0; i < 3; ++i) {
             const Flat &a = p[i], &b = p[(i + 1) % 3];
             const double side = (b.u - a.u) * (to.v - a.v) - (b.v - a.v) * (to.u - a.u);
-            if (!(side * turn < 0)) continue;
+            if (!(side * orientation < 0)) continue;
             const std::uint32_t beyond = facet.across[i];
             if (beyond == none || beyond == before)
                 blocked = true;
@@ -259,7 +260,7 @@ bool ReferenceSurface::is_near(const Target& target, const Corners& facet,
 /// Looks at one triangle under the target.
 ReferenceSurface::Cover ReferenceSurface::visit(const Target& target, std::uint32_t t,
                                                 Search& search) const {
-    if (turn_of(t, target.frame) != target.turn) return Cover::open;
+    if (orientation_of(t, target.frame) != target.orientation) return Cover::open;
     const Facet& facet = facets_[t];
     const Target::Measures& m = target.measures;
     std::array<std::array<double, 4>, 3> measured{}; // per corner: how far inside, and the height
@@ -276,7 +277,7 @@ ReferenceSurface::Cover ReferenceSurface::visit(const Target& target, std::uint3
         size = std::max(size, away);
     }
     // Now how far inside at least.
-    const double error = 64 * unit * target.spread * (size + target.reach);
+    const double error = 64 * unit * target.spread * (size + target.radius);
     std::array<unsigned, 3> beyond_edges{}; // per corner: a bit for each edge that it is outside of
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < 3; ++j) {
@@ -324,7 +325,7 @@ ReferenceSurface::Cover ReferenceSurface::covered(const Target& target, std::uin
         if (count == most_covered) return Cover::open;
         const std::uint32_t t = search.front_.back();
         search.front_.pop_back();
-        search.all_alone_ = search.all_alone_ && facets_[t].alone;
+        search.all_isolated_ = search.all_isolated_ && facets_[t].isolated;
         const Cover cover = visit(target, t, search);
         if (cover != Cover::near) return cover;
     }
@@ -338,27 +339,27 @@ bool ReferenceSurface::near_one(const Corners& triangle, std::uint32_t t, double
     });
 }
 
-bool ReferenceSurface::part_follows(const Corners& triangle, Followed& followed, double bound,
-                                    unsigned& budget, Search& search) const {
+bool ReferenceSurface::contains_part(const Corners& triangle, Containment& containment,
+                                     double bound, unsigned& budget, Search& search) const {
     if (budget == 0) return false;
     --budget;
     for (const bool along_axis : {false, true}) {
         const auto target = target_of(triangle, bound, along_axis);
         if (!target) break;
-        const Walk way =
-            walk(target->frame, target->origin, target->middle, target->turn, followed.hint);
-        followed.hint = way.end;
+        const Walk way = walk(target->frame, target->origin, target->middle, target->orientation,
+                              containment.hint);
+        containment.hint = way.end;
         if (!way.arrived) continue;
-        search.all_alone_ = true;
+        search.all_isolated_ = true;
         const Cover cover = covered(*target, way.end, search);
         if (cover == Cover::near) {
-            followed.alone = followed.alone && search.all_alone_;
+            containment.isolated = containment.isolated && search.all_isolated_;
             return true;
         }
         if (cover == Cover::far) return false;
     }
-    if (near_one(triangle, followed.hint, bound)) {
-        followed.alone = followed.alone && facets_[followed.hint].alone;
+    if (near_one(triangle, containment.hint, bound)) {
+        containment.isolated = containment.isolated && facets_[containment.hint].isolated;
         return true;
     }
     const std::array<double, 3> lengths{length(minus(triangle[1], triangle[0])),
@@ -369,24 +370,23 @@ bool ReferenceSurface::part_follows(const Corners& triangle, Followed& followed,
     if (lengths[i] < bound / 4) return false;
     const Point3 &a = triangle[i], &b = triangle[(i + 1) % 3], &c = triangle[(i + 2) % 3];
     const Point3 middle = towards(a, b, 0.5);
-    const std::uint32_t hint = followed.hint;
-    if (!part_follows({a, middle, c}, followed, bound, budget, search)) return false;
-    Followed other{hint, followed.alone};
-    const bool contains_within_tolerance =
-        part_follows({middle, b, c}, other, bound, budget, search);
-    followed.alone = other.alone;
-    return contains_within_tolerance;
+    const std::uint32_t hint = containment.hint;
+    if (!contains_part({a, middle, c}, containment, bound, budget, search)) return false;
+    Containment other{hint, containment.isolated};
+    const bool is_contained = contains_part({middle, b, c}, other, bound, budget, search);
+    containment.isolated = other.isolated;
+    return is_contained;
 }
 
-std::optional<ReferenceSurface::Followed>
+std::optional<ReferenceSurface::Containment>
 ReferenceSurface::contains_within_tolerance(const Corners& triangle, std::uint32_t hint,
                                             Search& search) const {
     search.seen_.resize(facets_.size(), 0);
     unsigned budget = most_parts;
-    Followed followed{hint, true};
+    Containment containment{hint, true};
     const double bound = bound_of_[features_.sheet_of[hint]] - slack_;
-    if (!part_follows(triangle, followed, bound, budget, search)) return std::nullopt;
-    return followed;
+    if (!contains_part(triangle, containment, bound, budget, search)) return std::nullopt;
+    return containment;
 }
 
 std::optional<ReferenceSurface::Place>
@@ -394,9 +394,9 @@ ReferenceSurface::above(const Point3& p, const Point3& normal, std::uint32_t hin
     const double x = std::fabs(normal.x), y = std::fabs(normal.y), z = std::fabs(normal.z);
     const Axis axis = z >= x && z >= y ? Axis::z : x >= y ? Axis::x : Axis::y;
     const Frame frame = frame_of(axis);
-    const int turn = turn_of(hint, frame);
-    if (turn == 0) return std::nullopt;
-    const Walk way = walk(frame, p, {}, turn, hint);
+    const int orientation = orientation_of(hint, frame);
+    if (orientation == 0) return std::nullopt;
+    const Walk way = walk(frame, p, {}, orientation, hint);
     if (!way.arrived) return std::nullopt;
     const Corners& corners = facets_[way.end].corners;
     const std::array<Flat, 3> c{frame.flat(minus(corners[0], p)), frame.flat(minus(corners[1], p)),
@@ -405,7 +405,7 @@ ReferenceSurface::above(const Point3& p, const Point3& normal, std::uint32_t hin
     double sum = 0;
     for (std::size_t e = 0; e < 3; ++e) {
         const Flat &a = c[(e + 1) % 3], &b = c[(e + 2) % 3];
-        shares[e] = std::max(0.0, (a.u * b.v - a.v * b.u) * turn);
+        shares[e] = std::max(0.0, (a.u * b.v - a.v * b.u) * orientation);
         sum += shares[e];
     }
     if (!(sum > 0)) return std::nullopt;

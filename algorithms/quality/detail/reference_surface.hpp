@@ -48,18 +48,18 @@ public:
                      std::span<const double> bound_of);
 
     /// Finds the triangles that are alone; until then none is.
-    void find_alone(const Run& run);
+    void find_isolated(const Run& run);
 
-    [[nodiscard]] bool is_isolated(std::uint32_t t) const { return facets_[t].alone; }
+    [[nodiscard]] bool is_isolated(std::uint32_t t) const { return facets_[t].isolated; }
 
     /// The least bound that is told apart from rounding errors.
     [[nodiscard]] double least_bound() const { return 1e3 * slack_; }
     /// More than rounding puts into a distance.
     [[nodiscard]] double rounding() const { return slack_; }
 
-    struct Followed {
+    struct Containment {
         std::uint32_t hint = 0; ///< a triangle of the sheet near the middle
-        bool alone = true;      ///< all that is followed is alone
+        bool isolated = true;   ///< every triangle used is isolated
     };
     /// What a thread that asks has to itself; its contents mean nothing to it.
     class Search {
@@ -67,10 +67,10 @@ public:
         std::vector<std::uint32_t> seen_; ///< per triangle: the last search that saw it
         std::uint32_t number_ = 0;        ///< of the search at hand
         std::vector<std::uint32_t> front_;
-        bool all_alone_ = true; ///< of the triangles that it has visited
+        bool all_isolated_ = true; ///< of the triangles that it has visited
     };
     /// Whether the triangle is shown to be within the bound of the sheet of the triangle `hint`.
-    [[nodiscard]] std::optional<Followed>
+    [[nodiscard]] std::optional<Containment>
     contains_within_tolerance(const Corners& triangle, std::uint32_t hint, Search& search) const;
 
     struct Place {
@@ -103,7 +103,7 @@ private:
     /// A triangle drawn in, in one projection.
     struct Target {
         Frame frame;
-        int turn = 1;                ///< +1: counterclockwise in the projection
+        int orientation = 1;         ///< +1: counterclockwise in the projection
         Point3 origin;               ///< of the flat coordinates
         std::array<Flat, 3> corners; ///< drawn in
         Flat middle;
@@ -117,7 +117,7 @@ private:
         };
         Measures measures{};
         double spread = 0; ///< sum of the sizes in a measure, the largest: errors are a share of it
-        double reach = 0;  ///< of the corner farthest from the origin
+        double radius = 0; ///< of the corner farthest from the origin
         double bound = 0;  ///< of heights
     };
     struct Walk {
@@ -133,16 +133,16 @@ private:
     [[nodiscard]] static std::optional<Target> target_of(const Corners& triangle, double bound,
                                                          bool along_axis);
     /// How the triangle is wound in the projection; 0 where that is not sure.
-    [[nodiscard]] int turn_of(std::uint32_t t, const Frame& frame) const;
-    [[nodiscard]] Walk walk(const Frame& frame, const Point3& origin, const Flat& to, int turn,
-                            std::uint32_t from) const;
+    [[nodiscard]] int orientation_of(std::uint32_t t, const Frame& frame) const;
+    [[nodiscard]] Walk walk(const Frame& frame, const Point3& origin, const Flat& to,
+                            int orientation, std::uint32_t from) const;
     Cover covered(const Target& target, std::uint32_t start, Search& search) const;
     Cover visit(const Target& target, std::uint32_t t, Search& search) const;
     [[nodiscard]] static bool is_near(const Target& target, const Corners& facet,
                                       const std::array<double, 3>& heights);
     [[nodiscard]] bool near_one(const Corners& triangle, std::uint32_t t, double bound) const;
-    bool part_follows(const Corners& triangle, Followed& followed, double bound, unsigned& budget,
-                      Search& search) const;
+    bool contains_part(const Corners& triangle, Containment& containment, double bound,
+                       unsigned& budget, Search& search) const;
     [[nodiscard]] bool is_beyond_plane(std::uint32_t t, std::uint32_t of, double gap) const;
 
     std::span<const Point3> points_;
@@ -154,9 +154,9 @@ private:
         Point3 normal;
         double error = 0; ///< of each coordinate of the normal, at most
         double lean = 0;  ///< its height in a frame tells how it is wound only beyond that
-        std::array<std::uint32_t, 3> across{}; ///< as in the features
-        std::array<std::int8_t, 3> turns{};    ///< per axis, exactly
-        bool alone = false;
+        std::array<std::uint32_t, 3> across{};     ///< as in the features
+        std::array<std::int8_t, 3> orientations{}; ///< per axis, exactly
+        bool isolated = false;
     };
     std::vector<Facet> facets_; ///< per triangle
     double slack_ = 0;          ///< more than the errors of distances from rounded coordinates

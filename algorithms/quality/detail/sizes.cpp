@@ -48,7 +48,8 @@ std::vector<double> lengths_of_surfaces(const Mesh& mesh, const ImproveOptions& 
 }
 
 /// Shorter where the normals of neighbours turn much on the way from middle to middle.
-void bend(const Mesh& mesh, const Features& features, double turn, std::vector<double>& sizes) {
+void limit_by_curvature(const Mesh& mesh, const Features& features, double turn,
+                        std::vector<double>& sizes) {
     const std::vector<double> before = sizes;
     for (std::uint32_t t = 0; t < features.triangles.size(); ++t)
         for (std::size_t i = 0; i < 3; ++i) {
@@ -118,7 +119,7 @@ Sizes find_sizes(const Mesh& mesh, const Features& features, const ImproveOption
             if (features.kinds[v] == VertexKind::curve || features.kinds[v] == VertexKind::corner)
                 out.of_vertices[v] = std::min(out.of_vertices[v], options.curve_length);
     if (options.turn > 0)
-        bend(mesh, features, options.turn * std::acos(-1.0) / 180, out.of_vertices);
+        limit_by_curvature(mesh, features, options.turn * std::acos(-1.0) / 180, out.of_vertices);
     limit_growth(mesh, features, options.growth, out.of_vertices);
     return out;
 }

@@ -13,7 +13,7 @@ namespace terrane::improving {
 namespace {
 
 constexpr double least_gain = 1e-2;   ///< share of the sum of 1 / q that a move must take away
-constexpr double shake_share = 0.2;   ///< of the wanted length
+constexpr double jitter_share = 0.2;  ///< of the wanted length
 constexpr double square_shape = 0.86; ///< q of half a square is 0.83
 
 /// Where trapezium drawing puts the vertex.
@@ -85,46 +85,47 @@ bool is_below(const WorkMesh& mesh, std::uint32_t v, const Point3& p, const Badn
 
 /// Whether it may move, after collect_star, to the place on the surface above or below `to`, and comes
 /// below the limits there.
-bool propose_move(const RemeshContext& shop, const Point3& to, const Badness& limits,
+bool propose_move(const RemeshContext& context, const Point3& to, const Badness& limits,
                   Proposal& proposal) {
-    const WorkMesh& mesh = shop.mesh;
+    const WorkMesh& mesh = context.mesh;
     Change& change = proposal.change;
     const std::uint32_t v = change.placed;
     if (!is_below(mesh, v, to, limits)) return false; // mostly
     if (change.facing.empty()) set_facing(mesh, change);
     const auto place =
-        shop.reference.above(to, change.facing[0].second, mesh.hint_of[change.removed[0]]);
+        context.reference.above(to, change.facing[0].second, mesh.hint_of[change.removed[0]]);
     if (!place || !is_below(mesh, v, place->point, limits)) return false;
     change.place = place->point;
-    return shop.guard.check(change, proposal.judgement) == Outcome::allowed;
+    return context.validator.check(change, proposal.checked) == Outcome::allowed;
 }
 
 Point3 between(const Point3& a, const Point3& b, double share) {
     return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y), a.z + share * (b.z - a.z)};
 }
 
-bool propose_smoothing(const RemeshContext& shop, std::uint32_t v, Proposal& proposal) {
-    const WorkMesh& mesh = shop.mesh;
-    proposal.is_looked_at = mesh.changed_since(v, shop.smoothed_at[v]);
-    if (!proposal.is_looked_at) return false;
+bool propose_smoothing(const RemeshContext& context, std::uint32_t v, Proposal& proposal) {
+    const WorkMesh& mesh = context.mesh;
+    proposal.is_tried = mesh.changed_since(v, context.smoothed_at[v]);
+    if (!proposal.is_tried) return false;
     collect_star(mesh, v, proposal.change);
     const Point3 &from = mesh.points[v], to = drawn(mesh, v);
     const Badness better{badness_at(mesh, v, from).sum * (1 - least_gain), endless};
     // A triangle slides the vertex along its base only, which is half of a way on the mean.
-    return propose_move(shop, between(from, to, 2.0), better, proposal) ||
-           propose_move(shop, between(from, to, 1.0), better, proposal) ||
-           propose_move(shop, between(from, centre(mesh, v), 0.5), better, proposal);
+    return propose_move(context, between(from, to, 2.0), better, proposal) ||
+           propose_move(context, between(from, to, 1.0), better, proposal) ||
+           propose_move(context, between(from, centre(mesh, v), 0.5), better, proposal);
 }
 
 /// From where it is in eight directions in the plane across the normal, by steps that are halved:
 /// the last place on the way that was better than those before.
-bool propose_lift(const RemeshContext& shop, std::uint32_t v, double below, Proposal& proposal) {
-    const WorkMesh& mesh = shop.mesh;
-    proposal.is_looked_at =
-        mesh.changed_since(v, shop.lifted_at[v]) &&
-        std::any_of(mesh.star[v].begin(), mesh.star[v].end(),
-                    [&](std::uint32_t t) { return shape_of(mesh, mesh.triangles[t]) < below; });
-    if (!proposal.is_looked_at) return false;
+bool propose_improvement(const RemeshContext& context, std::uint32_t v, double below,
+                         Proposal& proposal) {
+    const WorkMesh& mesh = context.mesh;
+    proposal.is_tried = mesh.changed_since(v, context.improved_at[v]) &&
+                        std::any_of(mesh.star[v].begin(), mesh.star[v].end(), [&](std::uint32_t t) {
+                            return shape_of(mesh, mesh.triangles[t]) < below;
+                        });
+    if (!proposal.is_tried) return false;
     collect_star(mesh, v, proposal.change);
     set_facing(mesh, proposal.change);
     Point3 n = proposal.change.facing[0].second;
@@ -145,14 +146,15 @@ bool propose_lift(const RemeshContext& shop, std::uint32_t v, double below, Prop
             const double c = step * std::cos(angle), s = step * std::sin(angle);
             const Point3 to{p.x + c * u.x + s * w.x, p.y + c * u.y + s * w.y,
                             p.z + c * u.z + s * w.z};
-            if (!propose_move(shop, to, {endless, largest * (1 - least_gain)}, proposal)) continue;
+            if (!propose_move(context, to, {endless, largest * (1 - least_gain)}, proposal))
+                continue;
             p = proposal.change.place;
-            std::swap(of_p, proposal.judgement);
+            std::swap(of_p, proposal.checked);
             largest = badness_at(mesh, v, p).largest;
             moves = true;
         }
     proposal.change.place = p;
-    std::swap(of_p, proposal.judgement);
+    std::swap(of_p, proposal.checked);
     return moves;
 }
 
@@ -170,12 +172,12 @@ Point3 scattered(std::uint32_t v) {
 }
 
 /// Inner vertices: those in one patch, and the rest.
-std::array<std::vector<std::uint32_t>, 2> inner_vertices(const RemeshContext& shop) {
+std::array<std::vector<std::uint32_t>, 2> inner_vertices(const RemeshContext& context) {
     std::array<std::vector<std::uint32_t>, 2> lists;
-    for (std::uint32_t v = 0; v < shop.mesh.kinds.size(); ++v) {
-        const WorkMesh::Star& star = shop.mesh.star[v];
-        if (shop.mesh.kinds[v] == VertexKind::inner)
-            lists[shop.guard.in_one_patch({star.data(), star.size()}) ? 0 : 1].push_back(v);
+    for (std::uint32_t v = 0; v < context.mesh.kinds.size(); ++v) {
+        const WorkMesh::Star& star = context.mesh.star[v];
+        if (context.mesh.kinds[v] == VertexKind::inner)
+            lists[context.validator.in_one_patch({star.data(), star.size()}) ? 0 : 1].push_back(v);
     }
     return lists;
 }
@@ -190,55 +192,55 @@ void collect_star(const WorkMesh& mesh, std::uint32_t v, Change& change) {
     for (const std::uint32_t t : change.removed) change.add(mesh.triangles[t], t);
 }
 
-std::size_t smooth(RemeshContext& shop) {
-    ++shop.mesh.now;
-    shop.smoothed_at.resize(shop.mesh.kinds.size(), 0);
+std::size_t smooth(RemeshContext& context) {
+    ++context.mesh.now;
+    context.smoothed_at.resize(context.mesh.kinds.size(), 0);
     std::size_t count = 0;
-    for (const std::vector<std::uint32_t>& vertices : inner_vertices(shop))
+    for (const std::vector<std::uint32_t>& vertices : inner_vertices(context))
         count += in_windows(
-            shop, vertices,
-            [&](std::uint32_t v, Proposal& p) { return propose_smoothing(shop, v, p); },
+            context, vertices,
+            [&](std::uint32_t v, Proposal& p) { return propose_smoothing(context, v, p); },
             [&](std::uint32_t v, const Proposal& p, bool is_made) {
                 // What changes in the window comes after it.
-                if (p.is_looked_at) shop.smoothed_at[v] = is_made ? 0 : shop.mesh.now;
+                if (p.is_tried) context.smoothed_at[v] = is_made ? 0 : context.mesh.now;
             });
-    shop.moves += count;
+    context.moves += count;
     return count;
 }
 
-std::size_t jitter(RemeshContext& shop) {
-    const WorkMesh& mesh = shop.mesh;
+std::size_t jitter(RemeshContext& context) {
+    const WorkMesh& mesh = context.mesh;
     const auto propose = [&](std::uint32_t v, Proposal& proposal) {
         if (!std::all_of(mesh.star[v].begin(), mesh.star[v].end(), [&](std::uint32_t t) {
                 return shape_of(mesh, mesh.triangles[t]) < square_shape;
             }))
             return false;
         collect_star(mesh, v, proposal.change);
-        const double size = shake_share * mesh.sizes[v];
+        const double size = jitter_share * mesh.sizes[v];
         const Point3& p = mesh.points[v];
         const auto off = scattered(v);
-        return propose_move(shop, {p.x + size * off.x, p.y + size * off.y, p.z + size * off.z},
+        return propose_move(context, {p.x + size * off.x, p.y + size * off.y, p.z + size * off.z},
                             {endless, 2}, proposal);
     };
     std::size_t count = 0;
-    for (const std::vector<std::uint32_t>& vertices : inner_vertices(shop))
-        count += in_windows(shop, vertices, propose, nothing_more);
-    shop.moves += count;
+    for (const std::vector<std::uint32_t>& vertices : inner_vertices(context))
+        count += in_windows(context, vertices, propose, nothing_more);
+    context.moves += count;
     return count;
 }
 
-std::size_t improve_worst(RemeshContext& shop, double below) {
-    ++shop.mesh.now;
-    shop.lifted_at.resize(shop.mesh.kinds.size(), 0);
+std::size_t improve_worst(RemeshContext& context, double below) {
+    ++context.mesh.now;
+    context.improved_at.resize(context.mesh.kinds.size(), 0);
     std::size_t count = 0;
-    for (const std::vector<std::uint32_t>& vertices : inner_vertices(shop))
+    for (const std::vector<std::uint32_t>& vertices : inner_vertices(context))
         count += in_windows(
-            shop, vertices,
-            [&](std::uint32_t v, Proposal& p) { return propose_lift(shop, v, below, p); },
+            context, vertices,
+            [&](std::uint32_t v, Proposal& p) { return propose_improvement(context, v, below, p); },
             [&](std::uint32_t v, const Proposal& p, bool is_made) {
-                if (p.is_looked_at) shop.lifted_at[v] = is_made ? 0 : shop.mesh.now;
+                if (p.is_tried) context.improved_at[v] = is_made ? 0 : context.mesh.now;
             });
-    shop.moves += count;
+    context.moves += count;
     return count;
 }
 

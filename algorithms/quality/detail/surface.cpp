@@ -24,8 +24,8 @@ double length_class(double ratio) {
 
 /// What list(t, items) adds for each triangle in use, in their order.
 template <class Item, class List>
-std::vector<Item> from_triangles(const RemeshContext& shop, const List& list) {
-    const WorkMesh& mesh = shop.mesh;
+std::vector<Item> from_triangles(const RemeshContext& context, const List& list) {
+    const WorkMesh& mesh = context.mesh;
     const auto of_range = [&](std::size_t first, std::size_t last) {
         std::vector<Item> items;
         for (auto t = static_cast<std::uint32_t>(first); t < last; ++t)
@@ -33,15 +33,16 @@ std::vector<Item> from_triangles(const RemeshContext& shop, const List& list) {
         return items;
     };
     return concatenated(
-        parts_of_ranges<std::vector<Item>>(mesh.triangles.size(), shop.run, of_range));
+        parts_of_ranges<std::vector<Item>>(mesh.triangles.size(), context.run, of_range));
 }
 
 /// Inner edges with the lower vertex first, each once, from the triangles in their order.
 template <class Wanted>
-std::vector<std::pair<double, Edge>> inner_edges(const RemeshContext& shop, const Wanted& wanted) {
+std::vector<std::pair<double, Edge>> inner_edges(const RemeshContext& context,
+                                                 const Wanted& wanted) {
     using Measured = std::pair<double, Edge>;
-    const WorkMesh& mesh = shop.mesh;
-    return from_triangles<Measured>(shop, [&](std::uint32_t t, std::vector<Measured>& edges) {
+    const WorkMesh& mesh = context.mesh;
+    return from_triangles<Measured>(context, [&](std::uint32_t t, std::vector<Measured>& edges) {
         for (std::size_t i = 0; i < 3; ++i) {
             const std::uint32_t a = mesh.triangles[t][i], b = mesh.triangles[t][(i + 1) % 3];
             if (a > b) continue; // the neighbour has it the other way round
@@ -61,11 +62,11 @@ std::vector<std::vector<Edge>> by_class(const std::vector<std::pair<double, Edge
 }
 
 /// Why edges are swapped.
-enum class Aim : std::uint8_t { angles, evenness };
+enum class Aim : std::uint8_t { angles, valences };
 
 /// By how much the square of what a vertex has too few or too many edges grows with one more, or
 /// with one less.
-int unevenness(const WorkMesh& mesh, std::uint32_t v, int change) {
+int valence_cost(const WorkMesh& mesh, std::uint32_t v, int change) {
     if (mesh.kinds[v] != VertexKind::inner) return 0;
     return 2 * change * (static_cast<int>(mesh.star[v].size()) - 6) + 1;
 }
@@ -76,21 +77,23 @@ int unevenness(const WorkMesh& mesh, std::uint32_t v, int change) {
 /// as these four are 360 degrees in all. What evenness gains is the sum of what it is seen to gain
 /// from the two triangles: one of them has half or more.
 bool promises(const WorkMesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c, Aim aim) {
-    if (aim == Aim::evenness)
-        return unevenness(mesh, a, -1) + unevenness(mesh, b, -1) + 2 * unevenness(mesh, c, 1) < 0;
+    if (aim == Aim::valences)
+        return valence_cost(mesh, a, -1) + valence_cost(mesh, b, -1) +
+                   2 * valence_cost(mesh, c, 1) <
+               0;
     const Point3& p = mesh.points[c];
     return dot(minus(mesh.points[a], p), minus(mesh.points[b], p)) < 0;
 }
 
 /// Inner edges as their triangles have them that promise something, where a triangle at them has
 /// changed at this time or later, and some more.
-std::vector<Edge> edges_to_swap(const RemeshContext& shop, std::uint32_t time, Aim aim) {
-    const WorkMesh& mesh = shop.mesh;
+std::vector<Edge> edges_to_swap(const RemeshContext& context, std::uint32_t time, Aim aim) {
+    const WorkMesh& mesh = context.mesh;
     std::vector<char> is_near(mesh.points.size(), 0);
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
         if (mesh.in_use(t) && mesh.changed_at[t] >= time)
             for (const std::uint32_t v : mesh.triangles[t]) is_near[v] = 1;
-    return from_triangles<Edge>(shop, [&](std::uint32_t t, std::vector<Edge>& edges) {
+    return from_triangles<Edge>(context, [&](std::uint32_t t, std::vector<Edge>& edges) {
         const Triangle& c = mesh.triangles[t];
         for (std::size_t i = 0; i < 3; ++i) {
             const std::uint32_t a = c[i], b = c[(i + 1) % 3];
@@ -102,9 +105,9 @@ std::vector<Edge> edges_to_swap(const RemeshContext& shop, std::uint32_t time, A
 }
 
 /// Whether splitting the edge is allowed, unless one of its triangles has changed since then.
-bool propose_edge_split(RemeshContext& shop, const Edge& e, std::uint32_t since,
+bool propose_edge_split(RemeshContext& context, const Edge& e, std::uint32_t since,
                         Proposal& proposal) {
-    const WorkMesh& mesh = shop.mesh;
+    const WorkMesh& mesh = context.mesh;
     const auto [a, b] = e;
     Change& change = proposal.change;
     change.clear();
@@ -124,13 +127,13 @@ bool propose_edge_split(RemeshContext& shop, const Edge& e, std::uint32_t since,
         change.add(with(mesh.triangles[t], a, m), t);
     }
     const auto above =
-        shop.reference.above(middle, change.facing[0].second, mesh.hint_of[change.removed[0]]);
+        context.reference.above(middle, change.facing[0].second, mesh.hint_of[change.removed[0]]);
     if (above) {
         change.place = above->point;
-        if (shop.guard.check(change, proposal.judgement) == Outcome::allowed) return true;
+        if (context.validator.check(change, proposal.checked) == Outcome::allowed) return true;
     }
     change.place = middle;
-    return shop.guard.check(change, proposal.judgement) == Outcome::allowed;
+    return context.validator.check(change, proposal.checked) == Outcome::allowed;
 }
 
 /// The largest angle of a triangle, as the least cosine.
@@ -146,8 +149,8 @@ double least_cosine(const WorkMesh& mesh, const Triangle& t) {
 }
 
 /// The edge is one of edges_to_swap.
-bool propose_swap(RemeshContext& shop, const Edge& e, Aim aim, Proposal& proposal) {
-    const WorkMesh& mesh = shop.mesh;
+bool propose_swap(RemeshContext& context, const Edge& e, Aim aim, Proposal& proposal) {
+    const WorkMesh& mesh = context.mesh;
     const auto [a, b] = e;
     Change& change = proposal.change;
     change.clear();
@@ -160,9 +163,9 @@ bool propose_swap(RemeshContext& shop, const Edge& e, Aim aim, Proposal& proposa
     const std::uint32_t c = opposite(first, a, b), d = opposite(second, a, b);
     if (a > b && promises(mesh, b, a, d, aim)) return false; // it is in the list as (b, a), too
     double least = least_even_cosine;
-    if (aim == Aim::evenness) {
-        if (unevenness(mesh, a, -1) + unevenness(mesh, b, -1) + unevenness(mesh, c, 1) +
-                unevenness(mesh, d, 1) >=
+    if (aim == Aim::valences) {
+        if (valence_cost(mesh, a, -1) + valence_cost(mesh, b, -1) + valence_cost(mesh, c, 1) +
+                valence_cost(mesh, d, 1) >=
             0)
             return false;
     } else {
@@ -174,14 +177,14 @@ bool propose_swap(RemeshContext& shop, const Edge& e, Aim aim, Proposal& proposa
     set_facing(mesh, change);
     change.add(left, t);
     change.add(right, u);
-    return shop.guard.check(change, proposal.judgement) == Outcome::allowed;
+    return context.validator.check(change, proposal.checked) == Outcome::allowed;
 }
 
-std::size_t swap_those(RemeshContext& shop, std::uint32_t changed_since, Aim aim) {
+std::size_t swap_those(RemeshContext& context, std::uint32_t changed_since, Aim aim) {
     const std::size_t count = in_windows(
-        shop, edges_to_swap(shop, changed_since, aim),
-        [&](const Edge& e, Proposal& p) { return propose_swap(shop, e, aim, p); }, nothing_more);
-    shop.swaps += count;
+        context, edges_to_swap(context, changed_since, aim),
+        [&](const Edge& e, Proposal& p) { return propose_swap(context, e, aim, p); }, nothing_more);
+    context.swaps += count;
     return count;
 }
 
@@ -209,21 +212,21 @@ bool keeps_topology(const WorkMesh& mesh, std::uint32_t gone, std::uint32_t kept
 }
 
 /// On a curve: the neighbour on the other side, and whether the new edge follows the curve.
-bool curve_allows(const RemeshContext& shop, std::uint32_t gone, std::uint32_t kept,
+bool curve_allows(const RemeshContext& context, std::uint32_t gone, std::uint32_t kept,
                   std::uint32_t& other) {
-    const WorkMesh& mesh = shop.mesh;
+    const WorkMesh& mesh = context.mesh;
     const std::uint32_t curve = mesh.curve_of[gone];
     const auto [before, after] = mesh.along[gone];
     if (before == after || (kept != before && kept != after)) return false;
     other = kept == before ? after : before;
-    return chord_follows(shop, curve, mesh.place_at(shop.curves, curve, before, gone),
-                         mesh.place_at(shop.curves, curve, after, gone));
+    return chord_within_bound(context, curve, mesh.place_at(context.curves, curve, before, gone),
+                              mesh.place_at(context.curves, curve, after, gone));
 }
 
 /// One of the two ends of a short edge into the other, unless nothing there has changed since then.
-bool propose_edge_collapse(RemeshContext& shop, const Edge& e, std::uint32_t since,
+bool propose_edge_collapse(RemeshContext& context, const Edge& e, std::uint32_t since,
                            Proposal& proposal) {
-    const WorkMesh& mesh = shop.mesh;
+    const WorkMesh& mesh = context.mesh;
     const auto [a, b] = e;
     if (mesh.kinds[a] == VertexKind::unused || mesh.kinds[b] == VertexKind::unused) return false;
     const double wanted = mesh.wanted_length(a, b);
@@ -233,14 +236,14 @@ bool propose_edge_collapse(RemeshContext& shop, const Edge& e, std::uint32_t sin
         return false;
     const auto into = [&](std::uint32_t gone, std::uint32_t kept) {
         return mesh.kinds[gone] == VertexKind::inner &&
-               propose_collapse(shop, {gone, kept}, long_share * wanted, least_shape, proposal);
+               propose_collapse(context, {gone, kept}, long_share * wanted, least_shape, proposal);
     };
     return into(a, b) || into(b, a);
 }
 
 /// One of the ends of the shortest edge into the other, or of that which is next.
-bool propose_collapse_at(RemeshContext& shop, const Triangle& c, Proposal& proposal) {
-    const WorkMesh& mesh = shop.mesh;
+bool propose_collapse_at(RemeshContext& context, const Triangle& c, Proposal& proposal) {
+    const WorkMesh& mesh = context.mesh;
     std::array<std::pair<double, std::size_t>, 3> by_length;
     for (std::size_t i = 0; i < 3; ++i) by_length[i] = {mesh.edge_length(c[i], c[(i + 1) % 3]), i};
     std::sort(by_length.begin(), by_length.end());
@@ -251,7 +254,7 @@ bool propose_collapse_at(RemeshContext& shop, const Triangle& c, Proposal& propo
         const auto into = [&](std::uint32_t gone, std::uint32_t kept) {
             const bool fits = mesh.kinds[gone] == VertexKind::inner ||
                               (on_curve && mesh.kinds[gone] == VertexKind::curve);
-            return fits && propose_collapse(shop, {gone, kept}, longest, 1.0, proposal);
+            return fits && propose_collapse(context, {gone, kept}, longest, 1.0, proposal);
         };
         if (into(a, b) || into(b, a)) return true;
     }
@@ -260,15 +263,15 @@ bool propose_collapse_at(RemeshContext& shop, const Triangle& c, Proposal& propo
 
 } // namespace
 
-bool propose_collapse(RemeshContext& shop, const Edge& gone_kept, double longest, double least,
+bool propose_collapse(RemeshContext& context, const Edge& gone_kept, double longest, double least,
                       Proposal& proposal) {
-    const WorkMesh& mesh = shop.mesh;
+    const WorkMesh& mesh = context.mesh;
     const auto [gone, kept] = gone_kept;
     if (mesh.kinds[gone] == VertexKind::corner) return false;
     const bool on_curve = mesh.kinds[gone] == VertexKind::curve;
     proposal.gone = gone;
     proposal.kept = kept;
-    if (on_curve && !curve_allows(shop, gone, kept, proposal.other)) return false;
+    if (on_curve && !curve_allows(context, gone, kept, proposal.other)) return false;
     Change& change = proposal.change;
     change.clear();
     change.on_border = on_curve;
@@ -301,7 +304,7 @@ bool propose_collapse(RemeshContext& shop, const Edge& gone_kept, double longest
     }
     if (!keeps_topology(mesh, gone, kept, proposal)) return false;
     set_facing(mesh, change);
-    return shop.guard.check(change, proposal.judgement) == Outcome::allowed;
+    return context.validator.check(change, proposal.checked) == Outcome::allowed;
 }
 
 void after_collapse(WorkMesh& mesh, const Proposal& proposal) {
@@ -337,88 +340,91 @@ void set_facing(const WorkMesh& mesh, Change& change) {
     }
 }
 
-std::size_t split_edges(RemeshContext& shop) {
-    const WorkMesh& mesh = shop.mesh;
+std::size_t split_edges(RemeshContext& context) {
+    const WorkMesh& mesh = context.mesh;
     std::size_t count = 0;
-    for (unsigned round = 0; round < 32 && !shop.run.stop.stop_requested(); ++round) {
-        const auto classes = by_class(inner_edges(shop, [&](std::uint32_t a, std::uint32_t b) {
+    for (unsigned round = 0; round < 32 && !context.run.stop.stop_requested(); ++round) {
+        const auto classes = by_class(inner_edges(context, [&](std::uint32_t a, std::uint32_t b) {
             const double ratio = mesh.edge_length(a, b) / mesh.wanted_length(a, b);
             return ratio > long_share ? length_class(ratio) : 0;
         }));
         std::size_t more = 0;
-        const std::uint32_t since = ++shop.mesh.now;
+        const std::uint32_t since = ++context.mesh.now;
         for (const std::vector<Edge>& edges : classes)
             more += in_windows(
-                shop, edges,
-                [&](const Edge& e, Proposal& p) { return propose_edge_split(shop, e, since, p); },
+                context, edges,
+                [&](const Edge& e, Proposal& p) {
+                    return propose_edge_split(context, e, since, p);
+                },
                 nothing_more);
         if (more == 0) break;
-        shop.splits += more;
+        context.splits += more;
         count += more;
         // Halves of slivers are slivers: swapped and collapsed, they are not halved again and
         // again.
         if (20 * more < mesh.triangles.size()) continue;
-        swap_edges(shop);
-        collapse_edges(shop);
+        swap_edges(context);
+        collapse_edges(context);
     }
     return count;
 }
 
-std::size_t collapse_edges(RemeshContext& shop) {
-    const WorkMesh& mesh = shop.mesh;
+std::size_t collapse_edges(RemeshContext& context) {
+    const WorkMesh& mesh = context.mesh;
     std::size_t count = 0;
-    const auto classes = by_class(inner_edges(shop, [&](std::uint32_t a, std::uint32_t b) {
+    const auto classes = by_class(inner_edges(context, [&](std::uint32_t a, std::uint32_t b) {
         const double ratio = mesh.edge_length(a, b) / mesh.wanted_length(a, b);
         return ratio < short_share ? length_class(1 / std::max(ratio, 1e-70)) : 0;
     }));
-    const std::uint32_t since = shop.collapsed_at; // what was tried then in vain is no better now
-    shop.collapsed_at = ++shop.mesh.now;
+    const std::uint32_t since =
+        context.collapsed_at; // what was tried then in vain is no better now
+    context.collapsed_at = ++context.mesh.now;
     for (const std::vector<Edge>& edges : classes)
         count += in_windows(
-            shop, edges,
-            [&](const Edge& e, Proposal& p) { return propose_edge_collapse(shop, e, since, p); },
+            context, edges,
+            [&](const Edge& e, Proposal& p) { return propose_edge_collapse(context, e, since, p); },
             [&](const Edge&, const Proposal& p, bool is_made) {
-                if (is_made) after_collapse(shop.mesh, p);
+                if (is_made) after_collapse(context.mesh, p);
             });
-    shop.collapses += count;
+    context.collapses += count;
     return count;
 }
 
-std::size_t collapse_bad(RemeshContext& shop, double below) {
+std::size_t collapse_bad(RemeshContext& context, double below) {
     using Triangles = std::vector<std::uint32_t>;
-    const WorkMesh& mesh = shop.mesh;
+    const WorkMesh& mesh = context.mesh;
     const auto is_bad = [&](std::uint32_t t) {
         return mesh.in_use(t) && shape_of(mesh, mesh.triangles[t]) < below;
     };
-    const auto bad = from_triangles<std::uint32_t>(shop, [&](std::uint32_t t, Triangles& list) {
+    const auto bad = from_triangles<std::uint32_t>(context, [&](std::uint32_t t, Triangles& list) {
         if (is_bad(t)) list.push_back(t);
     });
     const std::size_t count = in_windows(
-        shop, bad,
+        context, bad,
         [&](std::uint32_t t, Proposal& p) {
-            return is_bad(t) && propose_collapse_at(shop, mesh.triangles[t], p);
+            return is_bad(t) && propose_collapse_at(context, mesh.triangles[t], p);
         },
         [&](std::uint32_t, const Proposal& p, bool is_made) {
-            if (is_made) after_collapse(shop.mesh, p);
+            if (is_made) after_collapse(context.mesh, p);
         });
-    shop.collapses += count;
+    context.collapses += count;
     return count;
 }
 
-std::size_t equalize_valences(RemeshContext& shop) {
-    const std::size_t count = swap_those(shop, shop.evened_at, Aim::evenness);
-    shop.evened_at = ++shop.mesh.now;
+std::size_t equalize_valences(RemeshContext& context) {
+    const std::size_t count = swap_those(context, context.equalized_at, Aim::valences);
+    context.equalized_at = ++context.mesh.now;
     return count;
 }
 
-std::size_t swap_edges(RemeshContext& shop) {
+std::size_t swap_edges(RemeshContext& context) {
     std::size_t count = 0;
-    for (unsigned round = 0; round < 6 && !shop.run.stop.stop_requested(); ++round) {
-        const std::uint32_t since = shop.swapped_at;
-        shop.swapped_at = ++shop.mesh.now;
-        const std::size_t more = swap_those(shop, since, Aim::angles);
+    for (unsigned round = 0; round < 6 && !context.run.stop.stop_requested(); ++round) {
+        const std::uint32_t since = context.swapped_at;
+        context.swapped_at = ++context.mesh.now;
+        const std::size_t more = swap_those(context, since, Aim::angles);
         count += more;
-        if (100 * more < shop.mesh.triangles.size()) break;
+        if (100 * more < context.mesh.triangles.size()) break;
     }
     return count;
 }

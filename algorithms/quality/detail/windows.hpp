@@ -24,23 +24,23 @@ constexpr std::size_t few = 8;
 
 /// Those of the changes that were carried out in a window. Boxes are compared with all of them at a
 /// time: what is near one is looked at closely.
-class Reaches {
+class Footprints {
 public:
     void clear() {
-        reaches_.clear();
+        footprints_.clear();
         for (auto& side : sides_) side.clear();
     }
-    void add(const Footprint& reach) {
-        reaches_.push_back(reach);
+    void add(const Footprint& footprint) {
+        footprints_.push_back(footprint);
         for (std::size_t k = 0; k < 3; ++k) {
-            sides_[k].push_back(reach.around.low[k]);
-            sides_[3 + k].push_back(reach.around.high[k]);
+            sides_[k].push_back(footprint.around.low[k]);
+            sides_[3 + k].push_back(footprint.around.high[k]);
         }
     }
-    [[nodiscard]] bool are_apart(const Footprint& reach) const {
-        const auto& [low, high] = reach.around;
+    [[nodiscard]] bool are_apart(const Footprint& footprint) const {
+        const auto& [low, high] = footprint.around;
         int near = 0, in_some_projection = 0;
-        for (std::size_t i = 0; i < reaches_.size(); ++i) { // without branches, several in one
+        for (std::size_t i = 0; i < footprints_.size(); ++i) { // without branches, several in one
             const int x = static_cast<int>(low[0] <= sides_[3][i]) &
                           static_cast<int>(sides_[0][i] <= high[0]);
             const int y = static_cast<int>(low[1] <= sides_[4][i]) &
@@ -50,14 +50,14 @@ public:
             near |= x & y & z;
             in_some_projection |= (x & y) | (y & z) | (z & x);
         }
-        if (!reach.borders.empty()) near = in_some_projection;
+        if (!footprint.borders.empty()) near = in_some_projection;
         return near == 0 ||
-               std::all_of(reaches_.begin(), reaches_.end(),
-                           [&](const Footprint& other) { return reach.is_apart(other); });
+               std::all_of(footprints_.begin(), footprints_.end(),
+                           [&](const Footprint& other) { return footprint.is_apart(other); });
     }
 
 private:
-    std::vector<Footprint> reaches_;
+    std::vector<Footprint> footprints_;
     std::array<std::vector<float>, 6> sides_; ///< per coordinate: low ones, then high ones
 };
 
@@ -71,52 +71,52 @@ constexpr auto nothing_more = [](const auto&, const Proposal&, bool) {};
 /// was carried out since then, or is not shown to be apart from it, is proposed again when its turn
 /// comes. So the result does not depend on the threads.
 template <class Item, class Propose, class Done>
-std::size_t in_windows(RemeshContext& shop, const std::vector<Item>& items, const Propose& propose,
-                       const Done& done) {
+std::size_t in_windows(RemeshContext& context, const std::vector<Item>& items,
+                       const Propose& propose, const Done& done) {
     if (items.empty()) return 0;
-    WorkMesh& mesh = shop.mesh;
+    WorkMesh& mesh = context.mesh;
     const std::size_t size = std::clamp(items.size() / 16, std::size_t{1}, window_size);
     const std::size_t windows = (items.size() + size - 1) / size;
-    shop.window.resize(std::max(shop.window.size(), size));
-    Reaches made;
+    context.window.resize(std::max(context.window.size(), size));
+    Footprints made;
     std::size_t sum = 0;
     const auto can_be_anywhere = [](const Proposal& p) {
-        return p.judgement.reach.is_free && p.judgement.reach.borders.empty();
+        return p.checked.footprint.is_contact_free && p.checked.footprint.borders.empty();
     };
     const auto is_stale = [&](const Proposal& p) {
         for (const std::uint32_t t : p.change.removed)
             for (const std::uint32_t v : mesh.triangles[t])
-                if (v == none || shop.touched_at[v] == mesh.now) return true;
-        return !can_be_anywhere(p) && !made.are_apart(p.judgement.reach);
+                if (v == none || context.touched_at[v] == mesh.now) return true;
+        return !can_be_anywhere(p) && !made.are_apart(p.checked.footprint);
     };
     const auto touch = [&](const Triangle& t) {
-        for (const std::uint32_t v : t) shop.touched_at[v] = mesh.now;
+        for (const std::uint32_t v : t) context.touched_at[v] = mesh.now;
     };
     const auto carry_out = [&](Proposal& p) {
         p.change.number_new(mesh.next_vertex());
         for (const std::uint32_t t : p.change.removed) touch(mesh.triangles[t]);
-        shop.guard.carry_out(p.change, p.judgement);
-        shop.touched_at.resize(mesh.points.size(), 0);
+        context.validator.carry_out(p.change, p.checked);
+        context.touched_at.resize(mesh.points.size(), 0);
         for (const Triangle& t : p.change.added) touch(t);
-        if (!can_be_anywhere(p)) made.add(p.judgement.reach);
+        if (!can_be_anywhere(p)) made.add(p.checked.footprint);
     };
-    shop.touched_at.resize(mesh.points.size(), 0);
-    with_threads(shop.run, [&] {
+    context.touched_at.resize(mesh.points.size(), 0);
+    with_threads(context.run, [&] {
         tbb::affinity_partitioner where; // a thread goes on where it was in the window before
-        for (std::size_t w = 0; w < windows && !shop.run.stop.stop_requested(); ++w) {
+        for (std::size_t w = 0; w < windows && !context.run.stop.stop_requested(); ++w) {
             ++mesh.now;
             made.clear();
             const auto look = [&](std::size_t k) {
-                Proposal& p = shop.window[k];
+                Proposal& p = context.window[k];
                 p.is_allowed = propose(items[w + k * windows], p);
             };
             const std::size_t count = (items.size() - w + windows - 1) / windows;
-            if (shop.run.threads <= 1 || count < few)
+            if (context.run.threads <= 1 || count < few)
                 for (std::size_t k = 0; k < count; ++k) look(k);
             else
                 tbb::parallel_for(std::size_t{0}, count, look, where);
             for (std::size_t k = 0; k < count; ++k) {
-                Proposal& p = shop.window[k];
+                Proposal& p = context.window[k];
                 const Item& item = items[w + k * windows];
                 const bool is_made = p.is_allowed && (!is_stale(p) || propose(item, p));
                 if (is_made) carry_out(p);

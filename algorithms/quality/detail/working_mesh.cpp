@@ -13,7 +13,7 @@ WorkMesh::WorkMesh(const Mesh& mesh, const Features& features) :
     curve_of(features.curve_of), place_on(mesh.vertices.size(), 0),
     along(mesh.vertices.size(), {none, none}), triangles(features.triangles),
     sheet_of(features.sheet_of), hint_of(features.triangles.size()),
-    alone(features.triangles.size(), 0), changed_at(features.triangles.size(), 1),
+    isolated(features.triangles.size(), 0), changed_at(features.triangles.size(), 1),
     star(mesh.vertices.size()) {
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {
         hint_of[t] = t;
@@ -127,7 +127,7 @@ void WorkMesh::apply(const Change& change, std::span<const std::uint32_t> hints,
             triangles.emplace_back();
             sheet_of.push_back(0);
             hint_of.push_back(0);
-            alone.push_back(0);
+            isolated.push_back(0);
             changed_at.push_back(0);
         }
         triangles[t] = change.added[i];
@@ -146,14 +146,14 @@ void WorkMesh::compact() {
         triangles[count] = triangles[t];
         sheet_of[count] = sheet_of[t];
         hint_of[count] = hint_of[t];
-        alone[count] = alone[t];
+        isolated[count] = isolated[t];
         changed_at[count] = changed_at[t];
         ++count;
     }
     triangles.resize(count);
     sheet_of.resize(count);
     hint_of.resize(count);
-    alone.resize(count);
+    isolated.resize(count);
     changed_at.resize(count);
     for (auto& at : star) at.clear();
     for (std::uint32_t t = 0; t < count; ++t)

@@ -75,7 +75,7 @@ public:
     std::vector<Triangle> triangles;     ///< [0] is none: not in use
     std::vector<std::uint32_t> sheet_of; ///< per triangle
     std::vector<std::uint32_t> hint_of;  ///< per triangle: one of the input near it, in its sheet
-    std::vector<char> alone; ///< per triangle: all that it follows is (ReferenceSurface)
+    std::vector<char> isolated; ///< per triangle: all that it follows is (ReferenceSurface)
     std::vector<std::uint32_t> changed_at; ///< per triangle: when it or its place changed last
     std::uint32_t now = 1;                 ///< counts sweeps over the mesh
     /// Mostly six, at their vertex: 64 bytes.

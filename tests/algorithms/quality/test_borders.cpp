@@ -85,19 +85,19 @@ void move_one(Sheet& sheet, Borders& borders, Random& random, Count& count) {
     const std::uint32_t patch = sheet.patches.of[change.removed[0]];
     if (patch == no_group) return;
     const Axis axis = sheet.patches.axis[patch];
-    const auto turn_of = [&](std::uint32_t t) {
+    const auto orientation_of = [&](std::uint32_t t) {
         const auto& [a, b, c] = work.triangles[t];
         return orient2d(axis, work.points[a], work.points[b], work.points[c]);
     };
-    const Sign turn = turn_of(change.removed[0]);
+    const Sign orientation = orientation_of(change.removed[0]);
     work.points[v] = change.place;
-    const bool is_wound =
+    const bool is_oriented =
         std::all_of(change.removed.begin(), change.removed.end(), [&](std::uint32_t t) {
-            return sheet.patches.of[t] == patch && turn_of(t) == turn;
+            return sheet.patches.of[t] == patch && orientation_of(t) == orientation;
         });
-    const bool is_so = is_wound && sheet.is_one_to_one(patch);
+    const bool is_so = is_oriented && sheet.is_one_to_one(patch);
     work.points[v] = before;
-    if (!is_wound) return;
+    if (!is_oriented) return;
     Borders::Search search;
     const bool kept = borders.keeps(change, sheet.patches.of, patch, axis, search);
     if (kept) REQUIRE(is_so);
