@@ -30,7 +30,7 @@ Corners corners_of(const Surface& s, const Triangle& t) {
     return {s.vertices[t[0]], s.vertices[t[1]], s.vertices[t[2]]};
 }
 
-/// A part of a triangle; no point of it is farther than `most`.
+/// Part of a triangle. No point of it is farther than `most` from the other surface.
 struct Part {
     double most = 0;
     Corners corners;
@@ -38,7 +38,8 @@ struct Part {
     friend bool operator<(const Part& a, const Part& b) { return a.most < b.most; }
 };
 
-/// The distance is 1-Lipschitz: from the middle, no point is farther than its reach.
+/// Bounds the distance of a part. The distance function is 1-Lipschitz, so no point is farther than
+/// the centroid's distance plus the radius around it.
 Part part_of(const TriangleTree& tree, const Corners& c, double& least) {
     const Point3 middle = weighted(c, 1.0 / 3, 1.0 / 3, 1.0 / 3);
     const double radius = std::max({apart(middle, c[0]), apart(middle, c[1]), apart(middle, c[2])});
@@ -96,7 +97,7 @@ double distance_bound(const Surface& from, const Surface& to, double tolerance, 
             if (part.most > least + tolerance) front.push(part);
         }
     }
-    // What was dropped on the way was no farther than that.
+    // Every part that was dropped had a smaller bound.
     return std::max(least + tolerance, front.empty() ? 0 : front.top().most);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// How far surfaces are apart, measured: by code that shares nothing with what improves a mesh.
+// Measures distances between surfaces, by code that shares nothing with the remeshing it judges.
 #pragma once
 
 #include <vector>
@@ -11,26 +11,28 @@
 
 namespace terrane {
 
-/// The largest distance to `to` of the corners, the middles of edges and seven inner points of the
-/// triangles of `from`: no more than the one-sided Hausdorff distance. Unit of the points, in
-/// floating point; infinite where `to` has no triangles. Cost: 13 searches in a tree per triangle.
+/// Samples each triangle of `from` at 13 points (corners, midpoints of edges, seven inner points)
+/// and returns the largest distance of a sample to `to`: a lower bound of the one-sided Hausdorff
+/// distance. Floating point, in the unit of the points; infinite where `to` has no triangles. Cost:
+/// 13 nearest-triangle queries per triangle.
 double sampled_distance(const Surface& from, const Surface& to, const Run& run = {});
 
-/// No less than the one-sided Hausdorff distance, but for rounding, and at most `tolerance` more.
-/// Cost: triangles are divided until their size or what is known of them is below the tolerance:
-/// for small ones.
+/// Returns an upper bound of the one-sided Hausdorff distance (up to rounding) that exceeds it by
+/// at most `tolerance`. Triangles are subdivided until the bound of each part is tight enough; the
+/// cost grows quickly, so use it for small surfaces.
 double distance_bound(const Surface& from, const Surface& to, double tolerance,
                       const Run& run = {});
 
-/// The triangles of a mesh that are part of a surface, with vertices of their own.
+/// Extracts one surface of a mesh; vertices are numbered anew.
 Surface surface_of_mesh(const Mesh& mesh, std::uint32_t surface);
 
-/// Sampled distances of one surface in two meshes: from the second to the first, and back.
+/// Sampled distances between the two states of one surface: `out` from the second mesh to the
+/// first, `back` from the first to the second.
 struct Deviation {
     double out = 0, back = 0;
 };
 
-/// Per surface; both meshes have the same surfaces.
+/// Computes one Deviation per surface. Both meshes must have the same surfaces.
 std::vector<Deviation> deviations_of(const Mesh& before, const Mesh& after, const Run& run = {});
 
 } // namespace terrane

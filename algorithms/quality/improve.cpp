@@ -19,8 +19,8 @@ namespace {
 
 using namespace improving;
 
-constexpr double bad_shape = 0.5;       ///< q below which single triangles are looked after
-constexpr double curve_share = 1.0 / 3; ///< of the bound of a sheet: for edges of its curves
+constexpr double bad_shape = 0.5;       ///< single triangles of smaller q are improved one by one
+constexpr double curve_share = 1.0 / 3; ///< tolerance of curves, as a share of that of their sheets
 constexpr double pi = 3.14159265358979323846;
 
 Error wrong(std::string sentence) {
@@ -47,8 +47,8 @@ Status check_options(const Mesh& mesh, const ImproveOptions& o) {
     return Done{};
 }
 
-/// Whether all that is listed is there, and each triangle sound: what is needed to look at the
-/// mesh.
+/// Checks that all indices are in range and that each triangle is sound, so that the mesh can be
+/// processed.
 Status check_lists(const Mesh& mesh) {
     if (mesh.triangles.empty()) return Error{ErrorCode::nothing_to_do, "no triangle", ""};
     const bool lists_fit =
@@ -73,7 +73,8 @@ Status check_conforming(const Mesh& mesh, const Run& run) {
     return conforming(mesh.vertices, mesh.triangles, labels, run);
 }
 
-/// Per curve: a share of the least bound of the sheets at it.
+/// Computes, for each curve, its tolerance: a share of the least tolerance of the sheets that meet
+/// there.
 std::vector<double> bounds_of_curves(const WorkMesh& mesh, std::size_t curves,
                                      std::span<const double> bound_of) {
     std::vector<double> bounds(curves, std::numeric_limits<double>::infinity());
@@ -133,7 +134,7 @@ private:
             validator_.group_again(run_);
     }
 
-    /// Slivers would only be split into more of them.
+    /// Removes slivers first, as splitting would only turn them into more slivers.
     void clean_first() {
         collapse_curves(context_);
         regroup_if_needed();
@@ -147,7 +148,7 @@ private:
         return context_.splits + context_.collapses + context_.swaps + context_.moves;
     }
 
-    /// Returns whether the next one is worth it.
+    /// Returns whether another pass is worthwhile.
     bool one_pass(unsigned pass) {
         if (run_.progress)
             run_.progress("improve", static_cast<double>(pass) / (options_.passes + 1));
@@ -172,7 +173,7 @@ private:
         return 10 * (changes() - before) > mesh_.triangles.size();
     }
 
-    /// Single bad triangles, when most are good.
+    /// Improves the few remaining bad triangles one by one.
     void finish() {
         if (run_.progress) run_.progress("improve", options_.passes / (options_.passes + 1.0));
         for (unsigned round = 0; round < 2 && !stopped(); ++round) {
@@ -244,7 +245,8 @@ Mesh Improver::output(std::span<const std::uint32_t> used) const {
     return out;
 }
 
-/// By what it is, or by what keeps it from being changed.
+/// Finds the reason why a triangle can't be improved: its own shape, or what rejects all changes to
+/// it.
 WorstCause Improver::cause_of_worst(Triangle t) {
     std::array<double, 3> lengths{};
     std::array<std::uint32_t, 3> curves{};
@@ -265,7 +267,7 @@ WorstCause Improver::cause_of_worst(Triangle t) {
     if (all_on_curves) return WorstCause::close_curves;
     const Refusals before = validator_.refusals();
     const double below = shape_of(mesh_, t) * (1 + 1e-9);
-    context_.improved_at.clear(); // tried before, in vain: here for the reasons
+    context_.improved_at.clear(); // repeats changes that were rejected before, to count the reasons
     improve_worst(context_, below);
     collapse_bad(context_, below);
     const Refusals& after = validator_.refusals();
@@ -275,10 +277,11 @@ WorstCause Improver::cause_of_worst(Triangle t) {
     return deviation >= contact ? WorstCause::deviation : WorstCause::contact;
 }
 
-/// Whether volumes can be renamed so that each sheet has the same ones on its sides as before.
+/// Tells whether a renaming of volumes exists by which each sheet has the same volumes on its sides
+/// as before.
 Result<bool> Improver::sides_kept(const Mesh& after, std::span<const std::uint32_t> sheets) const {
     std::optional<Result<Volumes>> found_old, found_now;
-    Run quiet = run_; // progress is the calling thread's alone
+    Run quiet = run_; // progress may only be reported by the calling thread
     quiet.progress = nullptr;
     both(
         run_, [&] { found_old = find_volumes(input_, quiet); },
@@ -303,7 +306,8 @@ Result<bool> Improver::sides_kept(const Mesh& after, std::span<const std::uint32
     return true;
 }
 
-/// Quality, before and after; whether it is conforming, and volumes are what they were.
+/// Measures the quality before and after, and checks that the result is conforming and that volumes
+/// are unchanged.
 Status Improver::check(const Mesh& after, std::span<const std::uint32_t> sheets) {
     std::optional<Status> holds;
     std::optional<Result<bool>> kept;

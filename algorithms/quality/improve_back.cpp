@@ -20,10 +20,11 @@ namespace {
 using namespace improving;
 
 constexpr double endless = std::numeric_limits<double>::infinity();
-constexpr unsigned most_parts = 16384; ///< of one triangle
-constexpr double most_factor = 8;      ///< of the bound
+constexpr unsigned most_parts = 16384; ///< per triangle
+constexpr double most_factor = 8;      ///< the largest multiple of the bound that is tried
 
-/// The improved mesh in the sheets of the one before: what the reference surface is compared with.
+/// Arranges the improved mesh by the sheets of the original, as the reference surface to compare
+/// with.
 Features features_of(const Features& before, const Improved& after, const Run& run) {
     Features now;
     now.triangles = after.mesh.triangles;
@@ -43,14 +44,15 @@ Features features_of(const Features& before, const Improved& after, const Run& r
         const bool forward = runs_along(now.triangles[t], low, high);
         const std::size_t i = forward ? side_of(t, low, high) : side_of(t, high, low);
         const std::size_t j = forward ? side_of(u, high, low) : side_of(u, low, high);
-        if (j == 3) return; // wound differently
+        if (j == 3) return; // orientations differ
         now.across[t][i] = u;
         now.across[u][j] = t;
     });
     return now;
 }
 
-/// Per triangle before: an improved one near it in its sheet; none where a sheet has none.
+/// Finds, for each original triangle, an improved one near it in its sheet; none if the sheet has
+/// none.
 std::vector<std::uint32_t> hints_of(const Features& before, const Improved& after) {
     std::vector<std::uint32_t> hints(before.triangles.size(), none), front;
     for (std::uint32_t t = 0; t < after.near_of.size(); ++t) {
@@ -68,7 +70,7 @@ std::vector<std::uint32_t> hints_of(const Features& before, const Improved& afte
     return hints;
 }
 
-/// Per sheet: the least bound of its surfaces.
+/// Computes, for each sheet, the least bound of its surfaces.
 std::vector<double> bounds_of_sheets(const Mesh& before, const Features& features,
                                      const ImproveReport& report) {
     std::vector<double> bounds;
@@ -81,16 +83,18 @@ std::vector<double> bounds_of_sheets(const Mesh& before, const Features& feature
     return bounds;
 }
 
-/// For what is not covered: across a curve that has moved, or too thin to be projected. Parts are
-/// within the bound where their corners are, of one triangle (the distance to a convex set is a
-/// convex function), or their middle is with the way from there (the distance is 1-Lipschitz).
+/// Proves distances of parts that have no covering: parts across a curve that has moved, or too
+/// thin to be projected. A part is within the bound if all its corners are within the bound of one
+/// triangle (the distance to a convex set is a convex function), or if the distance of its centroid
+/// plus the radius around it is (the distance is 1-Lipschitz).
 class Nearest {
 public:
     Nearest(const Mesh& after, std::uint32_t surface) :
         surface_(surface_of_mesh(after, surface)),
         tree_(surface_.vertices, without_slivers(surface_)) {}
 
-    /// Also where contains_within_tolerance(part) holds: asked for parts that are large against the bound.
+    /// Tells whether the whole triangle is within the bound. A part that is large against the bound
+    /// also passes if contains_within_tolerance(part) holds.
     template <class Follows>
     [[nodiscard]] bool is_near(const Corners& whole, double bound,
                                const Follows& contains_within_tolerance) const {
@@ -120,8 +124,8 @@ public:
     }
 
 private:
-    /// Without triangles so thin that what is nearest on them is lost in rounding: a part of the
-    /// surface is no nearer than all of it.
+    /// Omits triangles so thin that rounding would decide which of their points is nearest. The
+    /// remaining part of the surface is never nearer than the whole.
     static std::vector<Triangle> without_slivers(const Surface& surface) {
         std::vector<Triangle> kept;
         for (const Triangle& t : surface.triangles) {
@@ -137,7 +141,7 @@ private:
         const Point3 d = minus(b, a);
         return std::sqrt(dot(d, d));
     }
-    /// In the middle of the longest edge.
+    /// Bisects the longest edge.
     static void divide(const Corners& c, std::vector<Corners>& parts) {
         std::size_t i = 0;
         for (std::size_t k = 1; k < 3; ++k)

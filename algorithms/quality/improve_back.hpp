@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// How far a surface as it was is from the improved one: the other half of the Hausdorff distance.
+// Bounds the distance from the original surfaces to the improved ones: the other half of the
+// Hausdorff distance (improve() bounds the first half).
 #pragma once
 
 #include <vector>
@@ -12,11 +13,11 @@
 
 namespace terrane {
 
-/// Per surface: no point of it as it was is farther from it as it is now. That is the bound of the
-/// surface (report.bound_of) or, where this can't be shown, twice, four or eight times as much, or
-/// infinity. Shown for each triangle of each sheet as improve does it in the other direction, with
-/// rounding errors counted in (see improve_reference.hpp). `options`: those of improve.
-/// Errors: interrupted, out_of_memory. Cost: a small part of improve's.
+/// Computes, for each surface, an upper bound of the one-sided Hausdorff distance from the original
+/// to the improved surface: the surface's report.bound_of or, where that can't be proven, two, four
+/// or eight times as much, or infinity. The proof runs over each triangle of each sheet as in
+/// improve(), with rounding errors included (see detail/reference_surface.hpp). `options` must be
+/// those given to improve(). Errors: interrupted, out_of_memory. Cost: a small part of improve's.
 Result<std::vector<double>> bounds_back(const Mesh& before, const Improved& after,
                                         const ImproveOptions& options = {}, const Run& run = {});
 

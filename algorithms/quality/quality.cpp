@@ -17,17 +17,17 @@ double distance(const Point3& a, const Point3& b) {
     return std::hypot(b.x - a.x, b.y - a.y, b.z - a.z);
 }
 
-/// The angle opposite to the first of three sides.
+/// Computes the angle opposite to the first of three sides.
 double angle_opposite(double a, double b, double c) {
     if (!(b > 0) || !(c > 0)) return 0;
-    // By half angles (Kahan): the law of cosines cancels where the angle is small.
+    // Kahan's half-angle formula: the law of cosines cancels where the angle is small.
     const double s = (a + b + c) / 2;
     const double sine = std::max(0.0, ((s - b) / b) * ((s - c) / c));
     const double cosine = std::max(0.0, (s / b) * ((s - a) / c));
     return 2 * std::atan2(std::sqrt(sine), std::sqrt(cosine)) * 180 / std::acos(-1.0);
 }
 
-/// The least and the largest: across from the shortest and the longest side.
+/// Computes the least and the largest angle: those opposite to the shortest and the longest side.
 std::pair<double, double> extreme_angles(const Point3& a, const Point3& b, const Point3& c) {
     std::array<double, 3> sides{distance(b, c), distance(c, a), distance(a, b)};
     std::sort(sides.begin(), sides.end());
@@ -57,7 +57,7 @@ double quality_of(const Point3& a, const Point3& b, const Point3& c) {
     const Point3 p = scaled(u), q = scaled(v), r = minus(q, p), n = cross(p, q);
     const double la = std::sqrt(dot(p, p)), lb = std::sqrt(dot(q, q)), lc = std::sqrt(dot(r, r));
     const double sides = la * lb * lc * (la + lb + lc);
-    // The radii are r = area / s and R = a b c / (4 area), s half the circumference.
+    // The radii are r = area / s and R = a b c / (4 area), where s is half the perimeter.
     return sides > 0 ? std::clamp(4 * dot(n, n) / sides, 0.0, 1.0) : 0;
 }
 

@@ -16,7 +16,7 @@ Flat flat(Axis axis, const Point3& p) {
     return axis == Axis::x ? Flat{p.y, p.z} : axis == Axis::y ? Flat{p.z, p.x} : Flat{p.x, p.y};
 }
 
-/// Adds a directed edge to a sum of them, in which opposite ones vanish.
+/// Adds a directed edge to a sum in which opposite edges cancel.
 void add(std::vector<Edge>& sum, std::uint32_t from, std::uint32_t to) {
     const auto opposite = std::find(sum.begin(), sum.end(), Edge{to, from});
     if (opposite == sum.end()) {
@@ -27,7 +27,7 @@ void add(std::vector<Edge>& sum, std::uint32_t from, std::uint32_t to) {
     }
 }
 
-/// Strictly on one side in one of the two coordinates.
+/// Tells whether a coordinate separates the boxes strictly.
 bool boxes_apart(Axis axis, const Point3& a, const Point3& b, const std::array<Point3, 3>& t) {
     const Flat p = flat(axis, a), q = flat(axis, b);
     const std::array<Flat, 3> c{flat(axis, t[0]), flat(axis, t[1]), flat(axis, t[2])};
@@ -38,7 +38,7 @@ bool boxes_apart(Axis axis, const Point3& a, const Point3& b, const std::array<P
     return false;
 }
 
-/// Whether a segment and a triangle are shown not to meet in the projection.
+/// Tells whether a segment and a triangle are proven not to meet in the projection.
 bool apart(Axis axis, const Point3& a, const Point3& b, const std::array<Point3, 3>& t) {
     if (boxes_apart(axis, a, b, t)) return true;
     const Sign first = orient2d(axis, a, b, t[0]);
@@ -50,13 +50,14 @@ bool apart(Axis axis, const Point3& a, const Point3& b, const std::array<Point3,
         const Point3 &from = t[i], &to = t[(i + 1) % 3];
         const Sign side = orient2d(axis, from, to, a);
         if (side == Sign::Zero || orient2d(axis, from, to, b) != side) continue;
-        // A triangle without area is in any of its lines.
+        // A degenerate triangle lies in each of its lines.
         if (orientation == Sign::Zero || side != orientation) return true;
     }
     return false;
 }
 
-/// Whether the segment from corner `a` of a triangle to b is shown to meet it in a only.
+/// Tells whether the segment from corner `a` of the triangle a, p, q to b is proven to meet it in
+/// `a` only.
 bool apart_but_for(Axis axis, const Point3& a, const Point3& b, const Point3& p, const Point3& q) {
     const Flat at = flat(axis, a), end = flat(axis, b), r = flat(axis, p), s = flat(axis, q);
     for (std::size_t k = 0; k < 2; ++k)
@@ -86,7 +87,7 @@ void Borders::find(std::span<const std::uint32_t> patch_of, std::size_t patches)
     }
 }
 
-/// The sum of the borders of what the patch gets, less that of what it loses.
+/// Sums the borders of the triangles that the patch gets, minus those that it loses.
 void Borders::find_chain(const Change& change, std::span<const std::uint32_t> patch_of,
                          std::uint32_t patch, bool with_added, std::uint32_t name_of_old,
                          std::vector<Edge>& chain) const {
@@ -103,7 +104,7 @@ void Borders::find_chain(const Change& change, std::span<const std::uint32_t> pa
     }
 }
 
-/// The chain as a loop of three or four corners, and the triangles of it.
+/// Orders the chain as a loop of three or four corners and divides it into triangles.
 bool Borders::find_swept(const Change& change, Axis axis, Search& search) const {
     std::vector<Edge>& chain = search.chain_;
     std::vector<Swept>& swept = search.swept_;
@@ -137,7 +138,7 @@ bool Borders::find_swept(const Change& change, Axis axis, Search& search) const 
     const Flat p = flat(axis, a.point), m = flat(axis, to.point), q = flat(axis, b.point);
     for (std::size_t k = 0; k < 2; ++k)
         if ((p[k] < m[k] && m[k] < q[k]) || (p[k] > m[k] && m[k] > q[k])) return true;
-    return false; // it would turn back on itself
+    return false; // the chain would fold back on itself
 }
 
 bool Borders::keeps(const Change& change, std::span<const std::uint32_t> patch_of,
@@ -160,7 +161,7 @@ bool Borders::keeps(const Change& change, std::span<const std::uint32_t> patch_o
         }
     return std::all_of(edges_[patch].begin(), edges_[patch].end(), [&](const Edge& e) {
         const Flat p = flat(axis, mesh_.points[e[0]]), q = flat(axis, mesh_.points[e[1]]);
-        for (std::size_t k = 0; k < 2; ++k) // most are far
+        for (std::size_t k = 0; k < 2; ++k) // most edges are far away
             if (std::max(p[k], q[k]) < low[k] || std::min(p[k], q[k]) > high[k]) return true;
         const bool moves =
             change.placed != none && (e[0] == change.placed || e[1] == change.placed);
@@ -169,7 +170,7 @@ bool Borders::keeps(const Change& change, std::span<const std::uint32_t> patch_o
     });
 }
 
-/// Whether an edge of the border touches what lies between at the ends of the chain only.
+/// Tells whether an edge of the border touches the swept triangles at the ends of the chain only.
 bool Borders::stays_apart(const Edge& e, Axis axis, const Search& search) const {
     const Point3 &a = mesh_.points[e[0]], &b = mesh_.points[e[1]];
     return std::all_of(search.swept_.begin(), search.swept_.end(), [&](const Swept& t) {

@@ -12,8 +12,9 @@
 namespace terrane::improving {
 namespace {
 
-constexpr double cell_share = 1.5;   ///< of the mean edge: the smallest cells
-constexpr double least_cosine = 0.2; ///< of the angle by which an added triangle may turn away
+constexpr double cell_share = 1.5;   ///< size of the smallest cells, in mean edge lengths
+constexpr double least_cosine = 0.2; ///< cosine of the angle by which an added triangle may turn
+                                     ///< away
 
 void widen(Box& box, const Box& by) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -26,8 +27,9 @@ Sign orientation_in(Axis axis, std::span<const Point3> points, const Triangle& t
     return orient2d(axis, points[t[0]], points[t[1]], points[t[2]]);
 }
 
-/// Whether a triangle and one that has one or two corners with it, numbered as those of it, are
-/// shown to share no more: in a projection, a line through a common corner has them on its sides.
+/// Tells whether two triangles are proven to share only their one or two common corners: in a
+/// projection, a line through a common corner separates them. Corners of the second triangle are
+/// indices of `points`, in which the first one comes first.
 bool are_parted(const std::array<Point3, 6>& points, const Triangle& other) {
     const auto is_shared = [&](std::size_t i) { return other[i] < 3; };
     const auto count = is_shared(0) + is_shared(1) + is_shared(2);
@@ -91,7 +93,7 @@ void ChangeValidator::find_whole_sheets() {
 }
 
 void ChangeValidator::fill_grid() {
-    // Long slivers are in the coarser cells; what comes is as long as is wanted.
+    // Long slivers go to the coarser cells; new edges have about the target length.
     double edges = 0, wanted = 0;
     const auto count = static_cast<double>(mesh_.triangles.size());
     for (const Triangle& t : mesh_.triangles) {
@@ -117,13 +119,14 @@ Corners ChangeValidator::corners_of(const Change& change, const Triangle& t) con
             change.point(mesh_.points, t[2])};
 }
 
-/// How an added triangle is wound in the projection of a patch.
+/// Computes the orientation of an added triangle in the projection of a patch.
 Sign ChangeValidator::orientation_of(const Change& change, const Triangle& t,
                                      std::uint32_t patch) const {
     return orientation_in(axis_[patch], corners_of(change, t), {0, 1, 2});
 }
 
-/// With area, facing as before; in a proven patch, wound as all of it.
+/// Checks that added triangles have area, do not turn away from those they replace and, in an
+/// injective patch, keep its orientation.
 bool ChangeValidator::shapes_hold(const Change& change, std::uint32_t patch) const {
     for (std::size_t i = 0; i < change.added.size(); ++i) {
         const Triangle& t = change.added[i];
@@ -164,8 +167,8 @@ void ChangeValidator::box_added(const Change& change, CheckedChange& checked) co
         checked.boxes.push_back(grid_.scaled(box_of(corners_of(change, t), {0, 1, 2})));
 }
 
-/// Whether the other triangle is strictly on one side of the plane of `t`, but for common corners:
-/// then they share no more than the hull of those.
+/// Tells whether the other triangle, except for common corners, is strictly on one side of the
+/// plane of `t`. The two then share no more than the hull of these corners.
 bool ChangeValidator::is_beside(const PlaneFilter& plane, const Triangle& t,
                                 const Triangle& other) const {
     std::optional<Sign> common;
@@ -178,7 +181,7 @@ bool ChangeValidator::is_beside(const PlaneFilter& plane, const Triangle& t,
     return common.has_value();
 }
 
-/// Whether two triangles meet improperly after the change.
+/// Tells whether two triangles meet improperly after the change.
 bool ChangeValidator::meet(const Change& change, const Triangle& t, const Triangle& other) const {
     std::array<Point3, 6> points;
     Triangle second{};
@@ -191,7 +194,8 @@ bool ChangeValidator::meet(const Change& change, const Triangle& t, const Triang
     return !are_parted(points, second) && improper_contact(points, {0, 1, 2}, second).has_value();
 }
 
-/// The cone from a corner of all added triangles over the removed ones, where they were.
+/// Finds the swept tetrahedra: those over the removed triangles from the corner that all added
+/// triangles share.
 void ChangeValidator::sweep(const Change& change, ThreadScratch& scratch) const {
     scratch.swept.clear();
     scratch.not_swept.resize(mesh_.points.size() + 1, 0);
@@ -221,8 +225,8 @@ void ChangeValidator::sweep(const Change& change, ThreadScratch& scratch) const 
     }
 }
 
-/// Whether a corner that the change does not have is in what it sweeps, or at the place of its top:
-/// pair tests take different vertices to be at different places.
+/// Tells whether a corner of t outside of the change lies in a swept tetrahedron or coincides with
+/// the apex: pair tests assume that different vertices have different positions.
 bool ChangeValidator::is_swept(const Triangle& t, ThreadScratch& scratch) const {
     for (const std::uint32_t v : t) {
         if (scratch.not_swept[v] == scratch.change) continue;
@@ -243,7 +247,7 @@ bool ChangeValidator::is_swept(const Triangle& t, ThreadScratch& scratch) const 
 bool ChangeValidator::meets_properly(const Change& change, const CheckedChange& checked,
                                      ThreadScratch& scratch) const {
     ++scratch.change;
-    if (scratch.change == 0) { // counted round
+    if (scratch.change == 0) { // overflow
         std::fill(scratch.seen.begin(), scratch.seen.end(), 0);
         std::fill(scratch.not_swept.begin(), scratch.not_swept.end(), 0);
         ++scratch.change;
@@ -282,7 +286,7 @@ bool ChangeValidator::meets_properly(const Change& change, const CheckedChange& 
     return true;
 }
 
-/// All triangles are wound in the patch as it is.
+/// Tells whether all added triangles have the orientation of the patch.
 bool ChangeValidator::keeps_orientation(const Change& change, std::uint32_t patch) const {
     for (std::size_t i = 0; i < change.added.size(); ++i)
         if (patch_of_[change.from[i]] == patch &&
@@ -291,8 +295,9 @@ bool ChangeValidator::keeps_orientation(const Change& change, std::uint32_t patc
     return true;
 }
 
-/// The patches of what is added: of the only one of what is removed; where a curve changes, of
-/// those that are shown to stay what they are. False where a whole sheet would not stay one patch.
+/// Finds the patches of the added triangles: the only patch of the removed ones or, if a curve
+/// changes, those proven to stay injective. Returns false if a sheet that is one patch would not
+/// remain so.
 bool ChangeValidator::find_patches(const Change& change, CheckedChange& checked,
                                    ThreadScratch& scratch) const {
     std::vector<std::uint32_t>& patches = checked.patches;
@@ -320,7 +325,7 @@ bool ChangeValidator::find_patches(const Change& change, CheckedChange& checked,
     return true;
 }
 
-/// Nothing that is added can meet anything else, by its patch and by what it follows.
+/// Tells whether no added triangle can meet others, by patches and isolation.
 bool ChangeValidator::is_contact_free(const Change& change, const CheckedChange& checked) const {
     for (std::size_t i = 0; i < change.added.size(); ++i)
         if (checked.isolated[i] == 0 || is_whole_[mesh_.sheet_of[change.from[i]]] == 0)
@@ -382,12 +387,12 @@ Refusals ChangeValidator::refusals() const {
     return sum;
 }
 
-/// Before the mesh is changed.
+/// Removes the old triangles from grid and patches; must be called before the mesh changes.
 void ChangeValidator::leave_patches(const Change& change, const CheckedChange& checked) {
     if (!change.in_place)
         for (const std::uint32_t t : change.removed)
             if (!is_contact_free(t)) grid_.leave(t, box_of_[t]);
-    if (!change.on_border && checked.patches[0] != no_group) return; // the border stays
+    if (!change.on_border && checked.patches[0] != no_group) return; // the border does not change
     std::vector<std::uint32_t> done;
     for (const std::uint32_t t : change.removed) {
         const std::uint32_t p = patch_of_[t];

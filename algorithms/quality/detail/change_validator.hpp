@@ -37,29 +37,30 @@
 
 namespace terrane::improving {
 
-/// Why changes were not made.
+/// Counts of rejected changes, by reason.
 struct Refusals {
-    std::size_t contact = 0;   ///< triangles would have met improperly
-    std::size_t deviation = 0; ///< not shown to be within the bound
-    std::size_t shape = 0;     ///< turned over, or without area
+    std::size_t contact = 0;   ///< triangles would meet improperly
+    std::size_t deviation = 0; ///< not proven to be within the tolerance
+    std::size_t shape = 0;     ///< flipped or degenerate triangles
 };
 
 enum class Outcome : std::uint8_t { allowed, contact, deviation, shape };
 
-/// Where a change is.
+/// The part of the mesh that a change depends on.
 struct Footprint {
-    /// A proven patch whose border is changed.
+    /// An injective patch whose border changes.
     struct Border {
         std::uint32_t patch = 0;
-        Axis axis{}; ///< along which it is projected
+        Axis axis{}; ///< the patch is injective along it
     };
-    GridBox around{};        ///< of what is added and what is removed
-    std::uint32_t patch = 0; ///< of all that is added, or no_group
+    GridBox around{};        ///< box of all added and removed triangles
+    std::uint32_t patch = 0; ///< the patch of all added triangles, or no_group
     bool is_contact_free =
-        false; ///< nothing that is added can meet anything, by patch and what it follows
-    std::vector<Border> borders; ///< where a curve is changed
+        false; ///< no added triangle can meet others: proven by patches and isolation
+    std::vector<Border> borders; ///< of the patches whose curves change
 
-    /// Whether what was allowed before the other change is so after it; they share no vertex.
+    /// Tells whether an allowed change stays allowed after the other one, with which it shares no
+    /// vertex.
     [[nodiscard]] bool is_apart(const Footprint& other) const {
         for (const Border& b : borders)
             for (const Border& c : other.borders)
@@ -69,41 +70,41 @@ struct Footprint {
     }
 };
 
-/// What the validator has found out about a change.
+/// The findings of the validator on a change.
 struct CheckedChange {
     std::vector<std::uint32_t> hints;   ///< per added triangle
-    std::vector<char> isolated;         ///< per added: all that it follows is
-    std::vector<std::uint32_t> patches; ///< per added, or no_group
-    std::vector<GridBox> boxes;         ///< per added
+    std::vector<char> isolated;         ///< per added triangle: it follows isolated triangles only
+    std::vector<std::uint32_t> patches; ///< per added triangle, or no_group
+    std::vector<GridBox> boxes;         ///< per added triangle
     Footprint footprint{};
 };
 
 class ChangeValidator {
 public:
-    /// What is named must outlive it.
+    /// Referenced objects must outlive the validator.
     ChangeValidator(WorkMesh& mesh, const ReferenceSurface& reference) :
         mesh_(mesh), reference_(reference), borders_(mesh) {}
 
-    /// Proves patches anew. To be called first, and when many triangles have left theirs.
-    /// Renumbers triangles.
+    /// Finds injective patches anew and renumbers triangles. Must be called first, and again when
+    /// many triangles have left their patches.
     void group_again(const Run& run);
 
-    /// Whether all triangles are in one proven patch: a change to them costs little.
+    /// Tells whether all triangles are in one injective patch, which makes changes to them cheap.
     [[nodiscard]] bool in_one_patch(std::span<const std::uint32_t> triangles) const;
 
-    /// Whether the change is allowed to the mesh as it is. Several threads may ask at the same
-    /// time.
+    /// Checks whether the change is allowed in the mesh as it is. Several threads may call this at
+    /// the same time.
     Outcome check(const Change& change, CheckedChange& checked);
-    /// Carries out what is allowed to the mesh as it is.
+    /// Carries out a change that was allowed in the mesh as it is.
     void carry_out(const Change& change, const CheckedChange& checked);
 
-    /// Of all changes judged.
+    /// Counts all rejected changes.
     [[nodiscard]] Refusals refusals() const;
-    /// How many triangles have left their patch since they were grouped.
+    /// Counts the triangles that have left their patches since they were grouped.
     [[nodiscard]] std::size_t ungrouped() const { return ungrouped_; }
 
 private:
-    /// What each thread has to itself.
+    /// Working memory of one thread.
     struct ThreadScratch {
         struct Tetrahedron {
             std::array<Point3, 4> corners; ///< positively oriented
@@ -112,11 +113,11 @@ private:
         ReferenceSurface::Search search;
         Borders::Search border_search;
         std::vector<PlaneFilter> planes;      ///< of the added triangles
-        Point3 top{};                         ///< of what the change sweeps
-        std::vector<Tetrahedron> swept;       ///< by it
-        std::vector<std::uint32_t> not_swept; ///< per vertex: the last change that had it, or
-                                              ///< was looked at for it
-        std::vector<std::uint32_t> seen;      ///< per triangle: the last change that saw it
+        Point3 top{};                         ///< apex of the swept tetrahedra
+        std::vector<Tetrahedron> swept;       ///< the tetrahedra that the change sweeps
+        std::vector<std::uint32_t> not_swept; ///< per vertex: the last change that contains it or
+                                              ///< has tested it
+        std::vector<std::uint32_t> seen;      ///< per triangle: the last change that visited it
         std::uint32_t change = 0;
         Refusals refusals;
     };
@@ -140,7 +141,8 @@ private:
                                       std::uint32_t patch) const;
     [[nodiscard]] bool keeps_orientation(const Change& change, std::uint32_t patch) const;
     bool find_patches(const Change& change, CheckedChange& checked, ThreadScratch& scratch) const;
-    /// Nothing can meet it, by its patch and by what it follows: it is not in the grid.
+    /// Tells whether a triangle can meet no other, by its patch and by isolation. Such triangles
+    /// are not in the grid.
     [[nodiscard]] bool is_contact_free(std::uint32_t t) const {
         return mesh_.isolated[t] != 0 && is_whole_[mesh_.sheet_of[t]] != 0;
     }
@@ -151,16 +153,18 @@ private:
     const ReferenceSurface& reference_;
 
     std::vector<std::uint32_t> patch_of_; ///< per triangle, or no_group
-    std::vector<Axis> axis_;              ///< per patch
-    std::vector<Sign> orientation_;       ///< per patch: of all its triangles there
-    std::vector<char> is_whole_;  ///< per sheet: all its triangles are in one patch, and stay there
+    std::vector<Axis> axis_;              ///< per patch: its projection
+    std::vector<Sign> orientation_;       ///< per patch: the common orientation of its triangles
+                                          ///< there
+    std::vector<char> is_whole_;  ///< per sheet: all its triangles are in one patch, and remain
+                                  ///< there
     std::vector<GridBox> box_of_; ///< per triangle
     Borders borders_;
     Grid grid_;
     std::size_t ungrouped_ = 0;
 
     tbb::enumerable_thread_specific<ThreadScratch> scratches_;
-    std::vector<std::uint32_t> numbers_; ///< of what it adds
+    std::vector<std::uint32_t> numbers_; ///< of the triangles added last
 };
 
 } // namespace terrane::improving

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Operations on curves: each vertex stays on its curve as it was.
+// Operations on curves. Each vertex stays on its original curve.
 #include <terrane/algorithms/quality/detail/operations.hpp>
 
 #include <algorithm>
@@ -11,9 +11,9 @@
 namespace terrane::improving {
 namespace {
 
-constexpr double least_gain = 1e-2; ///< share of the sum of 1 / q that a move must take away
+constexpr double least_gain = 1e-2; ///< share of the sum of 1 / q by which a move must reduce it
 
-/// An edge of a curve, in its direction.
+/// An edge of a curve, in the direction of the curve.
 struct CurveEdge {
     std::uint32_t curve = 0, from = 0, to = 0;
 };
@@ -29,13 +29,13 @@ std::vector<CurveEdge> curve_edges(const WorkMesh& mesh, const std::vector<Curve
     const std::size_t inner = edges.size();
     for (const auto& [ends, c] : mesh.direct())
         edges.push_back({c, curves[c].vertices.front(), curves[c].vertices.back()});
-    // A hash map has no order of its own.
+    // Sorted, as the order of a hash map is not reproducible.
     std::sort(edges.begin() + static_cast<std::ptrdiff_t>(inner), edges.end(),
               [](const auto& a, const auto& b) { return a.curve < b.curve; });
     return edges;
 }
 
-/// Where an end of an edge is on the curve.
+/// Returns the arc lengths of the two ends of an edge.
 std::array<double, 2> places_of(const RemeshContext& context, const CurveEdge& e) {
     return {context.mesh.place_at(context.curves, e.curve, e.from, e.to),
             context.mesh.kinds[e.from] == VertexKind::corner &&
@@ -80,7 +80,7 @@ void after_split(WorkMesh& mesh, const CurveEdge& e, const Proposal& proposal) {
     if (!from_inner && !to_inner) mesh.drop_direct(e.from, e.to);
 }
 
-/// Of 1 / q of the triangles as they will be.
+/// Sums 1 / q of the added triangles.
 double badness_of_added(const WorkMesh& mesh, const Change& change) {
     double sum = 0;
     for (const Triangle& t : change.added)
@@ -108,7 +108,7 @@ bool propose_slide_to(RemeshContext& context, std::uint32_t v, double at, Propos
     return context.validator.check(change, proposal.checked) == Outcome::allowed;
 }
 
-/// Halfway between its neighbours, or half of the way there.
+/// Slides a vertex to halfway between its neighbours, or half of the way there.
 bool propose_slide(RemeshContext& context, std::uint32_t v, Proposal& proposal) {
     const WorkMesh& mesh = context.mesh;
     if (mesh.kinds[v] != VertexKind::curve) return false;
@@ -121,7 +121,7 @@ bool propose_slide(RemeshContext& context, std::uint32_t v, Proposal& proposal) 
            propose_slide_to(context, v, here + (middle - here) / 2, proposal);
 }
 
-/// Into the nearer neighbour on the curve, where that is short.
+/// Collapses the edge to the nearer neighbour on the curve if it is short.
 bool propose_curve_collapse(RemeshContext& context, std::uint32_t v, Proposal& proposal) {
     const WorkMesh& mesh = context.mesh;
     if (mesh.kinds[v] != VertexKind::curve) return false;

@@ -41,7 +41,7 @@ public:
     }
 
 private:
-    /// Places of a triangle's corners from which its edge (a, b) runs, in either direction.
+    /// Returns the corner of triangle t at which its edge (a, b) starts, in either direction.
     [[nodiscard]] std::size_t edge_place(std::uint32_t t, std::uint32_t a, std::uint32_t b) const {
         const Triangle& c = out_.triangles[t];
         for (std::size_t i = 0; i < 3; ++i)
@@ -100,8 +100,8 @@ private:
         }
     }
 
-    /// From the first triangle of each sheet over all others; an edge over which that fails becomes
-    /// a curve edge.
+    /// Orients all triangles of each sheet like its first one; an edge across which that is
+    /// impossible becomes a curve edge.
     void orient_consistently() {
         std::vector<bool> seen(mesh_.triangles.size(), false);
         std::vector<std::uint32_t> front;
@@ -118,7 +118,7 @@ private:
         if (cut) std::sort(out_.edges.begin(), out_.edges.end());
     }
 
-    /// Returns whether the edge had to be cut.
+    /// Orients the neighbour across edge i. Returns whether the edge had to be cut.
     bool spread(std::uint32_t t, std::size_t i, std::vector<bool>& seen,
                 std::vector<std::uint32_t>& front) {
         const std::uint32_t u = out_.across[t][i];
@@ -178,7 +178,7 @@ private:
                                   Edge{std::min(a, b), std::max(a, b)});
     }
 
-    /// Whether the triangles at v are one closed fan, or, at a curve, fans that each run from the
+    /// Tells whether the triangles at v form one closed fan or, on a curve, fans that each run from
     /// one curve edge to the other.
     [[nodiscard]] bool fans_are_plain(std::uint32_t v,
                                       const std::vector<std::uint32_t>& star) const {
@@ -222,7 +222,7 @@ private:
         out_.place_of.assign(mesh_.vertices.size(), none);
         for (std::uint32_t v = 0; v < out_.kinds.size(); ++v)
             if (out_.kinds[v] == VertexKind::corner) trace_from(v);
-        for (std::uint32_t v = 0; v < out_.kinds.size(); ++v) { // closed ones are left
+        for (std::uint32_t v = 0; v < out_.kinds.size(); ++v) { // closed curves remain
             if (out_.kinds[v] != VertexKind::curve || out_.curve_of[v] != none) continue;
             out_.kinds[v] = VertexKind::corner;
             trace_from(v);
@@ -267,7 +267,8 @@ private:
     const FeatureAngles& angles_;
     const Run& run_;
     const EdgeSides sides_;
-    std::vector<std::vector<std::uint32_t>> curve_edges_at_; ///< per vertex: the other ends
+    std::vector<std::vector<std::uint32_t>> curve_edges_at_; ///< per vertex: the other ends of its
+                                                             ///< curve edges
     Features out_;
 };
 

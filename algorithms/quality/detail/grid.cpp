@@ -7,7 +7,8 @@ namespace terrane::improving {
 namespace {
 
 constexpr std::size_t least_buckets = 1024;
-constexpr std::size_t most_levels = 32; ///< the last has one cell for each side of the origin
+constexpr std::size_t most_levels = 32; ///< the last level has one cell in each direction from the
+                                        ///< origin
 
 } // namespace
 

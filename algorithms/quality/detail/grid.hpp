@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Which triangles are near a box, while they change. Private to improve.
+// Finds the triangles near a box while the mesh changes.
 #pragma once
 
 #include <algorithm>
@@ -13,18 +13,18 @@
 
 namespace terrane::improving {
 
-/// A box in the units of a grid. Coordinates are rounded, but the larger is never made the smaller:
-/// boxes that overlap do so here.
+/// A box in the units of a grid. Rounding of coordinates is monotone, so boxes that overlap in
+/// space overlap here.
 struct GridBox {
     std::array<float, 3> low, high;
 
     [[nodiscard]] bool overlaps(const GridBox& o) const {
-        // Without branches: most of what is looked at is not that near.
+        // No branches: most boxes compared do not overlap.
         return static_cast<int>(low[0] <= o.high[0]) & static_cast<int>(o.low[0] <= high[0]) &
                static_cast<int>(low[1] <= o.high[1]) & static_cast<int>(o.low[1] <= high[1]) &
                static_cast<int>(low[2] <= o.high[2]) & static_cast<int>(o.low[2] <= high[2]);
     }
-    /// In the projection along the axis.
+    /// Tells whether the boxes overlap when projected along the axis.
     [[nodiscard]] bool overlaps_along(Axis axis, const GridBox& o) const {
         for (std::size_t k = 0; k < 3; ++k)
             if (k != static_cast<std::size_t>(axis) && (low[k] > o.high[k] || o.low[k] > high[k]))
@@ -39,12 +39,13 @@ struct GridBox {
     }
 };
 
-/// Cells of several sizes; a box is entered in the one that has its lowest corner, of those that
-/// are as large as it is: who looks for it looks one cell further down. Cells share buckets, which
-/// is no harm, as boxes are compared.
+/// A hierarchical hash grid. A box is stored in the cell of its lowest corner, at the level whose
+/// cells are as large as the box, so a query extends its range by one cell downwards. Several cells
+/// may share a bucket, which does no harm, as boxes are compared.
 class Grid {
 public:
-    /// Empties it. `origin`: near what comes; `size`: of the smallest cells.
+    /// Empties the grid. `origin` should be near the triangles to come; `size` is that of the
+    /// smallest cells.
     void reset(const Point3& origin, double size);
 
     [[nodiscard]] GridBox scaled(const Box& box) const {
@@ -56,15 +57,16 @@ public:
         return out;
     }
 
-    /// Enters triangle t of this patch, which is not entered.
+    /// Adds triangle t, which belongs to this patch and must not be in the grid.
     void enter(std::uint32_t t, const GridBox& box, std::uint32_t patch);
-    /// Takes out one that was entered with this box.
+    /// Removes a triangle that was added with this box.
     void leave(std::uint32_t t, const GridBox& box);
-    /// Both, for one of the same patch as before.
+    /// Replaces the box of a triangle whose patch stays the same.
     void move(std::uint32_t t, const GridBox& before, const GridBox& box, std::uint32_t patch);
 
-    /// Calls visit(t, box) for all triangles entered whose boxes overlap, but for those of the
-    /// patch `but`; maybe several times. Ends when visit gives false, and gives that.
+    /// Calls visit(t, box) for all triangles whose boxes overlap the box, except those of patch
+    /// `but`; some of them may be visited several times. Stops when a visit returns false, and
+    /// returns false then.
     template <class Visit>
     bool visit(const GridBox& box, std::uint32_t but, const Visit& visit) const {
         for (const Level& level : levels_) {
@@ -109,12 +111,14 @@ private:
         }
     };
     struct Level {
-        float inverse = 1; ///< of the size of its cells: a power of two
+        float inverse = 1; ///< 1 / size of its cells; a power of two
         std::size_t count = 0;
-        std::vector<std::uint32_t> patch_of; ///< per bucket: of all entries, or no_group, or vacant
-        std::vector<std::vector<Entry>> entries; ///< per bucket, of which there are 2^k, or none
+        std::vector<std::uint32_t> patch_of; ///< per bucket: the patch of all its entries; no_group
+                                             ///< if they differ; vacant
+        std::vector<std::vector<Entry>> entries; ///< per bucket; their number is zero or a power of
+                                                 ///< two
 
-        /// Cells in a row along x have buckets in a row.
+        /// Cells adjacent along x have adjacent buckets.
         [[nodiscard]] std::size_t bucket_of(const Place& at) const {
             const std::uint32_t place = static_cast<std::uint32_t>(at.x) +
                                         static_cast<std::uint32_t>(at.y) * 0x9E3779B1U +
@@ -137,29 +141,30 @@ private:
         return true;
     }
     [[nodiscard]] float scaled(double x, std::size_t axis) const {
-        constexpr double most = 0x1p30; // beyond, all is at one place: monotone, so still right
+        constexpr double most = 0x1p30; // all points farther out share a place; the map stays
+                                        // monotone
         return static_cast<float>(std::clamp((x - origin_[axis]) * inverse_, -most, most));
     }
     static std::int32_t cell_of(double x) {
         const auto truncated = static_cast<std::int32_t>(x);
         return truncated - static_cast<std::int32_t>(static_cast<double>(truncated) > x);
     }
-    /// The cell of a point, when that is moved down by some cells.
+    /// Returns the cell of a point that is moved down by `down` cells.
     static Place place_of(const Level& level, const std::array<float, 3>& p, double down = 0) {
         const double inverse = level.inverse;
         return {cell_of(p[0] * inverse - down), cell_of(p[1] * inverse - down),
                 cell_of(p[2] * inverse - down)};
     }
-    /// Where boxes of the level are that overlap this one.
+    /// Returns the cells whose boxes may overlap this one.
     static Range range_round(const Level& level, const GridBox& box) {
-        constexpr double size = 1 + 0x1p-20; // of a box, in cells, were it rounded down
+        constexpr double size = 1 + 0x1p-20; // of a box, in cells, including rounding
         return {place_of(level, box.low, size), place_of(level, box.high)};
     }
     [[nodiscard]] std::size_t level_of(const GridBox& box) const;
 
     std::array<double, 3> origin_{};
-    double inverse_ = 1;        ///< of the size of the smallest cells
-    std::vector<Level> levels_; ///< each with cells twice as large as those of the one before
+    double inverse_ = 1;        ///< 1 / size of the smallest cells
+    std::vector<Level> levels_; ///< cells double in size from one to the next
 };
 
 } // namespace terrane::improving

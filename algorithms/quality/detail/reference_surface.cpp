@@ -13,12 +13,12 @@
 namespace terrane::improving {
 namespace {
 
-/// More than quotients between 0 and 1 are off by rounding, which is a few units in 2^-53: edges
+/// Exceeds the rounding error of quotients between 0 and 1, which is a few units in 2^-53. Edges
 /// are followed a little too far and heights taken a little too large, never the other way.
 constexpr double share_error = 0x1p-26;
 
 constexpr unsigned most_steps = 256;    ///< of a walk
-constexpr unsigned most_covered = 2048; ///< triangles under one
+constexpr unsigned most_covered = 2048; ///< triangles that cover one part
 constexpr unsigned most_parts = 48;     ///< of one triangle
 constexpr double unit = std::numeric_limits<double>::epsilon();
 
@@ -26,7 +26,8 @@ Point3 towards(const Point3& a, const Point3& b, double share) {
     return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y), a.z + share * (b.z - a.z)};
 }
 
-/// At most the distance of p to the segment, but for rounding: to a point that is on it.
+/// Computes an upper bound (up to rounding) of the distance of p to the segment: the distance to a
+/// point that lies on it.
 double to_segment(const Point3& p, const Point3& a, const Point3& b) {
     const Point3 d = minus(b, a);
     const double square = dot(d, d);
@@ -63,7 +64,7 @@ ReferenceSurface::ReferenceSurface(std::span<const Point3> points, const Feature
         facet.corners = {a, b, c};
         facet.normal = cross(ab, ac);
         facet.error = 8 * unit * length(ab) * length(ac);
-        // The sides of a frame are a few units off from being upright.
+        // The directions of a frame are perpendicular up to a few units of rounding.
         facet.lean = 4 * facet.error + 64 * unit * length(facet.normal);
         facet.across = features.across[t];
         for (const Axis axis : {Axis::x, Axis::y, Axis::z})
@@ -76,7 +77,8 @@ ReferenceSurface::ReferenceSurface(std::span<const Point3> points, const Feature
     slack_ = 256 * unit * largest;
 }
 
-/// Whether all corners of triangle t are beyond the plane of another one, by more than the gap.
+/// Tells whether all corners of triangle t are farther than `gap` from the plane of triangle `of`,
+/// on the same side.
 bool ReferenceSurface::is_beyond_plane(std::uint32_t t, std::uint32_t of, double gap) const {
     const Facet& plane = facets_[of];
     const double size = length(plane.normal);
@@ -111,9 +113,9 @@ void ReferenceSurface::find_isolated(const Run& run) {
                            bound_of_[features_.sheet_of[p.second]] + 4 * slack_;
         if (!is_beyond_plane(p.first, p.second, gap) && !is_beyond_plane(p.second, p.first, gap))
             facets_[p.first].isolated = facets_[p.second].isolated = false;
-        return false; // none need be kept
+        return false; // pairs need not be kept
     };
-    Run one = run; // marks are not shared between threads
+    Run one = run; // marks are not synchronised
     one.threads = 1;
     candidate_pairs_of(boxes, all, features_.sheet_of, mark, one);
 }
@@ -180,7 +182,7 @@ std::optional<ReferenceSurface::Target> ReferenceSurface::target_of(const Corner
     const std::array<Flat, 3> whole{Flat{}, target.frame.flat(ab), target.frame.flat(ac)};
     target.middle = {(whole[1].u + whole[2].u) / 3, (whole[1].v + whole[2].v) / 3,
                      (whole[1].w + whole[2].w) / 3};
-    const double radius = 2 * longest / 3; // no corner is farther from the middle
+    const double radius = 2 * longest / 3; // no corner is farther from the centroid
     const double share = std::min(0.25, bound / 4 / radius);
     for (std::size_t i = 0; i < 3; ++i)
         target.corners[i] = {whole[i].u + share * (target.middle.u - whole[i].u),
@@ -192,7 +194,7 @@ std::optional<ReferenceSurface::Target> ReferenceSurface::target_of(const Corner
     return target;
 }
 
-/// From triangle to triangle, always over an edge that has the goal beyond it.
+/// Walks from triangle to triangle, always across an edge that separates it from the goal.
 ReferenceSurface::Walk ReferenceSurface::walk(const Frame& frame, const Point3& origin,
                                               const Flat& to, int orientation,
                                               std::uint32_t from) const {
@@ -221,8 +223,8 @@ ReferenceSurface::Walk ReferenceSurface::walk(const Frame& frame, const Point3& 
     return {t, false};
 }
 
-/// Of the heights of a triangle over the target's plane, given at its corners: whether all over the
-/// target are within its bound.
+/// Tells whether a triangle is within the target's bound over the whole target. `heights` are those
+/// of its corners above the plane of the target.
 bool ReferenceSurface::is_near(const Target& target, const Corners& facet,
                                const std::array<double, 3>& heights) {
     std::array<Flat, 3> corners;
@@ -257,13 +259,14 @@ bool ReferenceSurface::is_near(const Target& target, const Corners& facet,
     return true;
 }
 
-/// Looks at one triangle under the target.
+/// Processes one triangle of the covering.
 ReferenceSurface::Cover ReferenceSurface::visit(const Target& target, std::uint32_t t,
                                                 Search& search) const {
     if (orientation_of(t, target.frame) != target.orientation) return Cover::open;
     const Facet& facet = facets_[t];
     const Target::Measures& m = target.measures;
-    std::array<std::array<double, 4>, 3> measured{}; // per corner: how far inside, and the height
+    std::array<std::array<double, 4>, 3> measured{}; // per corner: how far inside of each edge, and
+                                                     // the height
     std::array<double, 3> heights{};
     double size = 0;
     bool all_near = true;
@@ -276,7 +279,7 @@ ReferenceSurface::Cover ReferenceSurface::visit(const Target& target, std::uint3
         all_near = all_near && std::fabs(heights[i]) <= target.bound;
         size = std::max(size, away);
     }
-    // Now how far inside at least.
+    // From here on, upper bounds of how far inside each corner lies.
     const double error = 64 * unit * target.spread * (size + target.radius);
     std::array<unsigned, 3> beyond_edges{}; // per corner: a bit for each edge that it is outside of
     for (std::size_t i = 0; i < 3; ++i)
@@ -315,7 +318,7 @@ ReferenceSurface::Cover ReferenceSurface::visit(const Target& target, std::uint3
 ReferenceSurface::Cover ReferenceSurface::covered(const Target& target, std::uint32_t start,
                                                   Search& search) const {
     ++search.number_;
-    if (search.number_ == 0) { // counted round
+    if (search.number_ == 0) { // overflow
         std::fill(search.seen_.begin(), search.seen_.end(), 0);
         ++search.number_;
     }

@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The surface as it was: what an improved mesh is held to. Private to improve.
+// The original surface, to which an improved mesh is compared.
 //
-// Guarantee of contains_within_tolerance(): every point of the triangle is within the bound of its sheet as it was.
-// Two reasons are tried, on the triangle and, where both fail, on parts of it:
-// (1) Along its normal, or along an axis, the triangle, drawn in a little, is covered. A set of
-//     triangles of the sheet, all wound alike in this projection, is spread from one that meets it
-//     over every edge that meets it, and meets no curve edge. Over the triangle, which is connected
-//     and simply connected, that set is a covering, so one part of it is the graph of a function
-//     over it. The difference in height is linear on each common part: bounded at its corners.
-// (2) All its corners are within the bound of one triangle of the sheet: the distance to a convex
-//     set is a convex function.
-// Rounding errors are counted in. Cost: about the number of triangles that it covers.
+// Guarantee of contains_within_tolerance(): every point of the triangle is within the tolerance of
+// its sheet of the original surface. Two proofs are tried, on the triangle and, where both fail, on
+// parts of it:
+// (1) The triangle, shrunk a little, is covered along its normal or along an axis. A set of
+//     triangles of the sheet, all with the same orientation in this projection, is grown from one
+//     that meets the target across every edge that meets it, and contains no curve edge that does.
+//     Over the target, which is connected and simply connected, that set is a covering, so one part
+//     of it is the graph of a function over it. The difference of heights is linear on each common
+//     part, so it is bounded at the corners.
+// (2) All its corners are within the tolerance of one triangle of the sheet: the distance to a
+//     convex set is a convex function.
+// Rounding errors are included. Cost: about the number of triangles that it covers.
 //
-// A triangle of the input is alone where it is farther from all other sheets than both bounds
-// together: what follows such triangles only can't meet another sheet that follows itself.
+// An input triangle is isolated if it is farther from all other sheets than both tolerances
+// together. Triangles that follow isolated ones only can't meet another sheet that stays within its
+// own tolerance.
 #pragma once
 
 #include <array>
@@ -29,56 +32,57 @@
 
 namespace terrane::improving {
 
-/// Triangles whose area is a smaller share of the square of their longest edge (times two) are so
-/// thin that rounding may take their normal: nothing is looked for along it. Leaving them out can
-/// only make a bound larger.
+/// Least area of a triangle, as a share of half the square of its longest edge, for which its
+/// normal is used. The normal of thinner triangles may be lost in rounding. Omitting them can only
+/// enlarge a bound.
 constexpr double thinnest = 1e-6;
 
 using Corners = std::array<Point3, 3>;
 
-/// No less than the distance of p to the triangle, but for rounding: to a point that is on it,
-/// however ill-shaped.
+/// Computes an upper bound (up to rounding) of the distance of p to the triangle: the distance to a
+/// point that lies on it, however ill-shaped it is.
 double to_triangle(const Point3& p, const Point3& a, const Point3& b, const Point3& c);
 
 class ReferenceSurface {
 public:
-    /// bound_of: per sheet. Of the features, the triangles, sheet_of and across are looked at.
-    /// What is named must outlive it.
+    /// bound_of is given per sheet. Of the features, only triangles, sheet_of and across are used.
+    /// Referenced objects must outlive the object.
     ReferenceSurface(std::span<const Point3> points, const Features& features,
                      std::span<const double> bound_of);
 
-    /// Finds the triangles that are alone; until then none is.
+    /// Finds the isolated triangles; before, none counts as isolated.
     void find_isolated(const Run& run);
 
     [[nodiscard]] bool is_isolated(std::uint32_t t) const { return facets_[t].isolated; }
 
-    /// The least bound that is told apart from rounding errors.
+    /// Returns the least tolerance that is distinguishable from rounding errors.
     [[nodiscard]] double least_bound() const { return 1e3 * slack_; }
-    /// More than rounding puts into a distance.
+    /// Returns an upper bound of the rounding error of a distance.
     [[nodiscard]] double rounding() const { return slack_; }
 
     struct Containment {
-        std::uint32_t hint = 0; ///< a triangle of the sheet near the middle
+        std::uint32_t hint = 0; ///< a triangle of the sheet near the centroid
         bool isolated = true;   ///< every triangle used is isolated
     };
-    /// What a thread that asks has to itself; its contents mean nothing to it.
+    /// Working memory of one thread; callers do not use its contents.
     class Search {
         friend class ReferenceSurface;
-        std::vector<std::uint32_t> seen_; ///< per triangle: the last search that saw it
-        std::uint32_t number_ = 0;        ///< of the search at hand
+        std::vector<std::uint32_t> seen_; ///< per triangle: the last search that visited it
+        std::uint32_t number_ = 0;        ///< of the current search
         std::vector<std::uint32_t> front_;
-        bool all_isolated_ = true; ///< of the triangles that it has visited
+        bool all_isolated_ = true; ///< of the triangles visited
     };
-    /// Whether the triangle is shown to be within the bound of the sheet of the triangle `hint`.
+    /// Tells whether the triangle is proven to be within the tolerance of the sheet of the triangle
+    /// `hint`.
     [[nodiscard]] std::optional<Containment>
     contains_within_tolerance(const Corners& triangle, std::uint32_t hint, Search& search) const;
 
     struct Place {
-        Point3 point;           ///< on the surface, but for rounding
-        std::uint32_t triangle; ///< on which it lies
+        Point3 point;           ///< on the surface, up to rounding
+        std::uint32_t triangle; ///< contains the point
     };
-    /// The point of the sheet of `hint` straight above or below p along the axis in which the
-    /// normal is longest; none where the way there meets a curve or a fold.
+    /// Projects p to the sheet of `hint` along the axis in which the normal is longest. Returns
+    /// nothing if the walk there meets a curve or a fold.
     [[nodiscard]] std::optional<Place> above(const Point3& p, const Point3& normal,
                                              std::uint32_t hint) const;
 
@@ -86,7 +90,7 @@ private:
     struct Flat {
         double u = 0, v = 0, w = 0; ///< in a projection, relative to an origin; w is along it
     };
-    /// Directions in which flat coordinates are measured, and whether they are axes.
+    /// An orthonormal frame; `axis` is set if its directions are axes.
     struct Frame {
         Point3 u, v, w;
         std::optional<Axis> axis;
@@ -100,39 +104,41 @@ private:
             return {d.x, d.y, d.z};
         }
     };
-    /// A triangle drawn in, in one projection.
+    /// A shrunk triangle in one projection.
     struct Target {
         Frame frame;
         int orientation = 1;         ///< +1: counterclockwise in the projection
         Point3 origin;               ///< of the flat coordinates
-        std::array<Flat, 3> corners; ///< drawn in
+        std::array<Flat, 3> corners; ///< after shrinking
         Flat middle;
         double slope_u = 0, slope_v = 0; ///< height of its plane: slope_u u + slope_v v
         double error = 0;                ///< of a height, per unit of distance
-        /// A point at d from the origin has measures x dx + y dy + z dz - off: three times how far
-        /// it lies inside of an edge, times its length; and the height over the plane. Side by
-        /// side, so that one instruction does several.
+        /// A point at d from the origin has the measures x dx + y dy + z dz - off. The first three
+        /// tell how far it lies inside of each edge, times the length of the edge; the fourth is
+        /// its height above the plane. Arranged so that one instruction computes several.
         struct Measures {
             std::array<double, 4> x, y, z, off;
         };
         Measures measures{};
-        double spread = 0; ///< sum of the sizes in a measure, the largest: errors are a share of it
-        double radius = 0; ///< of the corner farthest from the origin
+        double spread = 0; ///< largest sum of coefficients of a measure; rounding errors are
+                           ///< relative to it
+        double radius = 0; ///< distance of the farthest corner from the origin
         double bound = 0;  ///< of heights
     };
     struct Walk {
         std::uint32_t end = 0;
         bool arrived = false;
     };
-    enum class Cover : std::uint8_t { near, far, open }; ///< open: not covered, or not for sure
+    enum class Cover : std::uint8_t { near, far, open }; ///< open: not covered, or not proven to be
 
     static Frame frame_of(Axis axis);
     static Frame frame_along(const Point3& normal, const Point3& side);
-    /// None for a triangle so thin that the heights of its plane mean nothing.
+    /// Prepares the four measures of a target. target_of() returns nothing for a triangle so thin
+    /// that the heights of its plane are meaningless.
     static void set_measures(Target& target);
     [[nodiscard]] static std::optional<Target> target_of(const Corners& triangle, double bound,
                                                          bool along_axis);
-    /// How the triangle is wound in the projection; 0 where that is not sure.
+    /// Returns the orientation of a triangle in the projection; 0 if it is not certain.
     [[nodiscard]] int orientation_of(std::uint32_t t, const Frame& frame) const;
     [[nodiscard]] Walk walk(const Frame& frame, const Point3& origin, const Flat& to,
                             int orientation, std::uint32_t from) const;
@@ -148,18 +154,18 @@ private:
     std::span<const Point3> points_;
     const Features& features_;
     std::span<const double> bound_of_;
-    /// All that searches look at, in one place: what they cost is mostly to get it.
+    /// The data of a triangle in one place, as searches mostly wait for memory.
     struct alignas(64) Facet {
         Corners corners;
         Point3 normal;
         double error = 0; ///< of each coordinate of the normal, at most
-        double lean = 0;  ///< its height in a frame tells how it is wound only beyond that
-        std::array<std::uint32_t, 3> across{};     ///< as in the features
-        std::array<std::int8_t, 3> orientations{}; ///< per axis, exactly
+        double lean = 0;  ///< the sign of the normal's height is certain beyond this
+        std::array<std::uint32_t, 3> across{};     ///< as in Features
+        std::array<std::int8_t, 3> orientations{}; ///< per axis, exact
         bool isolated = false;
     };
     std::vector<Facet> facets_; ///< per triangle
-    double slack_ = 0;          ///< more than the errors of distances from rounded coordinates
+    double slack_ = 0;          ///< exceeds the rounding errors of distances
 };
 
 } // namespace terrane::improving

@@ -13,15 +13,16 @@
 namespace terrane::improving {
 namespace {
 
-constexpr double least_share = 0.125; ///< of the wanted length, where a surface is curved
-constexpr double bound_share = 0.05;  ///< of the wanted length
+constexpr double least_share = 0.125; ///< of the target length: lower limit where a surface is
+                                      ///< curved
+constexpr double bound_share = 0.05;  ///< of the target length: default tolerance
 
 Point3 normal_of(const Mesh& mesh, const Triangle& t) {
     return cross(minus(mesh.vertices[t[1]], mesh.vertices[t[0]]),
                  minus(mesh.vertices[t[2]], mesh.vertices[t[0]]));
 }
 
-/// Edges of equilateral triangles of the same number and area.
+/// Computes, for each surface, the edge length of as many equilateral triangles of the same area.
 std::vector<double> automatic_lengths(const Mesh& mesh) {
     std::vector<double> area(mesh.surfaces.size(), 0);
     std::vector<std::size_t> count(mesh.surfaces.size(), 0);
@@ -47,7 +48,8 @@ std::vector<double> lengths_of_surfaces(const Mesh& mesh, const ImproveOptions& 
     return lengths;
 }
 
-/// Shorter where the normals of neighbours turn much on the way from middle to middle.
+/// Reduces the target length where the normals of adjacent triangles differ much over the distance
+/// of their centroids.
 void limit_by_curvature(const Mesh& mesh, const Features& features, double turn,
                         std::vector<double>& sizes) {
     const std::vector<double> before = sizes;
@@ -70,7 +72,7 @@ void limit_by_curvature(const Mesh& mesh, const Features& features, double turn,
         }
 }
 
-/// No wanted length is larger than that of a neighbour and `growth` times the way to it.
+/// Limits each target length to that of a neighbour plus `growth` times the distance to it.
 void limit_growth(const Mesh& mesh, const Features& features, double growth,
                   std::vector<double>& sizes) {
     std::vector<std::vector<std::uint32_t>> next(sizes.size());

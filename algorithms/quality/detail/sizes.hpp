@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// How long edges should be. Private to improve.
+// Computes the target edge lengths and the tolerances of remeshing.
 #pragma once
 
 #include <vector>
@@ -11,11 +11,11 @@
 namespace terrane::improving {
 
 struct Sizes {
-    std::vector<double> of_vertices; ///< per vertex: wanted length of edges there
+    std::vector<double> of_vertices; ///< per vertex: target length of its edges
     std::vector<double> bound_of;    ///< per sheet: largest deviation
 };
 
-/// options.edge_length_of has one element per surface, or none.
+/// options.edge_length_of must have one element per surface, or none.
 Sizes find_sizes(const Mesh& mesh, const Features& features, const ImproveOptions& options);
 
 } // namespace terrane::improving

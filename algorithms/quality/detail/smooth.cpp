@@ -12,11 +12,11 @@
 namespace terrane::improving {
 namespace {
 
-constexpr double least_gain = 1e-2;   ///< share of the sum of 1 / q that a move must take away
-constexpr double jitter_share = 0.2;  ///< of the wanted length
-constexpr double square_shape = 0.86; ///< q of half a square is 0.83
+constexpr double least_gain = 1e-2;   ///< share of the sum of 1 / q by which a move must reduce it
+constexpr double jitter_share = 0.2;  ///< of the target length
+constexpr double square_shape = 0.86; ///< just above the q of half a square, 0.83
 
-/// Where trapezium drawing puts the vertex.
+/// Computes the position proposed by trapezium drawing.
 Point3 drawn(const WorkMesh& mesh, std::uint32_t v) {
     const Point3& p = mesh.points[v];
     Point3 sum{};
@@ -34,7 +34,7 @@ Point3 drawn(const WorkMesh& mesh, std::uint32_t v) {
     return {p.x + sum.x / count, p.y + sum.y / count, p.z + sum.z / count};
 }
 
-/// The mean of the neighbours.
+/// Computes the mean of the neighbours.
 Point3 centre(const WorkMesh& mesh, std::uint32_t v) {
     Point3 sum{};
     for (const std::uint32_t t : mesh.star[v])
@@ -46,18 +46,18 @@ Point3 centre(const WorkMesh& mesh, std::uint32_t v) {
     return {sum.x / count, sum.y / count, sum.z / count};
 }
 
-/// Sum of 1 / q, and the largest of them.
+/// Sum and maximum of 1 / q over the triangles at a vertex.
 struct Badness {
     double sum = 0, largest = 0;
 };
 
-/// q of a triangle at v, were that at p.
+/// Computes q of triangle t for vertex v at p.
 double shape_with(const WorkMesh& mesh, const Triangle& t, std::uint32_t v, const Point3& p) {
     const auto at = [&](std::uint32_t c) -> const Point3& { return c == v ? p : mesh.points[c]; };
     return shape_of(at(t[0]), at(t[1]), at(t[2]));
 }
 
-/// With the vertex at p.
+/// Computes the badness for vertex v at p.
 Badness badness_at(const WorkMesh& mesh, std::uint32_t v, const Point3& p) {
     Badness badness;
     for (const std::uint32_t t : mesh.star[v]) {
@@ -70,7 +70,8 @@ Badness badness_at(const WorkMesh& mesh, std::uint32_t v, const Point3& p) {
 
 constexpr double endless = std::numeric_limits<double>::infinity();
 
-/// Whether both would be less than the limits with the vertex at p; none of 1 / q is less than 1.
+/// Tells whether both sum and maximum are less than the limits for vertex v at p. As each 1 / q is
+/// at least 1, the test can stop early.
 bool is_below(const WorkMesh& mesh, std::uint32_t v, const Point3& p, const Badness& limits) {
     auto left = static_cast<double>(mesh.star[v].size());
     double sum = 0;
@@ -83,14 +84,14 @@ bool is_below(const WorkMesh& mesh, std::uint32_t v, const Point3& p, const Badn
     return true;
 }
 
-/// Whether it may move, after collect_star, to the place on the surface above or below `to`, and comes
-/// below the limits there.
+/// Proposes to move the vertex of change.placed, after collect_star(), to the projection of `to` to
+/// the original surface. The badness there must be below the limits.
 bool propose_move(const RemeshContext& context, const Point3& to, const Badness& limits,
                   Proposal& proposal) {
     const WorkMesh& mesh = context.mesh;
     Change& change = proposal.change;
     const std::uint32_t v = change.placed;
-    if (!is_below(mesh, v, to, limits)) return false; // mostly
+    if (!is_below(mesh, v, to, limits)) return false; // rejects most proposals
     if (change.facing.empty()) set_facing(mesh, change);
     const auto place =
         context.reference.above(to, change.facing[0].second, mesh.hint_of[change.removed[0]]);
@@ -110,14 +111,14 @@ bool propose_smoothing(const RemeshContext& context, std::uint32_t v, Proposal& 
     collect_star(mesh, v, proposal.change);
     const Point3 &from = mesh.points[v], to = drawn(mesh, v);
     const Badness better{badness_at(mesh, v, from).sum * (1 - least_gain), endless};
-    // A triangle slides the vertex along its base only, which is half of a way on the mean.
+    // Each triangle moves the vertex along its own edge only: half of the way on average.
     return propose_move(context, between(from, to, 2.0), better, proposal) ||
            propose_move(context, between(from, to, 1.0), better, proposal) ||
            propose_move(context, between(from, centre(mesh, v), 0.5), better, proposal);
 }
 
-/// From where it is in eight directions in the plane across the normal, by steps that are halved:
-/// the last place on the way that was better than those before.
+/// Searches for a better position in eight directions of the tangent plane, with steps that are
+/// halved. Every improvement is the start of the next step; the last one is proposed.
 bool propose_improvement(const RemeshContext& context, std::uint32_t v, double below,
                          Proposal& proposal) {
     const WorkMesh& mesh = context.mesh;
@@ -158,7 +159,7 @@ bool propose_improvement(const RemeshContext& context, std::uint32_t v, double b
     return moves;
 }
 
-/// Each coordinate in [-1, 1), from the number alone.
+/// Computes pseudo-random coordinates in [-1, 1) from the index.
 Point3 scattered(std::uint32_t v) {
     std::uint64_t h = v * 0x9E3779B97F4A7C15ULL;
     const auto next = [&] {
@@ -171,7 +172,7 @@ Point3 scattered(std::uint32_t v) {
     return {x, y, z};
 }
 
-/// Inner vertices: those in one patch, and the rest.
+/// Lists inner vertices: those in one injective patch, then the others.
 std::array<std::vector<std::uint32_t>, 2> inner_vertices(const RemeshContext& context) {
     std::array<std::vector<std::uint32_t>, 2> lists;
     for (std::uint32_t v = 0; v < context.mesh.kinds.size(); ++v) {
@@ -201,7 +202,7 @@ std::size_t smooth(RemeshContext& context) {
             context, vertices,
             [&](std::uint32_t v, Proposal& p) { return propose_smoothing(context, v, p); },
             [&](std::uint32_t v, const Proposal& p, bool is_made) {
-                // What changes in the window comes after it.
+                // Changes of this window come after the vertex was tried.
                 if (p.is_tried) context.smoothed_at[v] = is_made ? 0 : context.mesh.now;
             });
     context.moves += count;

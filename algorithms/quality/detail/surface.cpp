@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Splitting, collapsing and swapping of edges within sheets.
+// Splits, collapses and swaps edges within sheets.
 #include <terrane/algorithms/quality/detail/operations.hpp>
 
 #include <algorithm>
@@ -14,15 +14,17 @@
 namespace terrane::improving {
 namespace {
 
-constexpr double least_even_cosine = -0.35; ///< of angles that evening out may make
+constexpr double least_even_cosine = -0.35; ///< least cosine of the angles that equalize_valences()
+                                            ///< may create
 
-/// 1, 2, ... for ratios from 1, each of four classes up to 2, and so on: edges of a class are taken
-/// in the order of their vertices, as what lies together costs less to get.
+/// Returns the class of a ratio from 1: there are four classes for each factor of two. Within a
+/// class edges are processed in the order of their vertices, which saves cache misses.
 double length_class(double ratio) {
     return 1.0 + std::ilogb(ratio * ratio * (ratio * ratio));
 }
 
-/// What list(t, items) adds for each triangle in use, in their order.
+/// Calls list(t, items) for each triangle in use, in parallel, and concatenates the items in the
+/// order of triangles.
 template <class Item, class List>
 std::vector<Item> from_triangles(const RemeshContext& context, const List& list) {
     const WorkMesh& mesh = context.mesh;
@@ -36,7 +38,8 @@ std::vector<Item> from_triangles(const RemeshContext& context, const List& list)
         parts_of_ranges<std::vector<Item>>(mesh.triangles.size(), context.run, of_range));
 }
 
-/// Inner edges with the lower vertex first, each once, from the triangles in their order.
+/// Lists inner edges with a positive measure, each once, lower vertex first, in the order of
+/// triangles.
 template <class Wanted>
 std::vector<std::pair<double, Edge>> inner_edges(const RemeshContext& context,
                                                  const Wanted& wanted) {
@@ -45,14 +48,14 @@ std::vector<std::pair<double, Edge>> inner_edges(const RemeshContext& context,
     return from_triangles<Measured>(context, [&](std::uint32_t t, std::vector<Measured>& edges) {
         for (std::size_t i = 0; i < 3; ++i) {
             const std::uint32_t a = mesh.triangles[t][i], b = mesh.triangles[t][(i + 1) % 3];
-            if (a > b) continue; // the neighbour has it the other way round
+            if (a > b) continue; // the neighbour has the edge in the other direction
             const double measure = wanted(a, b);
             if (measure > 0 && mesh.curve_at(a, b) == none) edges.push_back({measure, {a, b}});
         }
     });
 }
 
-/// The edges of each class, the highest first.
+/// Lists the edges of each class, the highest class first.
 std::vector<std::vector<Edge>> by_class(const std::vector<std::pair<double, Edge>>& edges) {
     std::map<double, std::vector<Edge>, std::greater<>> classes;
     for (const auto& [measure, e] : edges) classes[measure].push_back(e);
@@ -61,21 +64,21 @@ std::vector<std::vector<Edge>> by_class(const std::vector<std::pair<double, Edge
     return lists;
 }
 
-/// Why edges are swapped.
+/// The aim of a swap.
 enum class Aim : std::uint8_t { angles, valences };
 
-/// By how much the square of what a vertex has too few or too many edges grows with one more, or
-/// with one less.
+/// Returns by how much the squared difference of a valence from six grows when it changes by
+/// `change` (1 or -1).
 int valence_cost(const WorkMesh& mesh, std::uint32_t v, int change) {
     if (mesh.kinds[v] != VertexKind::inner) return 0;
     return 2 * change * (static_cast<int>(mesh.star[v].size()) - 6) + 1;
 }
 
-/// Whether a swap of the edge (a, b) of a triangle, across from c, can be worth it. In a plane, a
-/// swap makes the sums of the angles at both ends of the edge angles of new triangles: the largest
-/// angle gets smaller only where that is across from the edge and larger than both sums, so obtuse,
-/// as these four are 360 degrees in all. What evenness gains is the sum of what it is seen to gain
-/// from the two triangles: one of them has half or more.
+/// Tells whether a swap of the edge (a, b) opposite to c can be worthwhile. In a plane, a swap
+/// makes the sums of the angles at both ends of the edge angles of the new triangles. So the
+/// largest angle decreases only if it is opposite to the edge and larger than both sums; as these
+/// four angles add up to 360 degrees, it is obtuse then. For valences, the gain is a sum over the
+/// two triangles, so one of them sees at least half of it.
 bool promises(const WorkMesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c, Aim aim) {
     if (aim == Aim::valences)
         return valence_cost(mesh, a, -1) + valence_cost(mesh, b, -1) +
@@ -85,8 +88,8 @@ bool promises(const WorkMesh& mesh, std::uint32_t a, std::uint32_t b, std::uint3
     return dot(minus(mesh.points[a], p), minus(mesh.points[b], p)) < 0;
 }
 
-/// Inner edges as their triangles have them that promise something, where a triangle at them has
-/// changed at this time or later, and some more.
+/// Lists the inner edges for which a swap can be worthwhile, as oriented in their triangles. Edges
+/// are omitted if no triangle near them has changed at `time` or later.
 std::vector<Edge> edges_to_swap(const RemeshContext& context, std::uint32_t time, Aim aim) {
     const WorkMesh& mesh = context.mesh;
     std::vector<char> is_near(mesh.points.size(), 0);
@@ -104,7 +107,7 @@ std::vector<Edge> edges_to_swap(const RemeshContext& context, std::uint32_t time
     });
 }
 
-/// Whether splitting the edge is allowed, unless one of its triangles has changed since then.
+/// Proposes to split an edge, unless one of its triangles has changed since.
 bool propose_edge_split(RemeshContext& context, const Edge& e, std::uint32_t since,
                         Proposal& proposal) {
     const WorkMesh& mesh = context.mesh;
@@ -136,7 +139,7 @@ bool propose_edge_split(RemeshContext& context, const Edge& e, std::uint32_t sin
     return context.validator.check(change, proposal.checked) == Outcome::allowed;
 }
 
-/// The largest angle of a triangle, as the least cosine.
+/// Returns the cosine of the largest angle of a triangle.
 double least_cosine(const WorkMesh& mesh, const Triangle& t) {
     double least = 1;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -148,7 +151,7 @@ double least_cosine(const WorkMesh& mesh, const Triangle& t) {
     return least;
 }
 
-/// The edge is one of edges_to_swap.
+/// Proposes to swap an edge of edges_to_swap().
 bool propose_swap(RemeshContext& context, const Edge& e, Aim aim, Proposal& proposal) {
     const WorkMesh& mesh = context.mesh;
     const auto [a, b] = e;
@@ -161,7 +164,7 @@ bool propose_swap(RemeshContext& context, const Edge& e, Aim aim, Proposal& prop
     const std::uint32_t t = change.removed[0], u = change.removed[1];
     const Triangle &first = mesh.triangles[t], &second = mesh.triangles[u];
     const std::uint32_t c = opposite(first, a, b), d = opposite(second, a, b);
-    if (a > b && promises(mesh, b, a, d, aim)) return false; // it is in the list as (b, a), too
+    if (a > b && promises(mesh, b, a, d, aim)) return false; // it is also in the list as (b, a)
     double least = least_even_cosine;
     if (aim == Aim::valences) {
         if (valence_cost(mesh, a, -1) + valence_cost(mesh, b, -1) + valence_cost(mesh, c, 1) +
@@ -188,7 +191,7 @@ std::size_t swap_those(RemeshContext& context, std::uint32_t changed_since, Aim 
     return count;
 }
 
-/// Whether the collapse keeps the mesh what it is but for its division.
+/// Tells whether the collapse preserves the topology.
 bool keeps_topology(const WorkMesh& mesh, std::uint32_t gone, std::uint32_t kept, Proposal& p) {
     mesh.neighbours(gone, p.of_gone);
     mesh.neighbours(kept, p.of_kept);
@@ -206,12 +209,13 @@ bool keeps_topology(const WorkMesh& mesh, std::uint32_t gone, std::uint32_t kept
     for (const Triangle& t : p.change.added) {
         unsigned count = 0;
         for (const std::uint32_t v : t) count += is_across(v);
-        if (count == 2) return false; // it might be there already
+        if (count == 2) return false; // the triangle may exist already
     }
     return true;
 }
 
-/// On a curve: the neighbour on the other side, and whether the new edge follows the curve.
+/// For a vertex of a curve: finds the neighbour on the other side and tells whether the new edge
+/// stays near the curve.
 bool curve_allows(const RemeshContext& context, std::uint32_t gone, std::uint32_t kept,
                   std::uint32_t& other) {
     const WorkMesh& mesh = context.mesh;
@@ -223,7 +227,7 @@ bool curve_allows(const RemeshContext& context, std::uint32_t gone, std::uint32_
                               mesh.place_at(context.curves, curve, after, gone));
 }
 
-/// One of the two ends of a short edge into the other, unless nothing there has changed since then.
+/// Proposes to collapse a short edge into one of its ends, unless nothing there has changed since.
 bool propose_edge_collapse(RemeshContext& context, const Edge& e, std::uint32_t since,
                            Proposal& proposal) {
     const WorkMesh& mesh = context.mesh;
@@ -241,13 +245,14 @@ bool propose_edge_collapse(RemeshContext& context, const Edge& e, std::uint32_t 
     return into(a, b) || into(b, a);
 }
 
-/// One of the ends of the shortest edge into the other, or of that which is next.
+/// Proposes to collapse the shortest edge of a triangle, or the second shortest, into one of its
+/// ends.
 bool propose_collapse_at(RemeshContext& context, const Triangle& c, Proposal& proposal) {
     const WorkMesh& mesh = context.mesh;
     std::array<std::pair<double, std::size_t>, 3> by_length;
     for (std::size_t i = 0; i < 3; ++i) by_length[i] = {mesh.edge_length(c[i], c[(i + 1) % 3]), i};
     std::sort(by_length.begin(), by_length.end());
-    for (std::size_t k = 0; k < 2; ++k) { // the longest would make a long one
+    for (std::size_t k = 0; k < 2; ++k) { // collapsing the longest would create a long edge
         const std::uint32_t a = c[by_length[k].second], b = c[(by_length[k].second + 1) % 3];
         const double longest = 2 * mesh.wanted_length(a, b);
         const bool on_curve = mesh.curve_at(a, b) != none;
@@ -281,7 +286,7 @@ bool propose_collapse(RemeshContext& context, const Edge& gone_kept, double long
     for (const std::uint32_t t : change.removed) {
         const Triangle& corners = mesh.triangles[t];
         if (has(corners, kept)) {
-            // All that a sheet has between the two edges of the curve must not vanish.
+            // The triangles of a sheet between the two edges of the curve must not all vanish.
             if (on_curve && opposite(corners, gone, kept) == proposal.other) return false;
             proposal.at_edge.push_back(t);
             continue;
@@ -289,7 +294,8 @@ bool propose_collapse(RemeshContext& context, const Edge& gone_kept, double long
         change.add(with(corners, gone, kept), t);
         for (const std::uint32_t v : corners) {
             if (v == gone) continue;
-            longest = std::max(longest, mesh.edge_length(v, gone)); // no longer than it was
+            longest = std::max(longest, mesh.edge_length(v, gone)); // edges may be as long as
+                                                                    // before
             longest_added = std::max(longest_added, mesh.edge_length(v, kept));
         }
     }
@@ -360,8 +366,7 @@ std::size_t split_edges(RemeshContext& context) {
         if (more == 0) break;
         context.splits += more;
         count += more;
-        // Halves of slivers are slivers: swapped and collapsed, they are not halved again and
-        // again.
+        // Halves of slivers are slivers: swapping and collapsing them prevents repeated halving.
         if (20 * more < mesh.triangles.size()) continue;
         swap_edges(context);
         collapse_edges(context);
@@ -376,8 +381,7 @@ std::size_t collapse_edges(RemeshContext& context) {
         const double ratio = mesh.edge_length(a, b) / mesh.wanted_length(a, b);
         return ratio < short_share ? length_class(1 / std::max(ratio, 1e-70)) : 0;
     }));
-    const std::uint32_t since =
-        context.collapsed_at; // what was tried then in vain is no better now
+    const std::uint32_t since = context.collapsed_at; // what failed then would fail again
     context.collapsed_at = ++context.mesh.now;
     for (const std::vector<Edge>& edges : classes)
         count += in_windows(

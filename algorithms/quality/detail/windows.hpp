@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Many changes by several threads. Private to improve.
+// Checks many changes on several threads and carries them out one after another.
 #pragma once
 
 #include <algorithm>
@@ -16,14 +16,14 @@
 
 namespace terrane::improving {
 
-/// How many changes one window has at most. Fixed: the result depends on it.
+/// Largest number of changes in a window. It is fixed, as the result depends on it.
 constexpr std::size_t window_size = 256;
 
-/// Fewer are not worth several threads.
+/// Windows of fewer changes run on one thread.
 constexpr std::size_t few = 8;
 
-/// Those of the changes that were carried out in a window. Boxes are compared with all of them at a
-/// time: what is near one is looked at closely.
+/// Footprints of the changes carried out in a window. Boxes are compared with all of them at once;
+/// only near ones are examined closely.
 class Footprints {
 public:
     void clear() {
@@ -40,7 +40,7 @@ public:
     [[nodiscard]] bool are_apart(const Footprint& footprint) const {
         const auto& [low, high] = footprint.around;
         int near = 0, in_some_projection = 0;
-        for (std::size_t i = 0; i < footprints_.size(); ++i) { // without branches, several in one
+        for (std::size_t i = 0; i < footprints_.size(); ++i) { // no branches, so that it vectorises
             const int x = static_cast<int>(low[0] <= sides_[3][i]) &
                           static_cast<int>(sides_[0][i] <= high[0]);
             const int y = static_cast<int>(low[1] <= sides_[4][i]) &
@@ -58,18 +58,18 @@ public:
 
 private:
     std::vector<Footprint> footprints_;
-    std::array<std::vector<float>, 6> sides_; ///< per coordinate: low ones, then high ones
+    std::array<std::vector<float>, 6> sides_; ///< per coordinate: lower bounds, then upper bounds
 };
 
 constexpr auto nothing_more = [](const auto&, const Proposal&, bool) {};
 
-/// Looks at items by propose(item, proposal), which has the change judged and returns whether that
-/// is allowed, several at a time; carries changes out, one after another, and calls
-/// done(item, proposal, whether it was carried out). Returns how many were.
-/// Items are taken in windows, from places all over the list, so that few of a window are near each
-/// other. All of a window see the mesh as it was before it. What shares a vertex with a change that
-/// was carried out since then, or is not shown to be apart from it, is proposed again when its turn
-/// comes. So the result does not depend on the threads.
+/// Calls propose(item, proposal) for the items of a window on several threads; it checks the change
+/// and returns whether it is allowed. Then carries the allowed changes out one after another, calls
+/// done(item, proposal, is_made) for each item, and returns how many were made.
+/// Items of a window come from places all over the list, so that few of them are near each other.
+/// All proposals of a window refer to the mesh before the window. A proposal that shares a vertex
+/// with a change carried out since, or that is not proven to be apart from it, is made again when
+/// it is due. The result therefore does not depend on the threads.
 template <class Item, class Propose, class Done>
 std::size_t in_windows(RemeshContext& context, const std::vector<Item>& items,
                        const Propose& propose, const Done& done) {
@@ -102,7 +102,7 @@ std::size_t in_windows(RemeshContext& context, const std::vector<Item>& items,
     };
     context.touched_at.resize(mesh.points.size(), 0);
     with_threads(context.run, [&] {
-        tbb::affinity_partitioner where; // a thread goes on where it was in the window before
+        tbb::affinity_partitioner where; // each thread keeps its part of the window
         for (std::size_t w = 0; w < windows && !context.run.stop.stop_requested(); ++w) {
             ++mesh.now;
             made.clear();

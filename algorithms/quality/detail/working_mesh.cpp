@@ -54,7 +54,7 @@ double WorkMesh::place_at(const std::vector<Curve>& curves, std::uint32_t curve,
                           std::uint32_t other) const {
     if (kinds[v] == VertexKind::curve) return place_on[v];
     const Curve& c = curves[curve];
-    // A corner: at the end towards which the other one looks.
+    // A corner is at the end of the curve that the other vertex points to.
     const bool at_start =
         kinds[other] == VertexKind::curve ? along[other][0] == v : c.vertices.front() == v;
     return at_start ? 0 : c.at.back();

@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::uint32_t cells = 5;
 
-/// A level sheet of squares, some of which are missing: a crooked border, with holes.
+/// Builds a level sheet of squares from which some are missing: a crooked border, with holes.
 Mesh holed_sheet(Random& random) {
     Mesh mesh;
     mesh.surfaces.push_back({"sheet", Role::unknown});
@@ -53,7 +53,7 @@ struct Sheet {
         patches(find_injective_patches(work.points, work.triangles, features.sheet_of,
                                        group_edges(work.triangles, work.points.size(), {}))) {}
 
-    [[nodiscard]] bool is_one_to_one(std::uint32_t patch) const {
+    [[nodiscard]] bool is_injective(std::uint32_t patch) const {
         for (std::uint32_t t = 0; t < work.triangles.size(); ++t)
             for (std::uint32_t u = 0; u < t; ++u)
                 if (patches.of[t] == patch && patches.of[u] == patch &&
@@ -64,10 +64,10 @@ struct Sheet {
 };
 
 struct Count {
-    int kept = 0, rightly_not = 0, wrongly_not = 0;
+    int kept = 0, rejected_rightly = 0, rejected_needlessly = 0;
 };
 
-/// Moves a vertex of a border somewhere near, where its triangles stay wound as they are.
+/// Moves a vertex of a border to a place near it where its triangles keep their orientation.
 void move_one(Sheet& sheet, Borders& borders, Random& random, Count& count) {
     WorkMesh& work = sheet.work;
     const auto v =
@@ -95,23 +95,23 @@ void move_one(Sheet& sheet, Borders& borders, Random& random, Count& count) {
         std::all_of(change.removed.begin(), change.removed.end(), [&](std::uint32_t t) {
             return sheet.patches.of[t] == patch && orientation_of(t) == orientation;
         });
-    const bool is_so = is_oriented && sheet.is_one_to_one(patch);
+    const bool stays_injective = is_oriented && sheet.is_injective(patch);
     work.points[v] = before;
     if (!is_oriented) return;
     Borders::Search search;
     const bool kept = borders.keeps(change, sheet.patches.of, patch, axis, search);
-    if (kept) REQUIRE(is_so);
+    if (kept) REQUIRE(stays_injective);
     count.kept += kept;
-    count.rightly_not += !kept && !is_so;
-    count.wrongly_not += !kept && is_so;
+    count.rejected_rightly += !kept && !stays_injective;
+    count.rejected_needlessly += !kept && stays_injective;
     if (!kept || random_int(random, 0, 1) == 0) return;
     borders.update(change, sheet.patches.of, patch, true);
-    work.points[v] = change.place; // stays there
+    work.points[v] = change.place; // the move is kept
 }
 
 } // namespace
 
-TEST_CASE("improve: a patch whose border moves is kept only if it is one-to-one", "[improve]") {
+TEST_CASE("improve: a patch whose border moves is kept only if it stays injective", "[improve]") {
     Random random(17);
     Count count;
     for (int model = 0; model < 120; ++model) {
@@ -121,7 +121,7 @@ TEST_CASE("improve: a patch whose border moves is kept only if it is one-to-one"
         borders.find(sheet.patches.of, sheet.patches.axis.size());
         for (int i = 0; i < 60; ++i) move_one(sheet, borders, random, count);
     }
-    INFO(count.kept << ' ' << count.rightly_not << ' ' << count.wrongly_not);
-    CHECK(count.kept > 5 * count.wrongly_not);
-    CHECK(count.rightly_not > 20); // or it was too easy
+    INFO(count.kept << ' ' << count.rejected_rightly << ' ' << count.rejected_needlessly);
+    CHECK(count.kept > 5 * count.rejected_needlessly);
+    CHECK(count.rejected_rightly > 20); // otherwise the test would be too easy
 }

@@ -26,7 +26,7 @@ namespace {
 
 using Map = std::function<Point3(double, double)>;
 
-/// n by m cells over [0, 1] x [0, 1].
+/// Maps a grid of n by m cells over [0, 1] x [0, 1].
 Surface grid(std::uint32_t n, std::uint32_t m, const Map& map, std::string name) {
     Surface s{std::move(name), Role::unknown, {}, {}};
     for (std::uint32_t j = 0; j <= m; ++j)
@@ -57,7 +57,8 @@ Improved improved(const Mesh& mesh, const ImproveOptions& options = {}, const Ru
     return std::move(better).value();
 }
 
-/// A horizon and four faults that cut it into nine regions, of 1134 triangles (the paper has 1136).
+/// Builds a horizon and four faults that cut it into nine regions, of 1134 triangles (1136 in the
+/// paper).
 std::vector<Surface> nine_regions() {
     const auto horizon = [](double u, double v) {
         return Point3{10 * u, 10 * v, 0.5 * std::sin(6 * u) * std::cos(5 * v)};
@@ -107,7 +108,7 @@ TEST_CASE("improve: a horizon cut into nine regions, as in the paper's Figure 18
     CHECK(regions.size() == 9);
     CHECK(horizon.triangles.size() == 1134);
     ImproveOptions options;
-    options.edge_length = 0.18; // about 8700 triangles, as there
+    options.edge_length = 0.18; // about 8700 triangles, as in the paper
     const Improved better = improved(mesh, options);
     const Surface after = surface_of_mesh(better.mesh, 0);
     const QualityReport q = measure_quality(after.vertices, after.triangles);
@@ -122,7 +123,7 @@ TEST_CASE("improve: a horizon cut into nine regions, as in the paper's Figure 18
     CHECK(sampled_distance(horizon, after) <= better.report.bound_of[0]);
 }
 
-TEST_CASE("improve: the bound holds for all points, by another method", "[improve]") {
+TEST_CASE("improve: another method confirms the bound for all points", "[improve]") {
     const Mesh mesh = rounded(nine_regions());
     ImproveOptions options;
     options.edge_length = 1.2;
@@ -136,7 +137,7 @@ TEST_CASE("improve: the bound holds for all points, by another method", "[improv
     }
 }
 
-TEST_CASE("improve: what it was is near what it is now, and a hole is seen", "[improve]") {
+TEST_CASE("improve: the original is near the result, and a hole is detected", "[improve]") {
     const Mesh mesh = rounded(nine_regions());
     ImproveOptions options;
     options.edge_length = 0.5;
@@ -148,7 +149,7 @@ TEST_CASE("improve: what it was is near what it is now, and a hole is seen", "[i
         const Surface before = surface_of_mesh(mesh, s), after = surface_of_mesh(better.mesh, s);
         CHECK(back.value()[s] >= sampled_distance(before, after));
     }
-    // Without any one triangle it is far, as its circle is larger than the bound.
+    // Without a triangle it is far: the inscribed circle is larger than the bound.
     for (const std::size_t gone : {std::size_t{0}, better.mesh.triangles.size() / 2}) {
         Improved holed = better;
         const std::uint32_t surface = better.mesh.surfaces_of[gone][0];
@@ -174,7 +175,7 @@ TEST_CASE("improve: vertices of curves stay on them", "[improve]") {
     options.edge_length = 0.3;
     const Improved better = improved(mesh, options);
     REQUIRE_FALSE(better.mesh.intersection_edges.empty());
-    // The old curve as flat triangles, for the tree that measures.
+    // The old curve is given as degenerate triangles to the tree that measures distances.
     Surface curve;
     for (const Edge& e : mesh.intersection_edges) {
         const auto first = static_cast<std::uint32_t>(curve.vertices.size());
@@ -203,15 +204,16 @@ TEST_CASE("improve: sheets closer than the bound never meet", "[improve]") {
     ImproveOptions options;
     options.edge_length = 0.4;
     options.max_deviation = 0.1;
-    const Improved better = improved(mesh, options); // tested exactly at its end
-    CHECK(better.report.refused_contact > 0);        // or it was too easy
+    const Improved better = improved(mesh, options); // the result is checked exactly
+    CHECK(better.report.refused_contact > 0);        // otherwise the test would be too easy
 }
 
-TEST_CASE("improve: no sheet jumps over a piece that is smaller than the bound", "[improve]") {
+TEST_CASE("improve: no sheet sweeps over a piece that is smaller than the bound", "[improve]") {
     const auto hill = [](double height, double narrow) {
         return [=](double u, double v) {
             const double r = (u - 0.5) * (u - 0.5) + (v - 0.5) * (v - 0.5);
-            const double fade = 16 * u * (1 - u) * v * (1 - v); // the borders are the same
+            const double fade =
+                16 * u * (1 - u) * v * (1 - v); // the two surfaces share their borders
             return Point3{10 * u, 10 * v, height * fade * std::exp(-narrow * r)};
         };
     };
@@ -233,7 +235,7 @@ TEST_CASE("improve: no sheet jumps over a piece that is smaller than the bound",
             }
 }
 
-TEST_CASE("improve: the same for any number of threads", "[improve]") {
+TEST_CASE("improve: the result does not depend on the number of threads", "[improve]") {
     const Mesh mesh = rounded(nine_regions());
     const Improved one = improved(mesh), four = improved(mesh, {}, {.threads = 4});
     CHECK(one.mesh.vertices == four.mesh.vertices);
@@ -242,7 +244,8 @@ TEST_CASE("improve: the same for any number of threads", "[improve]") {
     CHECK(one.mesh.intersection_edges == four.mesh.intersection_edges);
 }
 
-TEST_CASE("improve: wanted lengths, by surface, along curves, where it is curved", "[improve]") {
+TEST_CASE("improve: target lengths hold by surface, along curves, and where a surface is curved",
+          "[improve]") {
     const std::vector<Surface> surfaces{level(0, 0, 0, 10, 10),
                                         quad({-1, 5, -3}, {11, 5, -3}, {11, 5, 3}, {-1, 5, 3})};
     const Mesh mesh = rounded(surfaces);
@@ -272,7 +275,7 @@ TEST_CASE("improve: wanted lengths, by surface, along curves, where it is curved
     CHECK(improved(bump, turning).mesh.triangles.size() > plain * 3 / 2);
 }
 
-TEST_CASE("improve: closed, one-sided and folded surfaces stay where they were", "[improve]") {
+TEST_CASE("improve: closed, one-sided and folded surfaces stay near their originals", "[improve]") {
     for (const Surface& s : {torus({0, 0, 0}, 3, 1, 24), moebius_strip(24), cube(0, 4)}) {
         const Mesh mesh = rounded({s});
         ImproveOptions options;
@@ -285,9 +288,9 @@ TEST_CASE("improve: closed, one-sided and folded surfaces stay where they were",
     }
 }
 
-TEST_CASE("improve: triangles that cross at random are refused, however they hang together",
+TEST_CASE("improve: triangles that cross at random are refused, however they are connected",
           "[improve]") {
-    // Features and curves are looked for while the mesh is still being checked.
+    // Features and curves are searched for while the mesh is still being checked.
     std::mt19937 random(8);
     std::uniform_real_distribution<double> coordinate(0, 1);
     for (int i = 0; i < 200; ++i) {
@@ -309,7 +312,7 @@ TEST_CASE("improve: triangles that cross at random are refused, however they han
     }
 }
 
-TEST_CASE("improve: what it refuses", "[improve]") {
+TEST_CASE("improve: invalid options and meshes are refused", "[improve]") {
     const Mesh mesh = rounded(nine_regions());
     CHECK(refusal({}) == ErrorCode::nothing_to_do);
     ImproveOptions options;
@@ -334,7 +337,7 @@ TEST_CASE("improve: what it refuses", "[improve]") {
     broken = mesh;
     broken.vertices[5].y = std::numeric_limits<double>::infinity();
     CHECK(refusal(broken) == ErrorCode::bad_number);
-    broken = mesh; // two triangles of its own, across each other
+    broken = mesh; // two additional triangles that cross each other
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
     for (const Point3& p : {Point3{50, 0, 0}, Point3{52, 0, 0}, Point3{51, 2, 0}, Point3{51, 1, -1},
                             Point3{51, 1, 1}, Point3{51, 3, 0}})

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Random models, arranged, rounded, improved: what must stay stays, judged by other stages.
+// Improves random models after arranging and rounding them; other stages check the invariants.
 #include <terrane/algorithms/quality/improve.hpp>
 #include <terrane/algorithms/quality/improve_back.hpp>
 
@@ -27,7 +27,7 @@ namespace {
 
 struct Judged {
     std::size_t blocks = 0;
-    std::vector<Point3> corners; ///< their places, sorted
+    std::vector<Point3> corners; ///< sorted
     std::size_t lines = 0, patches = 0, interfaces = 0;
 
     friend bool operator==(const Judged&, const Judged&) = default;
@@ -52,7 +52,7 @@ struct Means {
     double before = 0, after = 0; ///< sums of the mean q of models
 };
 
-/// Returns whether there was something to improve.
+/// Improves one model and checks all guarantees. Returns whether there was something to improve.
 bool judge(std::uint64_t seed, Means& means, int& jumped) {
     ModelMaker maker(seed);
     const auto exact = arrange(maker.model());
@@ -74,7 +74,7 @@ bool judge(std::uint64_t seed, Means& means, int& jumped) {
     REQUIRE(report);
     REQUIRE(report.value().clean());
     REQUIRE(regions_of(better) == regions_of(mesh));
-    // Seed 316, beyond the first 200, is one where the flag is false: a piece of 1e-17 has jumped.
+    // The flag is false for seed 316, for example, where a piece of size 1e-17 changes sides.
     const bool kept = structure_of(better) == structure_of(mesh);
     REQUIRE(kept == improved.value().report.sides_kept);
     jumped += !kept;
@@ -106,8 +106,9 @@ TEST_CASE("improve: 200 random models stay conforming, with the same blocks, cor
     CHECK(means.after > means.before + 0.2 * improved);
 }
 
-TEST_CASE("improve: models of which one promise did not hold once", "[improve]") {
-    Means means; // 509, 538: a vertex went to the place of another; 1143: slivers, and a bound back
+TEST_CASE("improve: random models for which a guarantee once failed", "[improve]") {
+    // 509, 538: a vertex moved to the position of another; 1143: slivers, and the bound back.
+    Means means;
     int jumped = 0;
     for (const std::uint64_t seed : {509U, 538U, 1143U}) CHECK(judge(seed, means, jumped));
     CHECK(jumped == 0);

@@ -17,7 +17,7 @@ using namespace test_support;
 
 namespace {
 
-/// 2 r / R by other formulas: 8 sin(A/2) sin(B/2) sin(C/2).
+/// Computes 2 r / R by another formula: 8 sin(A/2) sin(B/2) sin(C/2).
 double by_half_angles(const std::array<double, 3>& degrees) {
     double product = 8;
     for (const double d : degrees) product *= std::sin(d / 2 * std::acos(-1.0) / 180);
@@ -26,7 +26,7 @@ double by_half_angles(const std::array<double, 3>& degrees) {
 
 } // namespace
 
-TEST_CASE("quality: known triangles", "[quality]") {
+TEST_CASE("quality: known triangles have their known quality", "[quality]") {
     const double h = std::sqrt(3.0) / 2;
     CHECK(quality_of({0, 0, 0}, {1, 0, 0}, {0.5, h, 0}) == Approx(1).epsilon(1e-14));
     CHECK(quality_of({0, 0, 0}, {1, 0, 0}, {0, 1, 0}) ==
@@ -75,15 +75,16 @@ TEST_CASE("quality: a report counts each triangle and each edge once", "[quality
     CHECK(spread.percentiles[2] == 2);
 }
 
-TEST_CASE("deviation: a level above another, and the bound above what is sampled", "[quality]") {
+TEST_CASE("deviation: the distance of two levels is measured, and the bound exceeds the samples",
+          "[quality]") {
     const Surface low = level(0, 0, 0, 4, 4), high = level(0.5, 0, 0, 4, 4);
     CHECK(sampled_distance(high, low) == Approx(0.5));
     CHECK(distance_bound(high, low, 0.01) >= 0.5);
     CHECK(distance_bound(high, low, 0.01) <= 0.51);
-    const Surface part = level(0, 0, 0, 1, 1); // one-sided: from the whole to the part it is far
+    const Surface part = level(0, 0, 0, 1, 1); // one-sided: the whole is far from the part
     CHECK(sampled_distance(part, low) == Approx(0).margin(1e-12));
     CHECK(sampled_distance(low, part) == Approx(3 * std::sqrt(2.0)));
-    // A ridge whose top no sample hits.
+    // No sample hits the top of this ridge.
     const Surface tent{"tent",
                        Role::unknown,
                        {{0, 0, 0}, {1, 0, 0.1}, {4, 0, 0}, {0, 4, 0}},
