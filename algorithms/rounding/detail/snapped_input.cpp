@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <terrane/kernel/nearest.hpp>
+#include <terrane/algorithms/rounding/detail/state.hpp>
 
 namespace terrane::rounding::detail {
 
