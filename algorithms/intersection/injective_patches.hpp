@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// InjectivePatches of a surface that provably do not meet themselves: their triangles need no pair tests.
+// Patches of a surface that provably do not meet themselves: their triangles need no pair tests.
 //
 // Guarantee: two triangles of one patch share a common vertex, a common edge, or nothing.
-// Reason: turn all triangles of a set counterclockwise in a projection in which none is degenerate.
-// Above a point in general position lie as many of them as the boundary of their sum (the edges
-// that do not cancel) winds round it. If that boundary consists of loops that meet neither each
-// other nor themselves, and winds round every point 0 or 1 times, no two triangles overlap in the
-// projection; and where one touched another beyond a common vertex, the boundary would touch
-// itself.
+// Reason: some projection is injective on the patch, since the patch's border winds round each point
+// at most once and does not touch itself: statements (2) to (4) of
+// docs/explanation/injective-patches.md.
 // Cost: linear, plus a box search and exact tests of the border edges.
 #pragma once
 

@@ -9,6 +9,7 @@ import unittest
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 sys.dont_write_bytecode = True
 
+import check_guarantees
 import check_licences
 import check_links
 import check_reference
@@ -209,6 +210,24 @@ class DataFiles(unittest.TestCase):
         import make_data
         for name, text in make_data.files().items():
             self.assertEqual((data / name).read_text(), text, name)
+
+
+class Guarantees(unittest.TestCase):
+    def test_a_test_that_is_not_there_is_found(self):
+        with tempfile.TemporaryDirectory() as folder:
+            root = pathlib.Path(folder)
+            (root / "docs" / "explanation").mkdir(parents=True)
+            (root / "tests").mkdir()
+            (root / "tests" / "test_a.cpp").write_text('TEST_CASE(\n    "a: long "\n    "name") {}\n')
+            page = root / "docs" / "explanation" / "guarantees.md"
+            page.write_text("## G1 It works\n\n- Tests: `a: long name`,\n  `a: ...`.\n- Limits: `x`.\n")
+            readme = root / "README.md"
+            readme.write_text("| | what | tests |\n|---|---|---|\n| G1 | works | `a: long name` |\n")
+            self.assertEqual(check_guarantees.check(root), (3, []))
+            page.write_text("## G1 It works\n\n- Tests: `b: ...`.\n")
+            self.assertIn("b: ...", check_guarantees.check(root)[1][0])
+            readme.write_text("| G2 | works | nothing |\n")
+            self.assertEqual(len(check_guarantees.check(root)[1]), 3)
 
 
 class Licences(unittest.TestCase):

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The borders of proven patches, while curves change. Private to improve.
+// Keeps the borders of proven patches while curves change. Private to improve.
 //
-// Guarantee of keeps(): a patch that was one-to-one in its projection is so after the change, if
-// all triangles that it gets are wound there as all of it. Reason: as many of its triangles lie
-// over a point as its border winds round it (patches.hpp). The border changes along one chain, from
-// one corner to another, and no other border meets what lies between the old chain and the new one
-// but in these two. Outside of that as many triangles lie over a point as did before: one or none.
-// From inside one gets outside over an edge of the old chain without meeting border, as that edge
-// is none any more: so it is one or none there as well, and where two triangles touched beyond
-// common vertices, the new chain would meet other border.
+// Guarantee of keeps(): a patch that was injective in its projection is injective after the change, if
+// all triangles that it gets are oriented there as all of it: statement (6) of
+// docs/explanation/injective-patches.md. The border changes along one chain, and no other border
+// touches what lies between the old chain and the new one but in their ends.
 // Cost: a look at each edge of the patch's border.
 #pragma once
 

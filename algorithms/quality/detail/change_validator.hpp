@@ -4,10 +4,9 @@
 //
 // Guarantee: where the mesh was conforming, it is so after a change that was allowed, and the added
 // triangles are within the bound of their sheet as it was. Improper contacts are excluded
-// (1) among triangles of one proven patch (patches.hpp), by its reason: a change inside of it keeps
-//     the sum of borders, so it stays one-to-one in its projection if all added triangles are wound
-//     as it is there, by exact predicates; a change of a curve moves borders, see
-//     improve_borders.hpp;
+// (1) among triangles of one proven patch by statements (5) and (6) of
+//     docs/explanation/injective-patches.md, where all added triangles are oriented as the patch is,
+//     by exact predicates;
 // (2) between triangles that follow what is alone in the input and other sheets;
 // (3) else by exact tests against all triangles whose boxes overlap.
 // A change sweeps the tetrahedra from the corner that all added triangles have to the removed ones.
