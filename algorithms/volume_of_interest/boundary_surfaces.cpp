@@ -81,7 +81,7 @@ public:
 
 private:
     [[nodiscard]] std::size_t next(std::size_t i) const { return (i + 1) % corners_.size(); }
-    [[nodiscard]] Sign turn(std::size_t a, std::size_t b, std::size_t c) const {
+    [[nodiscard]] Sign orientation(std::size_t a, std::size_t b, std::size_t c) const {
         return orient2d(Axis::z, corners_[a], corners_[b], corners_[c]);
     }
     [[nodiscard]] bool meet(std::size_t e, std::size_t f) const;
@@ -94,12 +94,12 @@ bool Polygon::meet(std::size_t e, std::size_t f) const {
     if (next(f) == e) std::swap(e, f);
     const std::size_t e1 = next(e), f1 = next(f);
     if (e1 == f) { // f follows e: they meet further where f runs back
-        const bool in_line = turn(e, e1, f1) == Sign::Zero;
+        const bool in_line = orientation(e, e1, f1) == Sign::Zero;
         return in_line && (corners_[e] < corners_[e1]) == (corners_[f1] < corners_[e1]);
     }
-    const Sign a = turn(e, e1, f), b = turn(e, e1, f1);
+    const Sign a = orientation(e, e1, f), b = orientation(e, e1, f1);
     if (a == b && a != Sign::Zero) return false;
-    const Sign c = turn(f, f1, e), d = turn(f, f1, e1);
+    const Sign c = orientation(f, f1, e), d = orientation(f, f1, e1);
     return c != d || c == Sign::Zero; // in line, with boxes that overlap: they share a point
 }
 
@@ -135,7 +135,7 @@ void Polygon::turn_counterclockwise() {
     const auto least = static_cast<std::size_t>(std::min_element(corners_.begin(), corners_.end()) -
                                                 corners_.begin());
     const std::size_t before = (least + corners_.size() - 1) % corners_.size();
-    if (turn(before, least, next(least)) == Sign::Negative)
+    if (orientation(before, least, next(least)) == Sign::Negative)
         std::reverse(corners_.begin(), corners_.end());
 }
 
@@ -209,12 +209,12 @@ std::vector<Triangle> Polygon::triangles() const {
 
 /// Exact for multiples of 90 degrees.
 std::array<double, 2> cos_sin(double degrees) {
-    const double turned = std::remainder(degrees, 360.0);
-    if (turned == 0) return {1, 0};
-    if (turned == 90) return {0, 1};
-    if (turned == -90) return {0, -1};
-    if (std::fabs(turned) == 180) return {-1, 0};
-    const double radians = turned / 180 * std::acos(-1.0);
+    const double azimuth = std::remainder(degrees, 360.0);
+    if (azimuth == 0) return {1, 0};
+    if (azimuth == 90) return {0, 1};
+    if (azimuth == -90) return {0, -1};
+    if (std::fabs(azimuth) == 180) return {-1, 0};
+    const double radians = azimuth / 180 * std::acos(-1.0);
     return {std::cos(radians), std::sin(radians)};
 }
 

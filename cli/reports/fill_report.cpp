@@ -69,11 +69,11 @@ std::string filled_text(const FillWork& work) {
         if (!hole.report) continue;
         const FillReport& r = *hole.report;
         ++filled;
-        points += r.invented;
+        points += r.interpolated;
         area += r.area;
         if (shown++ >= most_holes) continue;
         text += fmt::format("hole {}: {} and area {:.6g} invented, {}, from {}\n  {}\n",
-                            hole.number, counted(r.invented, "point"), r.area, error_text(r),
+                            hole.number, counted(r.interpolated, "point"), r.area, error_text(r),
                             counted(r.data, "point"), r.model);
     }
     if (shown > most_holes) text += fmt::format("and {} more\n", shown - most_holes);
@@ -97,7 +97,7 @@ Json json_of(const FillWork& work) {
                    {"throw", loop.fault_throw},
                    {"centre", {loop.centre.x, loop.centre.y, loop.centre.z}}};
         if (hole.report)
-            entry["filled"] = {{"points", hole.report->invented},
+            entry["filled"] = {{"points", hole.report->interpolated},
                                {"area", hole.report->area},
                                {"data", hole.report->data},
                                {"expected_error", known(hole.report->expected_error)},

@@ -42,9 +42,10 @@ Result<OneFilled> by_kriging(const FillSettings& settings, const Surface& surfac
     OneFilled filled;
     filled.surface = joined(surface, filling.value());
     filled.report = std::move(filling.value().report);
-    const auto border = filling.value().surface.vertices.size() - filled.report.invented;
-    filled.deviation.assign(filling.value().deviation.begin() + static_cast<std::ptrdiff_t>(border),
-                            filling.value().deviation.end());
+    const auto border = filling.value().surface.vertices.size() - filled.report.interpolated;
+    filled.deviation.assign(filling.value().expected_error.begin() +
+                                static_cast<std::ptrdiff_t>(border),
+                            filling.value().expected_error.end());
     return filled;
 }
 
@@ -61,11 +62,11 @@ Result<OneFilled> by_rbf(const FillSettings& settings, const Surface& surface,
     auto& [filling, joined, report] = made.value();
     OneFilled filled;
     filled.report = filling.report;
-    filled.report.invented = joined.report.new_vertices;
+    filled.report.interpolated = joined.report.new_vertices;
     filled.report.area = joined.report.area;
     double squares = 0;
     for (const auto v : joined.filling_vertices) {
-        filled.deviation.push_back(filling.deviation[v]);
+        filled.deviation.push_back(filling.expected_error[v]);
         squares += filled.deviation.back() * filled.deviation.back();
     }
     // Of what was joined, without the margin beyond the border.

@@ -44,7 +44,7 @@ void print_yardstick(const Model& model, const BorderLoop& loop, const char* way
 /// Root mean square of the deviations foreseen for what was joined.
 double expected_of(const Filling& filling, const Joined& made) {
     double squares = 0;
-    for (const auto v : made.filling_vertices) squares += std::pow(filling.deviation[v], 2);
+    for (const auto v : made.filling_vertices) squares += std::pow(filling.expected_error[v], 2);
     return std::sqrt(squares / double(std::max<std::size_t>(made.filling_vertices.size(), 1)));
 }
 

@@ -8,7 +8,7 @@ namespace {
 
 constexpr auto right = Sign::Negative, left = Sign::Positive;
 
-Sign turn(const PointStore& points, PointIndex a, PointIndex b, PointIndex c) {
+Sign orientation(const PointStore& points, PointIndex a, PointIndex b, PointIndex c) {
     return points.orient2d(Axis::z, a, b, c);
 }
 
@@ -17,7 +17,7 @@ bool is_apart(const PointStore& points, const UprightTriangle& s, const UprightT
     for (unsigned i = 0; i < 3; ++i) {
         bool apart = true;
         for (unsigned j = 0; j < 3 && apart; ++j)
-            apart = turn(points, s[i], s[(i + 1) % 3], t[j]) != left;
+            apart = orientation(points, s[i], s[(i + 1) % 3], t[j]) != left;
         if (apart) return true;
     }
     return false;
@@ -25,7 +25,7 @@ bool is_apart(const PointStore& points, const UprightTriangle& s, const UprightT
 
 bool is_over(const PointStore& points, const UprightTriangle& t, PointIndex p) {
     for (unsigned i = 0; i < 3; ++i)
-        if (turn(points, t[i], t[(i + 1) % 3], p) == right) return false;
+        if (orientation(points, t[i], t[(i + 1) % 3], p) == right) return false;
     return true;
 }
 
@@ -41,9 +41,10 @@ Sign side_of_corners(const PointStore& points, const UprightTriangle& s, const U
 /// The side of s where edges a b of s and c d of t cross in the projection; Zero where they don't.
 Sign side_of_edges(const PointStore& points, PointIndex a, PointIndex b, PointIndex c,
                    PointIndex d) {
-    const Sign c_side = turn(points, a, b, c), d_side = turn(points, a, b, d);
+    const Sign c_side = orientation(points, a, b, c), d_side = orientation(points, a, b, d);
     if (c_side * d_side != Sign::Negative) return Sign::Zero;
-    if (turn(points, c, d, a) * turn(points, c, d, b) != Sign::Negative) return Sign::Zero;
+    if (orientation(points, c, d, a) * orientation(points, c, d, b) != Sign::Negative)
+        return Sign::Zero;
     if (c_side == right) std::swap(c, d);
     // a, b, c turn left: where d is above their plane, c d passes above a b.
     return -points.orient3d(a, b, c, d);
@@ -52,7 +53,7 @@ Sign side_of_edges(const PointStore& points, PointIndex a, PointIndex b, PointIn
 } // namespace
 
 std::optional<UprightTriangle> seen_along_z(const PointStore& points, UprightTriangle corners) {
-    const Sign side = turn(points, corners[0], corners[1], corners[2]);
+    const Sign side = orientation(points, corners[0], corners[1], corners[2]);
     if (side == Sign::Zero) return std::nullopt;
     if (side == right) std::swap(corners[1], corners[2]);
     return corners;

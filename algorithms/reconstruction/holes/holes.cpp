@@ -86,7 +86,7 @@ private:
     }
 
     /// The other border side of the triangles round `pivot` that hang together with this one.
-    [[nodiscard]] Side turn(Side side, std::uint32_t pivot) const {
+    [[nodiscard]] Side next_border_side(Side side, std::uint32_t pivot) const {
         while (true) {
             const unsigned next = corner(side, 1) == pivot ? (side.i + 1) % 3 : (side.i + 2) % 3;
             const Side inner{side.triangle, next};
@@ -103,7 +103,7 @@ private:
             seen_[side.triangle][side.i] = true;
             steps.push_back({vertex, side});
             vertex = other_end(side, vertex);
-            side = turn(side, vertex);
+            side = next_border_side(side, vertex);
         } while (side.triangle != start.triangle || side.i != start.i);
         split(steps);
     }

@@ -131,12 +131,12 @@ Result<FlatFilling> mesh_of(const KrigingData& data, double mesh_size, const Run
 /// Gives what is invented its heights. Per vertex its deviation, 0 on the borders.
 std::vector<double> set_heights(FlatFilling& flat, const Kriging& kriging, const Run& run) {
     const auto estimates = kriging.at(std::span(flat.points).subspan(flat.border), run);
-    std::vector<double> deviation(flat.points.size(), 0);
+    std::vector<double> expected_error(flat.points.size(), 0);
     for (std::size_t i = 0; i < estimates.size(); ++i) {
         flat.points[flat.border + i].z = estimates[i].value;
-        deviation[flat.border + i] = estimates[i].deviation;
+        expected_error[flat.border + i] = estimates[i].standard_deviation;
     }
-    return deviation;
+    return expected_error;
 }
 
 /// Whether a filling of smaller triangles would be nearer to the truth.
@@ -153,7 +153,7 @@ bool is_too_flat(const FlatFilling& flat, const Kriging& kriging, double mesh_si
     for (std::size_t i = 0; i < estimates.size(); i += 3) {
         const Estimate* e = &estimates[i]; // noise of the data on the border does not count
         sags.push_back(e[2].value - (e[0].value + e[1].value) / 2);
-        expected.push_back(e[2].deviation);
+        expected.push_back(e[2].standard_deviation);
     }
     return detail::flatness_outweighs(sags, expected, mesh_size);
 }
@@ -220,7 +220,7 @@ Result<Filling> fill_by_kriging(const Surface& surface, const BorderLoop& loop,
     // 3. heights
     Filling filling;
     const Kriging kriging = model_of(data, border, options.variogram, filling.report);
-    filling.deviation = set_heights(flat.value(), kriging, run);
+    filling.expected_error = set_heights(flat.value(), kriging, run);
     for (int halvings = 0; options.mesh_size == 0 && halvings < detail::most_halvings; ++halvings) {
         if (4 * (flat.value().points.size() - border) > most_places || run.stop.stop_requested() ||
             !is_too_flat(flat.value(), kriging, mesh_size, run))
@@ -228,7 +228,7 @@ Result<Filling> fill_by_kriging(const Surface& surface, const BorderLoop& loop,
         mesh_size /= 2;
         flat = mesh_of(data, mesh_size, run);
         if (!flat) return flat.error();
-        filling.deviation = set_heights(flat.value(), kriging, run);
+        filling.expected_error = set_heights(flat.value(), kriging, run);
     }
     if (run.stop.stop_requested()) return interrupted();
     filling.surface = {surface.name, surface.role, std::move(flat.value().points),
@@ -236,12 +236,13 @@ Result<Filling> fill_by_kriging(const Surface& surface, const BorderLoop& loop,
     filling.exact_border = true;
     if (area > 0) // the surface on the left of a loop that runs the other way: its front is down
         for (Triangle& t : filling.surface.triangles) std::swap(t[1], t[2]);
-    filling.report.invented = filling.surface.vertices.size() - border;
+    filling.report.interpolated = filling.surface.vertices.size() - border;
     filling.report.area = area_of(filling.surface);
-    const double squares = std::inner_product(filling.deviation.begin(), filling.deviation.end(),
-                                              filling.deviation.begin(), 0.0);
+    const double squares =
+        std::inner_product(filling.expected_error.begin(), filling.expected_error.end(),
+                           filling.expected_error.begin(), 0.0);
     filling.report.expected_error =
-        squares == 0 ? 0 : std::sqrt(squares / static_cast<double>(filling.report.invented));
+        squares == 0 ? 0 : std::sqrt(squares / static_cast<double>(filling.report.interpolated));
     return filling;
 }
 

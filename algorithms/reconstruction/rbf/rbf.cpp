@@ -125,14 +125,14 @@ Result<Surface> mesh_zero_level(const Implicit& f, const RbfData& data, const Tr
 }
 
 /// Per place the expected error; 0 over the surface.
-std::vector<double> deviation_at(std::span<const Point3> places, const RbfData& data,
-                                 const RbfChoice& choice, double nugget, const Run& run) {
-    std::vector<double> deviation(places.size(), no_number);
-    if (!std::isfinite(choice.expected)) return deviation;
+std::vector<double> expected_error_at(std::span<const Point3> places, const RbfData& data,
+                                      const RbfChoice& choice, double nugget, const Run& run) {
+    std::vector<double> expected_error(places.size(), no_number);
+    if (!std::isfinite(choice.expected)) return expected_error;
     const RbfError error(data, choice.form.polynomial, 0, nugget);
-    deviation = error.at(places, false, run);
-    for (double& d : deviation) d *= choice.expected;
-    return deviation;
+    expected_error = error.at(places, false, run);
+    for (double& d : expected_error) d *= choice.expected;
+    return expected_error;
 }
 
 /// The level over the hole, as far as it is meshed.
@@ -170,7 +170,7 @@ bool is_too_flat(const Surface& mesh, const Level& level, double size, const Run
         middles.push_back(m);
     }
     return detail::flatness_outweighs(
-        sags, deviation_at(middles, level.data, level.choice, level.f.nugget, run), size);
+        sags, expected_error_at(middles, level.data, level.choice, level.f.nugget, run), size);
 }
 
 /// The same, with edges as long as those of the border, or half or a quarter of that where the
@@ -223,9 +223,9 @@ std::string describe(const RbfReport& r, const RbfForm& form, bool smoothed) {
 double mean_over_hole(const Filling& filling, const TriangleTree& tree, double size) {
     double squares = 0;
     std::size_t count = 0;
-    for (std::size_t v = 0; v < filling.deviation.size(); ++v) {
+    for (std::size_t v = 0; v < filling.expected_error.size(); ++v) {
         if (tree.distance(filling.surface.vertices[v], size / 2) < size / 2) continue;
-        squares += filling.deviation[v] * filling.deviation[v];
+        squares += filling.expected_error[v] * filling.expected_error[v];
         ++count;
     }
     return count == 0 ? no_number : std::sqrt(squares / static_cast<double>(count));
@@ -263,10 +263,10 @@ Result<Filling> fill_valid(const Surface& surface, const BorderLoop& loop,
     filling.surface = std::move(mesh).value();
     filling.surface.name = surface.name;
     filling.surface.role = surface.role;
-    filling.deviation =
-        deviation_at(filling.surface.vertices, data.value(), choice.value(), f.value().nugget, run);
+    filling.expected_error = expected_error_at(filling.surface.vertices, data.value(),
+                                               choice.value(), f.value().nugget, run);
     filling.report.data = report.data;
-    filling.report.invented = filling.surface.vertices.size();
+    filling.report.interpolated = filling.surface.vertices.size();
     filling.report.area = area_of(filling.surface);
     filling.report.expected_error = mean_over_hole(filling, tree, report.size);
     filling.report.validated_error = choice.value().validated;

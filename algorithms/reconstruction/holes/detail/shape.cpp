@@ -71,7 +71,7 @@ public:
         Flat direction;
     };
 
-    [[nodiscard]] std::optional<Facing> look_across(std::size_t i) const {
+    [[nodiscard]] std::optional<Facing> find_facing(std::size_t i) const {
         const Flat a = flat_[i], b = flat_[next(i)], edge = b - a;
         const double length = std::sqrt(dot(edge, edge));
         if (length == 0) return std::nullopt;
@@ -141,9 +141,9 @@ private:
     /// Where a ray meets edge j from within the hole.
     [[nodiscard]] std::optional<Meeting> meet(Flat from, Flat along, std::size_t j) const {
         const Flat edge = flat_[next(j)] - flat_[j], to = flat_[j] - from;
-        const double turn = cross(along, edge);
-        if (turn >= 0) return std::nullopt; // parallel, or seen from the surface's side
-        const double t = cross(to, edge) / turn, s = cross(to, along) / turn;
+        const double determinant = cross(along, edge);
+        if (determinant >= 0) return std::nullopt; // parallel, or seen from the surface's side
+        const double t = cross(to, edge) / determinant, s = cross(to, along) / determinant;
         if (t < 0 || s < 0 || s > 1) return std::nullopt;
         return Meeting{t, s};
     }
@@ -201,7 +201,7 @@ bool is_fault_gap(const Soup& soup, const TracedLoop& traced, const GapRule& rul
     const auto n = traced.vertices.size();
     const auto probes = std::min(n, most_probes);
     for (std::size_t k = 0; k < probes; ++k)
-        if (const auto facing = hole.look_across(k * n / probes)) pairs.push_back(*facing);
+        if (const auto facing = hole.find_facing(k * n / probes)) pairs.push_back(*facing);
 
     std::vector<std::array<double, 2>> jumps, widths;
     Flat downhill;

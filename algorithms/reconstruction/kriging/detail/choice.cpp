@@ -55,7 +55,7 @@ public:
             for (std::size_t k = 0; k < left_out; ++k) {
                 const Estimate e = kriging.at(order[k].x, order[k].y);
                 errors += (e.value - order[k].z) * (e.value - order[k].z);
-                expected += e.deviation * e.deviation + variogram.nugget;
+                expected += e.standard_deviation * e.standard_deviation + variogram.nugget;
                 ++result.count;
             }
         }

@@ -139,7 +139,7 @@ public:
         return mean_ + covariances(x, y).dot(dual_);
     }
 
-    [[nodiscard]] double deviation(double x, double y) const {
+    [[nodiscard]] double standard_deviation(double x, double y) const {
         const VectorXd c = covariances(x, y);
         const VectorXd half = factor_.matrixL().solve(c);
         const double off = 1 - solved_ones_.dot(c);
@@ -261,9 +261,9 @@ std::vector<Point3> residuals(std::span<const Point3> data, unsigned degree) {
 Estimate Kriging::at(double x, double y) const {
     const State& s = *state_;
     const double trend = s.trend.at(x, y);
-    if (s.system) return {trend + s.system->value(x, y), s.system->deviation(x, y)};
+    if (s.system) return {trend + s.system->value(x, y), s.system->standard_deviation(x, y)};
     const System local(s.data, s.near(x, y, neighbours), s.variogram);
-    return {trend + local.value(x, y), local.deviation(x, y)};
+    return {trend + local.value(x, y), local.standard_deviation(x, y)};
 }
 
 std::vector<Estimate> Kriging::at(std::span<const Point3> places, const Run& run) const {
@@ -276,7 +276,7 @@ std::vector<Estimate> Kriging::at(std::span<const Point3> places, const Run& run
         if (!quick) return at(p.x, p.y);
         const System local(s.data, s.near(p.x, p.y, neighbours), s.variogram);
         return Estimate{s.trend.at(p.x, p.y) + s.system->value(p.x, p.y),
-                        local.deviation(p.x, p.y)};
+                        local.standard_deviation(p.x, p.y)};
     };
     constexpr std::size_t block = 4096; // between looks at the run
     for (std::size_t first = 0; first < places.size(); first += block) {
@@ -306,7 +306,8 @@ Kriging::Validation Kriging::validate(std::size_t most) const {
         std::erase_if(others, [&](std::uint32_t j) { return j == i; });
         if (others.empty()) continue;
         const System local(s.data, others, s.variogram);
-        const double missed = local.value(p.x, p.y) - p.z, deviation = local.deviation(p.x, p.y);
+        const double missed = local.value(p.x, p.y) - p.z,
+                     deviation = local.standard_deviation(p.x, p.y);
         errors += missed * missed;
         expected += deviation * deviation + s.variogram.nugget;
         ++result.count;

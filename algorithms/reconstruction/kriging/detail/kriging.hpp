@@ -18,7 +18,7 @@ namespace terrane {
 /// A height and how far off it can be expected to be.
 struct Estimate {
     double value = 0;
-    double deviation = 0; ///< square root of the kriging variance
+    double standard_deviation = 0; ///< square root of the kriging variance
 };
 
 /// Estimates heights as weighted means of data: weights that sum to one and make the variance by

@@ -54,9 +54,9 @@ public:
             return std::min(static_cast<std::size_t>(share * static_cast<double>(classes)),
                             classes - 1);
         };
-        const double turn = std::atan2(dy, dx) / std::numbers::pi + 0.5; // in [0, 1]
+        const double direction = std::atan2(dy, dx) / std::numbers::pi + 0.5; // in [0, 1]
         VariogramBin& bin = bins_[at(h / longest_, distance_classes) * direction_classes +
-                                  at(turn, direction_classes)];
+                                  at(direction, direction_classes)];
         bin.dx += dx;
         bin.dy += dy;
         bin.distance += h;
@@ -252,12 +252,14 @@ Variogram fit_variogram(std::span<const VariogramBin> bins, const FitOptions& op
         return {options.model.value_or(VariogramModel::spherical)};
     Fit best = best_model(bins, options, 0, 1);
     if (!options.anisotropy) return best.variogram;
-    Fit turned;
+    Fit anisotropic;
     for (double angle = 0; angle < 180; angle += 15)
         for (const double ratio : {0.8, 0.65, 0.5, 0.4, 0.3, 0.2})
-            if (const Fit fit = best_model(bins, options, angle, ratio); fit.misfit < turned.misfit)
-                turned = fit;
-    return turned.misfit < worth_anisotropy * best.misfit ? turned.variogram : best.variogram;
+            if (const Fit fit = best_model(bins, options, angle, ratio);
+                fit.misfit < anisotropic.misfit)
+                anisotropic = fit;
+    return anisotropic.misfit < worth_anisotropy * best.misfit ? anisotropic.variogram
+                                                               : best.variogram;
 }
 
 } // namespace terrane

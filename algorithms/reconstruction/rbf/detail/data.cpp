@@ -68,14 +68,14 @@ std::vector<double> distances_from(const Soup& soup, std::span<const std::uint32
 
 /// Turns triangles so that they run along the loops, spreading from those over edges of two
 /// triangles.
-void wind_by_loops(RbfData& data) {
+void orient_by_loops(RbfData& data) {
     auto& triangles = data.triangles;
     const std::size_t border = data.next.size();
     const EdgeSides edges = group_edges(triangles, data.points.size());
     std::vector<std::vector<std::uint32_t>> beside(triangles.size());
     std::vector<bool> done(triangles.size(), false);
     std::vector<std::uint32_t> front;
-    const auto wind = [&](std::uint32_t t, std::uint32_t from, std::uint32_t to) {
+    const auto orient = [&](std::uint32_t t, std::uint32_t from, std::uint32_t to) {
         if (done[t]) return;
         done[t] = true;
         if (!runs_along(triangles[t], from, to)) std::swap(triangles[t][1], triangles[t][2]);
@@ -86,8 +86,8 @@ void wind_by_loops(RbfData& data) {
             beside[sides[0].triangle].push_back(sides[1].triangle);
             beside[sides[1].triangle].push_back(sides[0].triangle);
         } else if (sides.size() == 1 && high < border) {
-            if (data.next[low] == high) wind(sides[0].triangle, low, high);
-            if (data.next[high] == low) wind(sides[0].triangle, high, low);
+            if (data.next[low] == high) orient(sides[0].triangle, low, high);
+            if (data.next[high] == low) orient(sides[0].triangle, high, low);
         }
     });
     while (!front.empty()) {
@@ -101,7 +101,7 @@ void wind_by_loops(RbfData& data) {
                 const auto has = [&](std::uint32_t v) {
                     return o[0] == v || o[1] == v || o[2] == v;
                 };
-                if (has(a) && has(b)) wind(other, b, a);
+                if (has(a) && has(b)) orient(other, b, a);
             }
     }
 }
@@ -140,15 +140,15 @@ public:
         normal_ = size > 0 ? Point3{n.x / size, n.y / size, n.z / size} : Point3{0, 0, 1};
     }
     [[nodiscard]] bool operator()(const Point3& p) const {
-        double least = std::numeric_limits<double>::infinity(), most = -least, turn = 0;
+        double least = std::numeric_limits<double>::infinity(), most = -least, winding = 0;
         for (std::size_t i = 0; i < points_.size(); ++i) {
             const double height = dot(minus(points_[i], p), normal_);
             least = std::min(least, height);
             most = std::max(most, height);
             const Point3 a = flat(points_[i], p), b = flat(at(i + 1), p);
-            turn += std::atan2(dot(cross(a, b), normal_), dot(a, b));
+            winding += std::atan2(dot(cross(a, b), normal_), dot(a, b));
         }
-        return std::fabs(turn) > 3 && least < radius_ && most > -radius_; // a full turn is 6.28
+        return std::fabs(winding) > 3 && least < radius_ && most > -radius_; // once around is 6.28
     }
 
 private:
@@ -227,7 +227,7 @@ Result<RbfData> collect_data(const Surface& surface, const BorderLoop& loop,
     for (const Triangle& t : soup.triangles)
         if (distance[t[0]] < never && distance[t[1]] < never && distance[t[2]] < never)
             data.triangles.push_back({name[t[0]], name[t[1]], name[t[2]]});
-    wind_by_loops(data);
+    orient_by_loops(data);
     data.edge = median_edge(data);
     constexpr double is_long = 1.5; // edges
     if (range.long_edges) divide_long_edges(data, is_long * data.edge, 3 * data.edge);

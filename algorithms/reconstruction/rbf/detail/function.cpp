@@ -113,12 +113,12 @@ Matrix kernel_matrix(const Matrix& points) {
 /// The factored system: weights orthogonal to the polynomials, and the polynomial.
 class Solver {
 public:
-    Solver(const System& system, Matrix turned) : qr_(system.terms), m_(system.terms.cols()) {
-        const Eigen::Index n = turned.rows();
-        turned.applyOnTheLeft(qr_.householderQ().transpose());
-        turned.applyOnTheRight(qr_.householderQ());
-        rows_ = turned.topRightCorner(m_, n - m_);
-        factor_.compute(turned.bottomRightCorner(n - m_, n - m_));
+    Solver(const System& system, Matrix rotated) : qr_(system.terms), m_(system.terms.cols()) {
+        const Eigen::Index n = rotated.rows();
+        rotated.applyOnTheLeft(qr_.householderQ().transpose());
+        rotated.applyOnTheRight(qr_.householderQ());
+        rows_ = rotated.topRightCorner(m_, n - m_);
+        factor_.compute(rotated.bottomRightCorner(n - m_, n - m_));
     }
     [[nodiscard]] bool ok() const {
         const Vector r = qr_.matrixQR().diagonal().head(m_).cwiseAbs();
@@ -129,12 +129,12 @@ public:
 
     /// Adds to weights and polynomial what makes up for the right side.
     void add_solution(const Vector& right, Vector& weights, Vector& polynomial) const {
-        Vector turned = right;
-        turned.applyOnTheLeft(qr_.householderQ().transpose());
+        Vector rotated = right;
+        rotated.applyOnTheLeft(qr_.householderQ().transpose());
         const Eigen::Index n = right.size();
         Vector part = Vector::Zero(n);
-        part.tail(n - m_) = factor_.solve(turned.tail(n - m_));
-        const Vector rest = turned.head(m_) - rows_ * part.tail(n - m_);
+        part.tail(n - m_) = factor_.solve(rotated.tail(n - m_));
+        const Vector rest = rotated.head(m_) - rows_ * part.tail(n - m_);
         polynomial +=
             qr_.matrixQR().topLeftCorner(m_, m_).triangularView<Eigen::Upper>().solve(rest);
         part.applyOnTheLeft(qr_.householderQ());
@@ -144,7 +144,7 @@ public:
 private:
     Eigen::HouseholderQR<Matrix> qr_;
     Eigen::Index m_; ///< terms of the polynomial
-    Matrix rows_;    ///< of the turned kernel: from the complement to polynomials
+    Matrix rows_;    ///< of the rotated kernel: from the complement to polynomials
     Eigen::LLT<Matrix> factor_;
 };
 

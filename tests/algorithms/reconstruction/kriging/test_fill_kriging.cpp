@@ -51,12 +51,12 @@ Filling filling_of(const Surface& s, const KrigingOptions& options = {}) {
 template <class Height>
 double missed(const Filling& f, const Height& z) {
     double sum = 0;
-    const auto border = f.surface.vertices.size() - f.report.invented;
+    const auto border = f.surface.vertices.size() - f.report.interpolated;
     for (auto v = border; v < f.surface.vertices.size(); ++v) {
         const Point3& p = f.surface.vertices[v];
         sum += std::pow(p.z - z(p.x, p.y), 2);
     }
-    return std::sqrt(sum / double(std::max<std::size_t>(f.report.invented, 1)));
+    return std::sqrt(sum / double(std::max<std::size_t>(f.report.interpolated, 1)));
 }
 
 void check_joined(const Surface& holed, const Surface& whole) {
@@ -84,7 +84,7 @@ TEST_CASE("fill by kriging: smooth surfaces, far nearer than the depth of the ho
         const Surface s = sheet(40, 36, 10, without_disc(18, 17, radius), wave);
         const Filling f = filling_of(s);
         CHECK(f.exact_border);
-        CHECK(f.report.invented > 10);
+        CHECK(f.report.interpolated > 10);
         CHECK(missed(f, wave) < 0.01);
         CHECK(f.report.expected_error < 0.1);
         CHECK(f.report.area == Approx(M_PI * radius * radius * 100).epsilon(0.25));
@@ -106,8 +106,8 @@ TEST_CASE("fill by kriging: triangles as small as the heights are good", "[krigi
     };
     const Surface s = sheet(40, 36, 10, without_disc(18, 17, 5), wave);
     const Filling fine = filling_of(s), given = filling_of(s, {.mesh_size = 10});
-    CHECK(fine.report.invented > 10 * given.report.invented); // a quarter of the size
-    CHECK(fine.report.invented < 25 * given.report.invented);
+    CHECK(fine.report.interpolated > 10 * given.report.interpolated); // a quarter of the size
+    CHECK(fine.report.interpolated < 25 * given.report.interpolated);
     CHECK(4 * missed_by_triangles(fine) < missed_by_triangles(given));
     CHECK(fine.report.expected_error < 2 * given.report.expected_error);
     check_joined(s, joined(s, fine));
@@ -118,9 +118,9 @@ TEST_CASE("fill by kriging: triangles as small as the heights are good", "[krigi
         return wave(x, y) + std::normal_distribution<double>(0, 1)(random);
     };
     const Surface rough = sheet(40, 36, 10, without_disc(18, 17, 5), noisy);
-    CHECK(filling_of(rough).report.invented == given.report.invented);
+    CHECK(filling_of(rough).report.interpolated == given.report.interpolated);
     const Surface wide = sheet(190, 190, 10, without_disc(95, 95, 86), wave);
-    CHECK(filling_of(wide).report.invented < 21'000);
+    CHECK(filling_of(wide).report.interpolated < 21'000);
 }
 
 TEST_CASE("fill by kriging: a plane is filled with that plane", "[kriging]") {
@@ -272,5 +272,5 @@ TEST_CASE("fill by kriging: the same bytes for any number of threads", "[kriging
     REQUIRE(three);
     CHECK(one.value().surface.vertices == three.value().surface.vertices);
     CHECK(one.value().surface.triangles == three.value().surface.triangles);
-    CHECK(one.value().deviation == three.value().deviation);
+    CHECK(one.value().expected_error == three.value().expected_error);
 }

@@ -59,7 +59,7 @@ Estimate by_the_book(const std::vector<Point3>& data, const Variogram& v, double
     const Eigen::VectorXd w = a.fullPivLu().solve(b);
     Estimate e;
     for (Eigen::Index i = 0; i < n; ++i) e.value += w[i] * data[std::size_t(i)].z;
-    e.deviation = std::sqrt(std::max(w.dot(b), 0.0));
+    e.standard_deviation = std::sqrt(std::max(w.dot(b), 0.0));
     return e;
 }
 
@@ -136,7 +136,7 @@ TEST_CASE("kriging: the textbook's weights and variance", "[kriging]") {
                 const double x = random_real(random, 0, 100), y = random_real(random, 0, 100);
                 const Estimate e = kriging.at(x, y), book = by_the_book(data, v, x, y);
                 CHECK(e.value == Approx(book.value).margin(1e-6));
-                CHECK(e.deviation == Approx(book.deviation).margin(1e-5));
+                CHECK(e.standard_deviation == Approx(book.standard_deviation).margin(1e-5));
             }
         }
 }
@@ -152,7 +152,7 @@ TEST_CASE("kriging: without a nugget data are met; planes and quadratics are est
     const Kriging rough(data, v);
     for (const Point3& p : data) {
         CHECK(rough.at(p.x, p.y).value == Approx(p.z).margin(1e-6));
-        CHECK(rough.at(p.x, p.y).deviation < 1e-4);
+        CHECK(rough.at(p.x, p.y).standard_deviation < 1e-4);
     }
     for (Point3& p : data) p.z = plane(p.x, p.y);
     const Kriging flat(data, v);
@@ -178,7 +178,7 @@ TEST_CASE("kriging: the variance tells how far off it is, of fields with this va
         for (std::size_t k = 70; k < points.size(); ++k) {
             const Estimate e = kriging.at(points[k].x, points[k].y);
             errors += std::pow(e.value - points[k].z, 2);
-            expected += e.deviation * e.deviation + v.nugget;
+            expected += e.standard_deviation * e.standard_deviation + v.nugget;
         }
     }
     CHECK(errors / expected == Approx(1).epsilon(0.15));
@@ -219,7 +219,7 @@ TEST_CASE("kriging: data at one place, or nearly, and a single datum", "[kriging
     for (int k = 0; k < 30; ++k) {
         const double x = random_real(random, 0, 100), y = random_real(random, 0, 100);
         CHECK(bound(repeated.at(x, y).value));
-        CHECK(repeated.at(x, y).deviation >= 0);
+        CHECK(repeated.at(x, y).standard_deviation >= 0);
     }
     const std::vector<Point3> one{{1, 2, 3}};
     CHECK(Kriging(one, v).at(50, 50).value == Approx(3));

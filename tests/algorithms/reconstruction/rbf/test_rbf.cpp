@@ -34,7 +34,7 @@ std::vector<BorderLoop> holes_of(const Surface& s) {
 Joined fill(const Surface& s, const BorderLoop& hole, const RbfOptions& options = {}) {
     const auto filling = fill_by_rbf(s, hole, options);
     if (!filling) FAIL(filling.error().message());
-    CHECK(filling.value().deviation.size() == filling.value().surface.vertices.size());
+    CHECK(filling.value().expected_error.size() == filling.value().surface.vertices.size());
     CHECK(!filling.value().exact_border);
     CHECK(!filling.value().report.model.empty());
     CHECK(filling.value().report.data > hole.vertices.size());

@@ -243,7 +243,7 @@ TEST_CASE("rbf: expected errors are of the order of what is missed", "[rbf]") {
         double missed = 0, foreseen = 0, nearest = 1e9, largest = 0;
         for (std::size_t k = 0; k < made.value().filling_vertices.size(); ++k) {
             const Point3& p = made.value().surface.vertices[s.vertices.size() + k];
-            const double d = filling.value().deviation[made.value().filling_vertices[k]];
+            const double d = filling.value().expected_error[made.value().filling_vertices[k]];
             REQUIRE(d >= 0);
             missed += std::pow(p.z - height(p.x, p.y), 2);
             foreseen += d * d;
