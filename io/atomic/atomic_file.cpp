@@ -23,7 +23,8 @@ std::string reason(int code) {
     return std::generic_category().message(code);
 }
 
-/// Closes at the end of its scope, unless close() did and told how it went.
+/// A file descriptor that is closed at the end of its scope, or earlier by close(), which reports
+/// failure.
 class Descriptor {
 public:
     explicit Descriptor(int number) : number_(number) {}
@@ -41,7 +42,7 @@ private:
     int number_;
 };
 
-/// 0, or errno.
+/// Returns 0, or errno.
 int write_all(int descriptor, std::string_view contents) {
     while (!contents.empty()) {
         const auto piece = std::min<std::size_t>(contents.size(), std::size_t(1) << 30);
@@ -53,7 +54,7 @@ int write_all(int descriptor, std::string_view contents) {
     return 0;
 }
 
-/// 0, or errno. Appends to `contents` until the end of the file.
+/// Appends the rest of the file to `contents`. Returns 0, or errno.
 int read_all(int descriptor, std::string& contents) {
     constexpr std::size_t piece = std::size_t(1) << 20;
     std::size_t used = contents.size();
@@ -87,7 +88,7 @@ Status write_to_device(const fs::path& path, std::string_view contents) {
     return Done{};
 }
 
-/// A name in the folder of `target` that nothing else uses.
+/// Returns a name in the folder of `target` that no other call of this process returns.
 fs::path temporary_name(const fs::path& target) {
     static std::atomic<unsigned> counter{0};
     auto name = fmt::format(".{}.{}-{}.part", target.filename().string().substr(0, 200), ::getpid(),
@@ -95,7 +96,7 @@ fs::path temporary_name(const fs::path& target) {
     return target.parent_path() / name;
 }
 
-/// 0, or errno. The file is on the disk when it returns 0.
+/// Writes the contents, flushes them to the disk and closes the file. Returns 0, or errno.
 int fill(Descriptor& file, std::string_view contents) {
     if (const int code = write_all(file.number(), contents)) return code;
     if (::fsync(file.number()) != 0 && errno != EINVAL && errno != ENOTSUP) return errno;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Files in one piece: read whole, written whole or not at all.
+// Files are read as a whole, and written as a whole or not at all.
 #pragma once
 
 #include <filesystem>
@@ -11,14 +11,14 @@
 
 namespace terrane {
 
-/// The bytes of a file; "-" is standard input. Errors: cannot_open.
+/// Returns the bytes of a file; "-" is standard input. Errors: cannot_open.
 Result<std::string> read_file(const std::filesystem::path& path);
 
-/// Puts `contents` where `path` is, or leaves what is there as it is: writes to a temporary name in
-/// the same folder, down to the disk, then renames. A link is followed; a file that is there keeps
-/// its permissions. "-" (standard output) and what is no regular file (a pipe, a device) are
-/// written directly.
-/// Errors: cannot_open, write_failed (disk full, ...); no temporary file stays behind.
+/// Replaces the file at `path` by one with these contents, or leaves it unchanged on failure: the
+/// contents are written to a temporary file in the same folder and flushed to the disk; then the
+/// temporary file is renamed. Links are followed; an existing file keeps its permissions. Standard
+/// output ("-") and files that are not regular (pipes, devices) are written directly.
+/// Errors: cannot_open, write_failed (disk full, ...); no temporary file is left behind.
 Status write_file(const std::filesystem::path& path, std::string_view contents);
 
 } // namespace terrane

@@ -18,7 +18,7 @@ Error cannot_make(std::string sentence, const fs::path& path) {
     return {ErrorCode::cannot_open, std::move(sentence), path.string()};
 }
 
-/// "out/" and "out" are the same folder.
+/// Removes the slash at the end: "out/" and "out" are the same folder.
 fs::path without_slash(const fs::path& path) {
     return path.has_filename() ? path : path.parent_path();
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Folders in one piece: all of their files, or nothing.
+// A folder of results appears with all of its files, or not at all.
 #pragma once
 
 #include <filesystem>
@@ -9,11 +9,12 @@
 
 namespace terrane {
 
-/// An error where no folder can be made: its parent is missing or protected, or `path` exists and
-/// is no empty folder.
+/// Fails where no folder can be made: its parent is missing or write-protected, or `path` exists
+/// and is not an empty folder. Errors: cannot_open.
 Status check_new_folder(const std::filesystem::path& path);
 
-/// A folder that gets its name when it is complete. Fill temporary(), then publish().
+/// A folder that gets its name when it is complete. Write files into temporary(), then call
+/// publish().
 class NewFolder {
 public:
     /// Errors: cannot_open, as check_new_folder.
@@ -22,12 +23,13 @@ public:
     NewFolder& operator=(NewFolder&& other) noexcept;
     NewFolder(const NewFolder&) = delete;
     NewFolder& operator=(const NewFolder&) = delete;
-    ~NewFolder(); ///< removes what was not published
+    ~NewFolder(); ///< removes the temporary folder unless it was published
 
-    /// Beside the final place, so that it can be renamed.
+    /// The folder to write to; it is in the parent of the final folder, so that it can be renamed.
     [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
 
-    /// Errors: write_failed; the folder is then removed.
+    /// Renames the temporary folder to its final name. Errors: write_failed; the destructor then
+    /// removes the folder.
     Status publish();
 
 private:

@@ -15,7 +15,7 @@ using namespace detail;
 
 namespace {
 
-/// Surfaces with different units must not meet: their numbers do not mean the same.
+/// Refuses surfaces with different units, whose coordinates cannot be compared.
 MaybeError check_units(const LineParser& in, const std::vector<TsurfObject>& objects) {
     const TsurfObject* first = nullptr;
     for (const auto& object : objects) {
@@ -52,7 +52,7 @@ std::string_view name_in_model(const TsurfObject& object) {
     return object.name_in_model.empty() ? object.surface.name : object.name_in_model;
 }
 
-/// A model says what its surfaces are, also to those that do not say it themselves.
+/// Gives surfaces without a role of their own the role from the model's list of TFACE.
 void take_roles(GocadFile& file) {
     if (!file.model) return;
     std::map<std::string_view, Role> role_of; // of the first part that has one
@@ -73,7 +73,7 @@ void name_nameless(GocadFile& file, std::string_view name) {
         if (object.surface.name.empty()) object.surface.name = name;
 }
 
-/// Turns what a file says about a model into indices.
+/// Converts the names and ids in a model object to indices.
 class ModelBuilder {
 public:
     ModelBuilder(const LineParser& in, const GocadFile& file) : in_(in), file_(file) {}
@@ -172,7 +172,7 @@ private:
     const LineParser& in_;
     const GocadFile& file_;
     std::map<std::string_view, std::uint32_t> surfaces_; ///< by name in the model
-    std::vector<std::size_t> parts_of_;                  ///< per surface: parts met so far
+    std::vector<std::size_t> parts_of_;                  ///< per surface: number of parts so far
     std::map<std::int64_t, std::size_t> part_of_id_;
     std::set<std::int64_t> region_ids_;
 };

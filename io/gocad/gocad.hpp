@@ -13,26 +13,27 @@
 
 namespace terrane {
 
-/// One Surface per TSurf object, in file order; its TFACE blocks in one. Also the TSurf objects in
-/// groups and models. Other objects (PLine, VSet, Voxet, ...) are passed over.
-/// - z points up: where the object says ZPOSITIVE Depth, z becomes -z (corners keep their order).
-/// - Units stay as they are, per axis; objects with different AXIS_UNIT in one file are refused.
-/// - All vertices of the object, in file order; an ATOM is the vertex that it refers to. Ids may
-///   have gaps, and may be used before they are defined.
-/// - Role: from GEOLOGICAL_TYPE, or from the feature type in a model's list of TFACE.
-/// - Without a name the surface is called `name`. A header without its } ends at the next keyword.
-/// Errors: bad_syntax (also: an object without END, a file cut off), bad_number, bad_index,
-/// unsupported, all with "source:line"; nothing_to_do without a TSurf or a triangle.
+/// Reads one Surface per TSurf object, in file order, also from groups and models; its TFACE blocks
+/// are merged. Other objects (PLine, VSet, Voxet, ...) are skipped.
+/// - The z axis points up: if an object has ZPOSITIVE Depth, z becomes -z; the order of the corners
+///   is kept.
+/// - Units are not converted; objects with different AXIS_UNIT in one file are an error.
+/// - A surface has all vertices of its object, in file order; an ATOM is the vertex that it refers
+///   to. Ids may have gaps, and may be used before they are defined.
+/// - The role comes from GEOLOGICAL_TYPE, or from the feature type in a model's list of TFACE.
+/// - A surface without a name is called `name`. A header without its } ends at the next keyword.
+/// Errors: bad_syntax (also for an object without END and a truncated file), bad_number, bad_index,
+/// unsupported, all with "source:line"; nothing_to_do if there is no TSurf or no triangle.
 Result<std::vector<Surface>> read_gocad(std::string_view contents, std::string_view source,
                                         std::string_view name);
 
-/// A connected part of a surface of a model: one TFACE.
+/// A connected part of a surface of a model: one TFACE block.
 struct ModelPart {
     std::uint32_t id = 0;             ///< number in the file
-    std::string feature;              ///< as in the file: "fault", "top", "boundary", "none", ...
+    std::string feature;              ///< from the file: "fault", "top", "boundary", "none", ...
     std::uint32_t surface = 0;        ///< index into GocadModel::surfaces
-    std::uint32_t first_triangle = 0; ///< its triangles in the surface: first ...
-    std::uint32_t triangle_count = 0; ///< ... and number
+    std::uint32_t first_triangle = 0; ///< index of its first triangle in the surface
+    std::uint32_t triangle_count = 0; ///< number of its triangles, which are consecutive
 };
 
 /// One side of a part.
@@ -46,32 +47,34 @@ struct ModelSide {
 struct ModelRegion {
     std::uint32_t id = 0;         ///< number in the file
     std::string name;             ///< "Universe" is the outside
-    std::vector<ModelSide> sides; ///< order of the file
+    std::vector<ModelSide> sides; ///< in file order
 };
 
 struct ModelLayer {
     std::string name;
-    std::vector<std::uint32_t> regions; ///< ids of its regions, order of the file
+    std::vector<std::uint32_t> regions; ///< ids of its regions, in file order
 };
 
-/// A GOCAD Model3d with the surfaces that it is made of.
+/// A GOCAD Model3d with its surfaces.
 struct GocadModel {
     std::string name;
     std::vector<Surface> surfaces;    ///< as read_gocad gives them
-    std::vector<ModelPart> parts;     ///< order of the file
-    std::vector<ModelRegion> regions; ///< order of the file, with the outside
-    std::vector<ModelLayer> layers;   ///< order of the file
+    std::vector<ModelPart> parts;     ///< in file order
+    std::vector<ModelRegion> regions; ///< in file order, including the outside
+    std::vector<ModelLayer> layers;   ///< in file order
 };
 
-/// Errors: as read_gocad; bad_syntax where a surface of the model is missing or has another number
-/// of TFACE blocks than the model lists; bad_index where a region names no TFACE; nothing_to_do
-/// without a Model3d.
+/// Reads the first Model3d of a file and all its surfaces. Errors: those of read_gocad; bad_syntax
+/// if a surface of the model is missing or its number of TFACE blocks differs from the model's
+/// list; bad_index if a region names a TFACE that does not exist; nothing_to_do if there is no
+/// Model3d.
 Result<GocadModel> read_gocad_model(std::string_view contents, std::string_view source,
                                     std::string_view name);
 
-/// One TSurf per surface, z up (ZPOSITIVE Elevation), with the vertices that it uses in the order
-/// of the mesh. A triangle of several surfaces is written in each of them. Names are quoted where
-/// they would not survive otherwise. Numbers read back as the same doubles.
+/// Writes one TSurf per surface, with z up (ZPOSITIVE Elevation) and the vertices that the surface
+/// uses, in the order of the mesh. A triangle of several surfaces is written in each of them. Names
+/// are quoted where this is needed to read them back. Numbers read back as the same doubles.
+/// Defined in detail/write.cpp.
 std::string to_gocad(const Mesh& mesh);
 
 } // namespace terrane

@@ -89,7 +89,7 @@ private:
         return read_list(region.sides);
     }
 
-    /// Signed integers on the lines that follow, up to a 0.
+    /// Reads signed integers from the following lines up to a 0.
     MaybeError read_list(std::vector<std::int64_t>& list) {
         const auto begin = in_.number();
         while (in_.next()) {
@@ -108,7 +108,7 @@ private:
 
     LineParser& in_;
     ModelObject& model_;
-    bool again_ = false; ///< the current line is still to be read
+    bool again_ = false; ///< the current line is not processed yet
 };
 
 MaybeError read_object(LineParser& in, std::string_view type, GocadFile& file) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The objects of a GOCAD file as they stand in it, before they become surfaces or a model.
+// The objects of a GOCAD file, before they are converted to surfaces or a model. read_tsurf is
+// defined in detail/tsurf.cpp, all other functions in gocad_objects.cpp.
 #pragma once
 
 #include <map>
@@ -16,11 +17,11 @@ namespace terrane::detail {
 
 struct TsurfObject {
     Surface surface;
-    std::string name_in_model;              ///< or empty
-    std::vector<std::uint32_t> part_begins; ///< per TFACE block: its first triangle
-    std::string units;                      ///< AXIS_UNIT, or empty
-    bool depth = false;                     ///< ZPOSITIVE Depth
-    std::size_t line = 0;                   ///< where it begins
+    std::string name_in_model;              ///< empty if the header has none
+    std::vector<std::uint32_t> part_begins; ///< first triangle of each TFACE block
+    std::string units;                      ///< AXIS_UNIT; empty if there is none
+    bool depth = false;                     ///< true for ZPOSITIVE Depth
+    std::size_t line = 0;                   ///< number of its first line
 };
 
 struct ModelObject {
@@ -33,7 +34,7 @@ struct ModelObject {
     struct Region {
         std::uint32_t id = 0;
         std::string name;
-        std::vector<std::int64_t> sides; ///< part ids with sign
+        std::vector<std::int64_t> sides; ///< ids of parts, with the sign of the side
         std::size_t line = 0;
     };
     struct Layer {
@@ -51,35 +52,36 @@ struct ModelObject {
 struct GocadFile {
     std::vector<TsurfObject> tsurfs;
     std::optional<ModelObject> model;          ///< the first one
-    std::map<std::string, std::size_t> others; ///< other types and how many of each
+    std::map<std::string, std::size_t> others; ///< number of objects of each other type
 };
 
-/// All objects of a file. Fails where no line begins with GOCAD.
+/// Reads all objects of a file. Fails if no line begins with GOCAD.
 [[nodiscard]] MaybeError read_gocad_file(LineParser& in, GocadFile& file);
 
-/// The rest of a TSurf whose first line is the current one, up to its END.
+/// Reads a TSurf, whose first line is the current one, up to its END.
 [[nodiscard]] MaybeError read_tsurf(LineParser& in, TsurfObject& object);
 
-/// The rest of a Model3d whose first line is the current one, up to its END.
+/// Reads a Model3d, whose first line is the current one, up to its END.
 [[nodiscard]] MaybeError read_model3d(LineParser& in, ModelObject& model);
 
-/// What a header says about names.
+/// The names in the header of an object.
 struct GocadNames {
     std::string name;
     std::string name_in_model;
 };
 
-/// Reads "HEADER { key:value ... }" from its first line on, to the } or to a keyword that can't
-/// stand in a block: then it returns true, and that line is the current one.
+/// Reads "HEADER { key:value ... }", whose first line is the current one, up to the }. If the } is
+/// missing it stops at the first keyword that cannot be in a block and returns true; the line of
+/// the keyword is then the current one.
 bool read_block(LineParser& in, GocadNames& names);
 
-/// Without blanks and one pair of quotes around it.
+/// Removes the blanks and one pair of quotes around a text.
 [[nodiscard]] std::string unquoted(std::string_view text);
 
-/// The role that GEOLOGICAL_TYPE or a TFACE's feature type stands for.
+/// Returns the role for a GEOLOGICAL_TYPE or the feature type of a TFACE.
 [[nodiscard]] Role role_of_feature(std::string_view feature);
 
-/// The error for an object without END.
+/// Returns the error about an object without END that begins at `line`.
 [[nodiscard]] Error no_end(const LineParser& in, std::size_t line);
 
 } // namespace terrane::detail

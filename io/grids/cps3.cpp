@@ -63,7 +63,8 @@ private:
         return std::nullopt;
     }
 
-    /// "FSASCI 0 1 COMPUTED 0 0.1E+31": the largest number.
+    /// Reads the value for no height: the number of the largest size on the line
+    /// "FSASCI 0 1 COMPUTED 0 0.1E+31".
     MaybeError read_null(Tokens tokens) {
         double found = 0;
         for (auto token = tokens.next(); !token.empty(); token = tokens.next()) {

@@ -10,9 +10,9 @@
 
 namespace terrane {
 
-/// A grid called as the line with "->" says, or `name`. Heights run down each column, from the
-/// highest y on, the leftmost column first. No height: the last number of FSASCI, and what is as
-/// large. FSXINC may be missing.
+/// Reads a grid. Its name is on the line with "->"; without one it is called `name`. Heights are
+/// listed column by column from the left, each column from the highest y down. A node has no height
+/// if its value reaches the largest number on the line FSASCI. FSXINC may be missing.
 /// Errors: bad_syntax, bad_number with "source:line".
 Result<Grid> read_cps3(std::string_view contents, std::string_view source, std::string_view name);
 

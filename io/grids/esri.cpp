@@ -31,7 +31,7 @@ public:
     }
 
 private:
-    /// Lines of a word and a number, up to one that begins with a number.
+    /// Reads lines of a keyword and a number up to a line that begins with a number.
     MaybeError read_header() {
         while (in_.next()) {
             Tokens tokens(in_.line());
@@ -90,7 +90,7 @@ private:
     }
 
     LineParser in_;
-    std::map<std::string, double> header_; ///< keywords in lower case
+    std::map<std::string, double> header_; ///< values by keyword, in lower case
 };
 
 } // namespace

@@ -10,9 +10,9 @@
 
 namespace terrane {
 
-/// A grid called `name`, its nodes the centres of the cells. Keywords in any case and order: ncols,
-/// nrows, xllcorner or xllcenter, yllcorner or yllcenter, cellsize (or dx and dy), NODATA_value
-/// (-9999 where it is missing). Rows run from the highest y down.
+/// Reads a grid called `name`, whose nodes are the centres of the cells. The keywords may be in any
+/// case and order: ncols, nrows, xllcorner or xllcenter, yllcorner or yllcenter, cellsize (or dx
+/// and dy), NODATA_value (-9999 if it is missing). Rows are listed from the highest y down.
 /// Errors: bad_syntax, bad_number with "source:line".
 Result<Grid> read_esri(std::string_view contents, std::string_view source, std::string_view name);
 

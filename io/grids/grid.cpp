@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint32_t none = UINT32_MAX;
 
-/// Exact for multiples of 90 degrees.
+/// The cosine and sine of an angle; they are exact for multiples of 90 degrees.
 struct Turn {
     double cosine = 1, sine = 0;
 
@@ -31,7 +31,7 @@ struct Turn {
     }
 };
 
-/// Vertices are numbered by nodes; triangles of the cells.
+/// Builds the surface of a grid: vertices in the order of the nodes, triangles in that of the cells.
 class GridSurface {
 public:
     GridSurface(const Grid& grid, bool depth) : grid_(grid), turn_(grid.rotation), depth_(depth) {}
@@ -74,6 +74,7 @@ private:
         surface_.triangles.push_back(mirrored_ ? Triangle{a, c, b} : Triangle{a, b, c});
     }
 
+    /// Adds the triangles of cell (i, j), whose corners are
     /// d c
     /// a b
     void add_cell(std::size_t i, std::size_t j) {
@@ -89,7 +90,8 @@ private:
         }
     }
 
-    /// A missing corner leaves the diagonal that does not have it.
+    /// Tells whether the cell is divided along a c. A missing corner leaves only the diagonal
+    /// between its neighbours.
     [[nodiscard]] bool along_ac(std::uint32_t a, std::uint32_t b, std::uint32_t c,
                                 std::uint32_t d) const {
         if (a == none || c == none) return false;

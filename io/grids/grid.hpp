@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Horizons as regular grids of heights, and how a grid becomes a surface.
+// Horizons given as regular grids of heights, and their conversion to surfaces.
 #pragma once
 
 #include <cstdint>
@@ -13,32 +13,33 @@
 
 namespace terrane {
 
-/// Heights over a regular grid, which may be turned. Node (i, j) is at
-/// origin + i dx (cos r, sin r) + j dy (-sin r, cos r), r the rotation.
+/// Heights over a regular grid, which may be rotated by an angle r. Node (i, j) is at
+/// (x, y) + i dx (cos r, sin r) + j dy (-sin r, cos r).
 struct Grid {
     std::string name;
-    double x = 0, y = 0;          ///< of node (0, 0)
+    double x = 0, y = 0;          ///< position of node (0, 0)
     std::uint32_t nx = 0, ny = 0; ///< nodes along each axis, >= 1
-    double dx = 0, dy = 0;        ///< steps, not 0; dy < 0: rows run the other way (y flip)
+    double dx = 0, dy = 0;        ///< steps, not 0; dy < 0: rows run down the y axis (y flip)
     double rotation = 0;          ///< degrees, counterclockwise from x
-    std::vector<double> values;   ///< nx ny heights, node (i, j) at j nx + i; NaN: none
+    std::vector<double> values;   ///< nx ny heights; node (i, j) at j nx + i; NaN: no height
 };
 
-/// What the file does not say, or says otherwise.
+/// What the user knows about a file beyond its contents.
 struct ReadOptions {
-    bool depth = false;  ///< grids and points: heights are depths, down; they become elevations
-    double max_edge = 0; ///< points: see ConnectOptions
+    bool depth = false;  ///< grids and points: values are depths, positive down; z becomes -value
+    double max_edge = 0; ///< points: longest edge, see ConnectOptions
 };
 
-/// The surface through the nodes that have a height, front up. Nothing is invented: a cell with
-/// four heights becomes two triangles, one with three becomes one, others none. A cell of four is
-/// divided along the diagonal whose ends differ less in height; where they do not differ, along the
-/// one from node (i, j). All nodes with a height are vertices, in the order of the values.
-/// Errors: bad_option where values.size() is not nx ny; bad_number where a node is not finite;
-/// nothing_to_do without a triangle. The place is left to the caller.
+/// Returns the surface through the nodes that have a height, with its front up. No heights are
+/// interpolated: a cell with four heights becomes two triangles, a cell with three becomes one, and
+/// other cells are left out. A cell with four heights is divided along the diagonal whose ends
+/// differ less in height; if the differences are equal, along the diagonal from node (i, j). All
+/// nodes with a height are vertices, in the order of the values.
+/// Errors: bad_option if values.size() is not nx ny; bad_number if a node is not finite;
+/// nothing_to_do if there is no triangle. The caller sets the place of the error.
 Result<Surface> surface_of_grid(const Grid& grid, bool depth = false);
 
-/// The height at a place, bilinear within a cell with four heights; NaN elsewhere.
+/// Returns the height at (x, y), bilinear within a cell with four heights; NaN elsewhere.
 double height_at(const Grid& grid, double x, double y);
 
 } // namespace terrane

@@ -67,7 +67,7 @@ MaybeError make_room(const TokenStream& text, Grid& grid) {
 
 MaybeError check_steps(const LineParser& in, Grid& grid) {
     for (double* step : {&grid.dx, &grid.dy}) {
-        if (std::isnan(*step)) *step = 1; // one node only: no distance
+        if (std::isnan(*step)) *step = 1; // there is one node only, hence no distance
         if (*step == 0 || !std::isfinite(*step))
             return in.error(ErrorCode::bad_number, "the nodes of the grid coincide");
     }

@@ -81,7 +81,7 @@ private:
         return {code, std::move(sentence), fmt::format("{}, byte {}", source_, at_)};
     }
 
-    /// A record stands between two copies of its length.
+    /// Reads the next record of FORTRAN, which is enclosed by two copies of its length.
     MaybeError next_record(std::string_view& record, std::uint32_t wanted = 0) {
         const auto left = bytes_.size() - at_;
         const auto length =

@@ -10,10 +10,11 @@
 
 namespace terrane {
 
-/// A grid called `name`. Binary where the file begins with the length of a FORTRAN record, 32, as a
-/// big-endian integer; text otherwise. Both begin with -996. The first node is the point about
-/// which the grid is turned; heights run along x first, from the lowest row up. No height: 9999900
-/// and more in text, 1e30 and more in binary. Binary heights and coordinates are float32.
+/// Reads a grid called `name`. The file is binary if it begins with the length of a FORTRAN record,
+/// 32, as a big-endian integer; otherwise it is text. The header of both begins with -996. The grid
+/// is rotated about its first node; heights are listed row by row from the lowest row up. A node
+/// has no height if its value is at least 9999900 in text, or 1e30 in binary. Heights and
+/// coordinates in binary are float32.
 /// Errors: bad_syntax, bad_number with "source:line" or "source, byte n".
 Result<Grid> read_irap(std::string_view contents, std::string_view source, std::string_view name);
 

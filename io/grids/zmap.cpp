@@ -21,12 +21,12 @@ public:
         if (auto trouble = read_first_line(grid)) return trouble;
         if (auto trouble = read_fields()) return trouble;
         if (auto trouble = read_limits(grid)) return trouble;
-        while (next_line() && !line_.starts_with('@')) continue; // numbers nobody needs
+        while (next_line() && !line_.starts_with('@')) continue; // these lines are not needed
         return read_heights(grid);
     }
 
 private:
-    /// Goes to the next line that is no comment.
+    /// Goes to the next line that is neither blank nor a comment.
     bool next_line() {
         while (in_.next()) {
             line_ = trimmed(in_.line());
@@ -36,7 +36,7 @@ private:
         return false;
     }
 
-    /// The next part between commas, without blanks around it.
+    /// Returns the next part between commas, without the blanks around it.
     std::string_view next_part() {
         const auto comma = std::min(line_.find(','), line_.size());
         const auto part = trimmed(line_.substr(0, comma));
@@ -44,7 +44,7 @@ private:
         return part;
     }
 
-    /// "@name HEADER, GRID, 5"
+    /// Reads "@name HEADER, GRID, 5".
     MaybeError read_first_line(Grid& grid) {
         if (!next_line() || !line_.starts_with('@'))
             return in_.error(ErrorCode::bad_syntax, "expected a line that begins with @");
@@ -58,7 +58,7 @@ private:
         return std::nullopt;
     }
 
-    /// "15, -99999.0000, , 4, 1"
+    /// Reads "15, -99999.0000, , 4, 1".
     MaybeError read_fields() {
         if (!next_line())
             return in_.error(ErrorCode::bad_syntax, "the line about fields is missing");
@@ -73,7 +73,7 @@ private:
         return in_.read_number(null, null_);
     }
 
-    /// "rows, columns, x0, x1, y0, y1"
+    /// Reads "rows, columns, x0, x1, y0, y1".
     MaybeError read_limits(Grid& grid) {
         if (!next_line())
             return in_.error(ErrorCode::bad_syntax, "the line about rows and columns is missing");
@@ -118,7 +118,7 @@ private:
         return std::nullopt;
     }
 
-    /// How many heights of the current line stand before a token of it.
+    /// Returns the number of heights on the current line before a token of it.
     std::size_t have_of_line(std::string_view token) const {
         Tokens tokens(line_);
         std::size_t before = 0;
@@ -126,7 +126,8 @@ private:
         return before;
     }
 
-    /// Numbers that touch: by the width of their fields, from the line's first character on.
+    /// Reads the current line again from its first character on, by the width of the fields: its
+    /// numbers touch.
     MaybeError read_line_in_fields(Grid& grid, std::size_t& have, std::size_t known) {
         have -= known;
         for (auto rest = in_.line(); !trimmed(rest).empty();) {

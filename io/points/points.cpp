@@ -25,7 +25,7 @@ bool is_no_height(double z) {
     return std::abs(z) >= 1e29 || z == -99999 || z == -9999 || z == -999.25;
 }
 
-/// Columns of a line: numbers and words apart, quotes taken off.
+/// Splits a line into its columns and removes quotes.
 std::vector<std::string_view> columns_of(std::string_view line) {
     const auto separates = [](char c) { return is_blank(c) || c == ',' || c == ';'; };
     std::vector<std::string_view> columns;
@@ -54,7 +54,7 @@ class PointReader {
 public:
     PointReader(std::string_view contents, std::string_view source) : in_(contents, source) {}
 
-    /// One surface, or one for each text in front of the numbers, in the order met.
+    /// Reads one surface, or one for each text in front of the numbers, in file order.
     MaybeError read(std::vector<Surface>& surfaces) {
         while (in_.next()) {
             const auto line = trimmed(in_.line());
@@ -76,7 +76,7 @@ private:
                line.starts_with("//");
     }
 
-    /// The place of a name among those of numbers, if it is there.
+    /// Returns the index of the first of the wanted names that a column has, if any.
     static std::optional<std::size_t> place_of(const std::vector<std::string>& names,
                                                std::initializer_list<std::string_view> wanted) {
         for (const auto name : wanted)
@@ -139,9 +139,9 @@ private:
     }
 
     LineParser in_;
-    std::optional<std::array<std::size_t, 3>> named_;  ///< columns of x, y, z by a heading
-    std::optional<std::array<std::size_t, 3>> chosen_; ///< the same once points are read
-    std::map<std::string, std::size_t> surface_of_;    ///< by the text in front
+    std::optional<std::array<std::size_t, 3>> named_;  ///< columns of x, y, z from a heading
+    std::optional<std::array<std::size_t, 3>> chosen_; ///< columns in use, set at the first point
+    std::map<std::string, std::size_t> surface_of_;    ///< index by the text in front
 };
 
 Result<std::vector<Surface>> connected(std::vector<Surface> surfaces, std::string_view source,
@@ -167,7 +167,7 @@ Result<std::vector<Surface>> connected(std::vector<Surface> surfaces, std::strin
     return surfaces;
 }
 
-/// Points of the VSet or PLine objects of a file.
+/// Reads the points of the VSet and PLine objects of a file.
 class GocadPointReader {
 public:
     GocadPointReader(std::string_view contents, std::string_view source) : in_(contents, source) {}
@@ -246,7 +246,7 @@ private:
     }
 
     LineParser in_;
-    bool again_ = false; ///< the current line is still to be read
+    bool again_ = false; ///< the current line is not processed yet
 };
 
 template <class Reader>

@@ -17,7 +17,8 @@ using namespace detail;
 
 namespace {
 
-constexpr std::size_t max_names = 256; ///< on one group line: keeps the output linear in the input
+/// The limit of names on one group line keeps the size of the surfaces linear in that of the file.
+constexpr std::size_t max_names = 256;
 
 class ObjReader {
 public:
@@ -31,7 +32,7 @@ private:
         std::string name;
         std::vector<Triangle> triangles; ///< indices into vertices_
     };
-    /// A vertex that a face named before it was there.
+    /// A vertex that a face named before its definition.
     struct Ahead {
         std::uint32_t vertex;
         std::size_t line;
@@ -55,7 +56,7 @@ private:
     std::vector<Point3> vertices_;
     std::vector<Group> groups_; ///< in order of their first line
     std::map<std::string, std::uint32_t, std::less<>> group_of_name_;
-    std::vector<std::uint32_t> current_;    ///< groups of the next face; empty: the default
+    std::vector<std::uint32_t> current_;    ///< groups of the next face; empty: the default group
     std::vector<std::uint32_t> with_faces_; ///< groups in order of their first face
     std::vector<std::uint32_t> corners_;
     std::vector<Ahead> ahead_;

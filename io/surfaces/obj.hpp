@@ -12,23 +12,24 @@
 
 namespace terrane {
 
-/// One Surface per group that has faces, in the order in which the groups first get one.
-/// - `g` and `o` name the group of the faces that follow, whichever came last; without a name it
-///   is `name`. A `g` line with several names puts the faces in each of these surfaces (at most
-///   256). `usemtl` is appearance, not a surface, and has no effect.
-/// - A surface has the vertices that it uses, in file order.
-/// - Faces `f v`, `v/t`, `v//n`, `v/t/n`, indices from 1 or negative; polygons become fans around
-///   their first corner. Weights and colours after `v x y z` are not read. A backslash at the end
-///   of a line joins it with the next one.
-/// Errors: bad_syntax, bad_number, bad_index with "source:line"; nothing_to_do without a face.
+/// Reads one Surface per group that has faces, in the order of their first faces.
+/// - A `g` or `o` line names the group of the faces that follow; the last such line counts. Faces
+///   before the first one, or after one without a name, are in the group `name`. A `g` line with
+///   several names (at most 256) puts its faces into each of these surfaces. `usemtl` changes the
+///   appearance only and has no effect.
+/// - A surface has only the vertices that it uses, in file order.
+/// - The corners of a face are written `v`, `v/t`, `v//n` or `v/t/n`, with indices that count from
+///   1 or are negative; polygons become fans around their first corner. Weights and colours after
+///   `v x y z` are ignored. A backslash at the end of a line joins it with the next line.
+/// Errors: bad_syntax, bad_number, bad_index with "source:line"; nothing_to_do if there is no face.
 /// Cost: linear; one pass over `contents`.
 Result<std::vector<Surface>> read_obj(std::string_view contents, std::string_view source,
                                       std::string_view name);
 
-/// Vertices, then the triangles in order, each run of equal surfaces under one group line:
-/// a triangle of several surfaces stands once, in a group line with all their names
-/// (`g top_reservoir main_fault`). Blanks in names become underscores, equal names are told apart
-/// by _2, _3. Numbers read back as the same doubles.
+/// Writes all vertices, then the triangles in order. A group line precedes each run of triangles
+/// with the same surfaces; a triangle of several surfaces is written once, under a group line with
+/// all their names (`g top_reservoir main_fault`). Blanks in names become underscores; equal names
+/// are told apart by _2, _3. Numbers read back as the same doubles.
 std::string to_obj(const Mesh& mesh);
 
 } // namespace terrane

@@ -32,12 +32,12 @@ private:
                                    std::string_view what) const;
 
     LineParser in_;
-    std::string_view line_; ///< without comment
+    std::string_view line_; ///< the current line without its comment
     std::int64_t vertex_count_ = 0;
     std::int64_t face_count_ = 0;
 };
 
-/// Goes to the next line with something in it.
+/// Goes to the next line that is not blank.
 bool OffReader::next_line() {
     while (in_.next()) {
         line_ = trimmed(in_.line().substr(0, in_.line().find('#')));

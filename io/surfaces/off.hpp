@@ -12,16 +12,16 @@
 
 namespace terrane {
 
-/// One Surface called `name`, with all vertices of the file.
-/// OFF, COFF, NOFF, STOFF and their combinations: colours, normals and textures are not read. The
-/// keyword may be missing, the counts may stand beside it, '#' begins a comment. One vertex or
-/// face per line; polygons become fans around their first corner.
-/// Errors: bad_syntax, bad_number, bad_index with "source:line"; nothing_to_do without a face;
-/// unsupported: 4OFF, nOFF and OFF BINARY.
+/// Reads one Surface called `name`, with all vertices of the file. The variants OFF, COFF, NOFF,
+/// STOFF and their combinations are read; colours, normals and texture coordinates are ignored. The
+/// keyword may be missing, and the counts may follow it on the same line; '#' begins a comment.
+/// Each line has one vertex or face; polygons become fans around their first corner.
+/// Errors: bad_syntax, bad_number, bad_index with "source:line"; nothing_to_do if there is no face;
+/// unsupported for 4OFF, nOFF and OFF BINARY.
 Result<std::vector<Surface>> read_off(std::string_view contents, std::string_view source,
                                       std::string_view name);
 
-/// All vertices and triangles; OFF has no place for surfaces. Numbers read back as the same
+/// Writes all vertices and triangles; OFF cannot express surfaces. Numbers read back as the same
 /// doubles.
 std::string to_off(const Mesh& mesh);
 

@@ -20,7 +20,8 @@ using namespace detail;
 
 namespace {
 
-constexpr std::size_t max_surfaces = 256; ///< of one face: keeps the output linear in the input
+/// The limit of surfaces per face keeps the size of the surfaces linear in that of the file.
+constexpr std::size_t max_surfaces = 256;
 
 enum class Type { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 
@@ -65,7 +66,7 @@ double load_as_double(Type type, const char* bytes, std::endian order) {
     return load<double>(bytes, order);
 }
 
-/// What a property is to us.
+/// The meaning of a property.
 enum class Use { none, x, y, z, corners, surfaces };
 
 struct Property {
@@ -84,7 +85,7 @@ struct Header {
     bool ascii = false;
     std::endian order = std::endian::little;
     std::vector<Element> elements;
-    std::vector<SurfaceInfo> surfaces; ///< from our own comments
+    std::vector<SurfaceInfo> surfaces; ///< from the comments of to_ply
 
     [[nodiscard]] const Element* find(std::string_view name) const {
         const auto named = [&](const Element& element) { return element.name == name; };
@@ -198,7 +199,7 @@ private:
         return std::nullopt;
     }
 
-    /// Each use exactly once.
+    /// Tells whether the element has exactly one property for each use.
     static bool has(const Element* element, std::initializer_list<Use> uses) {
         return element && std::ranges::all_of(uses, [&](Use use) {
                    return std::ranges::count(element->properties, use, &Property::use) == 1;
@@ -210,7 +211,7 @@ private:
     std::set<std::string> names_; ///< of the elements so far
 };
 
-/// The values after the header, one after the other.
+/// Reads the values after the header one by one.
 class Values {
 public:
     Values(std::string_view contents, LineParser& in, const Header& header) :
@@ -221,7 +222,7 @@ public:
         return advance(type);
     }
 
-    /// Finite, unless it is skipped.
+    /// Reads a value, which must be finite unless it is skipped.
     MaybeError read(Type type, double& value) {
         if (auto trouble = skip(type)) return trouble;
         if (header_.ascii) return in_.read_number(token_, value);
@@ -240,7 +241,7 @@ public:
         return std::nullopt;
     }
 
-    /// True where nothing but blanks is left.
+    /// Tells whether only blanks are left.
     bool at_end() {
         if (!header_.ascii) return at_ == contents_.size();
         return next_token().has_value();

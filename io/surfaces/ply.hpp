@@ -12,18 +12,18 @@
 
 namespace terrane {
 
-/// One Surface called `name` with all vertices of the file. Any scalar and list types, any further
-/// elements and properties; polygons become fans around their first corner. ASCII numbers are read
-/// as doubles whatever type the header gives them.
-/// A file that to_ply wrote gives its surfaces back, each with the vertices that it uses.
+/// Reads one Surface called `name` with all vertices of the file. All scalar and list types are
+/// understood; further elements and properties are skipped. Polygons become fans around their first
+/// corner. Numbers in ASCII are read as doubles, whatever type the header declares. From a file
+/// written by to_ply the original surfaces are read, each with the vertices that it uses.
 /// Errors: bad_syntax, bad_number, bad_index with "source:line" or "source, byte n"; nothing_to_do
-/// without a face; unsupported: triangle strips.
+/// if there is no face; unsupported for triangle strips.
 Result<std::vector<Surface>> read_ply(std::string_view contents, std::string_view source,
                                       std::string_view name);
 
-/// Binary little endian, coordinates as double, every triangle once. Faces have `surface` (first
-/// surface) and the list `surfaces` (all of them); comments "terrane surface ROLE NAME" in the
-/// header name them in order.
+/// Writes binary PLY, little endian, with coordinates of type double and every triangle once. A face
+/// has the properties `surface` (its first surface) and `surfaces` (the list of all of them);
+/// comments "terrane surface ROLE NAME" in the header name the surfaces in order.
 std::string to_ply(const Mesh& mesh);
 
 } // namespace terrane

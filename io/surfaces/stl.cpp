@@ -22,7 +22,8 @@ constexpr std::size_t header_size = 80;
 constexpr std::size_t facets_begin = header_size + 4;
 constexpr std::size_t facet_size = 50;
 
-/// The length that the count of triangles calls for; no length at all where there is no count.
+/// Returns the length of a binary file with this count of triangles; UINT64_MAX if the contents end
+/// before the count.
 std::uint64_t binary_size(std::string_view contents) {
     if (contents.size() < facets_begin) return UINT64_MAX;
     const auto count = load<std::uint32_t>(contents.data() + header_size);
@@ -103,7 +104,7 @@ public:
     }
 
 private:
-    /// Words go on over line ends.
+    /// Goes to the next word, on the next lines if need be; returns false at the end of the file.
     bool next_word() {
         for (word_ = tokens_.next(); word_.empty(); word_ = tokens_.next()) {
             if (!in_.next()) return false;

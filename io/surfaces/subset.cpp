@@ -13,7 +13,7 @@ constexpr auto used = UINT32_MAX - 1;
 Subset::Subset(std::span<const Point3> vertices) :
     whole_(vertices), in_part_(vertices.size(), unused) {}
 
-/// Ascending; marks them as used.
+/// Returns the vertices that the triangles use, ascending, and marks them as used.
 std::vector<std::uint32_t> Subset::used_by(const std::vector<Triangle>& triangles) {
     std::vector<std::uint32_t> result;
     for (const auto& triangle : triangles)

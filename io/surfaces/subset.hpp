@@ -9,14 +9,14 @@
 
 namespace terrane::detail {
 
-/// Cuts parts out of one array of vertices. A part has the vertices that its triangles use, in
-/// the order of the whole, and triangles that count in the part.
+/// Extracts parts of a mesh. The vertices of a part are those that its triangles use, in their
+/// original order; its triangles are indices into them.
 class Subset {
 public:
     explicit Subset(std::span<const Point3> vertices);
 
-    /// Renumbers `triangles` (indices of the whole, in range) and returns the part's vertices.
-    /// Cost: O(t log t) where the part is small, O(vertices of the whole) where it is not.
+    /// Renumbers `triangles` (indices into the whole, in range) and returns the vertices of the
+    /// part. Cost: O(t log t) for a small part, otherwise O(vertices of the whole).
     std::vector<Point3> cut(std::vector<Triangle>& triangles);
 
 private:

@@ -10,7 +10,7 @@
 
 namespace terrane::detail {
 
-/// The number whose bytes begin at `bytes`, in the given byte order.
+/// Returns the number whose bytes begin at `bytes`, in the given byte order.
 template <class T>
 [[nodiscard]] T load(const char* bytes, std::endian order = std::endian::little) {
     std::array<char, sizeof(T)> copy;

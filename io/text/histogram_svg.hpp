@@ -8,14 +8,14 @@
 
 namespace terrane {
 
-/// Counts of values in [0, 1], in classes of equal width.
+/// Counts the values in [0, 1] by classes of equal width.
 struct Histogram {
     std::string_view title;
-    std::span<const std::size_t> counts; ///< >= 1 class
-    double mean = 0;                     ///< marked by a line
+    std::span<const std::size_t> counts; ///< values in each class; >= 1 class
+    double mean = 0;                     ///< of the values; the picture marks it by a line
 };
 
-/// Histograms beside each other as a picture, SVG 1.1; each as high as its largest class.
+/// Draws histograms side by side as a picture in SVG 1.1. Each is scaled to its largest class.
 std::string histogram_svg(std::span<const Histogram> histograms);
 
 } // namespace terrane

@@ -10,7 +10,7 @@
 
 namespace terrane::detail {
 
-/// Returns what `step` returns, or out_of_memory at `place` where memory ran out in it.
+/// Returns the result of step(), or the error out_of_memory at `place` if step() ran out of memory.
 template <class Step>
 auto guard_memory(std::string place, const Step& step) -> decltype(step()) {
     constexpr auto code = ErrorCode::out_of_memory;

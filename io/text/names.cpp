@@ -24,7 +24,7 @@ std::string quotable(std::string_view name) {
     return result;
 }
 
-/// Bytes beyond ASCII become '_' too.
+/// Returns a label for Abaqus; every byte beyond ASCII becomes '_'.
 std::string label(std::string_view name) {
     constexpr std::size_t most_characters = 60; // Abaqus has 80; leaves room for endings
     std::string result;

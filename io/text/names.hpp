@@ -10,23 +10,24 @@
 
 namespace terrane::detail {
 
-/// How files spell a Role, by its number.
+/// The spelling of each Role in files, indexed by its number.
 inline constexpr std::array<std::string_view, 4> role_names{"unknown", "horizon", "fault",
                                                             "boundary"};
 
-/// Names that formats without quotes can carry: printable, no blank, no '#', no '\' (each becomes
-/// '_'), not empty ("surface"), and all different: a name met again gets _2, _3, ...
+/// Returns names for formats without quotes. Blanks, control characters, '#' and '\' become '_', an
+/// empty name becomes "surface", and repeated names are told apart by the endings _2, _3, ...
 [[nodiscard]] std::vector<std::string> plain_names(const std::vector<SurfaceInfo>& surfaces);
 
-/// Names for formats that put them in double quotes: on one line, '"' becomes an apostrophe, not
-/// empty, and all different, as above.
+/// Returns names for formats with double quotes. Control characters become blanks, '"' becomes an
+/// apostrophe; empty and repeated names are changed as by plain_names.
 [[nodiscard]] std::vector<std::string> quotable_names(const std::vector<SurfaceInfo>& surfaces);
 
-/// Names for Abaqus, which takes upper and lower case for the same: capital letters, digits and '_'
-/// only, a letter first, at most 60 characters and the number of a name met again.
+/// Returns names for Abaqus, which does not distinguish upper and lower case. They consist of
+/// capital letters, digits and '_', begin with a letter, and have at most 60 characters before the
+/// ending of a repeated name.
 [[nodiscard]] std::vector<std::string> label_names(const std::vector<SurfaceInfo>& surfaces);
 
-/// `name` on one line: control characters become blanks.
+/// Returns the name on one line: control characters become blanks.
 [[nodiscard]] std::string one_line(std::string_view name);
 
 } // namespace terrane::detail

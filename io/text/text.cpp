@@ -23,8 +23,8 @@ std::string_view without_plus(std::string_view token) {
     return token;
 }
 
-/// For a decimal that does not fit: is it too small (true) or too large?
-/// Looks where its first digit other than 0 stands.
+/// Tells whether a decimal outside the range of double is too small (true) or too large (false), by
+/// the position of its first nonzero digit.
 bool is_below_one(std::string_view token) {
     const auto e = std::min(token.find_first_of("eE"), token.size());
     const auto mantissa = token.substr(0, e);

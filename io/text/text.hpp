@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Lines, tokens and numbers of text formats: views into one buffer, no locale, no allocation
-// unless there is an error to report.
+// Lines, tokens and numbers of text formats. They are views into one buffer; the locale has no
+// influence, and memory is allocated only to report an error.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@
 
 namespace terrane::detail {
 
-/// Empty where all went well.
+/// The error of a step that returns no value; empty after success.
 using MaybeError = std::optional<Error>;
 
 constexpr bool is_blank(char c) {
@@ -26,7 +26,7 @@ constexpr bool is_blank(char c) {
 [[nodiscard]] std::string lower(std::string_view text);
 [[nodiscard]] bool same_ignoring_case(std::string_view a, std::string_view b);
 
-/// A token as it is quoted in messages: at most 40 characters, printable.
+/// Quotes a token for a message: at most 40 characters of it, with '?' for unprintable ones.
 [[nodiscard]] std::string shown(std::string_view token);
 
 /// Splits a line at blanks.
@@ -34,7 +34,7 @@ class Tokens {
 public:
     explicit Tokens(std::string_view line) : rest_(line) {}
 
-    /// The next token; empty at the end of the line.
+    /// Returns the next token; empty at the end of the line.
     std::string_view next() {
         std::size_t begin = 0;
         while (begin < rest_.size() && is_blank(rest_[begin])) ++begin;
@@ -45,7 +45,7 @@ public:
         return token;
     }
 
-    /// What is left of the line, without blanks around it.
+    /// Returns the rest of the line without blanks at its ends.
     [[nodiscard]] std::string_view rest() const { return trimmed(rest_); }
 
 private:
@@ -54,33 +54,34 @@ private:
 
 enum class NumberState {
     ok,
-    not_a_number, ///< other text
-    not_finite,   ///< NaN or infinity, also as "1.#INF"
-    too_large,    ///< beyond the largest double
+    not_a_number, ///< the token is other text
+    not_finite,   ///< NaN or infinity, also spelled "1.#INF"
+    too_large,    ///< the number is beyond the largest double
 };
 
-/// Decimal to double, correctly rounded; too small becomes a denormal or zero. '+' may lead.
-/// The whole token must be the number.
+/// Converts a decimal to the nearest double; numbers that are too small become denormals or zero.
+/// The whole token must be the number; a leading '+' is allowed.
 [[nodiscard]] NumberState parse_double(std::string_view token, double& value);
 
-/// The whole token must be a decimal integer that fits; '+' may lead.
+/// Converts a decimal integer; false if the whole token is not an integer of 64 bits. A leading '+'
+/// is allowed.
 [[nodiscard]] bool parse_integer(std::string_view token, std::int64_t& value);
 
-/// Shortest decimal that reads back as the same double (std::to_chars).
+/// Appends the shortest decimal that reads back as the same number (std::to_chars).
 void append_number(std::string& out, double value);
 void append_number(std::string& out, float value);
 void append_number(std::string& out, std::uint64_t value);
 
-/// "x y z"
+/// Appends "x y z".
 void append_point(std::string& out, const Point3& point);
 
-/// Walks the lines of a buffer and names the current one in errors.
-/// Lines end with \n or \r\n, or with \r where the buffer has no \n. A byte order mark is skipped.
+/// Iterates over the lines of a buffer and names the current line in errors. Lines end with \n or
+/// \r\n, or with \r if the buffer has no \n. A byte order mark is skipped.
 class LineParser {
 public:
     LineParser(std::string_view text, std::string_view source);
 
-    /// Goes to the next line; false at the end.
+    /// Goes to the next line; returns false at the end of the buffer.
     bool next();
 
     [[nodiscard]] std::string_view line() const { return line_; }
@@ -88,18 +89,18 @@ public:
     [[nodiscard]] std::size_t bytes_left() const { return rest_.size(); }
     [[nodiscard]] std::string_view source() const { return source_; }
 
-    /// FORTRAN's exponents 1.5D+03 are numbers too.
+    /// Makes read_number accept the exponents of FORTRAN, as in 1.5D+03.
     void allow_d_exponents() { d_exponents_ = true; }
 
     [[nodiscard]] Error error(ErrorCode code, std::string sentence) const {
         return error_at(number_, code, std::move(sentence));
     }
     [[nodiscard]] Error error_at(std::size_t line, ErrorCode code, std::string sentence) const;
-    /// An error about the file as a whole.
+    /// Returns an error about the file as a whole.
     [[nodiscard]] Error file_error(ErrorCode code, std::string sentence) const;
 
     [[nodiscard]] MaybeError read_number(std::string_view token, double& value) const;
-    /// Three numbers; `what` names the line that needs them.
+    /// Reads three numbers; `what` names the kind of line in errors.
     [[nodiscard]] MaybeError read_point(Tokens& tokens, std::string_view what, Point3& point) const;
 
 private:

@@ -9,10 +9,10 @@ namespace terrane::detail {
 
 namespace {
 
-/// Vertex ids to indices. Ids that count up by one, as nearly all do, need no table.
+/// Maps ids of vertices to indices. Consecutive ids, which are the rule, need no table.
 class IdMap {
 public:
-    /// False where the id is there already.
+    /// Returns false if the id exists already.
     bool add(std::int64_t id, std::uint32_t index) {
         if (count_ == 0) first_ = id;
         if (dense_ && index == count_ && id - first_ == count_) return ++count_ != 0;
@@ -36,7 +36,7 @@ private:
     }
 
     std::int64_t first_ = 0;
-    std::uint32_t count_ = 0; ///< while dense_: id first_ + i stands for i
+    std::uint32_t count_ = 0; ///< while dense_: id first_ + i is mapped to i
     bool dense_ = true;
     std::unordered_map<std::int64_t, std::uint32_t> indices_;
 };
@@ -48,7 +48,7 @@ public:
     MaybeError read();
 
 private:
-    /// A corner whose id is not defined yet.
+    /// A corner of a triangle whose id is not defined yet.
     struct Ahead {
         std::int64_t id;
         std::size_t triangle;
@@ -77,7 +77,7 @@ private:
 
     LineParser& in_;
     TsurfObject& object_;
-    bool again_ = false; ///< the current line is still to be read
+    bool again_ = false; ///< the current line is not processed yet
     IdMap ids_;
     std::map<std::int64_t, Atom> atoms_;
     std::vector<Ahead> ahead_;
@@ -112,7 +112,7 @@ MaybeError TsurfReader::read_line(std::string_view keyword, Tokens tokens) {
     return read_attribute(keyword, tokens);
 }
 
-/// Of a header; other blocks have no names.
+/// Reads a block; takes the names from it if it is a header.
 void TsurfReader::read_names() {
     const bool header = Tokens(in_.line()).next().starts_with("HEADER");
     GocadNames names;

@@ -10,8 +10,8 @@
 
 namespace terrane::detail {
 
-/// Numbers points in the order in which they are first met; equal ones (exactly; 0 equals -0) get
-/// the same number. A hash table with open addressing, never more than half full.
+/// Numbers points in the order of their first use; points with equal coordinates (0 equals -0) get
+/// the same number. It is a hash table with open addressing that is at most half full.
 class PointIndex {
 public:
     std::uint32_t number(const Point3& point) {
@@ -51,7 +51,7 @@ private:
     }
 
     std::vector<Point3> points_;
-    std::vector<std::uint32_t> slots_; ///< a power of two; indices into points_ or empty
+    std::vector<std::uint32_t> slots_; ///< indices into points_, or empty; 2^k of them
 };
 
 } // namespace terrane::detail
