@@ -19,7 +19,7 @@ using namespace detail;
 
 namespace {
 
-/// JSON is written piece by piece: a tree of it would take ten times the memory.
+/// Writes JSON piece by piece; a tree of values would take ten times the memory.
 class Writer {
 public:
     explicit Writer(std::string& out) : out_(out) {}
@@ -30,14 +30,14 @@ public:
     }
     void raw(std::string_view text) { out_ += text; }
     void number(std::uint64_t n) { append_number(out_, n); }
-    /// A double as a string.
+    /// Writes a double as a string.
     void quote(double value) {
         out_ += '"';
         append_number(out_, value);
         out_ += '"';
     }
 
-    /// "[a,b,c]", each by write(item).
+    /// Writes "[a,b,c]", each item by write(item).
     template <class Items, class Write>
     void array(const Items& items, const Write& write, std::string_view between = ",") {
         out_ += '[';
@@ -52,7 +52,7 @@ public:
     void numbers(const Numbers& items) {
         array(items, [this](std::uint32_t n) { number(n); });
     }
-    /// An array of arrays, on lines of their own.
+    /// Writes an array of arrays, each on a line of its own.
     template <class Items>
     void arrays(const Items& items) {
         array(
@@ -189,7 +189,7 @@ Result<InputRecord> record_input(const fs::path& path, std::string name, std::si
 std::string certified_name(const fs::path& path, const fs::path& certificate) {
     std::error_code failed;
     const auto folder = certificate == "-" ? fs::path() : certificate.parent_path();
-    // proximate makes absolute what exists only, and can't compare that with what does not.
+    // fs::proximate makes only existing paths absolute, and cannot compare them with others.
     const auto from = fs::absolute(folder.empty() ? fs::path(".") : folder, failed);
     const auto to = failed ? path : fs::absolute(path, failed);
     const auto relative = failed ? path : fs::proximate(to, from, failed);

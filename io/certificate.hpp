@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Certificates: all that it takes to check a result from its input files alone. JSON, UTF-8:
+// A certificate holds all that is needed to check a result against its input files. It is a JSON
+// text in UTF-8:
 //
 //   { "format": "terrane-certificate", "version": 1,
-//     "inputs": [                    the files, in the order in which they were read
+//     "inputs": [                    the files, in the order of reading
 //       { "name": "faults.ts",       relative to the folder of the certificate
 //         "sha256": "9f86d0...",     of the bytes of the file, 64 lower-case hexadecimal digits
 //         "bytes": 1204,
@@ -24,16 +25,16 @@
 //       "vertices": [["0.5", "-1e-3", "7"]],  x, y, z: the shortest decimal that reads back as the
 //                                    same double
 //       "triangles", "parents", "intersection_edges": as above, of these vertices
-//       "regions": [[r, ...]],       per triangle: its region in each surface of its parents
+//       "regions": [[r, ...]],       per triangle: its region in each of its surfaces
 //       "clean": true,               triangles meet in shared vertices and edges only
 //       "rounds": 0,                 of snapping
-//       "max_move": "1.1e-16",       no vertex is farther from its exact point
-//       "deviation": "1.1e-16",      no triangle is farther from any of its parents
-//       "vanished": [t, ...] },      input triangles with area of which nothing is left, ascending
+//       "max_move": "1.1e-16",       upper bound of the distance of a vertex to its exact point
+//       "deviation": "1.1e-16",      upper bound of the distance of a triangle to its parents
+//       "vanished": [t, ...] },      input triangles with area that have no part left, ascending
 //     "digest": "sha256:..." }       of the exact part; digest.hpp defines it
 //
-// Input vertices and triangles are counted from 0 through all surfaces of all files. Names that
-// are no UTF-8 have U+FFFD for each byte that is wrong, so that the verifier refuses them.
+// Input vertices and triangles are counted from 0 through all surfaces of all files. In names that
+// are not UTF-8 each wrong byte becomes U+FFFD, so that the verifier refuses them.
 #pragma once
 
 #include <cstdint>
@@ -51,32 +52,33 @@
 
 namespace terrane {
 
-/// An input file: which bytes, and how many of the surfaces come from it.
+/// An input file: the hash of its bytes, and the number of surfaces that were read from it.
 struct InputRecord {
-    std::string name;   ///< as the certificate shall call it
+    std::string name;   ///< its name in the certificate
     std::string sha256; ///< 64 lower-case hexadecimal digits
     std::uint64_t bytes = 0;
     std::size_t surfaces = 0;
 };
 
-/// Hashes a file as it is now. Errors: cannot_open.
+/// Hashes the current contents of a file. Errors: cannot_open.
 Result<InputRecord> record_input(const std::filesystem::path& path, std::string name,
                                  std::size_t surfaces);
 
-/// `path` as a certificate in a file `certificate` calls it: relative to its folder.
+/// Returns the name of an input file in a certificate: its path relative to the folder of the
+/// certificate.
 std::string certified_name(const std::filesystem::path& path,
                            const std::filesystem::path& certificate);
 
-/// What a certificate is made of; the values must outlive it.
+/// The contents of a certificate, by reference: the values must outlive it.
 struct Certified {
     std::span<const InputRecord> files;
     std::span<const Surface> surfaces; ///< of all files, in order
     const Arrangement& exact;
-    const RoundedMesh* rounded = nullptr; ///< none: "rounded" is null
+    const RoundedMesh* rounded = nullptr; ///< nullptr: "rounded" is null
 };
 
-/// The text of a certificate. Cost: linear; a second for 200 000 triangles.
-/// Precondition: files[].surfaces add up to the surfaces.
+/// Returns the text of a certificate. Cost: linear; a second for 200 000 triangles.
+/// Precondition: the sum of files[].surfaces is the number of surfaces.
 std::string to_certificate(const Certified& certified, const Run& run = {});
 
 } // namespace terrane

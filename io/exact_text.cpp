@@ -90,7 +90,8 @@ bool is_digits(std::string_view text) {
     return !text.empty() && std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
 }
 
-/// "-5/3", "7", "0": no sign of zero, no leading zeros, no "/1".
+/// Tells whether a text is a fraction such as "-5/3", "7" or "0", without a sign of zero, leading
+/// zeros, and "/1".
 bool is_fraction(std::string_view text) {
     const bool negative = text.starts_with('-');
     if (negative) text.remove_prefix(1);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Arrangements with exact coordinates, as text. Line by line:
+// Arrangements with exact coordinates as text. A file has these lines:
 //
 //   terrane-exact 1
 //   surfaces 2                 how many lines follow
@@ -18,7 +18,7 @@
 //   end
 //
 // Indices count from 0. Fields are separated by one blank, lines end with \n. The surfaces of a
-// triangle follow from its input triangles.
+// triangle are those of its input triangles.
 #pragma once
 
 #include <array>
@@ -35,10 +35,10 @@
 
 namespace terrane {
 
-/// What the text says.
+/// The contents of the text.
 struct ExactText {
-    std::vector<SurfaceInfo> surfaces;                ///< names on one line
-    std::vector<std::uint32_t> input_triangles;       ///< per surface: how many it had
+    std::vector<SurfaceInfo> surfaces;                ///< with names on one line
+    std::vector<std::uint32_t> input_triangles;       ///< per surface: number of input triangles
     std::vector<std::array<std::string, 3>> vertices; ///< x, y, z: "-5/3", "7"
     std::vector<Triangle> triangles;                  ///< indices into vertices
     IndexLists<std::uint32_t> parents_of; ///< per triangle: input triangles, sorted, >= 1
@@ -47,11 +47,13 @@ struct ExactText {
     friend bool operator==(const ExactText&, const ExactText&) = default;
 };
 
-/// Cost: linear in the digits; the fractions of 100 000 vertices take a second.
+/// Returns the exact coordinates and the triangles of an arrangement. Cost: linear in the number of
+/// digits; the fractions of 100 000 vertices take a second.
 ExactText to_exact(const Arrangement& arrangement, const Run& run = {});
 std::string to_text(const ExactText& exact);
 
-/// Errors: bad_syntax, bad_number (no fraction, or not as above), bad_index; with "source:line".
+/// Reads a text in the format above. Errors: bad_syntax, bad_number (a coordinate that is not a
+/// reduced fraction), bad_index; with "source:line".
 Result<ExactText> read_exact(std::string_view contents, std::string_view source);
 
 } // namespace terrane

@@ -31,7 +31,7 @@ using namespace detail;
 
 namespace {
 
-/// A file has at least 3 bytes per vertex, so below this size 32-bit indices are enough.
+/// The largest file that is read. It has at least 3 bytes per vertex, so 32-bit indices suffice.
 constexpr std::uint64_t max_bytes = 3 * (std::uint64_t(1) << 32) - 3;
 
 constexpr std::array<std::pair<std::string_view, Format>, 33> names{{

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Any format, chosen by the extension of the file name.
+// Reading and writing files of any format, which the extension of the file name selects.
 #pragma once
 
 #include <filesystem>
@@ -28,11 +28,11 @@ enum class Format {
     vtp,   ///< .vtp, written only
     vtu,   ///< .vtu, written only: tetrahedra
     msh,   ///< .msh, written only: MSH 4.1
-    msh22, ///< by its name only: MSH 2.2
+    msh22, ///< written only: MSH 2.2; no extension selects it, only its name
     inp,   ///< .inp, written only: Abaqus
     medit, ///< .mesh, written only
     poly,  ///< .poly, written only: TetGen, surfaces
-    smesh, ///< .smesh, written only: the same
+    smesh, ///< .smesh, written only: TetGen, surfaces
     irap,  ///< .irap .gri .fgr, read only: a grid, text or binary
     zmap,  ///< .zmap .zycor, read only: a grid
     cps3,  ///< .cps3 .cps, read only: a grid
@@ -41,21 +41,21 @@ enum class Format {
     vset,  ///< .vs .pl, read only: points of GOCAD's VSet and PLine
 };
 
-/// Whether surfaces can be read from it.
+/// Tells whether surfaces can be read from this format.
 bool is_read(Format format);
 
-/// Whether surfaces, or tetrahedra, can be written in it.
+/// Tells whether surfaces, or tetrahedra, can be written in this format.
 bool holds_surfaces(Format format);
 bool holds_tetrahedra(Format format);
 
-/// By extension, in any case; none where it is not known.
+/// Returns the format for the extension of a file name, in any case; none if it is unknown.
 std::optional<Format> format_of(const std::filesystem::path& path);
 
-/// The format with a name as given by a user: "ts", "ml", "obj", ... (an extension without dot).
+/// Returns the format with this name, an extension without its dot: "ts", "ml", "obj", ...
 std::optional<Format> format_named(std::string_view name);
 
-/// The surfaces of a file; "-" is standard input and needs a format. See the header of the format
-/// for what becomes a surface; a nameless one is called after the file.
+/// Reads the surfaces of a file; "-" is standard input and needs a format. The header of the format
+/// defines what becomes a surface; a surface without a name is named after the file.
 /// Errors: cannot_open, unknown_format, unsupported (also: a format that is only written),
 /// nothing_to_do, bad_syntax, bad_number, bad_index, out_of_memory; the place is "file:line", or
 /// "file, byte n" in binary files.
@@ -63,32 +63,33 @@ Result<std::vector<Surface>> read_surfaces(const std::filesystem::path& path,
                                            std::optional<Format> format = std::nullopt,
                                            const ReadOptions& options = {});
 
-/// The same for a file's contents; `source` is its name in messages and for nameless surfaces.
-/// Total: any bytes give surfaces or an error, in time and memory linear in their number; points
-/// take the time of connect_points.
+/// Reads the surfaces in the contents of a file; `source` is the name of the file, in messages and
+/// for surfaces without a name. Any bytes give surfaces or an error, in time and memory linear in
+/// their number; points take the time of connect_points in addition. Errors: those of
+/// read_surfaces.
 Result<std::vector<Surface>> parse_surfaces(std::string_view contents, std::string_view source,
                                             Format format, const ReadOptions& options = {});
 
-/// A GOCAD model with its parts and regions. Errors: as read_surfaces.
+/// Reads a GOCAD model with its parts and regions. Errors: those of read_surfaces.
 Result<GocadModel> read_model(const std::filesystem::path& path);
 
 struct WriteOptions {
-    std::optional<Format> format{};     ///< none: by extension; needed for "-"
+    std::optional<Format> format{};     ///< none: by the extension; required for "-"
     bool ascii = false;                 ///< STL only: text instead of binary
     bool compress = true;               ///< VTP and VTU only: zlib
     std::span<const CellArray> cells{}; ///< VTP and VTU only: further arrays, one value per cell
     std::span<const RegionPoint> regions{}; ///< .poly and .smesh only
-    std::span<const std::string>
-        region_names{}; ///< MSH and .inp of tetrahedra: what each region is
+    /// MSH and .inp of tetrahedra only: the name of each region; empty: none
+    std::span<const std::string> region_names{};
 };
 
-/// Writes the whole file or, where that fails, nothing. "-" is standard output.
+/// Writes a mesh to a file; if this fails, no file is written. "-" is standard output.
 /// Errors: cannot_open, write_failed, unknown_format, unsupported (tetrahedra only), bad_number (a
 /// coordinate beyond float32 in STL), bad_option (a cell array of the wrong length), out_of_memory.
 Status write_mesh(const Mesh& mesh, const std::filesystem::path& path,
                   const WriteOptions& options = {});
 
-/// .vtu, .msh, .inp or .mesh. Errors: as write_mesh.
+/// Writes tetrahedra as .vtu, .msh, .inp or .mesh. Errors: those of write_mesh.
 Status write_tetrahedra(const TetrahedralMesh& mesh, const std::filesystem::path& path,
                         const WriteOptions& options = {});
 

@@ -18,7 +18,7 @@ Json position(const Point3& p) {
     return {p.x, p.y, p.z};
 }
 
-/// NaN and infinities have no place in JSON.
+/// Returns null for NaN and infinities, which JSON cannot express.
 Json number(double value) {
     return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
@@ -75,7 +75,7 @@ Json interfaces_json(const Structure& structure, const StructureExtras& extras) 
     return all;
 }
 
-/// Ascending numbers as ranges [first, last].
+/// Groups ascending numbers into ranges [first, last].
 Json ranges(const std::vector<std::uint32_t>& numbers) {
     Json all = Json::array();
     for (std::size_t i = 0, end = 0; i < numbers.size(); i = end) {
@@ -149,7 +149,8 @@ Json leaks_json(std::span<const FreeBorder> borders) {
     return all;
 }
 
-/// One line per element of each array: to be read by people, too, and compared line by line.
+/// Writes one line per element of each array, so that people can read the text and programs can
+/// compare it line by line.
 std::string text_of(const Json& json) {
     const auto dump = [](const Json& value) {
         return value.dump(-1, ' ', false, Json::error_handler_t::replace);

@@ -11,8 +11,9 @@
 namespace terrane {
 
 /// Reads a grid. Its name is on the line with "->"; without one it is called `name`. Heights are
-/// listed column by column from the left, each column from the highest y down. A node has no height
-/// if its value reaches the largest number on the line FSASCI. FSXINC may be missing.
+/// listed column by column from the left, each column from the highest y down. The number of the
+/// largest size on the line FSASCI, and values beyond it, mean that a node has no height. FSXINC
+/// may be missing.
 /// Errors: bad_syntax, bad_number with "source:line".
 Result<Grid> read_cps3(std::string_view contents, std::string_view source, std::string_view name);
 

@@ -31,7 +31,8 @@ struct Turn {
     }
 };
 
-/// Builds the surface of a grid: vertices in the order of the nodes, triangles in that of the cells.
+/// Builds the surface of a grid: vertices in the order of the nodes, triangles in that of the
+/// cells.
 class GridSurface {
 public:
     GridSurface(const Grid& grid, bool depth) : grid_(grid), turn_(grid.rotation), depth_(depth) {}

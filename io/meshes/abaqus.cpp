@@ -61,7 +61,7 @@ void append_side(std::string& out, const std::string& name,
         out += fmt::format("{}, S{}\n", s.tetrahedron + 1, s.side + 1);
 }
 
-/// What a surface consists of.
+/// The nodes of a surface, and the element faces on its two sides.
 struct Members {
     std::vector<std::uint32_t> nodes;
     std::vector<TetrahedronSide> front, back;
@@ -81,7 +81,7 @@ std::vector<Members> members_of_surfaces(const TetrahedralMesh& mesh) {
     return members;
 }
 
-/// In the order of the pairs: Abaqus would sort them otherwise.
+/// Appends two node sets in the order of the pairs; Abaqus would sort them without UNSORTED.
 void append_pairs(std::string& out, const std::string& name, const std::vector<NodePair>& pairs) {
     if (pairs.empty()) return;
     for (const std::size_t side : {0, 1}) {
@@ -93,7 +93,7 @@ void append_pairs(std::string& out, const std::string& name, const std::vector<N
     }
 }
 
-/// Node set and surfaces of each surface.
+/// Returns the lines of the node set and of the element faces of each surface.
 std::string surface_lines(const TetrahedralMesh& mesh) {
     const auto names = label_names(mesh.surfaces);
     const auto members = members_of_surfaces(mesh);
@@ -110,9 +110,9 @@ std::string surface_lines(const TetrahedralMesh& mesh) {
     return out;
 }
 
-/// Per region, to `count`.
+/// Returns the names of the element sets of `count` regions.
 std::vector<std::string> set_names(std::size_t count, std::span<const std::string> region_names) {
-    std::vector<SurfaceInfo> infos; // what labels are made of
+    std::vector<SurfaceInfo> infos; // the names as label_names takes them
     for (std::size_t r = 0; r < count; ++r) {
         const bool named = r < region_names.size() && !region_names[r].empty();
         infos.push_back({named ? region_names[r] : region_name(r), Role::unknown});

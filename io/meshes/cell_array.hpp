@@ -8,7 +8,7 @@
 
 namespace terrane {
 
-/// A named value per cell, for formats that carry such arrays (VTP, VTU).
+/// A named array with one value per cell, for the formats that have such arrays (VTP, VTU).
 struct CellArray {
     std::string name; ///< "volume", "quality", ...
     std::variant<std::vector<std::int32_t>, std::vector<double>> values; ///< one per cell

@@ -24,16 +24,16 @@ namespace {
 constexpr int triangle_type = 2;
 constexpr int tetrahedron_type = 4;
 
-/// A discrete entity of gmsh and the cells in it.
+/// A discrete entity of Gmsh and its cells.
 struct Entity {
     int dimension = 2;
     std::size_t tag = 0;
     std::vector<std::size_t> physical; ///< tags, ascending
     std::vector<std::size_t> cells;    ///< indices, ascending
-    std::size_t first_element = 1;     ///< element of cell 0
+    std::size_t first_element = 1;     ///< number of the element that is cell 0
 };
 
-/// The groups of triangles, each an entity with the physical tags of its surfaces.
+/// Makes an entity of each group of triangles, with the physical tags of its surfaces.
 std::vector<Entity> surface_entities(std::vector<SurfaceGroup> groups, std::size_t surface_count,
                                      std::size_t first_element) {
     std::vector<Entity> entities;
@@ -60,10 +60,10 @@ std::vector<Entity> volume_entities(const std::vector<std::uint32_t>& region_of)
     return entities;
 }
 
-/// The entities on both sides of a cut.
+/// The two entities on the sides of a cut, and their nodes.
 struct PeriodicLink {
-    std::size_t front = 0, back = 0; ///< tags
-    std::vector<NodePair> pairs;     ///< {front, back}, where they differ; sorted, unique
+    std::size_t front = 0, back = 0; ///< tags of the entities
+    std::vector<NodePair> pairs;     ///< {front, back}, only where they differ; sorted, unique
 };
 
 std::vector<PeriodicLink> periodic_links(const std::vector<SurfaceGroup>& groups,
@@ -112,11 +112,11 @@ public:
             append_box(entity, cells);
             out_ += fmt::format(" {}", entity.physical.size());
             for (const auto tag : entity.physical) out_ += fmt::format(" {}", tag);
-            out_ += " 0\n"; // bounding entities: none stated
+            out_ += " 0\n"; // no bounding entities are stated
         }
     }
 
-    /// All in one block: that of the given entity.
+    /// Writes all nodes in one block, which belongs to the given entity.
     void nodes(const Entity& entity) {
         const auto count = vertices_.size();
         out_ += fmt::format("$Nodes\n1 {} 1 {}\n{} {} 0 {}\n", count, count, entity.dimension,
@@ -148,7 +148,7 @@ public:
         }
     }
 
-    /// Nodes of one entity and those of another one at the same places.
+    /// Writes, for each link, the pairs of nodes of its two entities that are at the same point.
     void periodic(std::span<const PeriodicLink> links) {
         if (links.empty()) return;
         text(fmt::format("$Periodic\n{}", links.size()));

@@ -10,16 +10,18 @@
 
 namespace terrane {
 
-/// Surface i is physical surface i + 1 and entity i + 1 of dimension 2. Triangles of several
-/// surfaces are in entities of their own, after those, with all physical tags. Element t + 1 is
-/// triangle t, node v + 1 is vertex v. Numbers read back as the same doubles.
+/// Writes the triangles: node v + 1 is vertex v, element t + 1 is triangle t. Surface i is physical
+/// surface i + 1 and entity i + 1 of dimension 2. Triangles that belong to several surfaces are in
+/// further entities, which have the physical tags of all these surfaces. Numbers read back as the
+/// same doubles.
 std::string to_msh(const Mesh& mesh);
 
-/// The same for faces; region r is volume entity r + 1 and physical volume r + 1, called "outside"
-/// and "region 1", ..., or "region 1: NAME" by region_names[1]. Elements: tetrahedra first, then
-/// faces. Where nodes are split, the faces of surface s in front of the cut are not in s + 1 but in
-/// a physical surface of their own, "NAME front", those behind it in "NAME back", and $Periodic
-/// lists the nodes at one place.
+/// Writes the tetrahedra, then their faces on surfaces, which have entities and physical surfaces
+/// as the triangles above. Region r is volume entity r + 1 and physical volume r + 1, with the name
+/// "outside" or "region 1", ..., or "region 1: NAME" if region_names[1] is NAME. If nodes are
+/// split, the faces of surface s in front of the cut are in the physical surface "NAME front" and
+/// those behind it in "NAME back", instead of in s + 1; $Periodic lists the pairs of nodes at the
+/// same point.
 std::string to_msh(const TetrahedralMesh& mesh, std::span<const std::string> region_names = {});
 
 } // namespace terrane

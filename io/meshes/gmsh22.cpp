@@ -43,7 +43,7 @@ std::string nodes(const std::vector<Point3>& vertices) {
     return text + "$EndNodes\n";
 }
 
-/// The lines of $Elements, numbered from 1.
+/// Collects the lines of $Elements, which are numbered from 1.
 class Elements {
 public:
     template <class Cell>
@@ -82,7 +82,8 @@ private:
 
 constexpr std::string_view format_section = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
 
-/// Per surface that is cut: the nodes behind it and those at the same places in front.
+/// Returns the section $Periodic: for each split surface, the nodes behind it with the nodes at the
+/// same points in front of it.
 std::string periodic(const TetrahedralMesh& mesh) {
     const auto pairs = node_pairs(mesh);
     std::size_t links = 0;

@@ -17,7 +17,7 @@ using namespace detail;
 
 namespace {
 
-/// References fill one column after the vertices.
+/// Appends cells with their vertices, followed by their reference.
 template <class Cell, class Reference>
 void append_cells(std::string& out, std::string_view keyword, const std::vector<Cell>& cells,
                   const std::vector<Reference>& references) {
@@ -34,7 +34,7 @@ void append_cells(std::string& out, std::string_view keyword, const std::vector<
 
 std::string start(const std::vector<SurfaceInfo>& surfaces, const std::vector<SurfaceGroup>& groups,
                   const std::vector<Point3>& vertices) {
-    // Version 2: coordinates are doubles.
+    // In version 2 coordinates are doubles.
     std::string out = "MeshVersionFormatted 2\n# references of triangles\n";
     out += tag_comments(groups, surfaces);
     out += fmt::format("\nDimension 3\n\nVertices\n{}\n", vertices.size());
@@ -45,7 +45,8 @@ std::string start(const std::vector<SurfaceInfo>& surfaces, const std::vector<Su
     return out;
 }
 
-/// Vertices in front of and behind each cut, for which MEDIT has no keyword.
+/// Returns comments with the pairs of vertices in front of and behind each cut; MEDIT has no
+/// keyword for them.
 std::string pair_comments(const TetrahedralMesh& mesh) {
     std::string out;
     const auto pairs = node_pairs(mesh);

@@ -13,7 +13,7 @@ using namespace detail;
 namespace {
 
 std::string points(const std::vector<Point3>& vertices) {
-    // Dimension; no attributes, no markers.
+    // The dimension is 3; there are no attributes and no markers.
     auto out = fmt::format("{} 3 0 0\n", vertices.size());
     for (std::size_t v = 0; v < vertices.size(); ++v) {
         append_number(out, std::uint64_t(v + 1));

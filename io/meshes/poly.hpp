@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// TetGen's .poly and .smesh: surfaces as facets for `tetgen -pA`.
+// TetGen's .poly and .smesh, with surfaces as facets for `tetgen -pA`.
 #pragma once
 
 #include <span>
@@ -11,13 +11,13 @@
 
 namespace terrane {
 
-/// Points and facets count from 1, in the order of vertices and triangles; one triangle per facet.
-/// The marker of a triangle of surface s alone is s + 1; sets of several surfaces have markers
-/// after those, which comments explain. No holes; the points become region attributes. Numbers read
-/// back as the same doubles.
+/// Writes points and facets, numbered from 1, in the order of vertices and triangles; each facet is
+/// one triangle. A triangle that belongs to surface s only has the marker s + 1; each set of
+/// several surfaces has a larger marker of its own, which a comment explains. There are no holes;
+/// `regions` become region attributes. Numbers read back as the same doubles.
 std::string to_poly(const Mesh& mesh, std::span<const RegionPoint> regions = {});
 
-/// The same in the shorter format, which has one polygon per facet.
+/// Writes the same as to_poly in the shorter format, which has one polygon per facet.
 std::string to_smesh(const Mesh& mesh, std::span<const RegionPoint> regions = {});
 
 } // namespace terrane

@@ -52,7 +52,8 @@ Bytes deflated(std::string_view bytes) {
     return result;
 }
 
-/// Header {blocks, block size, size of the last one, compressed sizes...}, then the blocks.
+/// Appends the header {number of blocks, block size, size of the last block, compressed sizes...}
+/// and the compressed blocks.
 void append_compressed(std::string& out, std::string_view bytes) {
     constexpr std::size_t block = std::size_t(1) << 20;
     std::vector<std::uint64_t> header{(bytes.size() + block - 1) / block, block,
@@ -120,7 +121,7 @@ public:
         out_ += "\n</DataArray>\n";
     }
 
-    /// VTK's strings: the codes of the characters, each string ended by a 0.
+    /// Writes strings as VTK does: the codes of their characters, each string ended by a 0.
     void strings(std::string_view name, const std::vector<std::string_view>& values) {
         out_ += fmt::format("<Array type=\"String\" Name=\"{}\" NumberOfTuples=\"{}\" "
                             "format=\"ascii\">\n",
@@ -187,7 +188,7 @@ private:
     bool in_field_ = false;
 };
 
-/// The first value of each list; -1 for an empty one.
+/// Appends the first value of each list; -1 for an empty list.
 void append_first(std::vector<std::int32_t>& out, const IndexLists<std::uint32_t>& lists) {
     for (std::size_t i = 0; i < lists.size(); ++i)
         out.push_back(lists[i].empty() ? -1 : static_cast<std::int32_t>(lists[i][0]));
@@ -198,7 +199,7 @@ void append_counts(std::vector<std::int32_t>& out, const IndexLists<std::uint32_
         out.push_back(static_cast<std::int32_t>(lists[i].size()));
 }
 
-/// count, 2 * count, ...
+/// Appends count, 2 * count, ...
 void append_offsets(std::vector<std::int64_t>& out, std::size_t cells, std::int64_t count) {
     for (std::size_t i = 0; i < cells; ++i) out.push_back((out.empty() ? 0 : out.back()) + count);
 }

@@ -21,8 +21,8 @@ namespace terrane {
 ///   northing, depth, elevation; inline and crossline if there are no x and y), in any case.
 ///   Without a heading the coordinates are the first three numbers, or the last three if the first
 ///   point has five numbers (inline, crossline, x, y, z).
-/// - A point is skipped if its z is -99999, -9999, -999.25 or at least 1e29 in size, or if its three
-///   numbers are 999, which end a line.
+/// - A point is skipped if its z is -99999, -9999, -999.25 or at least 1e29 in size, or if its
+///   three numbers are 999, which end a line.
 /// Errors: bad_syntax, bad_number with "source:line"; nothing_to_do if there is no triangle; those
 /// of connect_points.
 Result<std::vector<Surface>> read_points(std::string_view contents, std::string_view source,

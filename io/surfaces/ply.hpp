@@ -21,8 +21,8 @@ namespace terrane {
 Result<std::vector<Surface>> read_ply(std::string_view contents, std::string_view source,
                                       std::string_view name);
 
-/// Writes binary PLY, little endian, with coordinates of type double and every triangle once. A face
-/// has the properties `surface` (its first surface) and `surfaces` (the list of all of them);
+/// Writes binary PLY, little endian, with coordinates of type double and every triangle once. A
+/// face has the properties `surface` (its first surface) and `surfaces` (the list of all of them);
 /// comments "terrane surface ROLE NAME" in the header name the surfaces in order.
 std::string to_ply(const Mesh& mesh);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// For formats that give each triangle one number only, though it may belong to several surfaces.
+// Groups of triangles for the formats in which a triangle has only one number, although it may
+// belong to several surfaces.
 #pragma once
 
 #include <cstddef>
@@ -15,54 +16,56 @@
 
 namespace terrane::detail {
 
-/// Where nodes are split (split_nodes.hpp), the face in front of the cut and the one behind it.
+/// The side of a cut on which a face is, if nodes are split (split_nodes.hpp).
 enum class CutSide : std::uint8_t { none, front, back };
 
-/// "", " front", " back".
+/// Returns "", " front" or " back".
 [[nodiscard]] std::string_view ending_of(CutSide side);
 
-/// Per face; none at all where no nodes are split.
+/// Returns the side of each face; an empty list if no nodes are split.
 [[nodiscard]] std::vector<CutSide> cut_sides(const TetrahedralMesh& mesh);
 
-/// The triangles that belong to the same surfaces, on the same side of a cut.
+/// The triangles that belong to the same surfaces and are on the same side of a cut.
 struct SurfaceGroup {
-    std::size_t tag = 0;                 ///< s + 1 for surface s alone, without cut; else larger
+    std::size_t tag = 0;                 ///< s + 1 for surface s only, without cut; else larger
     std::vector<std::uint32_t> surfaces; ///< ascending
     CutSide side = CutSide::none;
     std::vector<std::size_t> cells; ///< triangles, ascending
 };
 
-/// One group per set of surfaces that some triangle has and side of a cut, in lexicographic order;
-/// sets of several, and sides, are numbered surface_count + 1, ... in that order. `sides`: per
-/// triangle, or empty.
+/// Returns one group for each pair of a set of surfaces and a side that some triangle has, in
+/// lexicographic order. Groups of several surfaces or of a side have the tags surface_count + 1,
+/// ... in that order. `sides` has one value per triangle, or is empty.
 [[nodiscard]] std::vector<SurfaceGroup> surface_groups(const IndexLists<std::uint32_t>& surfaces_of,
                                                        std::size_t surface_count,
                                                        std::span<const CutSide> sides = {});
 
-/// For formats in which each surface, and each side of one that is cut, has a group of its own:
-/// s + 1 for surface s, and after those 2 s + 1 for its front, 2 s + 2 for its back.
+/// Returns the tag of a surface or of one of its sides, for formats in which each of them is a
+/// group: s + 1 for surface s, surface_count + 2 s + 1 for its front and surface_count + 2 s + 2
+/// for its back.
 [[nodiscard]] std::size_t side_tag(std::size_t surface, CutSide side, std::size_t surface_count);
 
-/// Per triangle the tag of its group.
+/// Returns the tag of the group of each triangle.
 [[nodiscard]] std::vector<std::size_t> group_tags(const std::vector<SurfaceGroup>& groups,
                                                   std::size_t triangle_count);
 
-/// Lines of comment that say which surfaces each tag stands for: `# 3: top, main fault`,
+/// Returns comments that state the surfaces of each tag: `# 3: top, main fault`,
 /// `# 4: main fault front`.
 [[nodiscard]] std::string tag_comments(const std::vector<SurfaceGroup>& groups,
                                        const std::vector<SurfaceInfo>& surfaces);
 
-/// A side of a surface that is cut, as a group with a name: "F1 front".
+/// The group of one side of a split surface, with its name: "F1 front".
 struct SideName {
-    std::size_t tag = 0; ///< as side_tag has it
-    std::string name;    ///< for double quotes
+    std::size_t tag = 0; ///< see side_tag
+    std::string name;    ///< fit for double quotes
 };
 
-/// Of all sides that some group has, by tag.
+/// Returns all sides that some group has, by tag.
 [[nodiscard]] std::vector<SideName> side_names(const std::vector<SurfaceGroup>& groups,
                                                const std::vector<SurfaceInfo>& surfaces);
 
-/// "outside" for 0, else "region 1", ..., and what the names given say: "region 1: top/base".
+/// Returns "outside" for region 0, otherwise "region 1", ..., followed by its name if it has one:
+/// "region 1: top/base".
 [[nodiscard]] std::string region_name(std::size_t region, std::span<const std::string> names = {});
 
 } // namespace terrane::detail
