@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What any method of filling a hole gives back.
+// The result of filling a hole, whatever the method.
 #pragma once
 
 #include <cstddef>
@@ -11,28 +11,27 @@
 
 namespace terrane {
 
-/// What was invented, and how far it can be trusted. Lengths in the unit of the surface.
+/// Describes a filling and how far it can be trusted. Lengths are in the unit of the surface.
 struct FillReport {
-    std::size_t data = 0;         ///< points of the surface that the filling was computed from
+    std::size_t data = 0;         ///< points of the surface used as data
     std::size_t interpolated = 0; ///< vertices that the surface did not have
     double area = 0;              ///< of the triangles
-    double expected_error = 0;    ///< root mean square of the deviations of invented vertices: what
-                                  ///< the method itself predicts; NaN where it predicts nothing
-    double validated_error = 0;   ///< root mean square of what the method misses when data are left
-                                  ///< out and predicted from the others; NaN where not computed
-    std::string model;            ///< in a sentence: what was fitted, with its numbers
+    double expected_error = 0;    ///< root mean square of Filling::expected_error over the
+                                  ///< interpolated vertices; NaN if the method predicts none
+    double validated_error = 0;   ///< root mean square error at data that were left out and
+                                  ///< predicted from the others; NaN if not computed
+    std::string model;            ///< the fitted model and its parameters, in a sentence
 };
 
-/// A surface over a hole.
+/// A surface that fills a hole.
 struct Filling {
-    Surface surface;           ///< named as the surface with the hole; front on the same side
-    bool exact_border = false; ///< true: it covers the hole and nothing else, and its border is the
-                               ///< hole's, each vertex with the same coordinates to the last bit.
-                               ///< false: it goes beyond the border on all sides and must be
-                               ///< joined (join.hpp)
+    Surface surface;           ///< name, role and orientation of the surface with the hole
+    bool exact_border = false; ///< true: it covers the hole exactly, and its border is that of the
+                               ///< hole, with bit-identical coordinates. false: it extends beyond
+                               ///< the border on all sides and must be joined (join.hpp)
     std::vector<double>
-        expected_error{}; ///< per vertex: expected error, >= 0; 0 on the border of the
-                          ///< hole; NaN where not known
+        expected_error{}; ///< per vertex: expected error, >= 0; 0 on the border of the hole; NaN if
+                          ///< unknown
     FillReport report{};
 };
 

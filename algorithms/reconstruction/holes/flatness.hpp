@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What the triangles of a filling miss for being flat. Private to filling.
+// Decides whether the triangles of a filling are small enough to represent a curved surface.
 #pragma once
 
 #include <cstddef>
@@ -11,10 +11,10 @@
 
 namespace terrane::detail {
 
-/// A filling whose mesh size was not asked for may have its edges halved so often.
+/// How often a default mesh size may be halved.
 constexpr int most_halvings = 2;
 
-/// Edges with two triangles, at most `most`, spread evenly through all of them, ascending.
+/// Selects at most `most` inner edges (edges of two triangles), evenly spaced in ascending order.
 std::vector<Edge> some_inner_edges(std::span<const Triangle> triangles, std::size_t vertices,
                                    std::size_t most);
 
@@ -22,10 +22,11 @@ inline Point3 middle_of(const Point3& a, const Point3& b) {
     return {(a.x + b.x) / 2, (a.y + b.y) / 2, (a.z + b.z) / 2};
 }
 
-/// Whether smaller triangles would bring a filling nearer to the truth: what the function that it
-/// stands for bends away from the middles of edges (`sags`) is more than it is itself expected to
-/// be off there, both as root mean squares, and more than rounding: a millionth of `size`, the edge
-/// length. False where an expected error is not known, or without any.
+/// Tells whether smaller triangles would bring a filling nearer to the truth. `sags` are the
+/// distances of the interpolating function from the midpoints of edges, `expected` its own expected
+/// errors there. True if the root mean square of the sags exceeds that of the expected errors, and
+/// also rounding: a millionth of `size`, the edge length. False if an expected error is unknown or
+/// there are no edges.
 bool flatness_outweighs(std::span<const double> sags, std::span<const double> expected,
                         double size);
 

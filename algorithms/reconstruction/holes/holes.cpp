@@ -18,7 +18,7 @@ using detail::TracedLoop;
 
 constexpr std::uint32_t none = UINT32_MAX;
 
-/// Walks the borders of the distinct triangles, cut along edges with more than two of them.
+/// Traces the borders of the distinct triangles, cut along edges of more than two triangles.
 class BorderTracer {
 public:
     explicit BorderTracer(const Soup& soup) : soup_(soup), across_(soup.triangles.size()) {
@@ -34,7 +34,7 @@ public:
         return std::move(loops_);
     }
 
-    /// Vertices of each connected part, by its lowest triangle.
+    /// Lists the vertices of each connected part, by the root triangle of the part.
     std::map<std::uint32_t, std::vector<std::uint32_t>> vertices_of_parts() {
         std::map<std::uint32_t, std::vector<std::uint32_t>> result;
         for (std::uint32_t t = 0; t < soup_.triangles.size(); ++t)
@@ -43,12 +43,12 @@ public:
     }
 
 private:
-    /// Edge i of a triangle runs from its corner i to the next.
+    /// Side i of a triangle runs from its corner i to the next.
     struct Side {
         std::uint32_t triangle;
         unsigned i;
     };
-    /// A side on its way round a loop, from a vertex on.
+    /// A border side and the vertex at which a loop enters it.
     struct Step {
         std::uint32_t vertex;
         Side side;
@@ -85,7 +85,8 @@ private:
         return corner(s, 0) == v ? corner(s, 1) : corner(s, 0);
     }
 
-    /// The other border side of the triangles round `pivot` that hang together with this one.
+    /// Returns the other border side of the fan of triangles around `pivot` that contains this
+    /// side.
     [[nodiscard]] Side next_border_side(Side side, std::uint32_t pivot) const {
         while (true) {
             const unsigned next = corner(side, 1) == pivot ? (side.i + 1) % 3 : (side.i + 2) % 3;
@@ -108,10 +109,10 @@ private:
         split(steps);
     }
 
-    /// Into loops that meet no vertex twice.
+    /// Splits a walk into loops that visit no vertex twice.
     void split(const std::vector<Step>& steps) {
         std::vector<Step> open;
-        std::map<std::uint32_t, std::size_t> place; // in `open`
+        std::map<std::uint32_t, std::size_t> place; // index in `open`
         for (const Step& step : steps) {
             if (const auto met = place.find(step.vertex); met != place.end()) {
                 const auto from = met->second;
@@ -125,7 +126,7 @@ private:
         add_loop(open);
     }
 
-    /// Two steps are a cut along an edge and back.
+    /// Adds a loop. Two steps are no loop but a cut along an edge and back.
     void add_loop(std::span<const Step> steps) {
         TracedLoop loop;
         for (const auto& [vertex, side] : steps) {
@@ -138,7 +139,8 @@ private:
         loops_.push_back(std::move(loop));
     }
 
-    /// The surface on its left, as most of its triangles see it; begins with the lowest vertex.
+    /// Orients the loop so that most of its triangles lie on its left, and starts it at its lowest
+    /// vertex.
     void orient(TracedLoop& loop) const {
         const auto n = loop.vertices.size();
         std::size_t along = 0;
@@ -146,7 +148,7 @@ private:
             if (runs_along(soup_.triangles[loop.triangles[i]], loop.vertices[i],
                            loop.vertices[(i + 1) % n]))
                 ++along;
-        if (2 * along < n) { // edge i becomes the one before vertex i
+        if (2 * along < n) { // edge i then ends at vertex i
             std::reverse(loop.vertices.begin(), loop.vertices.end());
             std::reverse(loop.triangles.begin(), loop.triangles.end() - 1);
         }
@@ -157,20 +159,21 @@ private:
     }
 
     const Soup& soup_;
-    std::vector<std::array<Side, 3>> across_; ///< per side the one beyond, or none at a border
-    std::vector<std::array<bool, 3>> shared_; ///< per side: at an edge of more than two triangles
+    std::vector<std::array<Side, 3>> across_; ///< per side: the side across it; none at a border
+    std::vector<std::array<bool, 3>> shared_; ///< per side: its edge has more than two triangles
     std::vector<std::array<bool, 3>> seen_;
     DisjointSets parts_{soup_.triangles.size()};
     std::vector<TracedLoop> loops_;
 };
 
-/// The loops that surround a part, or share edges with other triangles.
+/// Finds the loops that surround a part or share edges with other triangles.
 std::vector<bool> outer_loops(const Soup& soup, const std::vector<TracedLoop>& loops,
                               BorderTracer& tracer) {
     std::map<std::uint32_t, double> size_of_part;
     for (const auto& [triangle, vertices] : tracer.vertices_of_parts())
         size_of_part[soup.input_of[triangle]] = detail::diagonal_of(soup.points, vertices);
-    std::map<std::uint32_t, std::pair<double, std::size_t>> longest; // per part: loop
+    std::map<std::uint32_t, std::pair<double, std::size_t>> longest; // per part: diagonal and index
+                                                                     // of a loop
     std::vector<bool> outer(loops.size());
     for (std::size_t i = 0; i < loops.size(); ++i) {
         outer[i] = loops[i].shared > 0;

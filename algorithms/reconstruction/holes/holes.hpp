@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Where a surface ends: its borders as closed loops, told apart into what surrounds it, holes in
-// it, and gaps that a fault has torn.
+// Finds the borders of a surface as closed loops and classifies them: outer borders, holes, and
+// gaps torn by faults.
 //
-// Which edges are borders, and how they hang together, depends on indices and equal points alone.
-// What a loop is called rests on measures in floating point, by the rules stated with LoopKind.
+// Which edges are border edges and how they are connected depends on indices and equal points
+// alone. The classification uses measures in floating point, by the rules stated with LoopKind.
 #pragma once
 
 #include <cstdint>
@@ -17,42 +17,42 @@
 namespace terrane {
 
 enum class LoopKind : std::uint8_t {
-    outer, ///< in each part connected over edges, the loop with the longest diagonal of its box,
-           ///< if that is at least half of the part's own (else it is a closed body with
-           ///< holes); and every loop that runs along edges of more than two triangles
+    outer, ///< in each part connected across edges, the loop whose bounding box has the longest
+           ///< diagonal, if that is at least half of the diagonal of the part (otherwise the part
+           ///< is a closed body with holes); and every loop with an edge of more than two triangles
     hole,  ///< all others
-    fault_gap, ///< a hole whose sides face each other with a throw: see GapRule
+    fault_gap, ///< a hole whose opposite sides have a throw, see GapRule
 };
 
-/// A hole is a fault gap where the surface, carried on from both sides to the middle with the slope
-/// that it has there, does not meet itself: by a throw that is `slope` times the width of the gap
-/// or more, three times the roughness of the border or more, and with the same side up along
-/// four fifths of it.
+/// Decides whether a hole is a fault gap. The surface is extrapolated from both sides to the middle
+/// of the hole with the slope it has at the border. The hole is a fault gap if the two
+/// extrapolations differ by a throw of at least `slope` times the width of the gap and at least
+/// three times the roughness of the border, with the same side up along four fifths of the gap.
 struct GapRule {
-    double slope = 0.25; ///< no unit; > 0
+    double slope = 0.25; ///< throw / width; dimensionless, > 0
 };
 
-/// A closed loop of border edges. Lengths in the unit of the surface.
+/// A closed loop of border edges. Lengths are in the unit of the surface.
 struct BorderLoop {
     LoopKind kind = LoopKind::hole;
-    std::vector<std::uint32_t> vertices{}; ///< of the surface, in order, each once, >= 3: the
-                                           ///< surface on the left as its front is seen. Of equal
-                                           ///< points the one with the lowest index
-    std::uint32_t part = 0;   ///< the connected part of the surface, by its lowest triangle
-    std::uint32_t shared = 0; ///< edges with more than two triangles among those of the loop
-    double length = 0;        ///< of its edges
-    double area = 0;          ///< of its projection onto the plane that makes it largest
-    Point3 centre{};          ///< of its edges, weighted by their lengths
-    double fault_throw = 0;   ///< holes: median distance, along the normal of the surface
-                              ///< there, by which its facing sides miss each other
-    double width = 0;         ///< holes: median distance between facing sides
+    std::vector<std::uint32_t> vertices{}; ///< of the surface, in order, each once, >= 3; the
+                                           ///< surface is on the left, seen from its front. Of
+                                           ///< equal points, the one with the lowest index
+    std::uint32_t part = 0;                ///< connected part of the surface: its lowest triangle
+    std::uint32_t shared = 0;              ///< edges of the loop with more than two triangles
+    double length = 0;                     ///< total length of its edges
+    double area = 0;                       ///< of its largest projection to a plane
+    Point3 centre{};                       ///< mean of its edges, weighted by length
+    double fault_throw = 0; ///< holes: median distance between the extrapolated sides, along the
+                            ///< mean normal of the border
+    double width = 0;       ///< holes: median distance between opposite sides
 };
 
-/// All borders of a surface: outer ones by falling length, then holes and gaps by falling area.
-/// Equal points count as one vertex; triangles without area, and repeated ones, do not count.
-/// Where a border meets itself in a vertex it is split there. Edges of more than two triangles cut
-/// the surface as borders do; loops with no other edges are left out.
-/// Cost: linear, and for each hole 256 passes over its edges at most.
+/// Finds all borders of a surface: outer ones by decreasing length, then holes and gaps by
+/// decreasing area. Equal points count as one vertex; degenerate and repeated triangles are
+/// ignored. A border that visits a vertex twice is split there. Edges of more than two triangles
+/// cut the surface like borders; loops of such edges only are omitted.
+/// Cost: linear, plus at most 256 passes over the edges of each hole.
 /// Errors: bad_number, bad_index, interrupted.
 Result<std::vector<BorderLoop>> find_border_loops(const Surface& surface, const Run& run = {},
                                                   const GapRule& rule = {});

@@ -11,9 +11,10 @@
 namespace terrane {
 namespace {
 
-constexpr std::size_t most_sides = 96; ///< of a polygon to fill: the effort grows with the cube
+constexpr std::size_t most_sides = 96; ///< of a polygon to triangulate; the effort is cubic
 
-/// The table of best triangulations of a polygon's parts: of corners i to j, the worst shape.
+/// Dynamic program for the best triangulation of a polygon: the worst shape between corners i and
+/// j.
 struct Table {
     explicit Table(std::size_t count) :
         sides(count), worst(count * count, std::numeric_limits<double>::infinity()),
@@ -21,8 +22,8 @@ struct Table {
     [[nodiscard]] std::size_t at(std::size_t i, std::size_t j) const { return i * sides + j; }
 
     std::size_t sides;
-    std::vector<double> worst;       ///< infinite where there is nothing to fill
-    std::vector<std::uint32_t> apex; ///< third corner of the triangle on the side i j
+    std::vector<double> worst;       ///< infinite where nothing needs to be filled
+    std::vector<std::uint32_t> apex; ///< third corner of the triangle on side i j
 };
 
 void collect(const Table& table, std::span<const std::uint32_t> polygon, std::size_t i,
@@ -99,14 +100,14 @@ Point3 DiskMesh::normal_of(std::span<const std::uint32_t> triangles) const {
 }
 
 std::optional<DiskMesh::Link> DiskMesh::link_of(std::uint32_t v) const {
-    std::vector<std::array<std::uint32_t, 2>> sides; // opposite to v, in the triangle's direction
+    std::vector<std::array<std::uint32_t, 2>> sides; // opposite to v, oriented as in the triangle
     for (const std::uint32_t t : star_[v]) {
         const Triangle& c = triangles_[t];
         const unsigned i = c[0] == v ? 0 : c[1] == v ? 1 : 2;
         sides.push_back({c[(i + 1) % 3], c[(i + 2) % 3]});
     }
     if (sides.empty()) return std::nullopt;
-    std::size_t first = 0; // the side that none leads to; any, where the link is closed
+    std::size_t first = 0; // the side that no other leads to; any side of a closed link
     const auto leads_to = [&](std::uint32_t w) {
         return std::find_if(sides.begin(), sides.end(), [&](const auto& s) { return s[1] == w; });
     };
@@ -133,11 +134,12 @@ std::optional<std::vector<Triangle>> DiskMesh::fill(std::uint32_t v, const Link&
     const auto& polygon = link.vertices;
     const std::size_t n = polygon.size();
     if (n > most_sides) return std::nullopt;
-    if (n == 2) // a lone triangle at the border goes; the edge opposite to v needs another one
+    if (n == 2) // a single border triangle is removed; the edge opposite to v keeps its other
+                // triangle
         return triangles_at(polygon[0], polygon[1]) == 2 ? std::optional(std::vector<Triangle>{})
                                                          : std::nullopt;
     const Point3 normal = normal_of(star_[v]);
-    // A diagonal that is an edge already, outside the star, would get a third triangle.
+    // A diagonal that already is an edge outside of the star would get a third triangle.
     const auto is_taken = [&](std::size_t i, std::size_t j) {
         const bool side = j == i + 1 || (link.closed && i == 0 && j + 1 == n);
         return !side && has_edge(polygon[i], polygon[j]);
@@ -222,7 +224,7 @@ bool DiskMesh::swap(std::uint32_t a, std::uint32_t b) {
         const Triangle& c = triangles_[t];
         return c[0] != a && c[0] != b ? c[0] : c[1] != a && c[1] != b ? c[1] : c[2];
     };
-    const auto follows = [&](std::uint32_t t) { // a then b, in the triangle's direction
+    const auto follows = [&](std::uint32_t t) { // a before b, in the triangle's direction
         const Triangle& c = triangles_[t];
         return c[0] == a ? c[1] == b : c[1] == a ? c[2] == b : c[0] == b;
     };
@@ -235,7 +237,7 @@ bool DiskMesh::swap(std::uint32_t a, std::uint32_t b) {
         std::min(shape(p[a], p[b], p[left], normal), shape(p[b], p[a], p[right], normal));
     const double after =
         std::min(shape(p[a], p[right], p[left], normal), shape(p[right], p[b], p[left], normal));
-    constexpr double worth = 1e-3; // no endless exchange of equals
+    constexpr double worth = 1e-3; // prevents endless swaps of equal shapes
     if (!(after > 0) || after <= before + worth) return false;
     const std::array<std::uint32_t, 2> old{sides[0], sides[1]};
     for (const std::uint32_t t : old) erase(t);
@@ -245,7 +247,7 @@ bool DiskMesh::swap(std::uint32_t a, std::uint32_t b) {
 }
 
 std::size_t DiskMesh::improve(std::span<const std::uint32_t> vertices) {
-    constexpr int most_passes = 20; // the worst shape only grows, so few are needed
+    constexpr int most_passes = 20; // few suffice, as the worst shape only improves
     std::size_t swapped = 0;
     for (int pass = 0; pass < most_passes; ++pass) {
         const std::size_t before = swapped;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// An oriented patch of triangles that can give up vertices and change diagonals. Private to join.
-// Qualities and normals are in floating point; topology stays that of the patch: no edge ever gets
-// a third triangle, and what the operations make is a patch with the same holes and handles.
+// An oriented patch of triangles from which vertices can be removed and whose edges can be swapped.
+// Qualities and normals are in floating point. The topology never changes: no edge ever gets a
+// third triangle, and the number of holes and handles stays the same.
 #pragma once
 
 #include <cstddef>
@@ -15,39 +15,40 @@
 
 namespace terrane {
 
-/// Shape of a triangle with respect to a direction: 1 equilateral, 0 degenerate, negative where the
-/// triangle faces away. 4 sqrt(3) area / (sum of squared edges).
+/// Returns the shape of a triangle with respect to a direction: 4 sqrt(3) area / (sum of squared
+/// edges), which is 1 for equilateral and 0 for degenerate triangles; negative if the triangle
+/// faces away.
 double shape(const Point3& a, const Point3& b, const Point3& c, const Point3& direction);
 
 class DiskMesh {
 public:
-    /// Triangles are consistently oriented; each edge has at most two. No operation makes an edge
-    /// of `taken` (sorted): those are edges of other meshes.
+    /// Triangles must be oriented consistently, each edge with at most two of them. No operation
+    /// creates an edge of `taken` (sorted), as those belong to other meshes.
     DiskMesh(std::vector<Point3> points, std::vector<Triangle> triangles,
              std::vector<Edge> taken = {});
 
     [[nodiscard]] const std::vector<Point3>& points() const { return points_; }
     void move(std::uint32_t vertex, const Point3& to) { points_[vertex] = to; }
 
-    /// Living triangles, in the order in which they were made.
+    /// Returns the current triangles, in order of creation.
     [[nodiscard]] std::vector<Triangle> triangles() const;
-    /// Vertices that share an edge with v, ascending.
+    /// Returns the vertices that share an edge with v, ascending.
     [[nodiscard]] std::vector<std::uint32_t> neighbours(std::uint32_t v) const;
     [[nodiscard]] bool is_alive(std::uint32_t v) const { return !star_[v].empty(); }
 
-    /// Whether it has an edge with one triangle.
+    /// Tells whether v has an edge with one triangle.
     [[nodiscard]] bool is_at_border(std::uint32_t v) const;
-    /// Moves v unless a triangle at it would turn away from where those at it faced, or the worst
-    /// shape there would get worse and be below `sound`.
+    /// Moves v, unless that would flip a triangle with respect to the former normal, or make the
+    /// worst shape both worse than before and less than `sound`.
     bool move_if_sound(std::uint32_t v, const Point3& to, double sound);
 
-    /// Takes v out and fills its star with the triangles, among all triangulations, whose worst
-    /// shape is best. A border vertex leaves a straight border edge. False, and nothing is changed,
-    /// where a triangle would face away or an edge would get a third triangle.
+    /// Removes v and retriangulates its star so that the worst shape is as good as possible. A
+    /// border vertex leaves a straight border edge. Returns false and changes nothing if a triangle
+    /// would be flipped or an edge would get a third triangle.
     bool remove(std::uint32_t v);
 
-    /// Swaps diagonals while the worse of the two triangles gets
-    /// better and neither faces away, at inner edges of `vertices`. Returns how many were swapped.
+    /// Swaps inner edges at `vertices` while that improves the worse of the two triangles and flips
+    /// neither. Returns the number of swaps.
     std::size_t improve(std::span<const std::uint32_t> vertices);
 
 private:
@@ -67,9 +68,9 @@ private:
 
     std::vector<Point3> points_;
     std::vector<Edge> taken_;
-    std::vector<Triangle> triangles_;              ///< living and dead
+    std::vector<Triangle> triangles_;              ///< also removed ones
     std::vector<bool> alive_;                      ///< per triangle
-    std::vector<std::vector<std::uint32_t>> star_; ///< per vertex: living triangles, ascending
+    std::vector<std::vector<std::uint32_t>> star_; ///< per vertex: its current triangles, ascending
 };
 
 } // namespace terrane

@@ -28,7 +28,7 @@ std::string text_of(const Point3& p) {
            ")";
 }
 
-/// The lowest vertex with the same coordinates, for vertices with those of the loop; else itself.
+/// Finds vertices in a loop by their coordinates, so that equal points count as one.
 class LoopNames {
 public:
     LoopNames(const Surface& surface, std::span<const std::uint32_t> loop) : surface_(surface) {
@@ -36,7 +36,7 @@ public:
             at_.emplace_back(surface.vertices[loop[i]], i);
         std::sort(at_.begin(), at_.end());
     }
-    /// Where in the loop the vertex is.
+    /// Returns the position of the vertex in the loop, if any.
     [[nodiscard]] std::optional<std::uint32_t> operator()(std::uint32_t vertex) const {
         const Point3& p = surface_.vertices[vertex];
         const auto found = std::lower_bound(at_.begin(), at_.end(), std::pair(p, 0U));
@@ -49,11 +49,11 @@ private:
     std::vector<std::pair<Point3, std::uint32_t>> at_;
 };
 
-/// The border as points and normals, and the surface's own edges between its points.
+/// A border as points and normals, with the edges of the surface that are chords of it.
 struct Border {
     BorderLine line;
-    std::vector<Edge> chords; ///< edges of the surface between places in the loop that do not
-                              ///< follow one another, the lower first; sorted
+    std::vector<Edge> chords; ///< edges of the surface between positions of the loop that are not
+                              ///< adjacent, lower position first; sorted
     double median_edge = 0;
 };
 
@@ -62,8 +62,8 @@ Point3 unit(const Point3& a) {
     return size > 0 ? Point3{a.x / size, a.y / size, a.z / size} : Point3{};
 }
 
-/// Per border edge the normal of the triangle beside it, turned so that the surface is on the left;
-/// the chords on the way.
+/// Computes, for each border edge, the normal of its triangle, oriented so that the surface is on
+/// the left of the loop. Collects the chords as well.
 Result<std::vector<Point3>> edge_normals(const Surface& surface, const LoopNames& names,
                                          std::size_t n, std::vector<Edge>& chords) {
     std::vector<Point3> normals(n);
@@ -118,13 +118,13 @@ Result<Border> border_of(const Surface& surface, const BorderLoop& loop) {
     return border;
 }
 
-/// The borders that an inner part ends at, one after the other.
+/// The borders of an inner part, one after the other.
 struct BorderPoints {
     std::vector<Point3> points;
-    std::vector<std::uint32_t> vertices; ///< per point: of the surface
-    std::vector<std::uint32_t> next;     ///< per point: the next in its loop
-    std::vector<std::uint32_t> before;   ///< per point: the one before
-    std::vector<Edge> chords;            ///< see Border; places here
+    std::vector<std::uint32_t> vertices; ///< per point: vertex of the surface
+    std::vector<std::uint32_t> next;     ///< per point: the next one in its loop
+    std::vector<std::uint32_t> before;   ///< per point: the previous one
+    std::vector<Edge> chords;            ///< see Border; positions in this list
 };
 
 BorderPoints border_points(std::span<const Border> borders, const InnerPart& part) {
@@ -144,7 +144,7 @@ BorderPoints border_points(std::span<const Border> borders, const InnerPart& par
     return all;
 }
 
-/// Step (5): the rows between the border and what stays of the filling.
+/// Step (5): builds the rows of triangles between the border and the remaining filling.
 class Rows {
 public:
     Rows(const BorderPoints& border, const InnerPart& part, double clearance) :
@@ -173,8 +173,8 @@ private:
         return taken;
     }
 
-    /// Takes out what the line has between the border's vertices. Where one can't go, others before
-    /// it may make it possible; at last vertices of the filling beside it give way.
+    /// Removes the vertices of the line between border vertices. Removing one may make others
+    /// removable; at last, vertices of the filling beside them are removed as well.
     Status straighten() {
         std::vector<std::uint32_t> left = part_.between;
         while (!left.empty()) {
@@ -206,15 +206,15 @@ private:
         return *middle;
     }
 
-    /// Distance to border edge i as a share of what must be kept.
+    /// Tells whether p is too near to border edge i.
     [[nodiscard]] bool too_near(const Point3& p, std::size_t i, double filling_edge) const {
         const Point3 &a = border_.points[i], &b = border_.points[border_.next[i]];
         const double room = clearance_ * std::min(length(minus(b, a)), filling_edge);
         return distance_to_triangle(p, a, b, b) < room;
     }
 
-    /// Vertices of the filling too near to the border give way. Only neighbours of the border can
-    /// be: where one goes, those behind it become its neighbours.
+    /// Removes vertices of the filling that are too near to the border. Only neighbours of the
+    /// border can be; when one is removed, the vertices behind it become neighbours.
     std::size_t make_room() {
         const double filling_edge = median_filling_edge();
         const std::size_t n = part_.corners.size();
@@ -249,10 +249,10 @@ private:
     const InnerPart& part_;
     double clearance_;
     DiskMesh mesh_;
-    std::vector<bool> movable_; ///< per point: it is the filling's own
+    std::vector<bool> movable_; ///< per point: it is a vertex of the filling
 };
 
-/// The surface with the new triangles after its own.
+/// Appends the new triangles to the surface.
 Joined append(const Surface& surface, const BorderPoints& border, const InnerPart& part,
               const DiskMesh& mesh) {
     Joined joined;
@@ -276,7 +276,8 @@ Joined append(const Surface& surface, const BorderPoints& border, const InnerPar
     return joined;
 }
 
-/// By exact predicates: no new triangle is degenerate, repeats one, or meets another improperly.
+/// Checks with exact predicates that no new triangle is degenerate, repeats another one or meets
+/// another one improperly.
 Status check_new(const Surface& surface, std::size_t old_triangles, const Run& run) {
     const Soup soup = merge_surfaces(std::span(&surface, 1), run);
     const auto place = [&](std::uint32_t t) {
@@ -314,7 +315,8 @@ Status check_new(const Surface& surface, std::size_t old_triangles, const Run& r
     return Done{};
 }
 
-/// All steps, with one width of the strip. borders: of the hole, then of what may be islands.
+/// Runs all steps for one width of the strip. `borders` are that of the hole, then those of
+/// possible islands.
 Result<Joined> join_with(const Surface& surface, std::span<const Border> borders,
                          const Surface& filling, double strip, const JoinOptions& options,
                          const Run& run) {
@@ -341,16 +343,17 @@ Result<Joined> join_with(const Surface& surface, std::span<const Border> borders
     return joined;
 }
 
-/// The widths of the strip to try: the curve is one line only where the strip is wide enough to
-/// reach the filling and too narrow to reach anything else.
+/// Lists the widths to try. The curve is one line only if the strip is wide enough to reach the
+/// filling and too narrow to reach anything else.
 std::vector<double> widths(const Border& border, const JoinOptions& options) {
     if (options.strip > 0) return {options.strip};
     const double half = border.median_edge / 2;
     return {half, half / 8, 2 * half, 1.4 * half, 4 * half};
 }
 
-/// Outer borders of other parts whose boxes overlap the loop's, made wider by its longest side: an
-/// island need not be as flat as the border. What the filling does not pass through is no island.
+/// Finds outer borders of other parts whose boxes overlap that of the loop, enlarged by its longest
+/// side, as an island need not be as flat as the border. Those that the filling does not pass
+/// through turn out not to be islands.
 std::vector<BorderLoop> islands_near(const Surface& surface, const BorderLoop& loop,
                                      std::span<const BorderLoop> loops) {
     const auto box = [&](const BorderLoop& l) {

@@ -1,27 +1,25 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Joins a surface that fills a hole, and goes beyond its border, to the surface with the hole.
+// Joins a filling that extends beyond the border of a hole to the surface with the hole.
 //
 // Steps (numbers as in the paper):
-//   (1) S_bound: at each border vertex two points at a distance d along the normal, up and down; a
-//       strip of two triangles per border edge (join_curve.hpp);
+//   (1) S_bound: two points at each border vertex, at a distance d up and down the normal; a strip
+//   of two triangles per border edge (detail/curve.hpp);
 //   (2) the exact arrangement of S_bound and the filling; the edges that both share are the curve.
-//       It must hold one closed line that passes all walls of the strip once and in order;
-//   (3) the filling's triangles of the arrangement, which contain that line as edges;
-//   (4) the part inside: diffusion from the line's inner side, stopped at it. It must be a disk,
-//       or one with a hole for each island;
-//   (5) conforming rows: the points where the line crosses the normals become the border's
-//   vertices,
-//       the others of the line are taken out one after the other, and so are vertices of the
-//       filling that are nearer to the border than `clearance` allows. What is left open by each is
-//       filled anew with the best-shaped triangles (disk_mesh.hpp). So no edge of the border is
-//       divided.
-// Guarantees: the triangles of the surface stay, first and unchanged; the border keeps its
-// vertices, bit by bit; every new vertex is one of the filling's, bit by bit; each border edge of
-// the hole has one new triangle, wound as the old ones along the loop. By exact check no new
-// triangle meets another triangle, new or old, other than in a shared vertex or edge, and none is
-// degenerate. Cost: the arrangement, which is linear where the strip does not reach, and O(b log b)
-// for the band. Source: the paper, 4.1 "Joining".
+//   It must contain one closed line that passes all walls of the strip once, in order;
+//   (3) the triangles of the filling in the arrangement, which have that line as edges;
+//   (4) the inner part: the triangles connected to the inner side of the line without crossing it.
+//   It must be a disk, or a disk with one hole per island;
+//   (5) conforming rows: the points where the line crosses the normals become the border vertices.
+//   The other points of the line are removed one after the other, and so are vertices of the
+//   filling that are nearer to the border than `clearance` allows. The star of each is
+//   retriangulated with the best shapes (disk_mesh.hpp), so no border edge is divided.
+// Guarantees: the triangles of the surface come first and do not change; border vertices and
+// interpolated vertices keep their coordinates, bit by bit; each border edge of the hole gets one
+// new triangle, oriented like the surface. An exact check ensures that no new triangle meets
+// another one, new or old, other than in a shared vertex or edge, and that none is degenerate.
+// Cost: the arrangement, which is linear away from the strip, and O(b log b) for b border edges.
+// Source: the paper, 4.1 "Joining".
 #pragma once
 
 #include <cstdint>
@@ -38,38 +36,40 @@ namespace terrane {
 
 struct JoinOptions {
     double strip = 0; ///< d, the half width of S_bound, unit of the surface; 0: half the median
-                      ///< border edge, and where that fails an eighth of it, then wider ones, up
-                      ///< to four times it
-    double clearance = 0.5; ///< a vertex of the filling nearer to a border edge than this share of
-        ///< the edge's length (or of the filling's own edges, if less) gives way
-    Search search = Search::mixed;       ///< never changes the result
-    std::span<const BorderLoop> loops{}; ///< all of the surface: what hangs together with the rest
-                                         ///< nowhere and lies in the hole, an island, is joined too
+                      ///< border edge; if that fails, an eighth of it, then larger ones, up to four
+                      ///< times it
+    double clearance = 0.5; ///< vertices of the filling are removed if they are nearer to a border
+                            ///< edge than this share of its length (or of the median edge of the
+                            ///< filling, if less)
+    Search search = Search::mixed;       ///< does not change the result
+    std::span<const BorderLoop> loops{}; ///< all loops of the surface: parts that are connected to
+                                         ///< nothing and lie in the hole (islands) are joined, too
 };
 
-/// Lengths and areas: unit of the surface, in floating point.
+/// Describes what was joined. Lengths and areas are in the unit of the surface, in floating point.
 struct JoinReport {
-    double strip = 0;                 ///< the half width used
-    std::size_t curve_vertices = 0;   ///< of the line that the strip cuts into the filling
-    std::size_t inside_triangles = 0; ///< of the filling, within the line
-    std::size_t given_way = 0;        ///< vertices of the filling that were too near to the border
+    double strip = 0;                 ///< half width used
+    std::size_t curve_vertices = 0;   ///< vertices of the line that the strip cuts into the filling
+    std::size_t inside_triangles = 0; ///< triangles of the filling inside of the line
+    std::size_t given_way = 0;        ///< vertices removed because they were too near to the border
     std::size_t new_vertices = 0, new_triangles = 0;
-    double area = 0;         ///< of the new triangles: what was invented
-    std::size_t islands = 0; ///< that were joined, too
-    double largest_step = 0; ///< how far the filling passes from a border vertex at most
+    double area = 0;         ///< of the new triangles
+    std::size_t islands = 0; ///< islands that were joined
+    double largest_step = 0; ///< largest distance of the filling from a border vertex
 };
 
 struct Joined {
     Surface surface; ///< vertices and triangles of the surface, then the new ones
-    std::vector<std::uint32_t> filling_vertices; ///< per new vertex: which one of the filling
+    std::vector<std::uint32_t> filling_vertices; ///< per new vertex: its index in the filling
     JoinReport report;
 };
 
-/// `loop` is one of find_border_loops(surface). Of the filling only the connected part round the
-/// border matters. Errors: bad_number, bad_index; bad_option (a loop that is none, an option out of
-/// range); not_closed (the strip does not cut the filling in one closed line round the hole, at the
-/// border vertex named); improper_contact (the filling crosses itself or the surface, at the place
-/// named); interrupted, out_of_memory.
+/// Joins a filling to the hole `loop`, which must be one of find_border_loops(surface). Only the
+/// connected part of the filling around the border matters. Errors: bad_number, bad_index;
+/// bad_option (an invalid loop, an option out of range); not_closed (the strip does not cut the
+/// filling in one closed line around the hole; the error names the border vertex); improper_contact
+/// (the filling crosses itself or the surface; the error names the place); interrupted,
+/// out_of_memory.
 Result<Joined> join_filling(const Surface& surface, const BorderLoop& loop, const Surface& filling,
                             const JoinOptions& options = {}, const Run& run = {});
 

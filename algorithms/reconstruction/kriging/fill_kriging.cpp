@@ -28,7 +28,7 @@ Error interrupted() {
     return {ErrorCode::interrupted, "interrupted", ""};
 }
 
-/// The loop, and the outer borders of other parts that lie within it.
+/// Lists the loop and the outer borders of other parts that lie within it.
 std::vector<const BorderLoop*> loops_within(const Surface& surface, const BorderLoop& loop,
                                             std::span<const BorderLoop> all) {
     std::vector<const BorderLoop*> result{&loop};
@@ -51,7 +51,7 @@ double median_edge(const std::vector<Point3>& points, const Polygon& polygon) {
     return *middle;
 }
 
-/// How far apart points can be and still count for the variogram: half the extent of the data.
+/// Returns the largest distance of pairs that count for the variogram: half the extent of the data.
 double longest_pair(const std::vector<Point3>& points) {
     Point3 low = points[0], high = low;
     for (const Point3& p : points) {
@@ -61,7 +61,7 @@ double longest_pair(const std::vector<Point3>& points) {
     return std::hypot(high.x - low.x, high.y - low.y) / 2;
 }
 
-/// Each border edge has the surface on one side and the filling on the other.
+/// Checks that each border edge has the surface on one side and the filling on the other.
 Status check_sides(const KrigingData& data, std::span<const Point3> points,
                    std::span<const Triangle> triangles) {
     std::map<std::array<std::uint32_t, 2>, std::uint32_t> third_of;
@@ -87,9 +87,9 @@ Status check_sides(const KrigingData& data, std::span<const Point3> points,
     return Done{};
 }
 
-/// The filling without heights of what is invented, and without vertices that are in no triangle.
+/// A filling before it has heights; contains only vertices of its triangles.
 struct FlatFilling {
-    std::vector<Point3> points; ///< the border's first
+    std::vector<Point3> points; ///< border points first
     std::size_t border = 0;
     std::vector<Triangle> triangles; ///< front up
 };
@@ -128,7 +128,8 @@ Result<FlatFilling> mesh_of(const KrigingData& data, double mesh_size, const Run
     return flat;
 }
 
-/// Gives what is invented its heights. Per vertex its deviation, 0 on the borders.
+/// Sets the heights of interpolated vertices. Returns the expected error per vertex, 0 on the
+/// borders.
 std::vector<double> set_heights(FlatFilling& flat, const Kriging& kriging, const Run& run) {
     const auto estimates = kriging.at(std::span(flat.points).subspan(flat.border), run);
     std::vector<double> expected_error(flat.points.size(), 0);
@@ -139,7 +140,7 @@ std::vector<double> set_heights(FlatFilling& flat, const Kriging& kriging, const
     return expected_error;
 }
 
-/// Whether a filling of smaller triangles would be nearer to the truth.
+/// Tells whether smaller triangles would bring the filling nearer to the truth.
 bool is_too_flat(const FlatFilling& flat, const Kriging& kriging, double mesh_size,
                  const Run& run) {
     const auto edges = detail::some_inner_edges(flat.triangles, flat.points.size(), most_sags);
@@ -151,7 +152,8 @@ bool is_too_flat(const FlatFilling& flat, const Kriging& kriging, double mesh_si
     const auto estimates = kriging.at(places, run);
     std::vector<double> sags, expected;
     for (std::size_t i = 0; i < estimates.size(); i += 3) {
-        const Estimate* e = &estimates[i]; // noise of the data on the border does not count
+        const Estimate* e = &estimates[i]; // estimates, not data: noise at the border does not
+                                           // count
         sags.push_back(e[2].value - (e[0].value + e[1].value) / 2);
         expected.push_back(e[2].standard_deviation);
     }
@@ -169,8 +171,8 @@ double area_of(const Surface& s) {
     return sum;
 }
 
-/// All data at the borders; of the others as many as make `Kriging::most_at_once`, spread evenly
-/// through the rings. All, where that would leave too few.
+/// Keeps all data at the borders and, of the others, as many as make `Kriging::most_at_once`,
+/// evenly spaced. Keeps all data if that would leave too few.
 std::vector<Point3> thinned(const KrigingData& data, std::size_t border) {
     const auto& all = data.points;
     if (all.size() <= Kriging::most_at_once || 2 * border > Kriging::most_at_once) return all;
@@ -201,7 +203,7 @@ Result<Filling> fill_by_kriging(const Surface& surface, const BorderLoop& loop,
                                 const KrigingOptions& options, const Run& run) {
     if (options.rings < 1 || !(options.mesh_size >= 0) || !std::isfinite(options.mesh_size))
         return Error{ErrorCode::bad_option, "rings and mesh size must be positive", ""};
-    // 1. the data, and whether they are a graph
+    // 1. Collect the data and check that they are a graph.
     const auto loops = loops_within(surface, loop, options.loops);
     auto found = detail::collect_data(surface, loops, options.rings);
     if (!found) return found.error();
@@ -213,11 +215,11 @@ Result<Filling> fill_by_kriging(const Surface& surface, const BorderLoop& loop,
         return Error{ErrorCode::nothing_to_do, "the hole has no area, seen from above",
                      fmt::format("({}, {}, {})", loop.centre.x, loop.centre.y, loop.centre.z)};
     if (run.stop.stop_requested()) return interrupted();
-    // 2. the mesh in the plane
+    // 2. Build the mesh in the plane.
     auto flat = mesh_of(data, mesh_size, run);
     if (!flat) return flat.error();
     const auto border = flat.value().border;
-    // 3. heights
+    // 3. Estimate the heights.
     Filling filling;
     const Kriging kriging = model_of(data, border, options.variogram, filling.report);
     filling.expected_error = set_heights(flat.value(), kriging, run);
@@ -234,7 +236,7 @@ Result<Filling> fill_by_kriging(const Surface& surface, const BorderLoop& loop,
     filling.surface = {surface.name, surface.role, std::move(flat.value().points),
                        std::move(flat.value().triangles)};
     filling.exact_border = true;
-    if (area > 0) // the surface on the left of a loop that runs the other way: its front is down
+    if (area > 0) // the loop has the surface on its left, which here means front down
         for (Triangle& t : filling.surface.triangles) std::swap(t[1], t[2]);
     filling.report.interpolated = filling.surface.vertices.size() - border;
     filling.report.area = area_of(filling.surface);
@@ -248,7 +250,8 @@ Result<Filling> fill_by_kriging(const Surface& surface, const BorderLoop& loop,
 
 Surface joined(const Surface& surface, const Filling& filling) {
     Surface result = surface;
-    std::map<Point3, std::uint32_t> known; // vertices of the filling's border: the lowest equal one
+    std::map<Point3, std::uint32_t> known; // border vertices of the filling: the lowest equal
+                                           // vertex of the surface
     for (const Point3& p : filling.surface.vertices) known.emplace(p, UINT32_MAX);
     for (std::uint32_t v = 0; v < surface.vertices.size(); ++v)
         if (const auto at = known.find(surface.vertices[v]); at != known.end())

@@ -28,14 +28,15 @@ namespace {
 
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
-/// The least edge length of a filling of equilateral triangles with as many vertices as are
-/// allowed.
+/// Computes the least edge length for which equilateral triangles over the hole have no more
+/// vertices than allowed.
 double least_size(const BorderLoop& loop, const RbfOptions& options) {
-    const double per_vertex = std::sqrt(3.0) / 2; // area, in squares of the edge
+    const double per_vertex = std::sqrt(3.0) / 2; // area, in squares of the edge length
     return std::sqrt(loop.area / (per_vertex * static_cast<double>(options.most_vertices)));
 }
 
-/// The edges at which the data end, but for the border of the hole, as triangles without area.
+/// Lists the edges at which the data end, except for the border of the hole, as degenerate
+/// triangles.
 std::vector<Triangle> rim_of(const RbfData& data) {
     std::vector<Triangle> rim;
     group_edges(data.triangles, data.points.size())
@@ -47,7 +48,7 @@ std::vector<Triangle> rim_of(const RbfData& data) {
     return rim;
 }
 
-/// What lies under the surface away from the border, or beyond where the data end.
+/// Excludes the region over the surface away from the border and beyond the end of the data.
 class DomainMask {
 public:
     /// `tree`: of the data's triangles.
@@ -55,8 +56,8 @@ public:
         points_(data.points), size_(size), surface_(tree), rim_(data.points, rim_of(data)),
         border_(data.points, border_edges(data)) {}
 
-    /// `ahead`: the direction to which the level at p faces. Not from several threads: what is
-    /// learned of one point serves those near it.
+    /// Tells whether p is excluded. `ahead` gives the direction that the zero level at p faces. Not
+    /// thread-safe: results for one point serve those near it.
     template <class Ahead>
     [[nodiscard]] bool operator()(const Point3& p, const Ahead& ahead) {
         const auto known = inside_.find(cell_of(p));
@@ -67,11 +68,11 @@ public:
         if (border < margin) return false;
         const auto surface = surface_.nearest(p, border);
         const double distance = surface ? surface->distance : border;
-        // Beyond the data the nearest of them is on their rim.
+        // Beyond the data, the nearest of them is on their rim.
         if (distance >= under) {
             const double rim = rim_.distance(p, std::numeric_limits<double>::infinity());
-            // No distance changes faster than p does.
-            constexpr double sure = 0.99; // more than rounding can take
+            // Distances change no faster than p does.
+            constexpr double sure = 0.99; // exceeds rounding errors
             const double radius = sure * std::min(distance - under, (rim - distance) / 2);
             if (radius > 0) inside_.insert_or_assign(cell_of(p), Ball{p, radius});
             if (rim > distance) return false;
@@ -93,7 +94,7 @@ private:
         Point3 centre{};
         double radius = 0;
     };
-    using Cell = std::array<double, 3>; ///< whole numbers
+    using Cell = std::array<double, 3>; ///< integers
 
     [[nodiscard]] Cell cell_of(const Point3& p) const {
         const double width = 12 * size_;
@@ -108,10 +109,10 @@ private:
     double size_;
     const TriangleTree& surface_;
     TriangleTree rim_, border_;
-    std::map<Cell, Ball> inside_; ///< per cell the last ball of which no point is outside
+    std::map<Cell, Ball> inside_; ///< per cell: the last ball that contains no excluded point
 };
 
-/// Step (5).
+/// Step (5): triangulates the zero level.
 Result<Surface> mesh_zero_level(const Implicit& f, const RbfData& data, const TriangleTree& tree,
                                 double size, const Run& run) {
     DomainMask outside(data, tree, size);
@@ -124,7 +125,7 @@ Result<Surface> mesh_zero_level(const Implicit& f, const RbfData& data, const Tr
     return zero_level(function, options, run);
 }
 
-/// Per place the expected error; 0 over the surface.
+/// Computes the expected error at each place; 0 over the surface.
 std::vector<double> expected_error_at(std::span<const Point3> places, const RbfData& data,
                                       const RbfChoice& choice, double nugget, const Run& run) {
     std::vector<double> expected_error(places.size(), no_number);
@@ -135,7 +136,7 @@ std::vector<double> expected_error_at(std::span<const Point3> places, const RbfD
     return expected_error;
 }
 
-/// The level over the hole, as far as it is meshed.
+/// The zero level over the hole, and the data it comes from.
 struct Level {
     const Implicit& f;
     const RbfData& data;
@@ -143,8 +144,8 @@ struct Level {
     const RbfChoice& choice;
 };
 
-/// Whether the triangles cut corners at the border: the level there is farther from them than a
-/// quarter of their size.
+/// Tells whether the triangles cut corners at the border: whether the zero level there is farther
+/// from them than a quarter of their size.
 bool cuts_corners(const Surface& mesh, const Level& level, double size) {
     const TriangleTree tree(mesh.vertices, mesh.triangles);
     const auto border = std::span(level.data.points).first(level.data.next.size());
@@ -156,10 +157,10 @@ bool cuts_corners(const Surface& mesh, const Level& level, double size) {
     });
 }
 
-/// Whether a filling of smaller triangles would be nearer to the truth.
+/// Tells whether smaller triangles would bring the filling nearer to the truth.
 bool is_too_flat(const Surface& mesh, const Level& level, double size, const Run& run) {
     constexpr std::size_t most = 1024;
-    const RbfFunction& f = level.f.smooth; // patches fade away over less than an edge
+    const RbfFunction& f = level.f.smooth; // patches fade within less than an edge
     std::vector<Point3> middles;
     std::vector<double> sags;
     for (const auto& [a, b] :
@@ -173,9 +174,9 @@ bool is_too_flat(const Surface& mesh, const Level& level, double size, const Run
         sags, expected_error_at(middles, level.data, level.choice, level.f.nugget, run), size);
 }
 
-/// The same, with edges as long as those of the border, or half or a quarter of that where the
-/// surface turns too sharply for them or is known better than they can show; and no more vertices
-/// than are allowed.
+/// Triangulates the zero level with edges as long as those of the border, or a half or a quarter of
+/// that where the surface turns too sharply for them or is known more precisely than they can
+/// represent; with no more vertices than allowed.
 Result<Surface> mesh_to_size(const Level& level, const BorderLoop& loop, const RbfOptions& options,
                              double& size, const Run& run) {
     const double least = least_size(loop, options);
@@ -187,7 +188,7 @@ Result<Surface> mesh_to_size(const Level& level, const BorderLoop& loop, const R
                        is_too_flat(mesh.value(), level, size, run)))
             break;
         auto finer = mesh_zero_level(level.f, level.data, level.tree, size / 2, run);
-        // It may be too large for them.
+        // The finer mesh may be too large.
         if (!finer && finer.error().code != ErrorCode::interrupted) break;
         size /= 2;
         mesh = std::move(finer);
@@ -219,7 +220,7 @@ std::string describe(const RbfReport& r, const RbfForm& form, bool smoothed) {
                                r.missed, r.patches, r.largest_error);
 }
 
-/// Root mean square over the vertices that are off the surface: over the hole.
+/// Computes the root mean square over the vertices over the hole, which are those off the surface.
 double mean_over_hole(const Filling& filling, const TriangleTree& tree, double size) {
     double squares = 0;
     std::size_t count = 0;

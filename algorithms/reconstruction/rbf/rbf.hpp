@@ -1,31 +1,32 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// A hole filled from the data round it by radial basis functions: any surface, folds too.
+// Fills a hole from the data around it by radial basis functions, for any surface, including folds.
 //
 // Steps:
-//   (1) data: the vertices within `reach` times the hole's radius of its border along the surface,
-//       and the first `rings` rings in any case, with normals (rbf_data.hpp);
-//   (2) constraints: f = 0 at centres; at some of them, spread evenly, also f = +-d at a distance d
-//       off the surface, where no other part of it is as near: along the axis of the hole where the
-//       surface is a graph over its plane, so that f is a height of which the polynomial part takes
-//       much, else along normals;
-//   (3) centres: a well-spread start, then again and again the data that f misses most, until it
-//       misses none by more than `tolerance` or there are `most_centres` (rbf_function.hpp). With
-//       smoothing, and where it is the better by a quarter: the well-spread ones alone, their
-//       weights from all data by penalised least squares (rbf_smooth.cpp);
-//   (4) what f then still misses at the data, be they millions, is made up for by a partition of
-//       unity: small patches with a function |p - q| of their own, blended, and fading away into
-//       the hole (rbf_patches.hpp). So every datum is met, whatever the number of centres; not with
-//       options.smoothing;
-//   (5) the zero level over the hole and a margin beyond it as triangles (zero_level.hpp).
-// The polynomial part (along the hole's plane, or in space for what turns away from any plane), its
-// degree, the direction of (2) and the way of (3) are those that predict best the data left out
-// when the hole is made wider by a quarter of its radius. What they miss of these, in units of the
-// power function there, times the power function in the hole, is the expected error
-// (rbf_error.hpp). Guarantees: the same bytes for any number of threads. The filling
-// goes at least two edge lengths beyond the border where the surface does; it is to be joined
-// (join.hpp). Cost: n^3 / 3 for n constraints, at most 2000; n per lattice point of (5). Source:
-// the paper, 4.1, equation (10); Carr et al. (2001) for (2) and (3); Ohtake et al. (2003) for (4).
+//   (1) data: the vertices within `reach` times the hole's radius of its border, measured along the
+//   surface, and at least the first `rings` rings, with normals (detail/data.hpp);
+//   (2) constraints: f = 0 at centres; at some of them, well spread, also f = +-d at a distance d
+//   off the surface, where no other part of it is as near. The offset is along the axis of the hole
+//   if the surface is a graph over its plane, so that f is a height and the polynomial part can
+//   take much of it; otherwise along normals;
+//   (3) centres: well-spread ones first; then, repeatedly, the data at which |f| is largest, until
+//   none exceeds `tolerance` or there are `most_centres` (detail/function.hpp). With smoothing, and
+//   where it is better by a quarter: only the well-spread ones, with weights from all data by
+//   penalised least squares (detail/smooth.cpp);
+//   (4) a partition of unity interpolates the remaining errors at the data, even millions of them:
+//   small patches with functions |p - q| of their own, blended, and fading into the hole
+//   (detail/patches.hpp). So every datum is interpolated, whatever the number of centres; not with
+//   options.smoothing;
+//   (5) the zero level over the hole and a margin beyond it as triangles (detail/zero_level.hpp).
+// The polynomial part (along the hole's plane, or in space if the surface turns away from any
+// plane), its degree, the direction of (2) and the variant of (3) are chosen by validation: data
+// nearest to the hole are left out, as if it were wider by a quarter of its radius, and predicted.
+// Their error in units of the power function there, times the power function in the hole, is the
+// expected error (detail/error.hpp). Guarantees: the same bytes for any number of threads. The
+// filling extends at least two edge lengths beyond the border where the surface does; it must be
+// joined (join.hpp). Cost: n^3 / 3 for n constraints, at most 2000; n per lattice point of (5).
+// Source: the paper, 4.1, equation (10); Carr et al. (2001) for (2) and (3); Ohtake et al. (2003)
+// for (4).
 #pragma once
 
 #include <cstddef>
@@ -43,48 +44,50 @@ namespace terrane {
 
 struct RbfOptions {
     double reach = 1;               ///< of the data, in radii of a disk with the hole's area
-    unsigned rings = 4;             ///< of vertices, at least
+    unsigned rings = 4;             ///< least number of rings of vertices that are data
     std::size_t most_centres = 800; ///< on the surface, 10 to 2000
-    double offset = 0; ///< d, unit of the surface; 0: a 20th of the radius or half a border edge,
-                       ///< the larger; less where the surface comes near to itself
+    double offset = 0; ///< d, unit of the surface; 0: the larger of a 20th of the radius and half a
+                       ///< border edge; less where the surface comes near to itself
     double tolerance = 0; ///< unit of the surface; 0: a thousandth of the median border edge
-    double size = 0;      ///< edge length of the filling; 0: the median border edge, more where
-                          ///< the hole would take more than most_vertices, down to a quarter
-                          ///< where triangles of that size would cut corners at the border, or be
-                          ///< farther off the level, for being flat, than that is off the truth
+    double size = 0;      ///< edge length of the filling; 0: the median border edge. That is
+                          ///< enlarged if the hole would need more than most_vertices, and reduced,
+                          ///< down to a quarter, if the triangles would cut corners at the border
+                          ///< or be farther from the zero level than its expected error
     std::size_t most_vertices = 50'000;
-    unsigned degree = 0; ///< of the polynomial part along the hole: 1 is the paper's, up to 8; 0:
-                         ///< the one of these that predicts best
-    std::optional<double> smoothing{}; ///< none: every datum is met. Else data may be missed by so
-                                       ///< much, root mean square over all constraints, unit of
-                                       ///< the surface; 0: by as much as generalised
-                                       ///< cross-validation says
-    std::span<const BorderLoop> loops{}; ///< all of the surface: islands in the hole are data, too
+    unsigned degree = 0; ///< of the polynomial part along the hole, up to 8 (1 in the paper); 0:
+                         ///< the one of least validation error
+    std::optional<double> smoothing{};   ///< none: every datum is interpolated. Otherwise the root
+                                         ///< mean square error over all constraints, unit of the
+                                         ///< surface; 0: chosen by generalised cross-validation
+    std::span<const BorderLoop> loops{}; ///< all loops of the surface: islands in the hole are
+                                         ///< data, too
     bool long_edges = false; ///< points on edges near the border that are longer than one and a
-                             ///< half of its median edges are data, too: a function that meets
-                             ///< vertices alone may swing far from a cliff's triangles
+                             ///< half median border edges are data, too: a function that
+                             ///< interpolates vertices alone may deviate far from the triangles of
+                             ///< a cliff
 };
 
-/// What happened, for people. Lengths in the unit of the surface.
+/// Describes a fit. Lengths are in the unit of the surface.
 struct RbfReport {
-    std::size_t data = 0, centres = 0, offsets = 0; ///< on the surface; constraints off it
+    std::size_t data = 0, centres = 0, offsets = 0; ///< centres on the surface; constraints off it
     unsigned degree = 0;                            ///< of the polynomial part
-    std::size_t patches = 0;                        ///< of step (4); 0 where step (3) sufficed
+    std::size_t patches = 0;                        ///< of step (4); 0 if step (3) sufficed
     double missed = 0;                              ///< largest |f| at the data after step (3)
-    double largest_error = 0; ///< the same at the end: the interpolation error
+    double largest_error = 0; ///< largest |f| at the data at the end: the interpolation error
     double rms_error = 0;
-    double freedom = 0; ///< degrees of it that smoothing leaves; 0 where every datum is met
+    double freedom = 0;          ///< degrees of freedom that smoothing leaves; 0 if every datum is
+                                 ///< interpolated
     double offset = 0, size = 0; ///< as used
     RbfSolution solution;
 };
 
-/// The zero level, made by steps (1) to (5).
-/// Errors: bad_option, bad_index, bad_number; unsupported (an island that touches the border in a
-/// vertex; too large a level for its edge length); nothing_to_do; interrupted, out_of_memory.
+/// Fills a hole by steps (1) to (5). Errors: bad_option, bad_index, bad_number; unsupported (an
+/// island that touches the border in a vertex; a zero level too large for its edge length);
+/// nothing_to_do; interrupted, out_of_memory.
 Result<Filling> fill_by_rbf(const Surface& surface, const BorderLoop& loop,
                             const RbfOptions& options = {}, const Run& run = {});
 
-/// The same, with what happened.
+/// Fills a hole and describes the fit in `report`.
 Result<Filling> fill_by_rbf(const Surface& surface, const BorderLoop& loop,
                             const RbfOptions& options, RbfReport& report, const Run& run);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// A hole filled by radial basis functions (rbf.hpp) and joined (join.hpp).
+// Fills a hole by radial basis functions (rbf.hpp) and joins the filling (join.hpp).
 #pragma once
 
 #include <terrane/algorithms/reconstruction/joining/join.hpp>
@@ -9,14 +9,14 @@
 namespace terrane {
 
 struct FilledByRbf {
-    Filling filling; ///< as it was before it was joined
+    Filling filling; ///< before joining
     Joined joined;
     RbfReport report;
 };
 
-/// fill_by_rbf and join_filling. Where the level does not pass along the border so that it can be
-/// joined, once more with options.long_edges: it may be a cliff's. Errors: those of both; of the
-/// first try where neither can be joined.
+/// Runs fill_by_rbf() and join_filling(). If the zero level does not pass along the border, so that
+/// it can't be joined, tries again with options.long_edges, as the hole may be at a cliff. Errors:
+/// those of both; those of the first attempt if neither can be joined.
 Result<FilledByRbf> fill_and_join_by_rbf(const Surface& surface, const BorderLoop& loop,
                                          const RbfOptions& options = {},
                                          const JoinOptions& join = {}, const Run& run = {});

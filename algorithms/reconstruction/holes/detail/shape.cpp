@@ -11,10 +11,10 @@ namespace terrane::detail {
 namespace {
 
 constexpr std::size_t most_probes =
-    256;                          ///< edges of a hole from which the other side is looked for
+    256;                          ///< edges of a hole from which the opposite side is searched
 constexpr double agreement = 0.8; ///< share of a gap along which the same side must be up
 constexpr double roughness_factor = 3;
-constexpr double steepest = 10; ///< slopes beyond say nothing about how a surface goes on
+constexpr double steepest = 10; ///< steeper slopes are not extrapolated
 
 double length_of(const Point3& v) {
     return std::sqrt(dot(v, v));
@@ -24,7 +24,7 @@ Point3 plus(const Point3& a, const Point3& b, double times) {
     return {a.x + times * b.x, a.y + times * b.y, a.z + times * b.z};
 }
 
-/// The middle one by weight; 0 for none.
+/// Computes the weighted median; 0 if there are no values.
 double weighted_median(std::vector<std::array<double, 2>> values) {
     std::sort(values.begin(), values.end());
     double total = 0, sum = 0;
@@ -48,7 +48,7 @@ double cross(const Flat& a, const Flat& b) {
     return a.u * b.v - a.v * b.u;
 }
 
-/// A hole seen along the normal of the surface round it.
+/// A hole projected along the normal of the surface around it.
 class FlatHole {
 public:
     FlatHole(const Soup& soup, const TracedLoop& traced) : soup_(soup), loop_(traced) {
@@ -63,11 +63,11 @@ public:
 
     [[nodiscard]] bool valid() const { return valid_; }
 
-    /// What one side of the hole finds on the other.
+    /// The opposite side of the hole, seen from one of its edges.
     struct Facing {
-        double weight; ///< length of its edge
+        double weight; ///< length of the edge
         double width;
-        double jump; ///< how much higher this side comes to the middle
+        double jump; ///< by how much this side is higher when extrapolated to the middle
         Flat direction;
     };
 
@@ -85,7 +85,7 @@ public:
         return found;
     }
 
-    /// Median of how far a vertex is off the middle of its neighbours.
+    /// Computes the median distance of a vertex from the midpoint of its neighbours.
     [[nodiscard]] double roughness() const {
         std::vector<std::array<double, 2>> off;
         for (std::size_t i = 0; i < height_.size(); ++i) {
@@ -105,7 +105,8 @@ private:
         return i + 1 < loop_.vertices.size() ? i + 1 : 0;
     }
 
-    /// Normal of the triangle at edge i, twice its area long, on the side of the loop's front.
+    /// Computes the normal of the triangle at edge i, with the orientation of the loop and twice
+    /// the area as length.
     [[nodiscard]] Point3 normal_at(std::size_t i) const {
         const Triangle& t = soup_.triangles[loop_.triangles[i]];
         const auto& p = soup_.points;
@@ -128,7 +129,7 @@ private:
         }
     }
 
-    /// How the surface rises at edge i, by the triangles at it and its neighbours.
+    /// Computes the slope of the surface at edge i from the triangles at it and at its neighbours.
     [[nodiscard]] Flat slope_at(std::size_t i) const {
         Point3 sum{};
         const auto n = loop_.vertices.size();
@@ -138,11 +139,11 @@ private:
         return {-terrane::dot(sum, u_) / rise, -terrane::dot(sum, v_) / rise};
     }
 
-    /// Where a ray meets edge j from within the hole.
+    /// Intersects a ray from within the hole with edge j.
     [[nodiscard]] std::optional<Meeting> meet(Flat from, Flat along, std::size_t j) const {
         const Flat edge = flat_[next(j)] - flat_[j], to = flat_[j] - from;
         const double determinant = cross(along, edge);
-        if (determinant >= 0) return std::nullopt; // parallel, or seen from the surface's side
+        if (determinant >= 0) return std::nullopt; // parallel, or met from outside of the hole
         const double t = cross(to, edge) / determinant, s = cross(to, along) / determinant;
         if (t < 0 || s < 0 || s > 1) return std::nullopt;
         return Meeting{t, s};

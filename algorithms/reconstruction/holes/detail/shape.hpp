@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Measures of border loops, in floating point. Private to holes.
+// Measures border loops, in floating point.
 #pragma once
 
 #include <cstdint>
@@ -12,21 +12,21 @@
 
 namespace terrane::detail {
 
-/// A loop with the triangle at each of its edges.
+/// A border loop with a triangle at each of its edges.
 struct TracedLoop {
     std::vector<std::uint32_t> vertices;  ///< in order
-    std::vector<std::uint32_t> triangles; ///< per edge, from vertex i to i + 1: one at it
+    std::vector<std::uint32_t> triangles; ///< per edge (from vertex i to i + 1): a triangle at it
     std::uint32_t part = 0;
     std::uint32_t shared = 0;
 };
 
-/// Fills in length, area, centre.
+/// Sets length, area and centre.
 void measure_loop(const Soup& soup, const TracedLoop& traced, BorderLoop& loop);
 
-/// Longest diagonal of the box round these points.
+/// Computes the diagonal of the bounding box of these points.
 double diagonal_of(std::span<const Point3> points, std::span<const std::uint32_t> vertices);
 
-/// Fills in throw and width of a hole, and says whether it is a gap by the rule.
+/// Sets throw and width of a hole, and tells whether it is a fault gap.
 bool is_fault_gap(const Soup& soup, const TracedLoop& traced, const GapRule& rule,
                   BorderLoop& loop);
 

@@ -25,22 +25,22 @@ Error not_closed(const BorderLine& border, std::size_t wall, const char* how) {
                 text_of(border.points[wall])};
 }
 
-/// An edge that a strip and the filling share. Vertices are those of the arrangement.
+/// An edge shared by a strip and the filling; vertices are those of the arrangement.
 struct CurveEdge {
     Edge ends{};
     std::uint32_t wall = 0;
-    std::array<std::uint32_t, 2> triangles{}; ///< of the filling, on its sides
+    std::array<std::uint32_t, 2> triangles{}; ///< of the filling, on its two sides
 };
 
-/// The closed line along a border, in the direction of its loop.
+/// The closed line along a border, oriented like its loop.
 struct CurveLine {
-    std::vector<std::uint32_t> vertices; ///< of the arrangement; from vertex k to k + 1 runs edge k
+    std::vector<std::uint32_t> vertices; ///< of the arrangement; edge k runs from vertex k to k + 1
     std::vector<CurveEdge> edges;
-    std::vector<std::uint32_t> corner_at; ///< per border point: where in `vertices` its corner is
-    Sign front{}; ///< Positive where the front of the filling is where the normals point
+    std::vector<std::uint32_t> corner_at; ///< per border point: index of its corner in `vertices`
+    Sign front{}; ///< Positive if the front of the filling is where the normals point
 };
 
-/// Finds the line that one strip cuts into the filling: surface `strip` of the arrangement.
+/// Finds the line that a strip (surface `strip` of the arrangement) cuts into the filling.
 class LineFinder {
 public:
     LineFinder(const BorderLine& border, const Arrangement& arrangement, std::uint32_t strip) :
@@ -74,7 +74,7 @@ private:
     CurveLine line_;
 };
 
-/// All edges that strip and filling share, each with the wall it lies on.
+/// Finds all edges shared by strip and filling, with the wall that each lies on.
 Status LineFinder::find_curve() {
     const std::uint32_t first = a_.inputs.first[strip_];
     for (std::uint32_t t = 0; t < a_.triangles.size(); ++t)
@@ -98,7 +98,7 @@ Status LineFinder::find_curve() {
     return Done{};
 }
 
-/// The connected part of the curve that passes the most walls.
+/// Finds the connected part of the curve that passes the most walls.
 Status LineFinder::find_line() {
     DisjointSets sets(a_.vertices.size());
     for (const CurveEdge& e : curve_) sets.join(e.ends[0], e.ends[1]);
@@ -124,7 +124,7 @@ Status LineFinder::find_line() {
     return find_corners();
 }
 
-/// The edges in order, from one to the next.
+/// Orders the edges of a line.
 Status LineFinder::walk(std::span<const std::uint32_t> edges) {
     std::map<std::uint32_t, std::vector<std::uint32_t>> at;
     for (const std::uint32_t e : edges)
@@ -144,7 +144,7 @@ Status LineFinder::walk(std::span<const std::uint32_t> edges) {
     return Done{};
 }
 
-/// Turns the line into the loop's direction and finds where it passes from wall to wall.
+/// Orients the line like the loop and finds the vertices at which it passes from wall to wall.
 Status LineFinder::find_corners() {
     const std::size_t n = line_.edges.size();
     const auto wall = [&](std::size_t k) { return line_.edges[k % n].wall; };
@@ -153,7 +153,7 @@ Status LineFinder::find_corners() {
         forward += wall(k + 1) == (wall(k) + 1) % walls() ? 1 : 0;
         backward += wall(k) == (wall(k + 1) + 1) % walls() ? 1 : 0;
     }
-    if (backward > forward) { // vertex k + 1 comes first on edge k, then
+    if (backward > forward) { // edge k then starts at vertex k + 1
         std::reverse(line_.vertices.begin() + 1, line_.vertices.end());
         std::reverse(line_.edges.begin(), line_.edges.end());
     }
@@ -172,7 +172,8 @@ Status LineFinder::find_corners() {
     return Done{};
 }
 
-/// By the sides of the filling on which the upper ends of the normals lie.
+/// Determines the orientation of the filling from the sides of its triangles on which the upper
+/// ends of the normals lie.
 Result<Sign> LineFinder::direction() const {
     std::optional<Sign> common;
     const auto points = a_.points.inputs();
@@ -190,7 +191,7 @@ Result<Sign> LineFinder::direction() const {
     return common ? Result<Sign>(*common) : fault(0, "lies in the filling");
 }
 
-/// Step (4): what lies on the inner side of the hole's line.
+/// Step (4): collects the triangles connected to the inner side of the hole's line.
 class InnerPartFinder {
 public:
     InnerPartFinder(const Arrangement& arrangement, std::vector<std::optional<CurveLine>> lines) :
@@ -215,7 +216,7 @@ public:
     }
 
 private:
-    /// Triangles, by place in of_filling_, at edges of the filling other than with two triangles.
+    /// Triangles (indices into of_filling_) at edges that do not have two triangles of the filling.
     struct Flaws {
         std::vector<std::uint32_t> border, crowded;
     };
@@ -225,7 +226,7 @@ private:
     [[nodiscard]] bool is_disk_with_holes() const;
     [[nodiscard]] Result<InnerPart> part() const;
 
-    /// Calls visit(place in of_filling_, whether on the left) for the triangles beside a line.
+    /// Calls visit(index into of_filling_, whether on the left) for the triangles beside a line.
     template <class Visit>
     void beside(const CurveLine& line, const Visit& visit) const {
         const std::size_t n = line.edges.size();
@@ -241,14 +242,14 @@ private:
 
     const Arrangement& a_;
     std::uint32_t filling_;
-    std::vector<std::optional<CurveLine>> lines_; ///< per border; none where there is none
+    std::vector<std::optional<CurveLine>> lines_; ///< per border; nullopt if there is none
     std::vector<std::uint32_t> of_filling_;       ///< triangles of the arrangement, ascending
-    std::vector<Triangle> corners_;               ///< of these
-    std::vector<std::uint32_t> borders_;          ///< that the inner part ends at
+    std::vector<Triangle> corners_;               ///< of these triangles
+    std::vector<std::uint32_t> borders_;          ///< the borders of the inner part
     std::vector<std::uint32_t> inside_;           ///< triangles of the arrangement, ascending
 };
 
-/// Joins triangles of the filling over all edges but those of lines.
+/// Joins triangles of the filling across all edges that are not on a line.
 InnerPartFinder::Flaws InnerPartFinder::join_neighbours(DisjointSets& sets) const {
     std::vector<Edge> stops;
     for (const auto& line : lines_)
@@ -266,8 +267,9 @@ InnerPartFinder::Flaws InnerPartFinder::join_neighbours(DisjointSets& sets) cons
     return flaws;
 }
 
-/// From the inner side of the hole's line; lines of other borders that are reached are those of
-/// islands. The surface lies on the left of each, so what is to be filled lies on the right.
+/// Collects the triangles connected to the inner side of the hole's line. Other lines that are
+/// reached belong to islands. The surface lies on the left of each border, so the part to be filled
+/// lies on the right.
 Status InnerPartFinder::spread(DisjointSets& sets, const Flaws& flaws) {
     std::vector<bool> reached(corners_.size(), false);
     beside(*lines_[0], [&](std::uint32_t t, bool left) {
@@ -299,7 +301,8 @@ Status InnerPartFinder::spread(DisjointSets& sets, const Flaws& flaws) {
     return Done{};
 }
 
-/// Connected, with the lines as its only borders: V - E + F = 2 - number of lines.
+/// Tells whether the inner part is connected and has the lines as its only borders: V - E + F = 2 -
+/// number of lines.
 bool InnerPartFinder::is_disk_with_holes() const {
     std::vector<std::uint32_t> vertices;
     DisjointSets sets(a_.vertices.size());

@@ -11,18 +11,19 @@ namespace {
 
 constexpr std::size_t most_validated = 150;
 constexpr std::size_t patches = 5;
-// Shares of what the best one so far misses, that may be left by one which can go astray far from
-// data: without a nugget, with a steeper trend, and smooth without end.
+// A model that can be wrong far from data is preferred only if its validated error is less than
+// this share of the best one's: one without nugget, one with a steeper trend, an infinitely smooth
+// one.
 constexpr double worth_no_nugget = 0.8;
 constexpr double worth_degree_2 = 0.8;
 constexpr double worth_gaussian = 0.5;
-constexpr double worth_noisy_gaussian = 0.9; ///< the same, where most of what is missed is noise
-constexpr double mostly_noise = 0.3;         ///< share of the mean square
-constexpr std::size_t least_data = 20;       ///< with fewer nothing is chosen by what is missed
+constexpr double worth_noisy_gaussian = 0.9; ///< the same if most of the error is noise
+constexpr double mostly_noise = 0.3;         ///< share of the mean square error
+constexpr std::size_t least_data = 20;       ///< with fewer data, errors do not decide
 constexpr std::array all_models{VariogramModel::spherical, VariogramModel::exponential,
                                 VariogramModel::power, VariogramModel::gaussian};
 
-/// At most so many, evenly.
+/// Selects at most `most_validated` data, evenly spaced.
 std::vector<Point3> thinned(std::span<const Point3> data) {
     const auto count = std::min(data.size(), most_validated);
     std::vector<Point3> result;
@@ -30,7 +31,7 @@ std::vector<Point3> thinned(std::span<const Point3> data) {
     return result;
 }
 
-/// Data, and for each of some patches the data nearest to its middle first.
+/// The data and, for each of some patches, the data sorted by distance from its centre.
 class Patches {
 public:
     explicit Patches(std::span<const Point3> all) : data_(thinned(all)) {
@@ -71,7 +72,7 @@ private:
     std::vector<std::vector<Point3>> sorted_; ///< per patch
 };
 
-/// Of all that is tried, what misses least.
+/// Keeps the model with the least validated error.
 class Chooser {
 public:
     Chooser(std::span<const Point3> data, std::span<const std::array<std::uint32_t, 2>> close,
@@ -81,7 +82,7 @@ public:
             bins_.push_back(experimental_variogram(residuals(data, degree), close, longest));
     }
 
-    /// Takes what misses enough less than the best one so far.
+    /// Tries one kind of model and keeps it if its error is sufficiently less than the best one's.
     void attempt(unsigned degree, const FitOptions& options) {
         double share = share_for(degree, options);
         Variogram variogram = fit_variogram(bins_[degree - 1], options);
@@ -93,12 +94,12 @@ public:
                 options_ = options;
                 share = 1;
             }
-            variogram.range *= 2; // the same near h = 0
+            variogram.range *= 2; // the same shape near h = 0
             variogram.sill *= 4;
         }
     }
 
-    /// The best one again, turned and stretched.
+    /// Tries the best model again with anisotropy.
     void attempt_anisotropy() {
         FitOptions options = options_;
         options.anisotropy = true;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Which variogram and trend to use for some data. Private to filling.
+// Chooses variogram and trend for given data.
 #pragma once
 
 #include <array>
@@ -11,26 +11,26 @@
 
 namespace terrane::detail {
 
-/// What a model misses where whole patches of data are left out.
+/// Validation of a model: patches of data are left out and estimated from the others.
 struct BlockValidation {
     std::size_t count = 0;
     double error = 0;    ///< root mean square
-    double expected = 0; ///< the same of the deviations, with the nugget
+    double expected = 0; ///< root mean square of the standard deviations, nugget included
 };
 
 struct ModelChoice {
-    Variogram variogram; ///< sill and nugget scaled so that `error` is what was expected
+    Variogram variogram; ///< sill and nugget are scaled so that `error` was to be expected
     unsigned degree = 1; ///< of the trend
     BlockValidation blocks;
 };
 
-/// Fits each model to the data without a trend of degree 1 and 2, with a nugget of at most `noise`
-/// and without one, isotropic; a gaussian one without nugget also with twice and four times the
-/// range, the same near h = 0. Of these it takes the one that misses least when patches, each a
-/// tenth of at most 150 data, are left out and estimated from the others; but no gaussian one that
-/// misses more than half of what another does, and no nugget left out or trend of degree 2 for less
-/// than a fifth: these can go astray in a hole wider than the patches. Then with anisotropy, if
-/// that misses less. `close`, `longest`: as experimental_variogram.
+/// Fits each model to the residuals of trends of degree 1 and 2, isotropic, with a nugget of at
+/// most `noise` and without; a gaussian model without nugget also with two and four times the range
+/// and the same shape near h = 0. Chooses the one with the least validated error when patches, each
+/// a tenth of at most 150 data, are left out. A gaussian model must have less than half of the
+/// others' error, a model without nugget or with a trend of degree 2 less than four fifths of it,
+/// as these can be far off in holes wider than the patches. Finally tries anisotropy, which is kept
+/// if it reduces the error. `close` and `longest` are those of experimental_variogram().
 ModelChoice choose_model(std::span<const Point3> data,
                          std::span<const std::array<std::uint32_t, 2>> close, double longest,
                          double noise, const FitOptions& options);

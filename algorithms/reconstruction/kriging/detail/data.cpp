@@ -28,7 +28,7 @@ Error no_graph(const Point3& p, std::string_view why) {
             fmt::format("({}, {}, {})", p.x, p.y, p.z)};
 }
 
-/// Spreads from a hole's border over triangles that lie side by side, seen along z.
+/// Grows rings of triangles from a hole's border, as long as neighbours lie side by side along z.
 class Rings {
 public:
     explicit Rings(const Soup& soup) : soup_(soup), reached_(soup.triangles.size(), false) {
@@ -42,7 +42,8 @@ public:
         });
     }
 
-    /// The triangles at these vertices, which must lie side by side round each of them.
+    /// Starts with the triangles at these vertices, which must lie side by side around each of
+    /// them.
     Status start(const std::vector<std::uint32_t>& vertices) {
         std::vector<bool> wanted(soup_.points.size());
         for (const auto v : vertices) wanted[v] = true;
@@ -74,7 +75,7 @@ private:
         return orient2d(Axis::z, p[c[0]], p[c[1]], p[c[2]]) == Sign::Zero;
     }
 
-    /// Of the triangle's third corner beside one of its edges.
+    /// Returns the side of the triangle's edge on which its third corner lies.
     [[nodiscard]] Sign side_of(std::uint32_t t, std::uint32_t low, std::uint32_t high) const {
         const Triangle& c = soup_.triangles[t];
         const auto third = *std::find_if(c.begin(), c.end(),
@@ -89,7 +90,7 @@ private:
         all_.push_back(t);
     }
 
-    /// An edge of two reached triangles with an end among the vertices must have one on each side.
+    /// Checks that edges at the vertices have one of their two triangles on each side.
     Status check_folds(const std::vector<bool>& wanted) const {
         Status status = Done{};
         soup_.edges.for_each([&](std::uint32_t low, std::uint32_t high, const auto& sides) {
@@ -102,13 +103,14 @@ private:
     }
 
     const Soup& soup_;
-    std::vector<std::vector<std::uint32_t>> beside_; ///< triangles beyond edges, on the other side
+    std::vector<std::vector<std::uint32_t>> beside_; ///< per triangle: its neighbours that lie on
+                                                     ///< the other side of the shared edge
     std::vector<bool> reached_;
     std::vector<std::uint32_t> ring_, all_;
 };
 
-/// Off the parabola by least squares through other points, squared, less what the noise of those
-/// adds; none where they do not tell one.
+/// Estimates the squared noise of a point: its squared distance from the least-squares parabola
+/// through other points, corrected for their own noise. None if they do not determine a parabola.
 std::optional<double> squared_noise(const Point3& p, const std::vector<const Point3*>& others) {
     using Terms = Eigen::Matrix<double, 6, 1>;
     double scale = 0;
@@ -131,10 +133,10 @@ std::optional<double> squared_noise(const Point3& p, const std::vector<const Poi
     return off * off / (1 + solver.solve(first)[0]);
 }
 
-/// The mean over points that have neighbours, and these others, on all sides.
+/// Averages the squared noise over points that have neighbours on all sides, in two rings.
 double noise_of(const std::vector<Point3>& points,
                 const std::vector<std::array<std::uint32_t, 2>>& edges, std::size_t border) {
-    constexpr std::size_t most = 2000; // points that are looked at
+    constexpr std::size_t most = 2000; // points examined
     std::vector<std::vector<std::uint32_t>> beside(points.size());
     for (const auto& [a, b] : edges) {
         beside[a].push_back(b);
@@ -158,7 +160,7 @@ double noise_of(const std::vector<Point3>& points,
     return count > 0 ? sum / static_cast<double>(count) : HUGE_VAL;
 }
 
-/// Points along the borders, no farther apart than half a mesh size.
+/// Samples the borders at distances of at most half a mesh size.
 FlatCloud sampled(std::span<const Point3> points, std::span<const Polygon> borders, double size) {
     constexpr double most = 1000; // per edge
     FlatCloud cloud;
@@ -174,7 +176,7 @@ FlatCloud sampled(std::span<const Point3> points, std::span<const Polygon> borde
     return cloud;
 }
 
-/// Rows of a polygon: where a line y = const enters and leaves it.
+/// Scan lines of a polygon: computes where a line y = const enters and leaves it.
 class Rows {
 public:
     Rows(std::span<const Point3> points, const Polygon& polygon) {
@@ -187,7 +189,8 @@ public:
                   [](const EdgeOf& e, const EdgeOf& f) { return e.y0 < f.y0; });
     }
 
-    /// Ascending; the inside is between the first and second, third and fourth, ...
+    /// Returns the crossings, ascending; the inside is between the first and second, third and
+    /// fourth, ...
     std::vector<double> at(double y) {
         while (next_ < edges_.size() && edges_[next_].y0 <= y) active_.push_back(edges_[next_++]);
         std::erase_if(active_, [&](const EdgeOf& e) { return e.y1 <= y; });
@@ -221,7 +224,8 @@ public:
         }
     }
 
-    /// Spacing grows to at most the distance from the border / `growth`, in powers of two.
+    /// Places points whose spacing grows to at most the distance from the border / `growth`, in
+    /// powers of two.
     [[nodiscard]] std::vector<Point3> place(double growth, std::size_t most) const {
         std::vector<Point3> places;
         for (double scale = 1; places.size() <= most; scale *= 2) {
@@ -233,8 +237,8 @@ public:
     }
 
 private:
-    /// Places of one spacing, between two distances from the border; false where no place is as
-    /// far from it as `high`.
+    /// Adds places of one spacing at distances from `low` to `high` from the border. Returns false
+    /// if no place is as far from it as `high`.
     bool add_level(double step, double low, double high, std::size_t most,
                    std::vector<Point3>& places) const {
         constexpr double row_height = 0.8660254037844386; // of equilateral triangles
@@ -253,7 +257,7 @@ private:
                     const double d = distance(x, y);
                     if (d >= low && d < high) places.push_back({x, y, 0});
                     farther = farther || d >= high;
-                    // The next column is nearer or farther by a step at most.
+                    // From one column to the next, the distance changes by at most a step.
                     const double off = d >= high ? d - high : low - d;
                     if (off > step) column += std::floor(off / step) - 1;
                 }

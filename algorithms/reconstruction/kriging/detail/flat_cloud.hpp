@@ -9,7 +9,7 @@
 
 namespace terrane {
 
-/// Points of the plane, as nanoflann reads them.
+/// Points of the plane in the form that nanoflann reads.
 struct FlatCloud {
     std::vector<std::array<double, 2>> points;
 
@@ -23,7 +23,7 @@ struct FlatCloud {
     }
 };
 
-/// For the nearest of them.
+/// Search tree for the nearest points.
 using FlatTree =
     nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, FlatCloud>, FlatCloud,
                                         2>;

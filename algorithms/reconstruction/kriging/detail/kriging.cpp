@@ -24,9 +24,10 @@ using Eigen::VectorXd;
 constexpr double least_addition = 1e-12; ///< to the diagonal, in sills
 constexpr double most_addition = 1e-6;
 constexpr double most_operations = 4e9;
-constexpr double spacing_per_distance = 0.25; ///< how far data are thinned out, by distance
+constexpr double spacing_per_distance = 0.25; ///< spacing of thinned data per distance from the
+                                              ///< nearest datum
 
-/// A polynomial in x and y, both moved and scaled to [-1, 1].
+/// Least-squares polynomial in x and y, which are shifted and scaled to [-1, 1].
 class Trend {
 public:
     Trend(std::span<const Point3> data, unsigned degree) : degree_(degree) {
@@ -64,8 +65,8 @@ private:
     VectorXd factors_;
 };
 
-/// Some of the data, with x and y scaled so that distances are those of the variogram, to be
-/// searched.
+/// A search tree over some of the data, with x and y transformed so that distances are those of the
+/// variogram.
 class Level {
 public:
     Level(FlatCloud cloud, std::vector<std::uint32_t> numbers) :
@@ -76,7 +77,7 @@ public:
     Level(const Level&) = delete;
     Level& operator=(const Level&) = delete;
 
-    /// The numbers of the nearest data, ascending by distance.
+    /// Returns the indices of the nearest data, by ascending distance.
     [[nodiscard]] std::vector<std::uint32_t> nearest(const std::array<double, 2>& p,
                                                      std::size_t count) const {
         count = std::min(count, numbers_.size());
@@ -98,7 +99,7 @@ private:
     FlatTree tree_;
 };
 
-/// The system of ordinary kriging for some data, by covariances.
+/// The system of ordinary kriging for some data, in terms of covariances.
 class System {
 public:
     System(std::span<const Point3> data, std::vector<std::uint32_t> numbers,
@@ -118,7 +119,7 @@ public:
                 farthest = std::max(farthest, gamma(i, j));
             }
         }
-        // Any constant makes the same weights; this one makes the matrix positive definite.
+        // Weights do not depend on the constant; this one makes the matrix positive definite.
         const bool bounded = model_.model != VariogramModel::power;
         constant_ = bounded ? model_.sill : 2 * farthest;
         const double scale = constant_ > 0 ? constant_ : 1;
@@ -151,7 +152,8 @@ private:
     [[nodiscard]] const Point3& datum(Eigen::Index i) const {
         return data_[numbers_[static_cast<std::size_t>(i)]];
     }
-    /// Without the nugget, which is noise of the data and not of the surface.
+    /// Evaluates the variogram without the nugget, which is noise of the data and not of the
+    /// surface.
     [[nodiscard]] double smooth(double h) const { return h > 0 ? model_.at(h) - model_.nugget : 0; }
 
     [[nodiscard]] VectorXd covariances(double x, double y) const {
@@ -187,12 +189,13 @@ struct Kriging::State {
         }
     }
 
-    /// Distances between such places are those of the variogram.
+    /// Transforms a place so that distances are those of the variogram.
     [[nodiscard]] std::array<double, 2> place(double x, double y) const {
         return {cosine * x + sine * y, (cosine * y - sine * x) / variogram.ratio};
     }
 
-    /// Each level keeps one datum per cell; cells double until few are left.
+    /// Builds levels of thinned data: one datum per cell; cells double in size until few data
+    /// remain.
     void build_levels() {
         FlatCloud all;
         std::vector<std::uint32_t> numbers(data.size());
@@ -224,7 +227,8 @@ struct Kriging::State {
         }
     }
 
-    /// The level whose data are thinned out as far as suits the distance from the nearest.
+    /// Returns the nearest data of the level whose thinning suits the distance from the nearest
+    /// datum.
     [[nodiscard]] std::vector<std::uint32_t> near(double x, double y, std::size_t count) const {
         const auto p = place(x, y);
         const auto closest = levels[0]->nearest(p, 1).at(0);
@@ -242,7 +246,7 @@ struct Kriging::State {
     double cosine = 1, sine = 0;
     double spacing = 0; ///< of the data
     std::vector<std::unique_ptr<Level>> levels;
-    std::unique_ptr<System> system; ///< of all data, where they are few enough
+    std::unique_ptr<System> system; ///< of all data, if they are few enough
 };
 
 Kriging::Kriging(std::span<const Point3> data, const Variogram& variogram, unsigned degree) :
@@ -278,7 +282,7 @@ std::vector<Estimate> Kriging::at(std::span<const Point3> places, const Run& run
         return Estimate{s.trend.at(p.x, p.y) + s.system->value(p.x, p.y),
                         local.standard_deviation(p.x, p.y)};
     };
-    constexpr std::size_t block = 4096; // between looks at the run
+    constexpr std::size_t block = 4096; // places between checks of the stop token
     for (std::size_t first = 0; first < places.size(); first += block) {
         if (run.stop.stop_requested()) break;
         if (run.progress)

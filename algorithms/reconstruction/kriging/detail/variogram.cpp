@@ -13,7 +13,8 @@ namespace {
 constexpr std::size_t distance_classes = 15;
 constexpr std::size_t direction_classes = 12;
 constexpr std::size_t most_points = 1500;
-constexpr double worth_anisotropy = 0.8; ///< share of the misfit that may be left
+constexpr double worth_anisotropy = 0.8; ///< share of the isotropic misfit below which anisotropy
+                                         ///< is accepted
 constexpr std::array all_models{VariogramModel::spherical, VariogramModel::exponential,
                                 VariogramModel::gaussian, VariogramModel::power};
 
@@ -21,7 +22,7 @@ double radians(double degrees) {
     return degrees * std::numbers::pi / 180;
 }
 
-/// The model without nugget, sill 1.
+/// Evaluates a model without nugget and with sill 1.
 double shape(VariogramModel model, double ratio, double exponent) {
     switch (model) {
     case VariogramModel::spherical:
@@ -84,7 +85,7 @@ struct Fit {
     double misfit = HUGE_VAL;
 };
 
-/// Bins at distances that are measured with one anisotropy.
+/// Fits models to bins whose distances are measured with one anisotropy.
 class Fitter {
 public:
     Fitter(std::span<const VariogramBin> bins, double angle, double ratio, double most_nugget) :
@@ -94,17 +95,18 @@ public:
         measure.ratio = ratio;
         for (const VariogramBin& bin : bins) {
             const double along = std::hypot(bin.dx, bin.dy);
-            // The mean of vectors is shorter than the mean length: take its direction only.
+            // The mean of vectors is shorter than the mean length, so only its direction is used.
             const double h =
                 along > 0 ? measure.distance(bin.dx, bin.dy) * bin.distance / along : bin.distance;
-            // The weight does not depend on the anisotropy: misfits can be compared.
+            // The weight does not depend on the anisotropy, so that misfits are comparable.
             const double weight = static_cast<double>(bin.pairs) / (bin.distance * bin.distance);
             bins_.push_back({h, bin.gamma, weight});
             longest_ = std::max(longest_, h);
         }
     }
 
-    /// Along the one number that is not linear: on a grid, then between the best neighbours.
+    /// Minimises over the one nonlinear parameter: on a grid, then by golden section between its
+    /// neighbours.
     [[nodiscard]] Fit best(VariogramModel model) const {
         const bool power = model == VariogramModel::power;
         const double low = power ? 0.1 : std::log(longest_ / 30);
@@ -135,7 +137,7 @@ private:
         double distance, gamma, weight;
     };
 
-    /// Nugget and sill by weighted least squares, neither negative.
+    /// Fits nugget and sill by weighted least squares, neither negative.
     [[nodiscard]] Fit at(VariogramModel model, double parameter) const {
         Fit fit;
         fit.variogram = {model, 0, 0, longest_, 1, angle_, ratio_};

@@ -30,7 +30,7 @@ IndexLists<std::uint32_t> neighbours_in(const Soup& soup) {
     return flat;
 }
 
-/// Per vertex its distance from the loop along edges: infinite beyond both limits.
+/// Computes each vertex's distance from the loop along edges; infinite beyond both limits.
 std::vector<double> distances_from(const Soup& soup, std::span<const std::uint32_t> loop,
                                    double reach, unsigned rings) {
     const auto neighbours = neighbours_in(soup);
@@ -66,8 +66,7 @@ std::vector<double> distances_from(const Soup& soup, std::span<const std::uint32
     return distance;
 }
 
-/// Turns triangles so that they run along the loops, spreading from those over edges of two
-/// triangles.
+/// Orients triangles along the loops, then their neighbours across edges of two triangles.
 void orient_by_loops(RbfData& data) {
     auto& triangles = data.triangles;
     const std::size_t border = data.next.size();
@@ -125,7 +124,7 @@ void find_normals(RbfData& data) {
     }
 }
 
-/// Whether p is within the loop seen along its mean normal, and near its plane.
+/// Tells whether p is within the loop, seen along its mean normal, and near its plane.
 class WithinLoop {
 public:
     WithinLoop(const Surface& surface, const BorderLoop& loop, double radius) :
@@ -229,7 +228,7 @@ Result<RbfData> collect_data(const Surface& surface, const BorderLoop& loop,
             data.triangles.push_back({name[t[0]], name[t[1]], name[t[2]]});
     orient_by_loops(data);
     data.edge = median_edge(data);
-    constexpr double is_long = 1.5; // edges
+    constexpr double is_long = 1.5; // in median border edges
     if (range.long_edges) divide_long_edges(data, is_long * data.edge, 3 * data.edge);
     find_normals(data);
     return data;

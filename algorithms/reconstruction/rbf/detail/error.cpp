@@ -21,7 +21,7 @@ double cubed_distance(const Point3& a, const Point3& b) {
     return square * std::sqrt(square);
 }
 
-/// Half of them near the border, the others anywhere.
+/// Chooses half of the points near the border, the others anywhere.
 std::vector<std::uint32_t> chosen(const RbfData& data, double margin) {
     std::vector<bool> near, far;
     for (const double d : data.distances) near.push_back(d <= margin + data.radius / 4);
@@ -38,7 +38,7 @@ std::vector<std::uint32_t> chosen(const RbfData& data, double margin) {
 RbfError::RbfError(const RbfData& data, const RbfPolynomial& polynomial, double margin,
                    double nugget) :
     basis_(polynomial) {
-    basis_.in_space = false; // along the surface is what counts
+    basis_.in_space = false; // only directions along the surface matter
     const auto indices = chosen(data, margin);
     for (const std::uint32_t i : indices) {
         const Point3& p = data.points[i];
@@ -50,7 +50,7 @@ RbfError::RbfError(const RbfData& data, const RbfPolynomial& polynomial, double 
         const Point3 d = minus(data.points[i], middle_);
         points_.push_back({d.x / scale_, d.y / scale_, d.z / scale_});
     }
-    // Each of those chosen stands for its share of the data.
+    // Each chosen datum represents its share of all data.
     nugget_ = nugget * static_cast<double>(points_.size()) /
               static_cast<double>(std::max<std::size_t>(data.points.size(), 1)) /
               (scale_ * scale_ * scale_);
@@ -71,7 +71,7 @@ RbfError::RbfError(const RbfData& data, const RbfPolynomial& polynomial, double 
     inverse_.assign(inverse.data(), inverse.data() + inverse.size());
 }
 
-/// Monomials along the surface: across it all data may be 0.
+/// Evaluates monomials along the surface; across it, all data may be 0.
 void RbfError::terms_at(const Point3& p, double* terms) const {
     const double u = dot(p, basis_.axes[0]), v = dot(p, basis_.axes[1]);
     double up = 1;
@@ -88,7 +88,8 @@ std::vector<double> RbfError::at(std::span<const Point3> places, bool measured,
     const auto size = static_cast<Eigen::Index>(n + terms());
     const Eigen::Map<const Eigen::MatrixXd> inverse(inverse_.data(), size, size);
     const double unit = scale_ * scale_ * scale_;
-    constexpr std::size_t most_columns = 64; // products of matrices keep the inverse in cache
+    constexpr std::size_t most_columns = 64; // columns per matrix product, so that the inverse
+                                             // stays in cache
     const std::size_t blocks = (places.size() + most_columns - 1) / most_columns;
     const auto fill_blocks = [&](std::size_t first, std::size_t last) {
         Eigen::MatrixXd right, solved;

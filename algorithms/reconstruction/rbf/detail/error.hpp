@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// How far an interpolation by |p - q|^3 and a polynomial can be off, up to a factor. Private to
-// rbf.
+// Computes the expected error of an interpolation by |p - q|^3 and a polynomial, up to a factor.
 #pragma once
 
 #include <cstddef>
@@ -15,17 +14,18 @@
 namespace terrane {
 
 /// The power function of at most 160 of the data, half of them within a quarter of the hole's
-/// radius of the border: the standard deviation that kriging with the same polynomial and |h|^3 as
-/// generalised covariance foresees. It is 0 at those data and grows away from them; where data are
-/// noisy each of them has a variance of its own, the nugget. Cost: n^3 once, n^2 per place. Source:
-/// Wendland (2005), 11.1; Chiles and Delfiner (2012), 4.5, for the two being the same.
+/// radius of the border. It is the standard deviation of kriging with the same polynomial and |h|^3
+/// as generalised covariance: 0 at those data, growing away from them. Each noisy datum has a
+/// variance of its own, the nugget. Cost: n^3 once, n^2 per place. Source: Wendland (2005), 11.1;
+/// Chiles and Delfiner (2012), 4.5, for the equivalence.
 class RbfError {
 public:
-    /// `margin`: distance of the data nearest to the hole. `nugget`: of each of the data.
+    /// `margin`: distance of the nearest data from the hole. `nugget`: variance of each datum.
     RbfError(const RbfData& data, const RbfPolynomial& polynomial, double margin, double nugget);
 
-    /// Per place, >= 0; times what no other part of the library knows: see RbfChoice::expected.
-    /// With `measured` that of another noisy datum there.
+    /// Computes the power function at each place, >= 0; the factor to an expected error is
+    /// RbfChoice::expected. If `measured`, the variance of another noisy datum at the place is
+    /// added.
     [[nodiscard]] std::vector<double> at(std::span<const Point3> places, bool measured,
                                          const Run& run) const;
 
@@ -38,7 +38,7 @@ private:
     Point3 middle_;
     double scale_ = 1;
     double nugget_ = 0;
-    std::vector<double> inverse_; ///< of the kriging system: square, of points and terms
+    std::vector<double> inverse_; ///< of the kriging system: square, for points and terms
 };
 
 } // namespace terrane

@@ -14,19 +14,19 @@
 namespace terrane {
 namespace {
 
-constexpr double graph = 0.5; ///< least cosine of a slope that can be seen as a height
+constexpr double graph = 0.5; ///< least cosine of the slope of a surface that counts as a graph
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
 Point3 along(const Point3& p, double d, const Point3& direction) {
     return {p.x + d * direction.x, p.y + d * direction.y, p.z + d * direction.z};
 }
 
-/// Centres that step (2) starts with.
+/// Returns the number of centres with which step (2) starts.
 std::size_t start_size(const RbfOptions& options) {
     return std::max<std::size_t>(10, options.most_centres / 4);
 }
 
-/// What all forms have in common.
+/// The data that all forms have in common.
 struct Start {
     /// `tree`: of the data's triangles.
     Start(const RbfData& data, const TriangleTree& tree, const RbfOptions& options) :
@@ -43,8 +43,8 @@ struct Start {
     }
 
     std::vector<std::uint32_t> centres; ///< a well-spread quarter of those allowed
-    double spacing = 0;                 ///< none of them is farther from its nearest one
-    double offset;                      ///< of constraints off the surface
+    double spacing = 0;                 ///< largest distance of a centre from its nearest one
+    double offset;                      ///< distance of offset constraints
     const TriangleTree& surface;
 };
 
@@ -55,7 +55,7 @@ public:
         data_(data),
         start_(start), form_(form), options_(options), report_(report), run_(run) {}
 
-    /// Without step (4) unless `whole`.
+    /// Fits by steps (2) to (4); without step (4) unless `whole`.
     Result<Implicit> operator()(bool whole) {
         report_.data = data_.points.size();
         choose_start();
@@ -70,7 +70,7 @@ public:
             if (run_.progress)
                 run_.progress("rbf", 0.5 * static_cast<double>(centres_) /
                                          static_cast<double>(options_.most_centres));
-            // Of many data some tell first where centres are wanted.
+            // With many data, a sample first tells where centres are needed.
             if (add_missed(errors_of(f, some()))) continue;
             if (!whole) return f;
             fit = fit_rbf(points_, values_, {form_.polynomial}, run_);
@@ -85,7 +85,7 @@ public:
         }
     }
 
-    /// Without refinement and step (4).
+    /// Fits without refinement and without step (4).
     Result<Implicit> quick() {
         choose_start();
         if (options_.smoothing) return smoothed(false);
@@ -97,11 +97,11 @@ public:
     }
 
 private:
-    /// Step (2): centres, with constraints off the surface.
+    /// Step (2): sets centres and offset constraints.
     void choose_start() {
         is_centre_.assign(data_.points.size(), false);
         for (const std::uint32_t i : start_.centres) add_centre(i);
-        // Near to noisy data constraints would say less of how steep f is than the noise does.
+        // Near noisy data, offset constraints would be dominated by the noise.
         const bool noisy = form_.along_axis && (form_.smoothed || options_.smoothing);
         const double d = noisy && !(options_.offset > 0) ? std::max(start_.offset, data_.radius / 4)
                                                          : start_.offset;
@@ -118,8 +118,8 @@ private:
         ++centres_;
     }
 
-    /// f = d at a distance d, if the surface is no nearer there than it is to be expected; else
-    /// less of it.
+    /// Adds the constraint f = d at distance d, if the surface is about as far from there as
+    /// expected; otherwise tries shorter distances.
     void add_offset(std::uint32_t i, double d) {
         const Point3& normal = data_.normals[i];
         if (normal == Point3{}) return;
@@ -138,8 +138,8 @@ private:
         }
     }
 
-    /// Steps (3) and (4) where data may be missed: all of them, or as many as are enough, have
-    /// their say in the weights of the centres of step (2).
+    /// Steps (3) and (4) with smoothing: all data, or a sufficient sample, determine the weights of
+    /// the centres of step (2).
     Result<Implicit> smoothed(bool whole) {
         constexpr std::size_t most_data = 6000;
         std::vector<Point3> points(points_.begin(), points_.end());
@@ -147,7 +147,7 @@ private:
         const std::size_t count = std::min(most_data, data_.points.size());
         for (std::size_t k = 0; k < count; ++k) {
             const std::size_t i = k * data_.points.size() / count;
-            if (is_centre_[i]) continue; // it is there already
+            if (is_centre_[i]) continue; // already contained
             points.push_back(data_.points[i]);
             values.push_back(0);
         }
@@ -169,7 +169,7 @@ private:
         return f;
     }
 
-    /// At each `step`th datum; 0 at the others.
+    /// Computes the errors at each `step`th datum; 0 at the others.
     [[nodiscard]] std::vector<double> errors_of(const Implicit& f, std::size_t step = 1) const {
         std::vector<double> errors(data_.points.size(), 0);
         for_ranges((errors.size() + step - 1) / step, run_, [&](std::size_t a, std::size_t b) {
@@ -178,7 +178,7 @@ private:
         return errors;
     }
 
-    /// The step at which errors at data say enough for a trial, or for more centres.
+    /// Returns the step at which a sample of data suffices for a trial or for more centres.
     [[nodiscard]] std::size_t some() const {
         constexpr std::size_t enough = 20'000;
         return std::max<std::size_t>(1, data_.points.size() / enough);
@@ -188,8 +188,8 @@ private:
         return options_.tolerance > 0 ? options_.tolerance : data_.edge / 1000;
     }
 
-    /// Step (3): the data missed most become centres, no two of them near each other. False where
-    /// none is missed by too much, or there are centres enough.
+    /// Step (3): turns the data of largest error into centres, no two of them near each other.
+    /// Returns false if all errors are tolerable or the centres are used up.
     bool add_missed(const std::vector<double>& errors) {
         std::vector<std::uint32_t> missed;
         for (std::uint32_t i = 0; i < errors.size(); ++i)
@@ -223,7 +223,7 @@ private:
         report_.rms_error = std::sqrt(squares / static_cast<double>(errors.size()));
     }
 
-    /// Step (4), where step (3) left errors: those of f so far, per datum.
+    /// Step (4): interpolates the errors that step (3) left, given per datum.
     void make_up(Implicit& f, std::vector<double> errors) {
         note_errors(errors);
         report_.missed = report_.largest_error;
@@ -272,7 +272,7 @@ LeftOut leave_out(const RbfData& data) {
             kept.triangles.push_back({name[t[0]], name[t[1]], name[t[2]]});
     kept.edge = data.edge;
     kept.radius = data.radius;
-    constexpr std::size_t most_judged = 1000; // say as much as all of them
+    constexpr std::size_t most_judged = 1000; // as significant as all of them
     const std::size_t count = result.points.size();
     for (std::size_t k = 0; k < std::min(count, most_judged); ++k)
         result.points[k] = result.points[k * count / std::min(count, most_judged)];
@@ -286,19 +286,19 @@ double rms(const std::vector<double>& values) {
     return std::sqrt(squares / static_cast<double>(values.size()));
 }
 
-/// What a form misses of what was left out.
+/// The error of a form at the data left out.
 struct Trial {
-    double missed = no_number; ///< root mean square; NaN for no fit
+    double missed = no_number; ///< root mean square; NaN if the fit failed
     double nugget = 0;
 };
 
-/// The data left out, and what all trials share.
+/// The data left out, and the data that all trials share.
 struct Trials {
     Trials(const RbfData& all, const RbfOptions& given) :
         data(all), left(leave_out(all)), tree(left.kept.points, left.kept.triangles),
         options(fewer(given)), start(left.kept, tree, options) {}
 
-    /// Enough to tell forms apart.
+    /// Limits the number of centres to what distinguishes forms.
     static RbfOptions fewer(RbfOptions options) {
         const std::size_t enough = options.smoothing ? 400 : 800;
         options.most_centres = std::min<std::size_t>(4 * options.most_centres, enough);
@@ -307,12 +307,12 @@ struct Trials {
 
     const RbfData& data;
     LeftOut left;
-    TriangleTree tree; ///< of the others
+    TriangleTree tree; ///< of the remaining data
     RbfOptions options;
     Start start;
 };
 
-/// `quick`: without step (3).
+/// Fits a form and measures its error at the data left out. `quick`: without step (3).
 Result<Trial> try_form(const Trials& trials, const RbfForm& form, bool quick, const Run& run) {
     RbfReport unused;
     const RbfData& data = trials.data;
@@ -328,7 +328,7 @@ Result<Trial> try_form(const Trials& trials, const RbfForm& form, bool quick, co
     return Trial{rms(missed), f.value().nugget};
 }
 
-/// Axes along and across the hole: the last along the mean normal of its border.
+/// Computes axes along and across the hole; the third is the mean normal of its border.
 std::array<Point3, 3> axes_of(const RbfData& data) {
     Point3 n;
     for (std::size_t i = 0; i < data.next.size(); ++i) n = along(n, 1, data.normals[i]);
@@ -342,8 +342,8 @@ std::array<Point3, 3> axes_of(const RbfData& data) {
     return {u, cross(n, u), n};
 }
 
-/// The cosine of the angle to the axis that all normals but the worst twentieth keep: noise tilts
-/// some, a fold many.
+/// Computes the least cosine between normals and axis, ignoring the worst twentieth: noise tilts
+/// few normals, a fold tilts many.
 double steepest_slope(const RbfData& data, const Point3& axis) {
     std::vector<double> cosines;
     for (const Point3& n : data.normals)
@@ -354,8 +354,8 @@ double steepest_slope(const RbfData& data, const Point3& axis) {
     return *worst;
 }
 
-/// Those worth a trial, by rising degree. Along the axis only where the data are a graph over its
-/// plane, along normals only where they are steep, and then with polynomials in space last.
+/// Lists the forms worth a trial, by increasing degree: along the axis only if the data are a graph
+/// over its plane; along normals only if they are steep, then also with polynomials in space.
 std::vector<RbfForm> forms_for(const RbfData& data, const RbfOptions& options) {
     RbfForm form;
     form.polynomial.axes = axes_of(data);
@@ -382,8 +382,8 @@ std::vector<RbfForm> forms_for(const RbfData& data, const RbfOptions& options) {
     return forms;
 }
 
-/// The share of the other's misses that a form may have to be preferred to it: what is less plain
-/// must be the better.
+/// Returns the share of the other form's error below which a form is preferred: the less simple
+/// form must be better.
 double needed(const RbfPolynomial& form, const RbfPolynomial& other) {
     if (form.in_space && !other.in_space) return 0.75;
     return form.degree == other.degree ? 1 : 0.9;
@@ -429,8 +429,8 @@ Result<RbfChoice> choose_form(const RbfData& data, const RbfOptions& options, co
         best.form = form;
         least = trial;
     };
-    constexpr double much = 0.75;   // for what takes roughness for noise, see needed()
-    constexpr double exact = 1e-12; // radii: nothing to be gained
+    constexpr double much = 0.75;   // smoothing takes roughness for noise; see needed()
+    constexpr double exact = 1e-12; // in radii: no further improvement is worthwhile
     for (const RbfForm& form : forms) {
         if (least.missed < exact * data.radius) break;
         const auto trial = try_form(trials, form, true, run);
@@ -438,7 +438,8 @@ Result<RbfChoice> choose_form(const RbfData& data, const RbfOptions& options, co
         consider(form, trial.value(), needed(form.polynomial, best.form.polynomial));
     }
     if (!options.smoothing &&
-        !(least.missed < exact * data.radius)) { // in earnest, and with noise kept out of the hole
+        !(least.missed < exact * data.radius)) { // with step (3), and with noise kept out of the
+                                                 // hole
         for (const bool smoothed : {false, true}) {
             RbfForm form = best.form;
             form.smoothed = smoothed;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The function whose zero level fills a hole: steps (2) to (4) of rbf.hpp. Private to rbf.
+// Fits the function whose zero level fills a hole: steps (2) to (4) of rbf.hpp.
 #pragma once
 
 #include <cstdint>
@@ -17,48 +17,50 @@ namespace terrane {
 struct Implicit {
     RbfFunction smooth;
     RbfPatches rest;
-    double nugget = 0; ///< of rbf_error.hpp: of each datum, where they are smoothed
+    double nugget = 0; ///< of detail/error.hpp: variance of each datum if smoothed
 
     [[nodiscard]] double operator()(const Point3& p) const {
         return rest.size() == 0 ? smooth(p) : smooth(p) + rest(p);
     }
 };
 
-/// What is fitted, by its form.
+/// The form of the function to fit.
 struct RbfForm {
     RbfPolynomial polynomial;
-    bool along_axis = false; ///< constraints off the surface are along the polynomial's third axis,
-                             ///< not along normals: f is a height, of which the polynomial takes
+    bool along_axis = false; ///< offset constraints are along the polynomial's third axis, not
+                             ///< along normals: f is a height, of which the polynomial can take
                              ///< more than of a distance
-    bool smoothed = false;   ///< step (3) is smoothing by generalised cross-validation, so that
-                             ///< noise of the data is left to step (4), and out of the hole
+    bool smoothed = false;   ///< step (3) smooths by generalised cross-validation, so that noise of
+                             ///< the data is left to step (4) and does not enter the hole
 };
 
-/// `tree`: of the data's triangles. `report` gets what happened. Errors: those of fit_rbf;
-/// interrupted.
+/// Fits the function. `tree`: of the data's triangles; `report` describes the fit. Errors: those of
+/// fit_rbf(); interrupted.
 Result<Implicit> fit_hole(const RbfData& data, const TriangleTree& tree, const RbfForm& form,
                           const RbfOptions& options, RbfReport& report, const Run& run);
 
 /// The data without those nearest to the hole, as if it were larger.
 struct LeftOut {
     RbfData kept;
-    std::vector<std::uint32_t> points; ///< left out: of the data
-    double width = 0;                  ///< how much larger, unit of the surface
+    std::vector<std::uint32_t> points; ///< indices of the data left out
+    double width = 0;                  ///< by how much the hole is wider, unit of the surface
 };
 
-/// What the form that was chosen misses of the data left out.
+/// The chosen form and its validation.
 struct RbfChoice {
     RbfForm form;
-    double validated = 0; ///< root mean square; NaN where no data could be left out
-    double expected = 0; ///< factor of RbfError: what is missed in units of what it says there; NaN
-                         ///< where no data could be left out
+    double validated = 0; ///< root mean square error at the data left out; NaN if none could be
+                          ///< left out
+    double expected = 0; ///< factor of RbfError: error at the data left out / power function there;
+                         ///< NaN if none could be left out
 };
 
-/// The form that misses least of the data left out; one of a higher degree must be better by a
+/// Chooses the form with the least error at the data left out; a higher degree must be better by a
 /// tenth. Errors: interrupted.
 Result<RbfChoice> choose_form(const RbfData& data, const RbfOptions& options, const Run& run);
 
-/// Up to `count` of the points for which `of` holds, each as far as can be from those before it.
+/// Selects up to `count` of the points marked in `of`, each as far as possible from those before
+/// it.
 std::vector<std::uint32_t> well_spread(const std::vector<Point3>& points, std::size_t count,
                                        const std::vector<bool>& of);
 

@@ -21,14 +21,14 @@ using Vector = Eigen::VectorXd;
 
 constexpr mpfr_prec_t residual_bits = 128;
 
-/// A number of residual_bits, freed with its scope.
+/// A number of residual_bits, freed at the end of its scope.
 class Wide {
 public:
     Wide() { mpfr_init2(number_, residual_bits); }
     ~Wide() { mpfr_clear(number_); }
     Wide(const Wide&) = delete;
     Wide& operator=(const Wide&) = delete;
-    operator mpfr_ptr() { return number_; } // NOLINT: as MPFR's functions take it
+    operator mpfr_ptr() { return number_; } // as MPFR's functions expect
 
 private:
     mpfr_t number_;
@@ -37,11 +37,11 @@ private:
 struct System {
     Matrix points; ///< n x 3, scaled
     Vector values;
-    Matrix terms; ///< n x m: the polynomial's, at each point
+    Matrix terms; ///< n x m: terms of the polynomial at each point
 };
 
-/// Per pair j < i of points, by rising i and j: the kernel as the sum of two doubles, to about 100
-/// bits.
+/// The kernel of each pair j < i of points, by increasing i and j, as a sum of two doubles: to
+/// about 100 bits.
 using WideKernel = std::vector<std::array<double, 2>>;
 
 WideKernel wide_kernel(const Matrix& points) {
@@ -55,7 +55,7 @@ WideKernel wide_kernel(const Matrix& points) {
                 const DoubleDouble d = DoubleDouble(points(i, k)) - DoubleDouble(points(j, k));
                 square = square + d * d;
             }
-            const double root = std::sqrt(square.value()); // and one of Newton's steps
+            const double root = std::sqrt(square.value()); // followed by one Newton step
             const DoubleDouble left = square - DoubleDouble(root) * DoubleDouble(root);
             const DoubleDouble value =
                 square * (DoubleDouble(root) + DoubleDouble(left.value() / (2 * root)));
@@ -65,7 +65,7 @@ WideKernel wide_kernel(const Matrix& points) {
     return kernel;
 }
 
-/// values - (kernel weights + polynomial), each entry summed in wide numbers.
+/// Computes values - (kernel weights + polynomial), each entry summed in 128 bits.
 Vector residual(const System& s, const WideKernel& kernel, const Vector& weights,
                 const Vector& polynomial) {
     const Eigen::Index n = s.values.size();
@@ -86,7 +86,7 @@ Vector residual(const System& s, const WideKernel& kernel, const Vector& weights
     }
     auto pair = kernel.begin();
     for (Eigen::Index i = 0; i < n; ++i)
-        for (Eigen::Index j = 0; j < i; ++j, ++pair) { // each pair once: the kernel is symmetric
+        for (Eigen::Index j = 0; j < i; ++j, ++pair) { // the kernel is symmetric
             mpfr_set_d(value, (*pair)[0], MPFR_RNDN);
             mpfr_add_d(value, value, (*pair)[1], MPFR_RNDN);
             mpfr_mul(d, value, factor(j), MPFR_RNDN);
@@ -110,7 +110,7 @@ Matrix kernel_matrix(const Matrix& points) {
     return kernel;
 }
 
-/// The factored system: weights orthogonal to the polynomials, and the polynomial.
+/// The factorised system. Its weights are orthogonal to the polynomials.
 class Solver {
 public:
     Solver(const System& system, Matrix rotated) : qr_(system.terms), m_(system.terms.cols()) {
@@ -122,12 +122,12 @@ public:
     }
     [[nodiscard]] bool ok() const {
         const Vector r = qr_.matrixQR().diagonal().head(m_).cwiseAbs();
-        constexpr double flat = 1e-10; // in a unit box: some polynomial is 0 at all points
+        constexpr double flat = 1e-10; // in a unit box: some polynomial vanishes at all points
         return r.minCoeff() > flat * r.maxCoeff() && factor_.info() == Eigen::Success;
     }
     [[nodiscard]] double condition() const { return 1 / factor_.rcond(); }
 
-    /// Adds to weights and polynomial what makes up for the right side.
+    /// Adds the solution for this right-hand side to weights and polynomial.
     void add_solution(const Vector& right, Vector& weights, Vector& polynomial) const {
         Vector rotated = right;
         rotated.applyOnTheLeft(qr_.householderQ().transpose());
@@ -143,12 +143,12 @@ public:
 
 private:
     Eigen::HouseholderQR<Matrix> qr_;
-    Eigen::Index m_; ///< terms of the polynomial
+    Eigen::Index m_; ///< number of terms of the polynomial
     Matrix rows_;    ///< of the rotated kernel: from the complement to polynomials
     Eigen::LLT<Matrix> factor_;
 };
 
-/// Solves, and refines while that helps.
+/// Solves the system and refines the solution while that helps.
 void solve(const System& system, const Solver& solver, Vector& weights, Vector& polynomial,
            unsigned most_refinements, RbfSolution& solution, const Run& run) {
     solver.add_solution(system.values, weights, polynomial);

@@ -18,7 +18,7 @@ class LongEdges {
 public:
     LongEdges(RbfData& data, double limit, double near) : data_(data), limit_(limit), near_(near) {}
 
-    /// Halves all that are long now. False where none is.
+    /// Bisects all edges that are currently long. Returns false if there are none.
     bool halve() {
         middles_.clear();
         const std::size_t border = data_.next.size();
@@ -55,8 +55,9 @@ private:
         return found->second;
     }
 
-    /// Cuts off a corner between two halved edges, or halves the triangle, until none of its edges
-    /// has a middle: neighbours see the same edges halved.
+    /// Cuts off a corner between two bisected edges, or bisects the triangle, until none of its
+    /// edges has a midpoint. Both triangles of an edge see it bisected, so the mesh stays
+    /// conforming.
     void divide_triangles() {
         std::vector<Triangle> open, done;
         open.swap(data_.triangles);
@@ -78,7 +79,7 @@ private:
         data_.triangles.swap(done);
     }
 
-    /// The border's points first again, in its order, then the others in theirs.
+    /// Moves the points of the border to the front, in order; the others keep theirs.
     void order_border() {
         const std::size_t border = data_.next.size();
         std::vector<std::uint32_t> order, next;
@@ -116,13 +117,15 @@ private:
 
     RbfData& data_;
     double limit_, near_;
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles_; ///< per halved edge
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles_; ///< per bisected
+                                                                               ///< edge: its
+                                                                               ///< midpoint
 };
 
 } // namespace
 
 void divide_long_edges(RbfData& data, double limit, double near) {
-    constexpr int most = 10; // a thousandth of an edge is enough
+    constexpr int most = 10; // a thousandth of an edge is short enough
     LongEdges edges(data, limit, near);
     for (int k = 0; k < most && edges.halve(); ++k) {
     }

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Points on the long edges of a surface round a hole. Private to rbf.
+// Adds points on the long edges of a surface around a hole.
 #pragma once
 
 #include <terrane/algorithms/reconstruction/rbf/detail/data.hpp>
 
 namespace terrane {
 
-/// Halves edges that are longer than `limit`, both ends not farther from the border than `near`,
-/// again and again, and divides their triangles by the new points. A surface is more than its
-/// vertices: what meets these alone may swing far from a cliff's triangles, which are long, and
-/// then can't be joined along them. The surface stays as it is, and conforming where it was; points
-/// keep their order (distances; normals are not made). Cost: linear in the data where no edge is
-/// long.
+/// Bisects edges longer than `limit`, both of whose ends are within `near` of the border,
+/// repeatedly, and subdivides their triangles. A surface is more than its vertices: a function that
+/// interpolates these alone may deviate far from the long triangles of a cliff and then can't be
+/// joined to them. The surface does not change, and stays conforming; points keep their order
+/// (distances are set, normals are not). Cost: linear in the data if no edge is long.
 void divide_long_edges(RbfData& data, double limit, double near);
 
 } // namespace terrane

@@ -15,9 +15,9 @@ namespace terrane {
 namespace {
 
 constexpr std::uint32_t most_in_cell = 48;
-constexpr double widening = 1.5; ///< radius of a ball in radii of its cell
+constexpr double widening = 1.5; ///< radius of a ball, in radii of its cell
 
-/// Wendland's (1 - r)^4 (4 r + 1): 1 at 0, 0 from 1 on, twice differentiable.
+/// Wendland's function (1 - r)^4 (4 r + 1): 1 at 0, 0 from 1 on, twice differentiable.
 double weight(double r) {
     if (r >= 1) return 0;
     const double s = (1 - r) * (1 - r);
@@ -73,7 +73,7 @@ std::uint32_t RbfPatches::build(Values& data, std::uint32_t first, std::uint32_t
     const std::uint32_t middle = first + (last - first) / 2;
     const auto before = [&](std::uint32_t a, std::uint32_t b) {
         const double x = coordinate(data.points[a], axis), y = coordinate(data.points[b], axis);
-        return x < y || (x == y && a < b); // one order, whatever the library's sort does
+        return x < y || (x == y && a < b); // a total order makes the result independent of the sort
     };
     std::sort(data.order.begin() + first, data.order.begin() + last, before);
     const std::uint32_t left = build(data, first, middle), right = build(data, middle, last);
@@ -108,7 +108,9 @@ void RbfPatches::fit(const Values& data, Patch& patch) const {
     if (n < 2) {
         patch.weights.assign(inside.size(), 0);
         if (n == 1) patch.constant = data.values[inside[0]];
-        if (!(patch.radius > 0)) patch.radius = 1e-300; // a lone point: its own value, nowhere else
+        if (!(patch.radius > 0))
+            patch.radius = 1e-300; // a single point: its value there and
+                                   // nowhere else
         return;
     }
     Eigen::MatrixXd system = Eigen::MatrixXd::Ones(n + 1, n + 1);
@@ -127,7 +129,7 @@ void RbfPatches::fit(const Values& data, Patch& patch) const {
     for (Eigen::Index i = 0; i < n; ++i) patch.weights.push_back(solved[i] / patch.radius);
 }
 
-/// Children come after their parents.
+/// Computes the bounding boxes of balls bottom-up; children come after their parents.
 void RbfPatches::bound_balls() {
     for (std::size_t i = nodes_.size(); i-- > 0;) {
         Node& node = nodes_[i];
@@ -147,7 +149,7 @@ void RbfPatches::bound_balls() {
 double RbfPatches::operator()(const Point3& p) const {
     if (nodes_.empty()) return 0;
     double sum = 0, weights = 0;
-    std::array<std::uint32_t, 128> open{}; // deeper than any tree of halves
+    std::array<std::uint32_t, 128> open{}; // deeper than any tree of bisections
     std::size_t count = 1;
     while (count > 0) {
         const Node& node = nodes_[open[--count]];

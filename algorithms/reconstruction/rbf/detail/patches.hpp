@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// A partition of unity over scattered values: interpolates any number of them, and is 0 away from
-// them. Private to rbf.
+// A partition of unity over scattered values: interpolates any number of them and vanishes away
+// from them.
 #pragma once
 
 #include <cstddef>
@@ -13,15 +13,16 @@
 
 namespace terrane {
 
-/// Cells of at most 48 points by halving at the median; round each a ball half as large again as
-/// the cell's, with the sum of w_i |p - p_i| plus a constant that takes the values at all points in
-/// the ball. Balls are blended by Wendland's weights of their cells, divided by their sum where
-/// that is more than at the rim of a cell: so the values are met, and what is beyond all balls is
-/// 0. Cost: linear in the points, but for sorting; a few balls per value.
+/// Cells of at most 48 points result from bisection at the median. Around each cell is a ball of
+/// one and a half times its radius, with a function sum of w_i |p - p_i| plus a constant that
+/// interpolates the values at all points in the ball. The functions are blended with Wendland
+/// weights, divided by their sum where that exceeds the weight at the rim of a cell: so the values
+/// are interpolated, and the function is 0 outside of all balls. Cost: linear in the points, except
+/// for sorting; a few balls per value.
 class RbfPatches {
 public:
     RbfPatches() = default;
-    /// The points are distinct.
+    /// The points must be distinct.
     RbfPatches(std::span<const Point3> points, std::span<const double> values);
 
     [[nodiscard]] std::size_t size() const { return patches_.size(); }
@@ -33,12 +34,12 @@ private:
         double radius = 0; ///< of the ball
         double constant = 0;
         std::vector<Point3> points;
-        std::vector<double> weights; ///< per point, and unit of distance
+        std::vector<double> weights; ///< per point and unit of distance
     };
     struct Node {                          ///< of a tree over the points; its leaves are the cells
-        Point3 low, high;                  ///< of its points
-        Point3 ball_low, ball_high;        ///< of the balls in it
-        std::uint32_t first = 0, last = 0; ///< places in the order of points
+        Point3 low, high;                  ///< bounding box of its points
+        Point3 ball_low, ball_high;        ///< bounding box of the balls in it
+        std::uint32_t first = 0, last = 0; ///< range in Values::order
         std::uint32_t left = 0, right = 0; ///< children; 0: a leaf
         std::uint32_t patch = 0;           ///< of a leaf
     };

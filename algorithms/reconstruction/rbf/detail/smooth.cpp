@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Values that are nearly taken: ridge regression in coordinates in which the energy is the sum of
-// squares, so that one decomposition gives all degrees of smoothing.
+// Approximation of values (smooth_rbf() of function.hpp): ridge regression in coordinates in which
+// the energy is the sum of squares, so that one decomposition serves all amounts of smoothing.
 #include <terrane/algorithms/reconstruction/rbf/detail/function.hpp>
 
 #include <algorithm>
@@ -20,13 +20,13 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-/// What smoothing by `lambda` leaves, for any lambda.
+/// The spectrum of the regression, from which the error of smoothing by any `lambda` follows.
 struct Spectrum {
-    Vector values;     ///< of the regression's normal matrix, >= 0
-    Vector loads;      ///< squares of the right side in its directions
-    double beyond = 0; ///< square of what no weights can take
-    double count = 0;  ///< of values that are to be taken
-    double terms = 0;  ///< of the polynomial
+    Vector values;     ///< eigenvalues of the normal matrix, >= 0
+    Vector loads;      ///< squares of the right-hand side in the eigenvectors
+    double beyond = 0; ///< squared error that no weights can reduce
+    double count = 0;  ///< number of values
+    double terms = 0;  ///< number of terms of the polynomial
 
     [[nodiscard]] double squares(double lambda) const {
         double sum = beyond;
@@ -42,7 +42,8 @@ struct Spectrum {
     [[nodiscard]] double rms(double lambda) const { return std::sqrt(squares(lambda) / count); }
 };
 
-/// Smoothing from hardly any to all but the polynomial, in steps of a quarter of a decade.
+/// Lists values of lambda from almost no smoothing to the polynomial alone, a quarter of a decade
+/// apart.
 std::vector<double> degrees_of(const Spectrum& s) {
     constexpr double least = -13, most = 3, step = 0.25;
     const double unit = s.values.size() > 0 ? s.values.maxCoeff() : 1;
@@ -52,8 +53,8 @@ std::vector<double> degrees_of(const Spectrum& s) {
     return all;
 }
 
-/// Generalised cross-validation, each degree of freedom counted 1.4 times: so it hardly ever takes
-/// noise for shape (Kim and Gu 2004).
+/// Chooses lambda by generalised cross-validation. Each degree of freedom counts 1.4 times, so that
+/// noise is hardly ever taken for shape (Kim and Gu 2004).
 double cross_validated(const Spectrum& s) {
     constexpr double weight = 1.4;
     double best = degrees_of(s).back(), least = HUGE_VAL;
@@ -68,7 +69,7 @@ double cross_validated(const Spectrum& s) {
     return best;
 }
 
-/// rms grows with lambda.
+/// Finds lambda for a given root mean square error by bisection; the error increases with lambda.
 double missing_by(const Spectrum& s, double rms) {
     const auto degrees = degrees_of(s);
     double low = std::log(degrees.front()), high = std::log(degrees.back());
@@ -85,7 +86,7 @@ double cubed(const std::array<double, 3>& p, const std::array<double, 3>& q) {
     return square * std::sqrt(square);
 }
 
-/// |p - q|^3 for each p and q.
+/// Computes |p - q|^3 for each p and q.
 Matrix kernel_between(const std::vector<std::array<double, 3>>& p,
                       const std::vector<std::array<double, 3>>& q) {
     const auto index = [](std::size_t i) { return static_cast<Eigen::Index>(i); };
@@ -95,8 +96,8 @@ Matrix kernel_between(const std::vector<std::array<double, 3>>& p,
     return kernel;
 }
 
-/// Weights of the centres without a polynomial in them, in coordinates s in which the energy is
-/// |s|^2.
+/// Weights of the centres that are orthogonal to the polynomials, in coordinates s in which the
+/// energy is |s|^2.
 class Weights {
 public:
     Weights(Matrix kernel, const Matrix& terms) :
@@ -112,7 +113,7 @@ public:
         weights.applyOnTheLeft(terms_.householderQ());
         return weights;
     }
-    /// What s makes of the weights' columns: rows times of(s) for any s.
+    /// Converts columns for weights to columns for s: rows times of(s), for any s.
     [[nodiscard]] Matrix columns_for(Matrix rows) const {
         rows.applyOnTheRight(terms_.householderQ());
         return energy_.matrixU().solve<Eigen::OnTheRight>(rows.rightCols(n_ - m_));
@@ -124,7 +125,7 @@ private:
     Eigen::LLT<Matrix> energy_;
 };
 
-/// Least squares of values by columns and a polynomial, with |s|^2 as penalty for the columns.
+/// Least squares fit of values by columns and a polynomial, with |s|^2 as penalty for the columns.
 class Ridge {
 public:
     Ridge(Matrix columns, const Matrix& terms, Vector values) :
@@ -163,7 +164,7 @@ private:
     Eigen::ColPivHouseholderQR<Matrix> terms_;
     Eigen::Index count_, m_;
     Eigen::SelfAdjointEigenSolver<Matrix> directions_;
-    Vector right_; ///< of the normal equations, in their directions
+    Vector right_; ///< of the normal equations, in the eigenvectors
     Spectrum spectrum_;
 };
 
@@ -193,13 +194,13 @@ Result<RbfSmoothFit> smooth_rbf(std::span<const Point3> centres, std::span<const
             f.terms_at(at[i], transposed.col(static_cast<Eigen::Index>(i)).data());
         return Matrix(transposed.transpose());
     };
-    // 1. what the weights can make at the points
+    // 1. What the weights can represent at the points.
     const auto centre_places = scaled(centres), places = scaled(points);
     const Weights weights(kernel_between(centre_places, centre_places), terms(centre_places));
     if (!weights.ok()) return bad("points are too near together");
     const Matrix columns = weights.columns_for(kernel_between(places, centre_places));
     if (run.stop.stop_requested()) return Error{ErrorCode::interrupted, "stopped on request", ""};
-    // 2. how much smoothing
+    // 2. How much smoothing.
     Vector wanted(static_cast<Eigen::Index>(values.size()));
     for (std::size_t i = 0; i < values.size(); ++i)
         wanted[static_cast<Eigen::Index>(i)] = values[i] / f.scale_;
@@ -208,7 +209,7 @@ Result<RbfSmoothFit> smooth_rbf(std::span<const Point3> centres, std::span<const
     const Spectrum& spectrum = ridge.spectrum();
     const double lambda =
         rms > 0 ? missing_by(spectrum, rms / f.scale_) : cross_validated(spectrum);
-    // 3. the function
+    // 3. The function.
     const Vector s = ridge.solve(lambda), polynomial_part = ridge.polynomial(s);
     const Vector chosen = weights.of(s);
     f.weights_.assign(chosen.begin(), chosen.end());

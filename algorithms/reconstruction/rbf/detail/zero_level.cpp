@@ -17,8 +17,8 @@
 namespace terrane {
 namespace {
 
-// With cubes of this share of the size, and neighbours nearer than `shortest` sizes thinned out,
-// edges have the size or a little less on average.
+// With cubes of `step_share` sizes and vertices thinned to a distance of `shortest` sizes, edges
+// have the target size, or a little less, on average.
 constexpr double step_share = 0.72, shortest = 0.7;
 
 constexpr std::int64_t most_steps = (1 << 20) - 4; ///< of the lattice along an axis: 20 bits
@@ -31,7 +31,7 @@ struct Node {
         return static_cast<std::uint64_t>(i) | static_cast<std::uint64_t>(j) << 20U |
                static_cast<std::uint64_t>(k) << 40U;
     }
-    /// Corner 0..7 of its cube: bit 0 is a step in i, bit 1 in j, bit 2 in k.
+    /// Returns corner 0..7 of its cube: bit 0 is a step in i, bit 1 in j, bit 2 in k.
     [[nodiscard]] Node corner(unsigned c) const {
         return {i + (c & 1U), j + (c >> 1U & 1U), k + (c >> 2U & 1U)};
     }
@@ -40,7 +40,7 @@ struct Node {
 using CubeEdge = std::array<std::uint8_t, 2>; ///< two corners of a cube, the lower one first
 using CubeTriangle = std::array<CubeEdge, 3>;
 
-/// Twice the middle of an edge of the cube.
+/// Returns twice the midpoint of an edge of the cube.
 Point3 middle(const CubeEdge& e) {
     const auto bits = [&](unsigned axis) {
         return static_cast<double>((e[0] >> axis & 1) + (e[1] >> axis & 1));
@@ -48,8 +48,8 @@ Point3 middle(const CubeEdge& e) {
     return {bits(0), bits(1), bits(2)};
 }
 
-/// Per tetrahedron along the diagonal of a cube, and per set of its corners that are positive: the
-/// triangles between those and the others, front to the positive ones.
+/// For each tetrahedron along the diagonal of a cube and each set of positive corners: the
+/// triangles that separate those from the others, with their front to the positive ones.
 class TetrahedronCases {
 public:
     TetrahedronCases() {
@@ -117,7 +117,8 @@ private:
                 origin_.z + static_cast<double>(n.k) * step_};
     }
 
-    /// Room on all sides of the seeds for the level to leave their box, as far as the box is long.
+    /// Lays the lattice around the seeds, with room on all sides of half the longest side of their
+    /// box.
     Status lay_lattice() {
         step_ = step_share * options_.size;
         if (!(step_ > 0) || options_.seeds.empty())
@@ -145,7 +146,7 @@ private:
         return n.i >= 0 && n.j >= 0 && n.k >= 0 && n.i < last_.i && n.j < last_.j && n.k < last_.k;
     }
 
-    /// Values at all corners of the cubes that have none yet.
+    /// Evaluates the function at the corners of the cubes that have no value yet.
     void evaluate(std::span<const Node> cubes) {
         std::vector<Node> nodes;
         for (const Node& cube : cubes)
@@ -161,7 +162,8 @@ private:
         for (std::size_t n = 0; n < nodes.size(); ++n) values_[nodes[n].key()] = values[n];
     }
 
-    /// Bit c: corner c is positive. 0 counts as positive, so no corner lies on the level.
+    /// Returns the signs of the corners; bit c is set if corner c is positive. 0 counts as
+    /// positive, so no corner lies on the level.
     [[nodiscard]] unsigned signs(const Node& cube) const {
         unsigned bits = 0;
         for (unsigned c = 0; c < 8; ++c)
@@ -175,7 +177,7 @@ private:
                options_.leave({p.x + step_ / 2, p.y + step_ / 2, p.z + step_ / 2});
     }
 
-    /// The cubes that the level crosses, in the order in which it leads to them.
+    /// Collects the cubes that the level crosses, in the order in which they are reached.
     Status follow() {
         std::unordered_set<std::uint64_t> seen;
         std::vector<Node> front;
@@ -210,7 +212,7 @@ private:
         return Done{};
     }
 
-    /// To the two neighbours along an axis, through faces that the level crosses.
+    /// Reaches the two neighbours along an axis through faces that the level crosses.
     template <class Reach>
     static void spread(const Node& cube, unsigned bits, unsigned axis, const Reach& reach) {
         constexpr std::array<unsigned, 3> high{0b10101010, 0b11001100, 0b11110000};
@@ -262,14 +264,14 @@ private:
     const Run& run_;
     double step_ = 0;
     Point3 origin_;
-    Node last_; ///< cubes along each axis
+    Node last_; ///< number of cubes along each axis
     std::unordered_map<std::uint64_t, double> values_;
     std::vector<Node> cubes_;
 };
 
-/// Takes out vertices that are nearer to a neighbour than `least`: one after the other stays, and
-/// those near it go, so that each that went has one near it that stayed. Those at the border come
-/// first, since they have to stay.
+/// Removes vertices that are nearer to a neighbour than `least`. One vertex after the other is
+/// kept, and those near it are removed, so that each removed vertex has a kept one near it. Border
+/// vertices come first, as they must stay.
 class Thinning {
 public:
     Thinning(DiskMesh& mesh, double least) :
@@ -295,7 +297,7 @@ private:
     [[nodiscard]] bool is_near(std::uint32_t v, std::uint32_t w) const {
         return length(minus(mesh_.points()[v], mesh_.points()[w])) < least_;
     }
-    /// Whether one that stays is near, and v could go for it.
+    /// Removes v if a kept vertex is near.
     bool has_near(std::uint32_t v) {
         const auto beside = mesh_.neighbours(v);
         return std::any_of(beside.begin(), beside.end(),
@@ -315,8 +317,8 @@ private:
     std::vector<bool> stays_; ///< per vertex
 };
 
-/// The point moved along the gradient onto the level, by `most` at most in a step. The gradient of
-/// the start serves all steps: of what is missed there, two leave about the cube.
+/// Moves a point along the gradient to the level, by at most `most` in a step. All steps use the
+/// gradient at the start; two of them leave about the cube of the error.
 Point3 onto_level(const SpaceFunction& function, Point3 p, double most, int steps) {
     const Point3 g = function.gradient(p);
     const double square = dot(g, g);
@@ -330,8 +332,8 @@ Point3 onto_level(const SpaceFunction& function, Point3 p, double most, int step
     return p;
 }
 
-/// Moves each inner vertex to the middle of its neighbours and onto the level, where no triangle at
-/// it turns away or gets much worse.
+/// Moves each inner vertex to the mean of its neighbours and to the level, unless that flips a
+/// triangle or makes one much worse.
 void smooth(DiskMesh& mesh, const SpaceFunction& function, double size, bool move_to_middle) {
     const auto n = static_cast<std::uint32_t>(mesh.points().size());
     for (std::uint32_t v = 0; v < n; ++v) {
@@ -347,14 +349,15 @@ void smooth(DiskMesh& mesh, const SpaceFunction& function, double size, bool mov
             const auto count = static_cast<double>(near.size());
             p = {p.x / count, p.y / count, p.z / count};
         }
-        // To be on the level matters more than shape, and what moves on needs not be on it yet.
+        // The distance from the level matters more than shape; vertices that move on need not be on
+        // it yet.
         const int steps = move_to_middle ? 1 : 2;
         mesh.move_if_sound(v, onto_level(function, p, size / 3, steps),
                            move_to_middle ? 0.4 : 0.05);
     }
 }
 
-/// Without vertices that no triangle has.
+/// Copies the mesh without unused vertices.
 Surface compact(const DiskMesh& mesh) {
     Surface s;
     std::vector<std::uint32_t> name(mesh.points().size());
