@@ -40,7 +40,7 @@ Edge edge_between(std::uint32_t a, std::uint32_t b) {
     return {std::min(a, b), std::max(a, b)};
 }
 
-/// Edges of one triangle, by looking at each.
+/// Finds the edges of one triangle by brute force.
 std::set<Edge> free_edges(const Surface& s) {
     std::map<Edge, int> sides;
     for (const Triangle& t : s.triangles)
@@ -66,7 +66,7 @@ Point3 vector_area(const Surface& s, const BorderLoop& loop) {
     return vector_area(points);
 }
 
-/// As points, from the lowest one on: what must not depend on indices.
+/// Lists the points of a loop from the lowest one on, which must not depend on indices.
 std::vector<std::vector<Point3>> canonical(const Surface& s, const std::vector<BorderLoop>& loops) {
     std::vector<std::vector<Point3>> result;
     for (const auto& loop : loops) {
@@ -79,7 +79,7 @@ std::vector<std::vector<Point3>> canonical(const Surface& s, const std::vector<B
     return result;
 }
 
-/// A sheet torn along a band of cells, one side lifted; the tear is `columns` wide.
+/// Builds a sheet torn along a band of cells, `columns` wide, with one side lifted.
 Surface torn(double lift, int columns, double tilt = 0) {
     const auto keep = [=](int i, int j) { return i < 14 || i >= 14 + columns || j < 5 || j >= 25; };
     return sheet(30, 30, 10, keep, [=](double x, double y) {
@@ -90,7 +90,7 @@ Surface torn(double lift, int columns, double tilt = 0) {
 
 } // namespace
 
-TEST_CASE("holes: a sheet with a square hole", "[holes]") {
+TEST_CASE("holes: a square hole in a sheet is found and measured", "[holes]") {
     const auto keep = [](int i, int j) { return i < 3 || i > 4 || j < 4 || j > 6; };
     const Surface s = sheet(10, 12, 2, keep, flat);
     const auto loops = loops_of(s);
@@ -103,7 +103,7 @@ TEST_CASE("holes: a sheet with a square hole", "[holes]") {
     CHECK(loops[1].area == 4 * 6);
     CHECK(loops[1].centre == Point3{8, 11, 0});
     CHECK(loops[1].vertices.size() == 10);
-    CHECK(vector_area(s, loops[0]).z > 0); // the surface on the left
+    CHECK(vector_area(s, loops[0]).z > 0); // the surface is on the left
     CHECK(vector_area(s, loops[1]).z < 0);
 }
 
@@ -149,7 +149,7 @@ TEST_CASE("holes: neither the numbers of vertices, nor their copies, nor the ord
     const Surface s = sheet(
         12, 9, 1, [&](int, int) { return random_int(random, 0, 5) > 0; },
         [](double x, double y) { return std::sin(x) * std::cos(y); });
-    Surface soup{s.name, s.role, {}, {}}; // each triangle with corners of its own
+    Surface soup{s.name, s.role, {}, {}}; // no two triangles share vertices
     auto triangles = s.triangles;
     std::shuffle(triangles.begin(), triangles.end(), random);
     for (const Triangle& t : triangles) {
@@ -157,11 +157,11 @@ TEST_CASE("holes: neither the numbers of vertices, nor their copies, nor the ord
         for (const auto v : t) soup.vertices.push_back(s.vertices[v]);
         soup.triangles.push_back({first, first + 1, first + 2});
     }
-    soup.triangles.push_back(soup.triangles.front()); // repeated: does not count
+    soup.triangles.push_back(soup.triangles.front()); // repeated triangles are ignored
     CHECK(canonical(s, loops_of(s)) == canonical(soup, loops_of(soup)));
 }
 
-TEST_CASE("holes: two that touch in a corner are two", "[holes]") {
+TEST_CASE("holes: two holes that touch in a corner are two loops", "[holes]") {
     const auto keep = [](int i, int j) { return !(i == j && (i == 2 || i == 3)); };
     const auto loops = loops_of(sheet(6, 6, 1, keep, flat));
     REQUIRE(loops.size() == 3);
@@ -170,7 +170,7 @@ TEST_CASE("holes: two that touch in a corner are two", "[holes]") {
     CHECK(loops[2].area == 1);
 }
 
-TEST_CASE("holes: an island in a hole is a part with a border of its own", "[holes]") {
+TEST_CASE("holes: an island in a hole is a part with its own outer border", "[holes]") {
     const auto keep = [](int i, int j) {
         const int ring = std::max(std::abs(i - 5), std::abs(j - 5));
         return ring < 2 || ring > 3;
@@ -201,7 +201,7 @@ TEST_CASE("holes: a Moebius strip has one border, a closed body none, a puncture
     REQUIRE(loops.size() == 1);
     CHECK(loops[0].vertices.size() == 2 * n);
 
-    // A cube in many squares: six sheets, which share points only.
+    // A cube of many squares: six sheets, which share only points.
     Surface cube{"cube", Role::unknown, {}, {}};
     for (int face = 0; face < 6; ++face) {
         const auto at = [&](double x, double y) {
@@ -223,7 +223,7 @@ TEST_CASE("holes: a Moebius strip has one border, a closed body none, a puncture
     CHECK(punctured[0].kind == LoopKind::hole);
 }
 
-TEST_CASE("holes: where a flap is attached the border is never a hole", "[holes]") {
+TEST_CASE("holes: the border at which a flap is attached is never a hole", "[holes]") {
     Surface s = sheet(6, 6, 1, all, flat);
     const auto find = [&](double x, double y) {
         const auto at = std::find(s.vertices.begin(), s.vertices.end(), Point3{x, y, 0});
@@ -242,8 +242,9 @@ TEST_CASE("holes: where a flap is attached the border is never a hole", "[holes]
     CHECK(loops[1].shared == 2);
 }
 
-TEST_CASE("holes: a gap with a throw is a fault's, whatever the tilt; without one it is a hole",
-          "[holes]") {
+TEST_CASE(
+    "holes: a gap with a throw is a fault gap, whatever its tilt; without a throw it is a hole",
+    "[holes]") {
     for (const double tilt : {0.0, 0.5, -0.4})
         for (const int columns : {1, 2}) {
             const auto gap = loops_of(torn(60, columns, tilt));
@@ -262,7 +263,7 @@ TEST_CASE("holes: a gap with a throw is a fault's, whatever the tilt; without on
     CHECK(patient.value()[1].kind == LoopKind::hole);
 }
 
-TEST_CASE("holes: smooth relief does not make a hole a gap", "[holes]") {
+TEST_CASE("holes: smooth relief does not turn a hole into a fault gap", "[holes]") {
     for (const double radius : {2.5, 4.5, 6.5})
         for (int at = 8; at < 20; at += 3) {
             const auto wave = [](double x, double y) {
@@ -274,7 +275,7 @@ TEST_CASE("holes: smooth relief does not make a hole a gap", "[holes]") {
         }
 }
 
-TEST_CASE("holes: what is no surface is refused, and a stop is obeyed", "[holes]") {
+TEST_CASE("holes: invalid surfaces are refused, and a stop request is obeyed", "[holes]") {
     Surface s = sheet(3, 3, 1, all, flat);
     s.vertices[4].z = NAN;
     CHECK(find_border_loops(s).error().code == ErrorCode::bad_number);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What giving up vertices and changing diagonals must leave as it is.
+// Checks what removing vertices and swapping edges must preserve.
 #include <terrane/algorithms/reconstruction/joining/disk_mesh.hpp>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ struct Measures {
     long euler = 0;         ///< V - E + F
 };
 
-/// Of a flat mesh; every edge has one triangle on each side at most.
+/// Measures a flat mesh and checks that every edge has at most one triangle on each side.
 Measures measure(const DiskMesh& mesh) {
     Measures m;
     std::map<std::array<std::uint32_t, 2>, int> sides; // by direction
@@ -52,7 +52,8 @@ Measures measure(const DiskMesh& mesh) {
 
 } // namespace
 
-TEST_CASE("shape: best where equilateral, 0 without area, negative from behind", "[join]") {
+TEST_CASE("shape: equilateral triangles are best, degenerate ones 0, flipped ones negative",
+          "[join]") {
     const double h = std::sqrt(3.0) / 2;
     CHECK(shape({0, 0, 0}, {1, 0, 0}, {0.5, h, 0}, {0, 0, 1}) == Approx(1));
     CHECK(shape({0, 0, 0}, {1, 0, 0}, {0.5, h, 0}, {0, 0, -1}) == Approx(-1));
@@ -60,7 +61,7 @@ TEST_CASE("shape: best where equilateral, 0 without area, negative from behind",
     CHECK(shape({1, 1, 1}, {1, 1, 1}, {1, 1, 1}, {0, 0, 1}) == 0);
 }
 
-TEST_CASE("disk mesh: without its inner vertices it covers the same", "[join]") {
+TEST_CASE("disk mesh: removing inner vertices does not change the covered area", "[join]") {
     const Surface s = sheet(graph([](double, double) { return 0.0; }), 0, 0, 6, 6, 9, 9, 0.24);
     DiskMesh mesh(s.vertices, s.triangles);
     const Measures before = measure(mesh);
@@ -76,7 +77,7 @@ TEST_CASE("disk mesh: without its inner vertices it covers the same", "[join]") 
         CHECK(now.worst > 0);
     }
     CHECK(removed > 50);
-    // Border vertices on straight sides go as well; the four corners stay: then it is two
+    // Border vertices on straight sides can be removed, too; the four corners remain, with two
     // triangles.
     for (std::uint32_t v = 0; v < s.vertices.size(); ++v)
         if (mesh.is_alive(v)) mesh.remove(v);
@@ -84,7 +85,7 @@ TEST_CASE("disk mesh: without its inner vertices it covers the same", "[join]") 
     CHECK(measure(mesh).euler == 1);
 }
 
-TEST_CASE("disk mesh: swaps make the worst shape better and keep what is covered", "[join]") {
+TEST_CASE("disk mesh: swaps improve the worst shape and do not change the covered area", "[join]") {
     Surface s = sheet(graph([](double x, double) { return 0 * x; }), 0, 0, 12, 3, 9, 9, 0.24);
     DiskMesh mesh(s.vertices, s.triangles);
     const Measures before = measure(mesh);
@@ -98,9 +99,9 @@ TEST_CASE("disk mesh: swaps make the worst shape better and keep what is covered
     CHECK(mesh.improve(all) == 0);
 }
 
-TEST_CASE("disk mesh: what would fold or double an edge is not done", "[join]") {
-    // A vertex whose star is seen from no other: taking it out is possible; a lone triangle's is
-    // not.
+TEST_CASE("disk mesh: operations that would fold the mesh or repeat an edge are refused",
+          "[join]") {
+    // No corner of a single triangle can be removed.
     DiskMesh lone({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
     for (std::uint32_t v = 0; v < 3; ++v) CHECK(!lone.remove(v));
     CHECK(lone.triangles().size() == 1);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Joined surfaces keep what was there, close the hole, and are conforming by exact check.
+// Checks that joined surfaces keep the surface, close the hole and are conforming, by exact check.
 #include <terrane/algorithms/reconstruction/joining/join.hpp>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ double wavy(double x, double y) {
     return 0.3 * std::sin(x) * std::cos(0.7 * y);
 }
 
-/// Its only hole, or the largest.
+/// Returns the only hole, or the largest one.
 BorderLoop hole_of(const Surface& s) {
     const auto loops = find_border_loops(s);
     REQUIRE(loops);
@@ -42,7 +42,7 @@ std::size_t hole_count(const Surface& s) {
                       [](const BorderLoop& l) { return l.kind != LoopKind::outer; }));
 }
 
-/// Whether borders meet in a vertex, which joining does not take where they are of different parts.
+/// Tells whether borders of different parts meet in a vertex, which joining does not support.
 bool borders_touch(const Surface& s) {
     const auto loops = find_border_loops(s);
     std::vector<std::uint32_t> vertices;
@@ -52,7 +52,7 @@ bool borders_touch(const Surface& s) {
     return std::adjacent_find(vertices.begin(), vertices.end()) != vertices.end();
 }
 
-/// Per edge: its triangles along it (from the lower vertex to the higher) and against it.
+/// Counts the triangles that use each edge from the lower vertex to the higher, and back.
 std::map<std::array<std::uint32_t, 2>, std::array<int, 2>> edge_uses(const Surface& s) {
     std::map<std::array<std::uint32_t, 2>, std::array<int, 2>> uses;
     for (const Triangle& t : s.triangles)
@@ -66,13 +66,13 @@ std::map<std::array<std::uint32_t, 2>, std::array<int, 2>> edge_uses(const Surfa
 void check_laws(const Surface& before, const BorderLoop& loop, const Surface& filling,
                 const Joined& joined) {
     const Surface& after = joined.surface;
-    // What was there stays, in its place.
+    // The vertices and triangles of the surface come first, unchanged.
     REQUIRE(after.triangles.size() > before.triangles.size());
     CHECK(std::equal(before.triangles.begin(), before.triangles.end(), after.triangles.begin()));
     CHECK(std::equal(before.vertices.begin(), before.vertices.end(), after.vertices.begin()));
     CHECK(after.name == before.name);
     CHECK(after.role == before.role);
-    // New vertices are the filling's, bit by bit; each is used.
+    // New vertices are those of the filling, bit by bit; each is used.
     REQUIRE(after.vertices.size() == before.vertices.size() + joined.filling_vertices.size());
     for (std::size_t v = 0; v < joined.filling_vertices.size(); ++v)
         CHECK(after.vertices[before.vertices.size() + v] ==
@@ -82,7 +82,7 @@ void check_laws(const Surface& before, const BorderLoop& loop, const Surface& fi
         for (const std::uint32_t v : after.triangles[t]) used[v] = true;
     CHECK(std::all_of(used.begin() + static_cast<std::ptrdiff_t>(before.vertices.size()),
                       used.end(), [](bool b) { return b; }));
-    // The border's edges are whole, with one new triangle each, wound against the old one.
+    // The border edges are undivided; each has one new triangle, oriented opposite to the old one.
     const auto uses = edge_uses(after);
     for (std::size_t i = 0; i < loop.vertices.size(); ++i) {
         const std::uint32_t a = loop.vertices[i], b = loop.vertices[(i + 1) % loop.vertices.size()];
@@ -119,7 +119,7 @@ double area_of(const Surface& s, std::size_t first) {
     return sum;
 }
 
-/// The smallest angle of the new triangles, in degrees.
+/// Computes the smallest angle of the new triangles, in degrees.
 double least_angle(const Joined& j, std::size_t first) {
     double least = 180;
     for (std::size_t t = first; t < j.surface.triangles.size(); ++t)
@@ -138,7 +138,7 @@ double least_angle(const Joined& j, std::size_t first) {
 
 } // namespace
 
-TEST_CASE("join: a disk in a wavy sheet, fillings of any mesh size", "[join]") {
+TEST_CASE("join: a disk in a wavy sheet is joined with fillings of any mesh size", "[join]") {
     const Surface holed = punched(sheet(graph(wavy), 0, 0, 10, 10, 40, 40, 0.25), disk(5, 5, 2.2));
     const double hole = 100 - area_of(holed, 0);
     for (const unsigned n : {5U, 13U, 33U, 150U}) {
@@ -150,7 +150,7 @@ TEST_CASE("join: a disk in a wavy sheet, fillings of any mesh size", "[join]") {
     }
 }
 
-TEST_CASE("join: holes of any shape", "[join]") {
+TEST_CASE("join: holes of any shape are joined", "[join]") {
     std::mt19937_64 random(7);
     std::uniform_real_distribution<double> at(3, 7), size(0.15, 1.2);
     for (int i = 0; i < cases(40); ++i) {
@@ -177,7 +177,7 @@ TEST_CASE("join: holes of any shape", "[join]") {
     }
 }
 
-TEST_CASE("join: four holes on one horizon (the paper's Figure 22)", "[join]") {
+TEST_CASE("join: four holes of one horizon are joined (the paper's Figure 22)", "[join]") {
     Surface s = sheet(graph(wavy), 0, 0, 20, 20, 80, 80, 0.24);
     for (const auto& hole : {disk(5, 5, 2.5), disk(14, 4, 1.2), disk(6, 14, 3.1)})
         s = punched(s, hole);
@@ -193,7 +193,7 @@ TEST_CASE("join: four holes on one horizon (the paper's Figure 22)", "[join]") {
     CHECK(find_border_loops(s).value().size() == 1);
 }
 
-TEST_CASE("join: islands in a hole are joined, too", "[join]") {
+TEST_CASE("join: islands in a hole are joined to the filling", "[join]") {
     const Surface all = sheet(graph(wavy), 0, 0, 10, 10, 50, 50, 0.24);
     const Surface s = punched(all, [](const Point3& p) {
         return disk(5, 5, 3)(p) && !disk(4, 4.5, 0.7)(p) && !disk(6.2, 6, 0.45)(p);
@@ -203,14 +203,14 @@ TEST_CASE("join: islands in a hole are joined, too", "[join]") {
     CHECK(joined.report.islands == 2);
     CHECK(area_of(joined.surface, 0) == Approx(100).epsilon(1e-12));
     CHECK(find_border_loops(joined.surface).value().size() == 1);
-    // Not told of them, it would cover them; that is noticed.
+    // Without their loops the filling would cover them, which is detected.
     const auto blind = join_filling(s, hole_of(s), filling);
     REQUIRE(!blind);
     CHECK(blind.error().code == ErrorCode::improper_contact);
 }
 
-TEST_CASE("join: a fold that is no graph", "[join]") {
-    // Half a cylinder lying down, then a flat limb: overhanging.
+TEST_CASE("join: a hole in a fold that is no graph is joined", "[join]") {
+    // Half a horizontal cylinder, then a flat limb: overhanging.
     const Shape fold = [](double u, double v) {
         const double angle = 1.6 * u;
         return Point3{3 * std::sin(angle), v, 3 * (1 - std::cos(angle))};
@@ -222,7 +222,7 @@ TEST_CASE("join: a fold that is no graph", "[join]") {
     const Surface filling = sheet(fold, 0.1, -2.2, 1.9, 2.2, 31, 31, 0.2, 5);
     const Joined joined = join_well(s, filling);
     CHECK(joined.report.new_vertices > 100);
-    // Turned in space and wound the other way round, it works as well.
+    // The same surface rotated and with the opposite orientation is joined as well.
     Surface back = filling;
     for (Triangle& t : back.triangles) std::swap(t[1], t[2]);
     const Joined again = join_well(s, back);
@@ -230,7 +230,7 @@ TEST_CASE("join: a fold that is no graph", "[join]") {
     CHECK(again.surface.vertices == joined.surface.vertices);
 }
 
-TEST_CASE("join: the same for any number of threads and any search", "[join]") {
+TEST_CASE("join: the result depends on neither threads nor search method", "[join]") {
     const Surface s = punched(sheet(graph(wavy), 0, 0, 10, 10, 30, 30, 0.24), disk(5, 5, 3));
     const Surface filling = sheet(graph(wavy), 1, 1, 9, 9, 37, 37, 0.2, 9);
     const Joined one = join_well(s, filling);
@@ -253,7 +253,8 @@ TEST_CASE("join: the smallest holes are filled without new vertices", "[join]") 
     CHECK(coarse.report.new_vertices == 0);
 }
 
-TEST_CASE("join: what can't be joined is refused, and said where", "[join]") {
+TEST_CASE("join: a filling that can't be joined is refused, and the error names the place",
+          "[join]") {
     const Surface s = punched(sheet(graph(wavy), 0, 0, 10, 10, 40, 40), disk(5, 5, 2));
     const BorderLoop loop = hole_of(s);
     const auto code = [&](const Surface& filling, const JoinOptions& options = {}) {
@@ -288,7 +289,7 @@ TEST_CASE("join: what can't be joined is refused, and said where", "[join]") {
         CHECK(crossing.error().code == ErrorCode::improper_contact);
         CHECK(!crossing.error().place.empty());
     }
-    SECTION("loops and options that are none") {
+    SECTION("invalid loops and options") {
         const Surface filling = sheet(graph(wavy), 1, 1, 9, 9, 30, 30);
         CHECK(code(filling, {.strip = -1}) == ErrorCode::bad_option);
         CHECK(code(filling, {.clearance = 1}) == ErrorCode::bad_option);

@@ -47,7 +47,7 @@ Filling filling_of(const Surface& s, const KrigingOptions& options = {}) {
     return std::move(filling).value();
 }
 
-/// Root mean square of what invented vertices miss.
+/// Computes the root mean square error of interpolated vertices.
 template <class Height>
 double missed(const Filling& f, const Height& z) {
     double sum = 0;
@@ -67,7 +67,7 @@ void check_joined(const Surface& holed, const Surface& whole) {
     REQUIRE(report);
     CHECK(report.value().clean());
     CHECK(report.value().non_manifold_edges.empty());
-    // Wound as the surface: no edge runs the same way in two triangles.
+    // The filling has the orientation of the surface: triangles use edges in opposite directions.
     std::map<std::array<std::uint32_t, 2>, int> runs;
     for (const Triangle& t : whole.triangles)
         for (unsigned i = 0; i < 3; ++i) CHECK(++runs[{t[i], t[(i + 1) % 3]}] == 1);
@@ -79,7 +79,8 @@ constexpr auto wave = [](double x, double y) {
 
 } // namespace
 
-TEST_CASE("fill by kriging: smooth surfaces, far nearer than the depth of the hole", "[kriging]") {
+TEST_CASE("fill by kriging: errors on smooth surfaces are far less than the depth of the hole",
+          "[kriging]") {
     for (const double radius : {3.5, 6.5}) {
         const Surface s = sheet(40, 36, 10, without_disc(18, 17, radius), wave);
         const Filling f = filling_of(s);
@@ -93,7 +94,8 @@ TEST_CASE("fill by kriging: smooth surfaces, far nearer than the depth of the ho
     }
 }
 
-TEST_CASE("fill by kriging: triangles as small as the heights are good", "[kriging]") {
+TEST_CASE("fill by kriging: triangles are as small as the precision of the heights warrants",
+          "[kriging]") {
     const auto missed_by_triangles = [](const Filling& f) {
         double sum = 0;
         for (const Triangle& t : f.surface.triangles) {
@@ -111,8 +113,8 @@ TEST_CASE("fill by kriging: triangles as small as the heights are good", "[krigi
     CHECK(4 * missed_by_triangles(fine) < missed_by_triangles(given));
     CHECK(fine.report.expected_error < 2 * given.report.expected_error);
     check_joined(s, joined(s, fine));
-    // Not where heights are known no better than large triangles show them, nor beyond what the
-    // mesh may have of vertices.
+    // They are not refined where heights are no more precise than large triangles show them, nor
+    // beyond the allowed number of vertices.
     Random random(5);
     const auto noisy = [&](double x, double y) {
         return wave(x, y) + std::normal_distribution<double>(0, 1)(random);
@@ -123,7 +125,7 @@ TEST_CASE("fill by kriging: triangles as small as the heights are good", "[krigi
     CHECK(filling_of(wide).report.interpolated < 21'000);
 }
 
-TEST_CASE("fill by kriging: a plane is filled with that plane", "[kriging]") {
+TEST_CASE("fill by kriging: a hole in a plane is filled with that plane", "[kriging]") {
     const auto plane = [](double x, double y) { return 0.25 * x - 0.5 * y + 7; };
     const Surface s = sheet(20, 20, 8, without_disc(10, 9, 4), plane);
     const Filling f = filling_of(s);
@@ -131,7 +133,7 @@ TEST_CASE("fill by kriging: a plane is filled with that plane", "[kriging]") {
     CHECK(f.report.expected_error < 1e-6);
 }
 
-TEST_CASE("fill by kriging: with noise in the data the error is foreseen", "[kriging]") {
+TEST_CASE("fill by kriging: the expected error is right for noisy data", "[kriging]") {
     Random random(3);
     double errors = 0, expected = 0;
     constexpr int repeats = 4;
@@ -145,12 +147,13 @@ TEST_CASE("fill by kriging: with noise in the data the error is foreseen", "[kri
         errors += missed(f, wave) / repeats;
         expected += f.report.expected_error / repeats;
     }
-    CHECK(errors < 3); // of 20 deep
+    CHECK(errors < 3); // the hole is 20 deep
     CHECK(expected > errors / 4);
     CHECK(expected < errors * 4);
 }
 
-TEST_CASE("fill by kriging: four holes, each a filling of its own, conforming", "[kriging]") {
+TEST_CASE("fill by kriging: four holes are filled one by one, and the result is conforming",
+          "[kriging]") {
     const auto keep = [](int i, int j) {
         for (const auto& [x, y, r] :
              {std::array{9.0, 9.0, 3.0}, {30.0, 10.0, 4.5}, {11.0, 30.0, 2.2}, {29.0, 29.0, 5.5}})
@@ -173,7 +176,7 @@ TEST_CASE("fill by kriging: four holes, each a filling of its own, conforming", 
     CHECK(count_holes(whole) == 0);
 }
 
-TEST_CASE("fill by kriging: an island is kept, and is data", "[kriging]") {
+TEST_CASE("fill by kriging: an island is kept and serves as data", "[kriging]") {
     const auto keep = [](int i, int j) {
         const double r = std::hypot(i + 0.5 - 20, j + 0.5 - 20);
         return r < 3 || r > 8;
@@ -189,8 +192,8 @@ TEST_CASE("fill by kriging: an island is kept, and is data", "[kriging]") {
     const Surface whole = joined(s, filling.value());
     check_joined(s, whole);
     const auto after = loops_of(whole);
-    CHECK(after.size() == 1); // the outer border alone: the island has grown together
-    // Without being told, the island is not known: the filling covers it.
+    CHECK(after.size() == 1); // only the outer border: the island is connected now
+    // Without the loops the island is unknown, and the filling covers it.
     const auto blind = fill_by_kriging(s, first_hole(loops));
     REQUIRE(blind);
     CHECK(blind.value().report.area > filling.value().report.area);
@@ -203,7 +206,7 @@ TEST_CASE("fill by kriging: the front of the filling is that of the surface, up 
     check_joined(s, joined(s, filling_of(s)));
 }
 
-TEST_CASE("fill by kriging: random ragged holes", "[kriging]") {
+TEST_CASE("fill by kriging: random ragged holes are filled", "[kriging]") {
     Random random(21);
     for (int n = 0; n < cases(4); ++n) {
         const auto keep = [&](int i, int j) {
@@ -236,7 +239,7 @@ TEST_CASE("fill by kriging: a fold is refused, with the place", "[kriging]") {
     CHECK(filling.error().code == ErrorCode::unsupported);
     CHECK(filling.error().sentence.find("no graph z = f(x, y)") != std::string::npos);
     CHECK(!filling.error().place.empty());
-    // Upright: seen from above there is nothing to fill.
+    // A vertical surface has no area seen from above.
     const auto wall = [](double x, double y) { return Point3{x, 0.0, y}; };
     const Surface upright = sheet_of(12, 12, 10, without_disc(6, 6, 2), wall);
     const auto refused = fill_by_kriging(upright, first_hole(loops_of(upright)));
@@ -244,7 +247,8 @@ TEST_CASE("fill by kriging: a fold is refused, with the place", "[kriging]") {
     CHECK(refused.error().code == ErrorCode::unsupported);
 }
 
-TEST_CASE("fill by kriging: options that make no sense, and a stop", "[kriging]") {
+TEST_CASE("fill by kriging: invalid options are refused, and a stop request is obeyed",
+          "[kriging]") {
     const Surface s = sheet(20, 20, 10, without_disc(10, 9, 3), wave);
     const auto loops = loops_of(s);
     const BorderLoop& hole = first_hole(loops);

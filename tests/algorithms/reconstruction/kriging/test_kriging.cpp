@@ -22,7 +22,7 @@ std::vector<Point3> scattered(Random& random, int count, double size) {
     return points;
 }
 
-/// One realisation of a field with this variogram, by Cholesky's factor of its covariances.
+/// Simulates a field with this variogram by the Cholesky factor of its covariances.
 void draw_heights(Random& random, std::vector<Point3>& points, const Variogram& v) {
     const auto n = static_cast<Eigen::Index>(points.size());
     Eigen::MatrixXd c(n, n);
@@ -39,7 +39,7 @@ void draw_heights(Random& random, std::vector<Point3>& points, const Variogram& 
     for (Eigen::Index i = 0; i < n; ++i) points[std::size_t(i)].z = z[i];
 }
 
-/// The textbook's system with a Lagrange multiplier, in variograms, by full pivoting.
+/// Solves the textbook system with a Lagrange multiplier, in variograms, by full pivoting.
 Estimate by_the_book(const std::vector<Point3>& data, const Variogram& v, double x, double y) {
     const auto n = static_cast<Eigen::Index>(data.size());
     const auto gamma = [&](double dx, double dy) {
@@ -81,7 +81,7 @@ TEST_CASE("variogram: the models rise from the nugget as the header says", "[kri
     CHECK(turned.distance(3, 0) == Approx(6));
 }
 
-TEST_CASE("variogram: fitted to its own model, it is found again", "[kriging]") {
+TEST_CASE("variogram: fitting recovers the model of exact bins", "[kriging]") {
     for (const auto model : {VariogramModel::spherical, VariogramModel::exponential,
                              VariogramModel::gaussian, VariogramModel::power})
         for (const bool turned : {false, true}) {
@@ -103,7 +103,8 @@ TEST_CASE("variogram: fitted to its own model, it is found again", "[kriging]") 
     CHECK(fit_variogram({}).sill == 0);
 }
 
-TEST_CASE("variogram: of points, half the mean square of differences by distance", "[kriging]") {
+TEST_CASE("variogram: the experimental one is half the mean squared difference by distance",
+          "[kriging]") {
     Random random(2);
     auto points = scattered(random, 60, 100);
     for (Point3& p : points) p.z = random_real(random, -1, 1);
@@ -123,7 +124,7 @@ TEST_CASE("variogram: of points, half the mean square of differences by distance
     CHECK(sum == Approx(expected));
 }
 
-TEST_CASE("kriging: the textbook's weights and variance", "[kriging]") {
+TEST_CASE("kriging: estimates and variances agree with the textbook system", "[kriging]") {
     Random random(8);
     for (const auto model : {VariogramModel::spherical, VariogramModel::exponential,
                              VariogramModel::gaussian, VariogramModel::power})
@@ -141,7 +142,7 @@ TEST_CASE("kriging: the textbook's weights and variance", "[kriging]") {
         }
 }
 
-TEST_CASE("kriging: without a nugget data are met; planes and quadratics are estimated as they are",
+TEST_CASE("kriging: without a nugget data are interpolated, planes and quadratics reproduced",
           "[kriging]") {
     Random random(9);
     auto data = scattered(random, 200, 100);
@@ -165,8 +166,7 @@ TEST_CASE("kriging: without a nugget data are met; planes and quadratics are est
     }
 }
 
-TEST_CASE("kriging: the variance tells how far off it is, of fields with this variogram",
-          "[kriging]") {
+TEST_CASE("kriging: the variance predicts the error for fields with this variogram", "[kriging]") {
     Random random(10);
     const Variogram v{VariogramModel::exponential, 0.2, 5, 50};
     double errors = 0, expected = 0;
@@ -184,7 +184,7 @@ TEST_CASE("kriging: the variance tells how far off it is, of fields with this va
     CHECK(errors / expected == Approx(1).epsilon(0.15));
 }
 
-TEST_CASE("kriging: many data by neighbours give nearly what all at once give", "[kriging]") {
+TEST_CASE("kriging: neighbours give nearly the same estimates as all data at once", "[kriging]") {
     const auto z = [](double x, double y) { return 10 * std::sin(x / 20) + y * std::cos(x / 30); };
     std::vector<Point3> few, many;
     for (int i = 0; i <= 25; ++i)
@@ -204,7 +204,8 @@ TEST_CASE("kriging: many data by neighbours give nearly what all at once give", 
         }
 }
 
-TEST_CASE("kriging: data at one place, or nearly, and a single datum", "[kriging]") {
+TEST_CASE("kriging: coincident data, nearly coincident data and a single datum are handled",
+          "[kriging]") {
     Random random(12);
     auto data = scattered(random, 40, 100);
     for (Point3& p : data) p.z = random_real(random, -5, 5);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What holes are filled with: interpolation in space, and its zero level.
+// Checks interpolation in space and its zero level.
 #include <terrane/algorithms/reconstruction/rbf/detail/function.hpp>
 
 #include <algorithm>
@@ -46,7 +46,8 @@ double smooth(const Point3& p) {
 
 } // namespace
 
-TEST_CASE("rbf: values are met, linear functions reproduced, far from the origin too", "[rbf]") {
+TEST_CASE("rbf: values are interpolated, linear functions reproduced, also far from the origin",
+          "[rbf]") {
     for (const Point3 at : {Point3{}, Point3{5e5, 6.2e6, -2000}}) {
         const auto points = random_points(150, 1, 40, at);
         const auto local = [&](const Point3& p) {
@@ -98,7 +99,7 @@ TEST_CASE("rbf: a polynomial in space is reproduced, a sphere or a fold among ot
     }
 }
 
-TEST_CASE("rbf: the gradient is that of the values", "[rbf]") {
+TEST_CASE("rbf: the gradient agrees with differences of values", "[rbf]") {
     const auto points = random_points(120, 5, 10);
     const bool in_space = GENERATE(false, true);
     const RbfPolynomial turned{2, {{{0.6, 0.8, 0}, {-0.8, 0.6, 0}, {0, 0, 1}}}, in_space};
@@ -122,7 +123,7 @@ TEST_CASE("rbf: the gradient is that of the values", "[rbf]") {
 
 TEST_CASE("rbf: refinement lowers the residual of an ill-conditioned system", "[rbf]") {
     auto points = random_points(100, 7);
-    for (std::size_t i = 0; i < 100; ++i) // pairs, very near to one another
+    for (std::size_t i = 0; i < 100; ++i) // pairs of points very near to each other
         points.push_back({points[i].x + 1e-4, points[i].y, points[i].z});
     const auto values = values_at(points, smooth);
     const auto fit = fit_rbf(points, values);
@@ -134,7 +135,7 @@ TEST_CASE("rbf: refinement lowers the residual of an ill-conditioned system", "[
     const auto plain = fit_rbf(points, values, {{}, 0});
     REQUIRE(plain);
     CHECK(std::isnan(plain.value().solution.residual));
-    // The reported residual is what the function misses, but for rounding in evaluating it.
+    // The reported residual is the error of the function, up to rounding in its evaluation.
     double missed = 0;
     for (std::size_t i = 0; i < points.size(); ++i)
         missed = std::max(missed, std::fabs(fit.value().function(points[i]) - values[i]));
@@ -166,7 +167,7 @@ TEST_CASE("rbf: points that can't be fitted are refused", "[rbf]") {
     CHECK(stopped.error().code == ErrorCode::interrupted);
 }
 
-TEST_CASE("rbf: patches meet any number of values and fade away", "[rbf]") {
+TEST_CASE("rbf: patches interpolate any number of values and fade away from them", "[rbf]") {
     CHECK(RbfPatches()({1, 2, 3}) == 0);
     for (const std::size_t n : {1U, 2U, 49U, 8000U}) {
         auto points = random_points(n, 9, 10);
@@ -233,8 +234,8 @@ TEST_CASE("zero level: a sphere is a closed manifold of good triangles", "[rbf]"
     CHECK(check(std::span(&half.value(), 1)).value().free_border_edges > 10);
 }
 
-TEST_CASE("zero level: nearly flat ones keep their vertices", "[rbf]") {
-    // Nearly along the lattice vertices come in rows: thinned one after the other, all would go.
+TEST_CASE("zero level: nearly flat levels keep their vertices", "[rbf]") {
+    // Nearly along the lattice vertices come in rows, all of which naive thinning would remove.
     std::mt19937_64 random(5);
     std::uniform_real_distribution<double> any(-1, 1);
     for (int k = 0; k < 30; ++k) {
@@ -270,7 +271,8 @@ TEST_CASE("zero level: nearly flat ones keep their vertices", "[rbf]") {
     }
 }
 
-TEST_CASE("zero level: what has none, or too much of it, is an error", "[rbf]") {
+TEST_CASE("zero level: a function without zero level, or with too large a one, is an error",
+          "[rbf]") {
     const SpaceFunction positive{[](const Point3&) { return 1.0; },
                                  [](const Point3&) { return Point3{}; }};
     const SpaceFunction plane{[](const Point3& p) { return p.z; },

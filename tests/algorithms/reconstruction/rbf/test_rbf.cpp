@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Holes in surfaces of known shape, filled and joined: how near the truth, and conforming.
+// Fills and joins holes in surfaces of known shape; checks the error and conformity.
 #include <terrane/algorithms/reconstruction/rbf/rbf.hpp>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ std::vector<BorderLoop> holes_of(const Surface& s) {
     return loops.value();
 }
 
-/// The hole filled and joined; clean, with no hole left.
+/// Fills and joins the hole; checks that the result is conforming and has no hole left.
 Joined fill(const Surface& s, const BorderLoop& hole, const RbfOptions& options = {}) {
     const auto filling = fill_by_rbf(s, hole, options);
     if (!filling) FAIL(filling.error().message());
@@ -44,7 +44,7 @@ Joined fill(const Surface& s, const BorderLoop& hole, const RbfOptions& options 
     return std::move(joined).value();
 }
 
-/// Root mean square of errors at the new vertices.
+/// Computes the root mean square error at the new vertices.
 template <class Error>
 double rms(const Surface& before, const Surface& after, const Error& error) {
     double sum = 0;
@@ -55,7 +55,7 @@ double rms(const Surface& before, const Surface& after, const Error& error) {
     return std::sqrt(sum / static_cast<double>(n));
 }
 
-/// Heights of the plane that fits the border best: the plainest of linear patches.
+/// Computes heights of the plane that fits the border best, the simplest linear filling.
 std::function<double(double, double)> plane_through(const Surface& s, const BorderLoop& hole) {
     double xx = 0, xy = 0, yy = 0, xz = 0, yz = 0, mx = 0, my = 0, mz = 0;
     const auto n = static_cast<double>(hole.vertices.size());
@@ -82,7 +82,7 @@ TEST_CASE("rbf: smooth surfaces are filled many times better than by a plane", "
     struct Case {
         const char* name;
         std::function<double(double, double)> height;
-        double times; ///< better, at least
+        double times; ///< least ratio of the plane's error to ours
     };
     const std::array known{
         Case{"sinusoid", [](double x, double y) { return 0.5 * std::sin(x) * std::cos(0.7 * y); },
@@ -138,7 +138,7 @@ TEST_CASE("rbf: planes are filled exactly, in any direction", "[rbf]") {
     }
 }
 
-TEST_CASE("rbf: a fold that is no graph", "[rbf]") {
+TEST_CASE("rbf: a hole in a fold that is no graph is filled", "[rbf]") {
     const Shape fold = [](double u, double v) { // turns by 200 degrees
         const double angle = 0.7 * u;
         return Point3{2.5 * std::sin(angle), v, 2.5 * (1 - std::cos(angle))};
@@ -150,7 +150,7 @@ TEST_CASE("rbf: a fold that is no graph", "[rbf]") {
     const double error =
         rms(s, joined.surface, [](const Point3& p) { return std::hypot(p.x, p.z - 2.5) - 2.5; });
     CHECK(error < 0.003);
-    // Triangles wound the wrong way here and there change nothing but the side of the filling.
+    // Some triangles of wrong orientation change nothing but the orientation of the filling.
     Surface mixed = s;
     for (std::size_t t = 0; t < mixed.triangles.size(); t += 3)
         std::swap(mixed.triangles[t][1], mixed.triangles[t][2]);
@@ -160,7 +160,7 @@ TEST_CASE("rbf: a fold that is no graph", "[rbf]") {
     CHECK(again.value().surface.vertices.size() > 50);
 }
 
-/// Overturned: seen along z three limbs lie above one another. Punched round (u, v).
+/// Builds an overturned fold, three limbs of which overlap along z, with a hole around (u, v).
 Surface fold_with_hole(double lean, double height, double u0, double v0, double radius) {
     const double phase = std::acos(1000 / (4 * M_PI * lean));
     Surface s = punched(sheet(graph([](double, double) { return 0.0; }), 0, 0, 1, 1, 60, 60),
@@ -172,7 +172,7 @@ Surface fold_with_hole(double lean, double height, double u0, double v0, double 
     return s;
 }
 
-/// How far from the limb in the middle, in x.
+/// Computes the distance from the middle limb in x.
 auto from_fold(double lean, double height) {
     return [=](const Point3& p) {
         const double t = std::asin(std::clamp(p.z / height, -1.0, 1.0));
@@ -193,13 +193,13 @@ TEST_CASE("rbf: polynomials in space follow a fold better", "[rbf]") {
           rms(s, fill(s, hole, {.most_centres = 400, .degree = 1}).surface, from_fold(200, 150)));
 }
 
-TEST_CASE("rbf: the level goes on over the rim of another limb of the fold", "[rbf]") {
+TEST_CASE("rbf: the level continues over the rim of another limb of the fold", "[rbf]") {
     const Surface s = fold_with_hole(200, 220, 0.47, 0.5, 0.126);
     const auto joined = fill(s, holes_of(s).at(0), {.most_centres = 400});
     CHECK(rms(s, joined.surface, from_fold(200, 220)) < 5);
 }
 
-TEST_CASE("rbf: a hinge sharper than the border's edges takes smaller triangles", "[rbf]") {
+TEST_CASE("rbf: a hinge sharper than the border edges gets smaller triangles", "[rbf]") {
     const Surface s = fold_with_hole(220, 150, 0.47, 0.5, 0.126);
     const auto hole = holes_of(s).at(0);
     RbfReport report;
@@ -207,12 +207,12 @@ TEST_CASE("rbf: a hinge sharper than the border's edges takes smaller triangles"
     REQUIRE(filling);
     CHECK(report.size == Approx(12.97).epsilon(0.01)); // half the border's median edge
     CHECK(join_filling(s, hole, filling.value().surface));
-    // As many vertices as are allowed are a limit for them, too.
+    // The number of vertices limits the refinement, too.
     REQUIRE(fill_by_rbf(s, hole, {.most_centres = 400, .most_vertices = 300}, report, {}));
     CHECK(report.size == Approx(25.9).epsilon(0.01));
 }
 
-TEST_CASE("rbf: triangles as small as the level is good", "[rbf]") {
+TEST_CASE("rbf: triangles are as small as the precision of the level warrants", "[rbf]") {
     const auto wavy = [](double x, double y) { return 0.5 * std::sin(x) * std::cos(0.7 * y); };
     const auto missed_by_triangles = [&](const Surface& before, const Surface& after) {
         double sum = 0;
@@ -247,8 +247,8 @@ TEST_CASE("rbf: triangles as small as the level is good", "[rbf]") {
     CHECK(3 * missed_by_triangles(smooth, joined.surface) <
           missed_by_triangles(smooth, coarse.value().joined.surface));
     CHECK(check(std::span(&joined.surface, 1)).value().clean());
-    // Not where the level is known no better than large triangles show it, nor beyond the vertices
-    // that are allowed.
+    // They are not refined where the level is no more precise than large triangles show it, nor
+    // beyond the allowed number of vertices.
     const Surface rough = holed(0.02);
     RbfReport other;
     REQUIRE(fill_by_rbf(rough, holes_of(rough).at(0), {}, other, {}));
@@ -257,7 +257,7 @@ TEST_CASE("rbf: triangles as small as the level is good", "[rbf]") {
     CHECK(other.size > 0.24);
 }
 
-TEST_CASE("rbf: four holes on one horizon (the paper's Figure 22)", "[rbf]") {
+TEST_CASE("rbf: four holes of one horizon are filled (the paper's Figure 22)", "[rbf]") {
     const auto wavy = [](double x, double y) { return 0.3 * std::sin(x) * std::cos(0.7 * y); };
     Surface s = sheet(graph(wavy), 0, 0, 20, 20, 60, 60, 0.2);
     for (const auto& hole : {disk(5, 5, 1.4), disk(14, 4, 1.1), disk(6, 14, 1.8)})
@@ -275,8 +275,8 @@ TEST_CASE("rbf: four holes on one horizon (the paper's Figure 22)", "[rbf]") {
     CHECK(std::equal(before.triangles.begin(), before.triangles.end(), s.triangles.begin()));
 }
 
-TEST_CASE("rbf: an island in a hole is data, and joined", "[rbf]") {
-    // A bump in the middle of the hole, of which only the island knows.
+TEST_CASE("rbf: an island in a hole serves as data and is joined", "[rbf]") {
+    // Only the island shows the bump in the middle of the hole.
     const auto bump = [](double x, double y) {
         return 1.5 * std::exp(-(std::pow(x - 5, 2) + std::pow(y - 5, 2)) / 2);
     };
@@ -296,7 +296,7 @@ TEST_CASE("rbf: an island in a hole is data, and joined", "[rbf]") {
           0.03);
 }
 
-TEST_CASE("rbf: more data than centres, and rough ones, are met by patches", "[rbf]") {
+TEST_CASE("rbf: patches interpolate rough data and more data than centres", "[rbf]") {
     std::mt19937_64 random(3);
     std::uniform_real_distribution<double> rough(-0.02, 0.02);
     Surface s =
@@ -321,7 +321,7 @@ TEST_CASE("rbf: more data than centres, and rough ones, are met by patches", "[r
     CHECK(joined.value().report.largest_step < 0.04);
 }
 
-TEST_CASE("rbf: the same for any number of threads", "[rbf]") {
+TEST_CASE("rbf: the result does not depend on the number of threads", "[rbf]") {
     const Surface s = punched(
         sheet(graph([](double x, double y) { return std::sin(x + y); }), 0, 0, 10, 10, 30, 30, 0.2),
         disk(5, 5, 1.5));
@@ -335,7 +335,7 @@ TEST_CASE("rbf: the same for any number of threads", "[rbf]") {
     CHECK(one.value().surface.triangles == three.value().surface.triangles);
 }
 
-TEST_CASE("rbf: options, loops and requests that can't be served are refused", "[rbf]") {
+TEST_CASE("rbf: invalid options and loops are refused, and a stop request is obeyed", "[rbf]") {
     const Surface s =
         punched(sheet(graph([](double x, double) { return std::sin(x); }), 0, 0, 10, 10, 20, 20),
                 disk(5, 5, 2));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Cliffs: their triangles are longer than what is round them.
+// Checks cliffs, whose triangles are longer than those around them.
 #include <terrane/algorithms/reconstruction/rbf/rbf_join.hpp>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ using namespace test_support;
 
 namespace {
 
-/// 24 x 24 cells of 10, one row of which climbs by `lift`, with a hole across the cliff.
+/// Builds 24 x 24 cells of size 10 with one row that climbs by `lift`, and a hole across the cliff.
 Surface cliff(double lift) {
     return punched(sheet(graph([=](double x, double) {
                              return 10 * std::sin(x / 40) + (x > 115 ? lift : 0.0);
@@ -39,7 +39,7 @@ double area(const RbfData& data) {
     return sum;
 }
 
-/// Per edge, in the direction in which a triangle runs along it, how often that is.
+/// Counts for each directed edge the triangles along it.
 std::map<std::pair<std::uint32_t, std::uint32_t>, int> sides(const RbfData& data) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> count;
     for (const Triangle& t : data.triangles)
@@ -59,7 +59,7 @@ double longest_near(const RbfData& data, double near) {
 
 } // namespace
 
-TEST_CASE("rbf: long edges near a border are divided, and the surface stays", "[rbf]") {
+TEST_CASE("rbf: long edges near a border are divided, and the surface does not change", "[rbf]") {
     const Surface s = cliff(100);
     const auto data = collect_data(s, hole_of(s), {}, {});
     REQUIRE(data);
@@ -73,16 +73,16 @@ TEST_CASE("rbf: long edges near a border are divided, and the surface stays", "[
     const auto count = sides(divided);
     std::size_t open = 0;
     for (const auto& [edge, times] : count) {
-        CHECK(times == 1); // wound as before, and conforming
+        CHECK(times == 1); // oriented as before, and conforming
         open += count.count({edge.second, edge.first}) == 0 ? 1 : 0;
     }
     std::size_t open_before = 0;
     const auto before = sides(data.value());
     for (const auto& [edge, times] : before)
         open_before += before.count({edge.second, edge.first}) == 0 ? 1 : 0;
-    // The border is one ring along open edges, the old points in their order among the new ones.
+    // The border is one ring of border edges; the old points keep their order among the new ones.
     const std::size_t border = divided.next.size(), had = data.value().next.size();
-    CHECK(open - border == open_before - had); // the outer end of the data is far: not divided
+    CHECK(open - border == open_before - had); // the outer end of the data is far and not divided
     CHECK(border >= had + 10);
     std::uint32_t v = 0;
     std::size_t steps = 0, met = 0;
@@ -99,7 +99,7 @@ TEST_CASE("rbf: long edges near a border are divided, and the surface stays", "[
     CHECK(met == had);
 }
 
-TEST_CASE("rbf: what is short, or far from the border, is not divided", "[rbf]") {
+TEST_CASE("rbf: short edges and edges far from the border are not divided", "[rbf]") {
     const Surface s = cliff(100);
     const auto data = collect_data(s, hole_of(s), {}, {});
     REQUIRE(data);
@@ -118,7 +118,7 @@ TEST_CASE("rbf: a hole across a cliff is joined with points on its edges", "[rbf
     const auto alone = fill_by_rbf(s, hole);
     REQUIRE(alone);
     const auto not_joined = join_filling(s, hole, alone.value().surface);
-    REQUIRE(!not_joined); // it swings away from the cliff between its upper and its lower end
+    REQUIRE(!not_joined); // the level deviates from the cliff between its ends
     CHECK(not_joined.error().code == ErrorCode::not_closed);
     const auto filled = fill_and_join_by_rbf(s, hole);
     REQUIRE(filled);
@@ -128,7 +128,7 @@ TEST_CASE("rbf: a hole across a cliff is joined with points on its edges", "[rbf
         CHECK(p.z > -40);
         CHECK(p.z < 100);
     }
-    // Where the first try is joined there is no second one.
+    // If the first attempt can be joined, there is no second one.
     const Surface plain = cliff(5);
     const auto once = fill_and_join_by_rbf(plain, hole_of(plain));
     REQUIRE(once);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Noisy data, and how far a filling can be off: smoothing, the power function, and both in holes of
-// known surfaces.
+// Checks smoothing of noisy data and the power function as expected error, by themselves and in
+// holes of known surfaces.
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -36,7 +36,7 @@ double bump(const Point3& p) {
     return 3 * std::sin(p.x / 4) * std::cos(p.y / 5) + 0.1 * p.z;
 }
 
-/// Values of a function with noise of this standard deviation.
+/// Evaluates a function and adds noise of this standard deviation.
 template <class F>
 std::vector<double> noisy(const std::vector<Point3>& points, const F& f, double deviation) {
     std::mt19937_64 random(7);
@@ -57,7 +57,7 @@ double cubed(const Point3& p, const Point3& q) {
     return std::pow(std::hypot(p.x - q.x, p.y - q.y, p.z - q.z), 3);
 }
 
-/// Interpolation by |p - q|^3 and 1, u, v: a dense system, apart from the library's.
+/// Interpolates by |p - q|^3 and 1, u, v with a dense system, independently of the library.
 struct Plain {
     std::vector<Point3> centres;
     Eigen::VectorXd solution;
@@ -81,7 +81,7 @@ struct Plain {
         for (Eigen::Index i = 0; i < n; ++i) sum += solution[i] * cubed(p, centres[std::size_t(i)]);
         return sum;
     }
-    /// Root of the sum of c_i c_j |p_i - p_j|^3.
+    /// Computes the root of the sum of c_i c_j |p_i - p_j|^3.
     [[nodiscard]] double energy() const {
         double sum = 0;
         for (std::size_t i = 0; i < centres.size(); ++i)
@@ -102,8 +102,7 @@ RbfData data_at(const std::vector<Point3>& points) {
 
 } // namespace
 
-TEST_CASE("rbf: smoothing misses values by what is asked for, and less energy by no function",
-          "[rbf]") {
+TEST_CASE("rbf: smoothing has the wanted error, and no function with it has less energy", "[rbf]") {
     const auto points = random_points(300, 1, 10);
     const std::vector<Point3> centres(points.begin(), points.begin() + 120);
     const auto values = noisy(points, bump, 0.3);
@@ -116,14 +115,14 @@ TEST_CASE("rbf: smoothing misses values by what is asked for, and less energy by
         for (const Point3& p : points) sum += std::pow(fit.value().function(p) - values[i++], 2);
         CHECK(std::sqrt(sum / 300) == Approx(wanted).epsilon(1e-6));
         CHECK(fit.value().rms == Approx(wanted).epsilon(1e-6));
-        CHECK(fit.value().freedom < freedom); // the smoother, the fewer
+        CHECK(fit.value().freedom < freedom); // decreases with smoothing
         freedom = fit.value().freedom;
         CHECK(freedom > 4);
         CHECK(fit.value().nugget > 0);
     }
 }
 
-TEST_CASE("rbf: hardly any smoothing is interpolation, any is none of a polynomial", "[rbf]") {
+TEST_CASE("rbf: almost no smoothing is interpolation, and polynomials are not smoothed", "[rbf]") {
     const auto points = random_points(80, 2, 10), others = random_points(50, 3, 10);
     const auto values = noisy(points, bump, 0);
     const auto exact = fit_rbf(points, values);
@@ -155,7 +154,7 @@ TEST_CASE("rbf: smoothing by cross-validation is nearer the truth than interpola
     }
 }
 
-TEST_CASE("rbf: smoothing refuses what it can't do", "[rbf]") {
+TEST_CASE("rbf: smoothing refuses invalid options", "[rbf]") {
     const auto points = random_points(50, 6, 1);
     const std::vector<double> values(50, 1.0);
     const std::vector<Point3> same(20, Point3{1, 2, 3});
@@ -194,7 +193,7 @@ TEST_CASE("rbf: the power function bounds the error of each function, and one at
             CHECK(std::fabs(f(places[k]) - interpolant(places[k])) <=
                   bounds[k] * f.energy() * (1 + 1e-6));
         }
-        // The worst one: that of least energy which is 1 there and 0 at the data.
+        // The bound is attained by the function of least energy that is 1 there and 0 at the data.
         auto all = points;
         all.push_back(places[k]);
         Eigen::VectorXd values = Eigen::VectorXd::Zero(41);
@@ -225,7 +224,7 @@ TEST_CASE("rbf: the power function scales, and grows with noise and with fewer d
     }
 }
 
-TEST_CASE("rbf: expected errors are of the order of what is missed", "[rbf]") {
+TEST_CASE("rbf: expected errors are of the order of actual errors", "[rbf]") {
     const std::vector<std::function<double(double, double)>> heights{
         [](double x, double y) { return 0.5 * std::sin(x) * std::cos(0.7 * y); },
         [](double x, double y) {
@@ -254,14 +253,14 @@ TEST_CASE("rbf: expected errors are of the order of what is missed", "[rbf]") {
         CAPTURE(std::sqrt(missed), std::sqrt(foreseen));
         CHECK(ratio < 6);
         CHECK(ratio > 0.05);
-        CHECK(nearest < 0.2 * largest); // next to the border one knows more
+        CHECK(nearest < 0.2 * largest); // the error is less next to the border
         const double n = double(made.value().filling_vertices.size());
         CHECK(filling.value().report.expected_error ==
               Approx(std::sqrt(foreseen / n)).epsilon(0.25));
     }
 }
 
-TEST_CASE("rbf: noise of the data stays out of the hole, met or smoothed", "[rbf]") {
+TEST_CASE("rbf: noise of the data stays out of the hole, interpolated or smoothed", "[rbf]") {
     std::mt19937_64 random(12);
     std::normal_distribution<double> noise(0, 0.05);
     const auto height = [](double x, double y) { return std::sin(0.6 * x) + 0.2 * y; };
@@ -283,7 +282,7 @@ TEST_CASE("rbf: noise of the data stays out of the hole, met or smoothed", "[rbf
             CHECK(report.rms_error == Approx(0.05).epsilon(0.2));
         } else {
             CHECK(report.largest_error < 1e-10);
-            RbfOptions again = options; // no trace of what was asked for once
+            RbfOptions again = options; // an option that was set and reset leaves no trace
             again.smoothing = 40.0;
             again.smoothing.reset();
             const auto same = fill_by_rbf(s, hole, again);
