@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include <terrane/io/text/xml.hpp>
+
 namespace terrane::cli {
 namespace {
 
@@ -150,20 +152,10 @@ std::string legend(const Scale& scale) {
                               panel + 28, scale.low, panel / 2, scale.high);
 }
 
-std::string escaped(std::string_view text) {
-    std::string result;
-    for (const char c : text)
-        result += c == '<'                             ? "&lt;"
-                  : c == '&'                           ? "&amp;"
-                  : static_cast<unsigned char>(c) < 32 ? std::string(" ")
-                                                       : std::string(1, c);
-    return result;
-}
-
 std::string panel_at(double x, double y, std::string_view title, const std::string& contents) {
     return fmt::format("<g transform=\"translate({:.0f} {:.0f})\">\n<text x=\"0\" y=\"-8\">{}"
                        "</text>\n{}</g>\n",
-                       x, y, escaped(title), contents);
+                       x, y, xml_escaped(title), contents);
 }
 
 std::string row_of(const FillMap& map, double y) {

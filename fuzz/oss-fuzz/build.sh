@@ -19,7 +19,6 @@ dependency() {
 }
 dependency oneTBB -DTBB_TEST=OFF -DTBB_STRICT=OFF
 dependency fmt -DFMT_TEST=OFF -DFMT_DOC=OFF
-dependency pugixml
 
 # A folder with nothing but archives, searched first: -lgmp is the static one.
 for library in gmp gmpxx mpfr nettle z; do

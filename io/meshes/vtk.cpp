@@ -12,6 +12,7 @@
 
 #include <terrane/io/meshes/detail/groups.hpp>
 #include <terrane/io/text/names.hpp>
+#include <terrane/io/text/xml.hpp>
 
 namespace terrane {
 
@@ -71,29 +72,6 @@ void append_compressed(std::string& out, std::string_view bytes) {
 void append_plain(std::string& out, const Bytes& bytes) {
     const std::vector<std::uint64_t> header{bytes.size()};
     append_base64(out, bytes_of(header) + bytes);
-}
-
-std::string xml_escaped(std::string_view text) {
-    std::string result;
-    for (const char c : text) {
-        switch (c) {
-        case '&':
-            result += "&amp;";
-            break;
-        case '<':
-            result += "&lt;";
-            break;
-        case '>':
-            result += "&gt;";
-            break;
-        case '"':
-            result += "&quot;";
-            break;
-        default:
-            result += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
-        }
-    }
-    return result;
 }
 
 /// Writes the elements of one VTK file.

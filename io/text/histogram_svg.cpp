@@ -5,23 +5,12 @@
 
 #include <fmt/format.h>
 
+#include <terrane/io/text/xml.hpp>
+
 namespace terrane {
 namespace {
 
 constexpr double width = 360, height = 240, left = 55, top = 40, gap = 40, below = 45;
-
-std::string escaped(std::string_view text) {
-    std::string out;
-    for (const char c : text) {
-        if (c == '<')
-            out += "&lt;";
-        else if (c == '&')
-            out += "&amp;";
-        else
-            out += c;
-    }
-    return out;
-}
 
 std::string bars(const Histogram& h, double x0, double largest) {
     std::string out;
@@ -55,7 +44,7 @@ std::string axes(const Histogram& h, double x0, double largest) {
                        "stroke-dasharray=\"4 3\"><title>mean {3:.4f}</title></path>\n",
                        x0 + width * h.mean, top, y0, h.mean);
     out += fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\" text-anchor=\"middle\">{}</text>\n",
-                       x0 + width / 2, top - 16, escaped(h.title));
+                       x0 + width / 2, top - 16, xml_escaped(h.title));
     return out;
 }
 

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/io/text/xml.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+#include <pugixml.hpp>
+
+using namespace terrane;
+
+TEST_CASE("XML: a reader gets each character back, in an element and in an attribute", "[io]") {
+    std::string text = "a]]>b<!--&amp;-->\"'";
+    for (int c = 1; c < 256; ++c) text += static_cast<char>(c);
+    std::string expected = text;
+    std::replace_if(
+        expected.begin(), expected.end(), [](unsigned char c) { return c < ' '; }, ' ');
+    const std::string xml = xml_escaped(text);
+    pugi::xml_document read;
+    const auto in = "<e a=\"" + xml + "\">" + xml + "</e>";
+    REQUIRE(read.load_buffer(in.data(), in.size(), pugi::parse_default, pugi::encoding_latin1));
+    // What was read as Latin-1 comes out as UTF-8.
+    std::string utf8;
+    for (const unsigned char c : expected) {
+        if (c < 128) utf8 += static_cast<char>(c);
+        if (c >= 128)
+            utf8 += {static_cast<char>(0xc0 | c >> 6), static_cast<char>(0x80 | (c & 63))};
+    }
+    CHECK(read.child("e").attribute("a").value() == utf8);
+    CHECK(read.child("e").child_value() == utf8);
+    CHECK(xml_escaped("") == "");
+    CHECK(xml_escaped("a\tb\nc") == "a b c");
+}
+
+TEST_CASE("XML: text is escaped in one place of the sources only", "[io]") {
+    std::vector<std::string> found;
+    for (const std::string folder : {"kernel", "algorithms", "io", "cli"})
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(
+                 std::filesystem::path(TERRANE_SOURCE_DIR) / folder)) {
+            if (!entry.is_regular_file()) continue;
+            std::ifstream file(entry.path());
+            const std::string contents{std::istreambuf_iterator<char>(file), {}};
+            if (contents.find("&lt;") != std::string::npos)
+                found.push_back(entry.path().filename().string());
+        }
+    CHECK(found == std::vector<std::string>{"xml.cpp"});
+}
