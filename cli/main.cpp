@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <array>
 #include <csignal>
-#include <cstdlib>
 #include <exception>
 #include <new>
 #include <string>
-#include <string_view>
 #include <system_error>
-
-#include <gmp.h>
-#include <unistd.h>
 
 #include <terrane/algorithms/core/process_memory.hpp>
 #include <terrane/cli/commands/command.hpp>
@@ -34,29 +29,6 @@ constexpr auto licence = "contains TetGen: under the AGPL-3.0-or-later as a whol
 #else
 constexpr auto licence = "LGPL-3.0-or-later; built without TetGen";
 #endif
-
-/// GMP ends the process by abort() where memory is short; here with a word and a status.
-[[noreturn]] void out_of_memory() {
-    constexpr std::string_view message = "terrane: out of memory\n";
-    [[maybe_unused]] const auto written = write(STDERR_FILENO, message.data(), message.size());
-    _exit(static_cast<int>(ExitStatus::internal));
-}
-
-void* gmp_allocate(std::size_t size) {
-    void* const memory = std::malloc(size);
-    if (memory == nullptr) out_of_memory();
-    return memory;
-}
-
-void* gmp_reallocate(void* old, std::size_t, std::size_t size) {
-    void* const memory = std::realloc(old, size);
-    if (memory == nullptr) out_of_memory();
-    return memory;
-}
-
-void gmp_free(void* memory, std::size_t) {
-    std::free(memory);
-}
 
 ExitStatus run(int argc, char** argv) {
     CLI::App program(description, "terrane");
@@ -97,7 +69,6 @@ ExitStatus run_guarded(int argc, char** argv) {
 int main(int argc, char** argv) {
     std::signal(SIGPIPE, SIG_IGN); // a closed pipe is a write that fails
     terrane::keep_freed_memory();
-    mp_set_memory_functions(terrane::cli::gmp_allocate, terrane::cli::gmp_reallocate,
-                            terrane::cli::gmp_free);
+    terrane::throw_on_gmp_out_of_memory();
     return static_cast<int>(terrane::cli::run_guarded(argc, argv));
 }

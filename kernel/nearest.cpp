@@ -19,13 +19,39 @@ struct Integer {
 // Exact numbers are dyadic: numerator / 2^k.
 struct Rational {
     mpq_t q;
-    explicit Rational(const Exact& e) {
-        mpq_init(q);
+    Rational() { mpq_init(q); }
+    explicit Rational(const Exact& e) : Rational() { // so that an exception from here on clears it
         e.export_to_mpq_t(q);
     }
     ~Rational() { mpq_clear(q); }
     Rational(const Rational&) = delete;
     Rational& operator=(const Rational&) = delete;
+};
+
+/// MPFR's range of exponents, of this thread, for a while. An exception restores it, too.
+class ExponentRange {
+public:
+    ExponentRange(mpfr_exp_t low, mpfr_exp_t high) {
+        mpfr_set_emin(low);
+        mpfr_set_emax(high);
+    }
+    ~ExponentRange() {
+        mpfr_set_emin(low_);
+        mpfr_set_emax(high_);
+    }
+    ExponentRange(const ExponentRange&) = delete;
+    ExponentRange& operator=(const ExponentRange&) = delete;
+
+private:
+    mpfr_exp_t low_ = mpfr_get_emin(), high_ = mpfr_get_emax();
+};
+
+struct Float {
+    mpfr_t f;
+    explicit Float(mpfr_prec_t bits) { mpfr_init2(f, bits); }
+    ~Float() { mpfr_clear(f); }
+    Float(const Float&) = delete;
+    Float& operator=(const Float&) = delete;
 };
 
 // A double is 53 bits; MPFR rounds to these, within double's range of exponents.
@@ -34,19 +60,12 @@ double round_to_double(const Integer& quotient, bool inexact, mpfr_exp_t exponen
     Integer sticky;
     mpz_set(sticky.z, quotient.z);
     if (inexact) mpz_setbit(sticky.z, 0);
-    const mpfr_exp_t low = mpfr_get_emin(), high = mpfr_get_emax();
-    mpfr_set_emin(-1073);
-    mpfr_set_emax(1024);
-    mpfr_t f;
-    mpfr_init2(f, 53);
-    int ternary = mpfr_set_z_2exp(f, sticky.z, exponent, MPFR_RNDN);
-    ternary = mpfr_check_range(f, ternary, MPFR_RNDN);
-    mpfr_subnormalize(f, ternary, MPFR_RNDN);
-    const double result = mpfr_get_d(f, MPFR_RNDN);
-    mpfr_clear(f);
-    mpfr_set_emin(low);
-    mpfr_set_emax(high);
-    return result;
+    const ExponentRange of_double(-1073, 1024);
+    Float rounded(53);
+    int ternary = mpfr_set_z_2exp(rounded.f, sticky.z, exponent, MPFR_RNDN);
+    ternary = mpfr_check_range(rounded.f, ternary, MPFR_RNDN);
+    mpfr_subnormalize(rounded.f, ternary, MPFR_RNDN);
+    return mpfr_get_d(rounded.f, MPFR_RNDN);
 }
 
 } // namespace

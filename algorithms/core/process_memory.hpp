@@ -23,4 +23,17 @@ inline void keep_freed_memory() {
 #endif
 }
 
+/// For programs: makes GMP throw std::bad_alloc where memory is short. A stage that returns a Result
+/// then returns ErrorCode::out_of_memory. Without this call GMP writes "GNU MP: Cannot allocate
+/// memory" to standard error and ends the process by abort(). The setting holds for the whole process,
+/// so the library itself does not make it. To be called before threads are started.
+///
+/// Returns false, and changes nothing, if the process has given GMP other functions than GMP's own.
+///
+/// (1) The library stays sound after the exception: its numbers can be destroyed, and its stages can
+///     be called again. Memory that GMP holds for the operation in hand may be lost.
+/// (2) The exception passes through GMP, which is C. Its functions need unwind tables for that, as
+///     they have on x86-64 and arm64 Linux; elsewhere the exception ends the process.
+bool throw_on_gmp_out_of_memory();
+
 } // namespace terrane

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/core/process_memory.hpp>
+
+#include <cstddef>
+#include <cstdlib>
+#include <new>
+
+#include <gmp.h>
+
+namespace terrane {
+namespace {
+
+/// What GMP allocates with.
+struct Functions {
+    void* (*allocate)(std::size_t) = nullptr;
+    void* (*reallocate)(void*, std::size_t, std::size_t) = nullptr;
+    void (*release)(void*, std::size_t) = nullptr;
+
+    friend bool operator==(const Functions&, const Functions&) = default;
+};
+
+Functions current() {
+    Functions f;
+    mp_get_memory_functions(&f.allocate, &f.reallocate, &f.release);
+    return f;
+}
+
+void set(const Functions& f) {
+    mp_set_memory_functions(f.allocate, f.reallocate, f.release);
+}
+
+// Like GMP's own, these are malloc, realloc and free: numbers from before may be freed after.
+
+void* allocate(std::size_t size) {
+    void* const memory = std::malloc(size);
+    if (memory == nullptr) throw std::bad_alloc();
+    return memory;
+}
+
+void* reallocate(void* old, std::size_t, std::size_t size) {
+    void* const memory = std::realloc(old, size);
+    if (memory == nullptr) throw std::bad_alloc();
+    return memory;
+}
+
+void release(void* memory, std::size_t) {
+    std::free(memory);
+}
+
+} // namespace
+
+bool throw_on_gmp_out_of_memory() {
+    const Functions before = current(), throwing{allocate, reallocate, release};
+    if (before == throwing) return true;
+    set({}); // GMP's own
+    const bool untouched = before == current();
+    set(untouched ? throwing : before);
+    return untouched;
+}
+
+} // namespace terrane
