@@ -24,11 +24,9 @@ Start here:
   terrane arrange horizons.ts faults.ts -o model.vtp   (look at it in ParaView)
   terrane COMMAND --help)";
 
-#ifdef TERRANE_HAS_TETGEN
-constexpr auto licence = "contains TetGen: under the AGPL-3.0-or-later as a whole";
-#else
-constexpr auto licence = "LGPL-3.0-or-later; built without TetGen";
-#endif
+constexpr auto licence =
+    "LGPL-3.0-or-later; tetrahedra are made by another program, terrane-tetgen, which contains\n"
+    "TetGen and is under the AGPL-3.0-or-later";
 
 ExitStatus run(int argc, char** argv) {
     CLI::App program(description, "terrane");

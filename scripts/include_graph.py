@@ -43,9 +43,9 @@ def sources(root: Path):
 
 
 def folder_of(path: Path) -> str:
-    """The folder that a file counts to: detail/ is a part of the folder around it."""
+    """The folder that a file counts to: detail/ and helper/ are parts of the folder around them."""
     parent = path.parent
-    return str(parent.parent if parent.name == "detail" else parent)
+    return str(parent.parent if parent.name in ("detail", "helper") else parent)
 
 
 def judge(root: Path, order=ORDER):

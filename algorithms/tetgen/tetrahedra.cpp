@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <new>
 #include <numeric>
 #include <span>
 #include <vector>
@@ -19,6 +20,7 @@
 #include <terrane/algorithms/tetgen/detail/assembly.hpp>
 #include <terrane/algorithms/tetgen/detail/process.hpp>
 #include <terrane/algorithms/tetgen/detail/sizes.hpp>
+#include <terrane/algorithms/tetgen/tetgen_helper.hpp>
 #include <terrane/algorithms/tetrahedra/check_tetrahedra.hpp>
 #include <terrane/algorithms/tetrahedra/sharpest_angle.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
@@ -324,10 +326,17 @@ Error with_place(Error error, const Mesh& mesh) {
     return error;
 }
 
+/// Whether the same failure is to be expected whatever TetGen is asked. An error with a place is
+/// about the helper.
+bool is_final(const Error& error) {
+    return error.code == ErrorCode::interrupted || error.code == ErrorCode::out_of_memory ||
+           !error.place.empty();
+}
+
 /// Where TetGen fails, runs out of time, or fails the checks, it is asked again: to leave out its
 /// last step, the improvement of shapes, and then to split facets. All that with the points along a
-/// curve, as is its custom, then as they come: in 1.5.0 the former ends in an assertion for points
-/// as regular as those of two cubes that overlap.
+/// curve, as is its custom, then in their order: in 1.5.0 the former ends in an assertion for
+/// points as regular as those of two cubes that overlap.
 Result<TetrahedralMesh> try_in_turn(const Mesh& mesh, const Volumes& volumes,
                                     const TetgenDomain& domain, TetgenInput& input,
                                     const Scale& scale, const Run& run) {
@@ -355,9 +364,7 @@ Result<TetrahedralMesh> try_in_turn(const Mesh& mesh, const Volumes& volumes,
             if (!first) first = result ? numbered.error() : result.error();
             continue;
         }
-        const ErrorCode code = output.error().code;
-        if (code == ErrorCode::interrupted || code == ErrorCode::out_of_memory)
-            return output.error();
+        if (is_final(output.error())) return output.error();
         if (!first) first = output.error();
     }
     return with_place(*first, mesh);
@@ -372,12 +379,11 @@ Status proceed(const Run& run, double share) {
     return Done{};
 }
 
-} // namespace
-
-Result<TetrahedralMesh> tetrahedralize(const Mesh& mesh, const TetrahedraOptions& options,
-                                       const Run& run) {
+Result<TetrahedralMesh> fill(const Mesh& mesh, const TetrahedraOptions& options, const Run& run) {
     if (Status good = check_options(options); !good) return good.error();
     if (Status good = check_mesh(mesh); !good) return good.error();
+    const auto helper = find_tetgen_helper(options.helper);
+    if (!helper) return helper.error();
     if (Status go = proceed(run, 0); !go) return go.error();
 
     const Result<TetgenDomain> domain = make_domain(mesh, options);
@@ -390,11 +396,23 @@ Result<TetrahedralMesh> tetrahedralize(const Mesh& mesh, const TetrahedraOptions
     Result<TetgenInput> input =
         tetgen_input(mesh, volumes.value(), domain.value(), options, scale, run);
     if (!input) return input.error();
+    input.value().helper = helper.value();
     Result<TetrahedralMesh> result =
         try_in_turn(mesh, volumes.value(), domain.value(), input.value(), scale, run);
     if (!result) return result;
     if (Status go = proceed(run, 1); !go) return go.error();
     return result;
+}
+
+} // namespace
+
+Result<TetrahedralMesh> tetrahedralize(const Mesh& mesh, const TetrahedraOptions& options,
+                                       const Run& run) {
+    try {
+        return fill(mesh, options, run);
+    } catch (const std::bad_alloc&) {
+        return Error{ErrorCode::out_of_memory, "not enough memory for the tetrahedra", ""};
+    }
 }
 
 } // namespace terrane

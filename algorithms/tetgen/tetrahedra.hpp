@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Its own library, terrane::tetgen, since TetGen's licence (AGPL) is not that of the core.
+// Tetrahedra by TetGen. TetGen's code is not in the library but in a program of its own, since its
+// licence (AGPL) is another one; see tetgen_helper.hpp.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 
 #include <terrane/algorithms/core/result.hpp>
@@ -42,6 +44,7 @@ struct TetrahedraOptions {
     std::vector<SurfaceSize> surface_sizes{};  ///< where they are less than what else holds there
     double time_limit = 600; ///< seconds, > 0, for each way in which TetGen is asked: it may run
                              ///< forever
+    std::filesystem::path helper{}; ///< TetGen's helper program; empty: see find_tetgen_helper
 };
 
 /// Tetrahedra of a box in which every triangle of the mesh is a union of faces.
@@ -62,13 +65,14 @@ struct TetrahedraOptions {
 /// (6) The same arguments give the same result, unless one of TetGen's ways runs out of time.
 ///
 /// The mesh must be conforming (see check.hpp); that is tested, exactly, since TetGen may crash or
-/// run forever on another. TetGen runs in a child process: nothing is printed, a crash is an error
-/// like others, a stop request ends it at once, and calls from several threads do not disturb each
-/// other. Where it fails, or (3) does not hold, it is asked again in other ways.
+/// run forever on another. TetGen runs in a process of its own: nothing is printed, a crash is an
+/// error like others, a stop request ends it at once, and calls from several threads do not disturb
+/// each other. Where it fails, or (3) does not hold, it is asked again in other ways.
 ///
 /// Errors: improper_contact with the place, bad_index, bad_number, bad_option, nothing_to_do (no
 /// triangle and no box), interrupted, timed_out (in all ways), out_of_memory, unsupported (too
-/// large for TetGen, or surfaces too close for its tolerance), internal.
+/// large for TetGen, or surfaces too close for its tolerance), internal; cannot_open where the
+/// helper program can't be found or run. An error about the helper has its path as the place.
 ///
 /// Source: TetGen 1.5 (H. Si).
 Result<TetrahedralMesh> tetrahedralize(const Mesh& mesh, const TetrahedraOptions& options,

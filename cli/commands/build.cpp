@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <terrane/algorithms/core/stopwatch.hpp>
+#include <terrane/algorithms/tetgen/tetgen_helper.hpp>
 #include <terrane/algorithms/volumes/region_points.hpp>
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/options/roles.hpp>
@@ -115,18 +116,16 @@ public:
         if (auto done = improve_triangles(); !done) return done.error();
         if (auto done = find_blocks(); !done) return done.error();
         if (auto done = fill_blocks(); !done) return done.error();
-#ifdef TERRANE_HAS_TETGEN
         if (filled_ && !filled_->report.violations.empty()) {
             print(stderr, violations_text(filled_->report) + "terrane: nothing written\n");
             return ExitStatus::negative;
         }
-#endif
         if (auto done = write(); !done) return done.error();
         return ExitStatus::done;
     }
 
 private:
-    /// It is better to say so before an hour of work than after it.
+    /// Reports errors of the configuration before the work starts.
     Status check() {
         if (folder_.empty())
             return Error{ErrorCode::bad_option, "the key folder is missing, and there is no -o",
@@ -136,11 +135,10 @@ private:
                 return Error{ErrorCode::bad_option,
                              "a certificate is about whole files, not about some of their objects",
                              fmt::format("{}: surfaces[{}].objects", source_, i)};
-#ifndef TERRANE_HAS_TETGEN
         if (!project_.outputs.tetrahedra.empty())
-            return Error{ErrorCode::unsupported, "this program was built without TetGen",
-                         source_ + ": outputs.tetrahedra"};
-#endif
+            if (const auto helper = find_tetgen_helper(); !helper)
+                return Error{helper.error().code, helper.error().message(),
+                             source_ + ": outputs.tetrahedra"};
         return check_new_folder(folder_);
     }
 
@@ -217,7 +215,6 @@ private:
         return Done{};
     }
 
-#ifdef TERRANE_HAS_TETGEN
     [[nodiscard]] TetrahedraRequest wishes() const {
         const ProjectTetrahedra& t = project_.tetrahedra;
         const std::string start = source_ + ": tetrahedra.";
@@ -246,11 +243,6 @@ private:
         journal_.say(filled_text(*filled_));
         return Done{};
     }
-#else
-    static Status fill_blocks() {
-        return Done{};
-    }
-#endif
 
     Status write() {
         Stopwatch watch;
@@ -306,7 +298,6 @@ private:
     }
 
     Status write_tetrahedra_files(const fs::path& to) {
-#ifdef TERRANE_HAS_TETGEN
         if (!filled_) return Done{};
         WriteOptions options;
         options.region_names = filled_->block_names;
@@ -317,9 +308,6 @@ private:
                 !done)
                 return done;
         }
-#else
-        (void)to;
-#endif
         return Done{};
     }
 
@@ -371,9 +359,7 @@ private:
     std::optional<Arranged> arranged_;
     std::optional<Improved> better_; ///< where the project asks for it
     std::optional<Model> model_;
-#ifdef TERRANE_HAS_TETGEN
     std::optional<Filled> filled_;
-#endif
     std::vector<std::string> written_; ///< names in the folder
 };
 

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <memory>
-
-#include <terrane/cli/commands/command.hpp>
-#ifdef TERRANE_HAS_TETGEN
 #include <array>
 #include <charconv>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,16 +11,14 @@
 #include <fmt/format.h>
 
 #include <terrane/algorithms/core/stopwatch.hpp>
+#include <terrane/algorithms/tetgen/tetgen_helper.hpp>
+#include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/options/roles.hpp>
 #include <terrane/cli/reports/tetrahedra_report.hpp>
 #include <terrane/cli/stages/pipeline.hpp>
 #include <terrane/cli/stages/tetrahedra_stage.hpp>
-#endif
 
 namespace terrane::cli {
-
-#ifdef TERRANE_HAS_TETGEN
-
 namespace {
 
 struct TetrahedralizeCommand {
@@ -141,6 +136,7 @@ Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Se
     if (!outputs) return outputs.error();
     if (const auto sound = check_volume_options(command.settings.volume); !sound)
         return sound.error();
+    if (const auto helper = find_tetgen_helper(); !helper) return helper.error();
     auto inputs = read_inputs(files, session);
     if (!inputs) return inputs.error();
     if (const auto set = set_roles(command.roles, inputs.value()); !set) return set.error();
@@ -237,18 +233,5 @@ Command tetrahedralize_command(CLI::App& program) {
                 return status ? status.value() : fail(status.error());
             }};
 }
-
-#else
-
-Command tetrahedralize_command(CLI::App& program) {
-    auto* app = program.add_subcommand("tetrahedralize", "Not in this build: made without TetGen");
-    app->allow_extras();
-    return {app, [] {
-                return fail({ErrorCode::unsupported, "this program was built without TetGen",
-                             "tetrahedralize"});
-            }};
-}
-
-#endif
 
 } // namespace terrane::cli

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#ifdef TERRANE_HAS_TETGEN
 #include <terrane/cli/stages/tetrahedra_stage.hpp>
 
 #include <algorithm>
@@ -206,4 +205,3 @@ std::string filled_text(const Filled& filled) {
 }
 
 } // namespace terrane::cli
-#endif

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // From a conforming mesh to tetrahedra that were checked, with sizes and cuts by name: what
-// tetrahedralize and build share. Only where there is TetGen.
+// tetrahedralize and build share.
 #pragma once
 
 #include <cstdint>

@@ -286,6 +286,19 @@ TEST_CASE("cli: build: tetrahedra with sizes and cuts, by name", "[cli]") {
     CHECK_FALSE(c.folder.left().contains("refused"));
 }
 
+TEST_CASE("cli: tetrahedra are made whichever standard streams are closed", "[cli]") {
+    const Case c;
+    const std::string fill = "tetrahedralize in/layers.obj in/fault.obj --box 0,0,0,8,8,8 -o ";
+    REQUIRE(c.folder.run(fill + "a.vtu").status == 0);
+    for (const std::string closed : {"<&-", ">&-", "2>&-", "<&- >&-", "<&- >&- 2>&-"}) {
+        INFO(closed);
+        const auto status = c.folder.shell("rm -f b.vtu; $T " + fill + "b.vtu " + closed).status;
+        // What can't be said on a closed standard output is an error; the file is whole all the same.
+        CHECK((status == 0 || contains(closed, ">&-")));
+        CHECK(c.folder.shell("cmp a.vtu b.vtu").status == 0);
+    }
+}
+
 TEST_CASE("cli: build gives the same bytes for any number of threads", "[cli]") {
     const Case c;
     auto json = project();
@@ -340,15 +353,33 @@ TEST_CASE("cli: tetrahedralize with sizes and cuts by name", "[cli]") {
     CHECK_FALSE(c.folder.left().contains("b.vtu"));
 }
 
-#else
+#endif
 
-TEST_CASE("cli: build says where it needs TetGen", "[cli]") {
+TEST_CASE("cli: without TetGen's helper, tetrahedra are refused before anything is read", "[cli]") {
     const Case c;
     auto json = project();
     json["outputs"]["tetrahedra"] = Json::array({"vtu"});
-    const auto r = c.build(json);
-    CHECK(r.status == 2);
-    CHECK(contains(r.err, "p.json: outputs.tetrahedra: this program was built without TetGen"));
+    json["surfaces"][0]["file"] = "nowhere.obj";
+    c.folder.input("p.json", json.dump(2));
+    const auto build = c.folder.shell("TERRANE_TETGEN=/nowhere/tetgen $T build in/p.json -o out");
+    CHECK(build.status == 2);
+    CHECK(build.err ==
+          "terrane: in/p.json: outputs.tetrahedra: /nowhere/tetgen: is no program that "
+          "can be run; the environment variable TERRANE_TETGEN names it as TetGen's "
+          "helper\n");
+    const auto fill =
+        c.folder.shell("TERRANE_TETGEN=/etc/passwd $T tetrahedralize in/nowhere.obj -o out.vtu");
+    CHECK(fill.status == 2);
+    CHECK(contains(fill.err, "terrane: /etc/passwd: is no program that can be run"));
+    // The program alone, as someone may copy it: it says where it looked.
+    const auto alone = c.folder.shell("mkdir io/bin && cp $T io/bin/ && env -u TERRANE_TETGEN "
+                                      "io/bin/terrane tetrahedralize in/nowhere.obj -o out.vtu");
+    if (!contains(alone.err, "in/nowhere.obj")) { // unless Terrane is installed here
+        CHECK(alone.status == 2);
+        CHECK(contains(alone.err, "terrane: TetGen's helper program was not found; it was looked "
+                                  "for as "));
+        CHECK(contains(alone.err, "/io/bin/terrane-tetgen, "));
+        CHECK(contains(alone.err, "/io/libexec/terrane/terrane-tetgen, "));
+    }
+    CHECK(c.folder.left().empty());
 }
-
-#endif

@@ -148,4 +148,19 @@ TEST_CASE("cli: without memory it ends with status 3 and no file", "[cli]") {
                (r.status == 3 && contains(r.err, "resources")) || r.status == 0));
     }
 }
+
+TEST_CASE("cli: where TetGen gets no memory, the program says so", "[cli]") {
+    const Folder folder;
+    const auto in = folder.input("model.obj", crossing);
+    // The helper alone is limited: a script in its place sets the limit.
+    folder.input("helper", "#!/bin/sh\nulimit -v 150000\nexec \"${T%/*}/../libexec/terrane/"
+                           "terrane-tetgen\"\n");
+    const auto r = folder.shell("chmod +x in/helper && export T && TERRANE_TETGEN=in/helper $T "
+                                "tetrahedralize " +
+                                in + " -o out.vtu --edge-length 0.02");
+    INFO(r.err);
+    CHECK(r.status == 3);
+    CHECK(contains(r.err, "TetGen ran out of memory"));
+    CHECK(folder.left().empty());
+}
 #endif

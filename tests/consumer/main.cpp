@@ -38,7 +38,8 @@ int main() {
                                 .regions_of = {},
                                 .parents_of = {},
                                 .intersection_edges = {}};
-    const auto tetrahedra = terrane::tetrahedralize(horizon, {}, {});
+    const auto tetrahedra = // the helper that is installed with the library that this links
+        terrane::tetrahedralize(horizon, {.helper = TERRANE_TETGEN_HELPER}, {});
     if (!tetrahedra) {
         std::fprintf(stderr, "%s\n", tetrahedra.error().message().c_str());
         return 1;

@@ -22,4 +22,11 @@ endif()
 run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/build -G Ninja -DCMAKE_PREFIX_PATH=${WORK}/prefix
     -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=${COMPILER} -DWITH_TETGEN=${TETGEN} ${flags})
 run(${CMAKE_COMMAND} --build ${WORK}/build)
+# The installed programs find each other wherever they are: what was installed is moved first.
+file(RENAME ${WORK}/prefix ${WORK}/moved)
+file(GLOB program ${WORK}/moved/bin/terrane)
+if(program AND TETGEN)
+  run(${program} tetrahedralize ${SOURCE}/../data/arrangements/three_cubes.stl -o ${WORK}/cubes.vtu)
+endif()
+file(RENAME ${WORK}/moved ${WORK}/prefix)
 run(${WORK}/build/consumer)

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// TetGen at arm's length: run in a child process, so that its asserts, its crashes and what it
-// prints cost the caller nothing, and so that it can be stopped. Private to terrane::tetgen.
+// TetGen's input and output, and one run of it in a process of its own, so that its asserts, its
+// crashes and what it prints cost the caller nothing, and so that it can be stopped.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <limits>
 #include <optional>
 #include <stop_token>
@@ -17,27 +18,28 @@
 
 namespace terrane {
 
-/// A bound on the tetrahedra of what facets enclose.
+/// A bound on the tetrahedra of a region that facets enclose.
 struct RegionBound {
-    Point3 place;          ///< inside of it
+    Point3 place;          ///< inside the region
     double max_volume = 0; ///< of a tetrahedron, > 0
 };
 
-/// What TetGen gets: convex planar facets that meet in shared vertices and edges only.
+/// TetGen's input: convex planar facets that meet in shared vertices and edges only.
 struct TetgenInput {
     std::vector<Point3> points;       ///< pairwise distinct, all used
     IndexLists<std::uint32_t> facets; ///< per facet its corners, in order around it
-    bool keep_facets = true;          ///< split none: not with any of the last four
+    bool keep_facets = true;          ///< split no facet: not with any of the last four
     bool improve = true;              ///< flip and smooth where shapes are bad
-    bool sort_points = true;          ///< insert them along a curve, not as they come
+    bool sort_points = true;          ///< insert points along a curve, not in their order
     std::optional<double> max_volume; ///< of a tetrahedron, anywhere
-    std::vector<RegionBound> regions; ///< what other bounds there are
+    std::vector<RegionBound> regions; ///< bounds of single regions
     std::vector<double> max_areas;    ///< per facet: of a face on it, infinite: no bound; or empty
     std::optional<double> radius_edge_ratio;
     double time_limit = std::numeric_limits<double>::infinity(); ///< seconds
+    std::filesystem::path helper;                                ///< the program that runs TetGen
 };
 
-/// What TetGen says. Nothing is checked but the array lengths.
+/// TetGen's answer. Nothing is checked but the array lengths; assemble() checks the rest.
 struct TetgenOutput {
     std::vector<Point3> points; ///< those of the input, then added ones
     std::vector<std::array<std::uint32_t, 4>> tetrahedra;
@@ -45,9 +47,14 @@ struct TetgenOutput {
     std::vector<std::uint32_t> face_facet; ///< per face: its facet
 };
 
-/// Errors: unsupported (too many, or too close to tell apart), out_of_memory, interrupted (the
-/// child is killed), timed_out (likewise), internal. The same input gives the same output: each
-/// child starts from the same state.
+/// Runs TetGen once, in the helper program.
+///
+/// Errors: unsupported (too many facets, or facets too close to tell apart), out_of_memory,
+/// interrupted (the helper is killed), timed_out (likewise), internal (TetGen failed). Errors about
+/// the helper itself have its path as their place: cannot_open (it can't be run), unsupported (it
+/// is of another version), internal (it broke the protocol).
+///
+/// The same input gives the same output: each process starts from the same state.
 Result<TetgenOutput> run_tetgen(const TetgenInput& input, const std::stop_token& stop);
 
 } // namespace terrane

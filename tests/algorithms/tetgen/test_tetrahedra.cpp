@@ -23,6 +23,7 @@
 #include <terrane/algorithms/arrangement/arrangement.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
 #include <terrane/algorithms/tetgen/detail/process.hpp>
+#include <terrane/algorithms/tetgen/tetgen_helper.hpp>
 #include <terrane/io/files.hpp>
 #include <terrane/kernel/predicates.hpp>
 
@@ -456,7 +457,6 @@ TEST_CASE("tetrahedra: calls from several threads do not disturb each other", "[
     }
 }
 
-// The child has but one thread; a lock that another one held when it was forked stays locked in it.
 TEST_CASE("tetrahedra: other threads may allocate while TetGen is started", "[tetrahedra]") {
     const auto allocate = [](const std::stop_token& stop) {
         for (std::size_t round = 0; !stop.stop_requested(); ++round) {
@@ -475,6 +475,7 @@ TEST_CASE("tetrahedra: other threads may allocate while TetGen is started", "[te
     cube_of_points.max_volume = 0.001;
     cube_of_points.keep_facets = false;
     cube_of_points.time_limit = 60; // it takes milliseconds
+    cube_of_points.helper = find_tetgen_helper().value();
     for (int k = 0; k < 20; ++k) REQUIRE(run_tetgen(cube_of_points, {}));
 }
 

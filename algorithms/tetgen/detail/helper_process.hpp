@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// One run of TetGen's helper program, from its start to its end.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <span>
+#include <stop_token>
+#include <string>
+#include <utility>
+
+#include <sys/types.h>
+
+#include <terrane/algorithms/core/result.hpp>
+
+namespace terrane::tetgen::detail {
+
+/// A file descriptor that is closed at the end.
+class Descriptor {
+public:
+    explicit Descriptor(int number = -1) : number_(number) {}
+    Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+    Descriptor& operator=(Descriptor&& other) noexcept {
+        std::swap(number_, other.number_);
+        return *this;
+    }
+    ~Descriptor();
+
+    [[nodiscard]] int get() const { return number_; }
+    [[nodiscard]] bool is_open() const { return number_ >= 0; }
+
+private:
+    int number_;
+};
+
+/// Starts the helper, feeds it and reads from it. The destructor kills and reaps it.
+///
+/// (1) A call returns within some 50 ms of a stop request and of the end of the time limit,
+/// whatever
+///     the helper does.
+/// (2) The helper gets three descriptors and no other: a socket as its standard input and output,
+///     and a pipe as its standard error. SIGINT, SIGTERM and SIGHUP are blocked in it: they are for
+///     the caller, who decides. Other signals are not, whatever the caller blocks.
+/// (3) No signal reaches the caller: what the helper does not read raises no SIGPIPE.
+///
+/// Errors about the helper itself, rather than about TetGen, have its path as their place:
+/// cannot_open (it could not be run) and internal (it broke the protocol).
+class HelperProcess {
+public:
+    HelperProcess(std::filesystem::path program, double time_limit, std::stop_token stop) :
+        program_(std::move(program)), time_limit_(time_limit), stop_(std::move(stop)) {}
+    ~HelperProcess();
+    HelperProcess(const HelperProcess&) = delete;
+    HelperProcess& operator=(const HelperProcess&) = delete;
+
+    Status start();
+
+    /// Ends without an error, though early, if the helper answers already or has gone; if it
+    /// answers well after that, finish() fails.
+    Status send(std::span<const std::byte> bytes);
+
+    /// Fills the memory. If the helper ends before: why it did.
+    Status receive(std::span<std::byte> memory);
+
+    /// Waits for the end of the helper, which must not say more and must not fail.
+    Status finish();
+
+    /// An error about the helper itself.
+    [[nodiscard]] Error broken(std::string sentence) const;
+
+private:
+    Result<short> wait_for(short events);
+    Status check_limits() const;
+    void drain_errors();
+    Result<int> wait_for_exit();
+    Error why_it_ended();
+    void kill_and_reap();
+
+    std::filesystem::path program_;
+    double time_limit_; ///< seconds
+    std::stop_token stop_;
+    pid_t pid_ = -1;
+    Descriptor talk_;     ///< its standard input and output
+    Descriptor errors_;   ///< its standard error
+    std::string said_;    ///< the start of what it wrote there
+    int exit_status_ = 0; ///< as waitpid says it
+    bool fed_ = true;     ///< it got all that was sent
+    bool heard_ = false;  ///< it said something
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+} // namespace terrane::tetgen::detail

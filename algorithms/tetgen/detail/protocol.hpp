@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// The messages between the library and TetGen's helper program, both on one machine.
+//
+// Request: RequestHeader; points as 3 doubles each; facets + 1 offsets into the corners (uint32);
+// corners (uint32); a bound on the area of faces per facet, infinite where there is none, or no
+// bounds at all (double); regions as x, y, z and the largest volume of a tetrahedron (double).
+//
+// Reply: ReplyHeader; where its status is `done`, then: points as 3 doubles each; tetrahedra as 4
+// corners each (uint32); faces on facets as 3 corners each (uint32); per face 1 + its facet
+// (uint32).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+
+namespace terrane::tetgen::detail {
+
+/// First bytes of each message. Another byte order reads as another number.
+inline constexpr std::uint64_t request_mark = 0x7467'7265'7175'6573;
+inline constexpr std::uint64_t reply_mark = 0x7467'7265'706c'7931;
+
+/// To be raised with each change of the messages. The helper of another version is refused.
+inline constexpr std::uint32_t protocol_version = 1;
+
+/// TetGen counts in int, up to 4 corners per item.
+inline constexpr std::uint64_t most_items = std::numeric_limits<std::int32_t>::max() / 4;
+
+/// Bits of RequestHeader::flags.
+enum RequestFlag : std::uint32_t {
+    keep_facets_flag = 1,
+    improve_flag = 2,
+    sort_points_flag = 4,
+    max_volume_flag = 8,         ///< max_volume has a value
+    radius_edge_ratio_flag = 16, ///< radius_edge_ratio has a value
+};
+inline constexpr std::uint32_t all_flags = 31;
+
+struct RequestHeader {
+    std::uint64_t mark = request_mark;
+    std::uint32_t version = protocol_version;
+    std::uint32_t flags = 0;
+    std::uint64_t points = 0;
+    std::uint64_t facets = 0;
+    std::uint64_t corners = 0;
+    std::uint64_t area_bounds = 0; ///< 0 or as many as facets
+    std::uint64_t regions = 0;
+    double max_volume = 0;
+    double radius_edge_ratio = 0;
+};
+
+struct ReplyHeader {
+    std::uint64_t mark = reply_mark;
+    std::uint32_t version = protocol_version;
+    std::int32_t status = 0; ///< `done`, or why there is no result
+    std::uint64_t points = 0;
+    std::uint64_t tetrahedra = 0;
+    std::uint64_t faces = 0;
+};
+
+// ReplyHeader::status: 0, or the code that TetGen threw (1 memory, 2 internal, 3 self-intersection,
+// 4 feature too small, 5 facets too close, 10 input), or one of the helper's own.
+inline constexpr std::int32_t done = 0;
+inline constexpr std::int32_t tetgen_out_of_memory = 1;
+inline constexpr std::int32_t unknown_exception = 100;
+inline constexpr std::int32_t bad_request = 101;
+inline constexpr std::int32_t other_version = 102;
+
+using Coordinates = std::array<double, 3>;
+using Region = std::array<double, 4>; ///< x, y, z, largest volume of a tetrahedron
+
+static_assert(sizeof(RequestHeader) == 72 && sizeof(ReplyHeader) == 40); // no padding
+static_assert(sizeof(Coordinates) == 24 && sizeof(Region) == 32);
+static_assert(sizeof(int) == sizeof(std::uint32_t) && std::numeric_limits<double>::is_iec559);
+
+} // namespace terrane::tetgen::detail

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// TetGen is run by a helper program, terrane-tetgen, which alone contains TetGen's code.
+#pragma once
+
+#include <filesystem>
+
+#include <terrane/algorithms/core/result.hpp>
+
+namespace terrane {
+
+/// Returns the path of the helper program. It is `given` unless that is empty; else what the
+/// environment variable TERRANE_TETGEN names, if it is set and not empty; else the first of these
+/// that exists: terrane-tetgen in the folder of the running program, in ../libexec/terrane/ from
+/// there, and in the folder where Terrane was to be installed when it was built.
+///
+/// Errors: cannot_open, with the places that were looked at.
+Result<std::filesystem::path> find_tetgen_helper(const std::filesystem::path& given = {});
+
+} // namespace terrane
