@@ -21,8 +21,8 @@ void add_edge(Adjacency& a, const Edge& edge, std::span<const std::uint32_t> tri
     a.triangles_at.push_back(triangles);
 }
 
-/// Marks the vertices of triangles without counterpart in the old mesh in `is_new`; returns these
-/// triangles and all that may share an edge with one: ascending.
+/// Marks in `is_new` the vertices of the triangles that are not in the old mesh. Returns these
+/// triangles and all that may share an edge with one of them, ascending.
 std::vector<std::uint32_t> triangles_near_new(const Divided& divided, std::vector<char>& is_new,
                                               const Run& run) {
     const std::size_t count = divided.triangles.size();
@@ -46,11 +46,11 @@ std::vector<std::uint32_t> triangles_near_new(const Divided& divided, std::vecto
         }));
 }
 
-/// All edges between vertices of new triangles, for both ends of which is_new holds.
+/// Returns the adjacency of all edges whose two ends are marked in `is_new`.
 Adjacency edges_of_new(const Divided& divided, const Labels& old_labels,
                        std::span<const std::uint32_t> near, const std::vector<char>& is_new,
                        const Run& run) {
-    // Only they have a number of their own, in the same order.
+    // Only the marked vertices are numbered, in their order; all others share one number.
     const auto vertices = concatenated(parts_of_ranges<std::vector<std::uint32_t>>(
         is_new.size(), run, [&](std::size_t first, std::size_t last) {
             std::vector<std::uint32_t> part;
@@ -61,7 +61,8 @@ Adjacency edges_of_new(const Divided& divided, const Labels& old_labels,
     UninitializedVector<std::uint32_t> number_of;
     number_of.resize(is_new.size());
     for (std::uint32_t k = 0; k < vertices.size(); ++k) number_of[vertices[k]] = k;
-    const auto other = static_cast<std::uint32_t>(vertices.size()); // at most one in a triangle
+    const auto other =
+        static_cast<std::uint32_t>(vertices.size()); // at most one corner of a triangle
     std::vector<Triangle> corners(near.size());
     Labels labels(near.size());
     for_ranges(near.size(), run, [&](std::size_t first, std::size_t last) {
@@ -89,14 +90,14 @@ Adjacency edges_of_new(const Divided& divided, const Labels& old_labels,
     return a;
 }
 
-/// Adds edges that are all behind these.
+/// Appends edges that all come after those of `a`.
 void append(Adjacency& a, Adjacency b) {
     std::move(b.inner.begin(), b.inner.end(), std::back_inserter(a.inner));
     a.edges.insert(a.edges.end(), b.edges.begin(), b.edges.end());
     for (std::size_t e = 0; e < b.edges.size(); ++e) a.triangles_at.push_back(b.triangles_at[e]);
 }
 
-/// Adds edges of another part of the mesh.
+/// Merges the edges of another part of the mesh into `a`.
 void merge(Adjacency& a, Adjacency b) {
     std::move(b.inner.begin(), b.inner.end(), std::back_inserter(a.inner));
     if (b.edges.empty()) return;
@@ -149,7 +150,7 @@ Adjacency adjacency_after(const EdgeSides& old, const Labels& old_labels, const 
         std::vector<std::uint32_t> triangles;
         old.for_each(first, last, [&](std::uint32_t low, std::uint32_t high, auto sides) {
             const std::uint32_t named = divided.vertex_map[low];
-            // All triangles at an edge between two vertices of new ones are near.
+            // All triangles at an edge between two marked vertices are near a new one.
             if (is_new[named] != 0 && is_new[divided.vertex_map[high]] != 0) return;
             const auto kept = [&](std::size_t i) {
                 return divided.unchanged_as[sides[i].triangle];

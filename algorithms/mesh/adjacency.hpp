@@ -13,41 +13,42 @@
 
 namespace terrane {
 
-/// Triangles of one label lie in the same single surface and the same patch, and each has one
-/// parent; no_label: it has several.
+/// A label per triangle. Triangles with equal labels have one parent each and lie in the same
+/// surface and the same patch; a triangle with several parents has no_label.
 using Labels = std::vector<std::uint32_t>;
 constexpr std::uint32_t no_label = UINT32_MAX;
 
-/// How the triangles of a mesh hang together over its edges, the plain ones told from the rest.
+/// The triangles at each edge of a mesh; inner edges are kept apart from all others.
 struct Adjacency {
     using Inner = std::vector<std::array<std::uint32_t, 2>>;
-    std::vector<Inner> inner; ///< the two triangles at each inner edge: one with no others at it
-                              ///< and of the same label; in any number of lists
+    std::vector<Inner> inner; ///< the two triangles at each inner edge, which have equal labels
+                              ///< and are the only ones there; split into any number of lists
     std::vector<Edge> edges;  ///< all other edges, sorted
-    IndexLists<std::uint32_t> triangles_at; ///< per edge of these: the triangles at it, ascending
+    IndexLists<std::uint32_t> triangles_at; ///< per edge in `edges`: its triangles, ascending
 };
 
-/// By surface alone, from the surfaces and parents of triangles.
+/// Returns labels that tell surfaces apart but not patches, from the surfaces and parents of the
+/// triangles.
 Labels labels_of(const IndexLists<std::uint32_t>& surfaces_of,
                  const IndexLists<std::uint32_t>& parents_of);
 
-/// `labels`: per triangle. Cost: linear.
+/// Returns the adjacency of the triangles with these edges and labels. Cost: linear.
 Adjacency adjacency_of(const EdgeSides& edges, const Labels& labels);
 
-/// A mesh that came from another one by dividing some triangles.
+/// A mesh that results from dividing some triangles (faces) of an old mesh.
 struct Divided {
-    std::span<const Triangle> triangles;         ///< indices into vertices
-    const IndexLists<std::uint32_t>& faces_of;   ///< per triangle: the old ones that contain it
-    std::span<const std::uint32_t> unchanged_as; ///< per old triangle: the same triangle here, or
-                                                 ///< UINT32_MAX for none
+    std::span<const Triangle> triangles;       ///< indices into vertices
+    const IndexLists<std::uint32_t>& faces_of; ///< per triangle: the old triangles that contain it
+    std::span<const std::uint32_t> unchanged_as; ///< per old triangle: its index here if it was not
+                                                 ///< divided, or UINT32_MAX
     std::span<const std::uint32_t>
         vertex_map; ///< per old vertex: its index here, in the same order;
-                    ///< anything where it is in no triangle
+                    ///< undefined if it is in no triangle
     std::size_t vertex_count = 0;
 };
 
-/// The same of the new mesh; a triangle with one face keeps its label, others have none. Cost: a
-/// pass over the old edges, and grouping those near new triangles.
+/// Returns the adjacency of the new mesh. A triangle in one face gets the label of the face, others
+/// get none. Cost: a pass over the old edges, and grouping of the edges near new triangles.
 Adjacency adjacency_after(const EdgeSides& old, const Labels& old_labels, const Divided& divided,
                           const Run& run = {});
 

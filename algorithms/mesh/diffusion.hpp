@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Diffusion over cells of any kind: polygons that share edges, tetrahedra that share faces. From a
-// cell it spreads to all neighbours, but not over stops.
-// Source: the paper, section 3, step 2b, and its remark that it extends to quadrilateral meshes and
-// one dimension up.
+// Diffusion over cells of any kind: polygons that share edges, or tetrahedra that share faces. It
+// spreads from a cell to all its neighbours except across stops.
+// Source: the paper, section 3, step 2b, and its remark that the method extends to quadrilateral
+// meshes and to one dimension more.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@
 
 namespace terrane {
 
-/// What two cells share: an edge (N = 2) or a triangular face (N = 3), by its corners, ascending.
+/// The edge (N = 2) or triangular face (N = 3) that two cells share, by its corners, ascending.
 template <std::size_t N>
 using SharedFacet = std::array<std::uint32_t, N>;
 
@@ -31,9 +31,9 @@ struct CellFacet {
     friend auto operator<=>(const CellFacet&, const CellFacet&) = default;
 };
 
-/// Per cell its region: two cells have the same one iff a path leads from one to the other over
-/// facets that exactly two cells share and that are no stops. Numbers are by lowest cell, from 0.
-/// `stops`: sorted. Cost: sorting the facets.
+/// Returns the region of each cell. Two cells are in the same region iff a path connects them
+/// across facets that exactly two cells share and that are not stops. Regions are numbered from 0
+/// by their lowest cells. `stops` are sorted. Cost: sorting the facets.
 template <std::size_t N>
 std::vector<std::uint32_t> diffuse(std::size_t cells, std::vector<CellFacet<N>> facets,
                                    std::span<const SharedFacet<N>> stops) {
@@ -45,19 +45,19 @@ std::vector<std::uint32_t> diffuse(std::size_t cells, std::vector<CellFacet<N>> 
             sets.join(facets[i].cell, facets[i + 1].cell);
     }
     std::vector<std::uint32_t> region(cells);
-    std::uint32_t count = 0; // a set is named after its lowest cell, which comes first
+    std::uint32_t count = 0; // the root of a set is its lowest cell, which comes first
     for (std::uint32_t c = 0; c < cells; ++c)
         region[c] = sets.find(c) == c ? count++ : region[sets.find(c)];
     return region;
 }
 
-/// Regions of polygons (triangles, quadrilaterals, any mixture): per polygon its corners in order
-/// around it, >= 3. `stops`: edges of the curve, lower vertex first, sorted; parts of edges are
-/// none.
+/// Returns the region of each polygon (triangles, quadrilaterals, or any mixture). A polygon is
+/// given by its corners in order around it, >= 3. `stops` are the edges of the curve, sorted, with
+/// the lower vertex first; they must be whole edges of polygons to have an effect.
 std::vector<std::uint32_t> regions_of_polygons(const IndexLists<std::uint32_t>& polygons,
                                                std::span<const Edge> stops);
 
-/// Regions of tetrahedra, by diffusion over faces that are on no surface.
+/// Returns the region of each tetrahedron, by diffusion across the faces that are on no surface.
 std::vector<std::uint32_t> regions_of_tetrahedra(const TetrahedralMesh& mesh);
 
 } // namespace terrane

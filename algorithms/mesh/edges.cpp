@@ -10,7 +10,7 @@ namespace terrane {
 
 namespace {
 
-/// Visits the sides of triangles [first, last).
+/// Calls visit(low, high, triangle) for the sides of the triangles [first, last).
 template <class Visit>
 void for_sides(std::span<const Triangle> triangles, std::size_t first, std::size_t last,
                const Visit& visit) {
@@ -22,7 +22,7 @@ void for_sides(std::span<const Triangle> triangles, std::size_t first, std::size
     }
 }
 
-/// They come by triangle.
+/// Sorts sides by their larger vertex; they are given in the order of the triangles.
 void sort_by_high(std::span<EdgeSides::Side> sides) {
     constexpr std::size_t few = 24;
     if (sides.size() > few) return std::sort(sides.begin(), sides.end());
@@ -38,9 +38,10 @@ void sort_by_high(std::span<EdgeSides::Side> sides) {
 
 EdgeSides group_edges(std::span<const Triangle> triangles, std::size_t vertex_count,
                       const Run& run) {
-    // A counting sort. Each share of the triangles has its own counts, which become the places
-    // where its sides go: behind those of the shares before.
-    constexpr std::size_t least = 8192, most_shares = 8; // of triangles; their counts take memory
+    // This is a counting sort. Each share of the triangles has its own counts, which become the
+    // positions of its sides, after those of the shares before it. The number of shares is limited
+    // because their counts take memory.
+    constexpr std::size_t least = 8192, most_shares = 8; // triangles in a share; shares
     const std::size_t shares = std::clamp<std::size_t>(
         triangles.size() / least, 1, std::min<std::size_t>(std::max(run.threads, 1U), most_shares));
     std::vector<std::vector<std::uint32_t>> places(shares);

@@ -21,8 +21,8 @@ struct EdgeSides {
         friend auto operator<=>(const Side&, const Side&) = default;
     };
     std::vector<std::uint32_t>
-        starts; ///< per vertex, and the total: sides whose smaller vertex it is
-    UninitializedVector<Side> sides; ///< by smaller vertex, then larger vertex, then triangle
+        starts; ///< per vertex: index of its first side, as smaller vertex; then the total
+    UninitializedVector<Side> sides; ///< sorted by smaller vertex, larger vertex, and triangle
 
     /// Calls visit(low, high, sides of this edge) for each edge, ascending.
     template <class Visit>
@@ -30,7 +30,8 @@ struct EdgeSides {
         for_each(0, starts.size() - 1, visit);
     }
 
-    /// The same for edges whose lower vertex is in [first, last).
+    /// Calls visit(low, high, sides of this edge) for each edge with low in [first, last),
+    /// ascending.
     template <class Visit>
     void for_each(std::size_t first, std::size_t last, const Visit& visit) const {
         for (auto low = static_cast<std::uint32_t>(first); low < last; ++low)
@@ -43,12 +44,13 @@ struct EdgeSides {
     }
 };
 
-/// Whether the corners of a triangle that has the edge run from `from` to `to`.
+/// Tells whether the corners of a triangle, which has this edge, run from `from` to `to`.
 inline bool runs_along(const Triangle& t, std::uint32_t from, std::uint32_t to) {
     return t[0] == from ? t[1] == to : t[1] == from ? t[2] == to : t[0] == to;
 }
 
-/// Cost: linear (a counting sort by the smaller vertex). No corner may repeat within a triangle.
+/// Groups the sides of all triangles by edge. The three corners of a triangle must differ.
+/// Cost: linear (a counting sort by the smaller vertex).
 EdgeSides group_edges(std::span<const Triangle> triangles, std::size_t vertex_count,
                       const Run& run = {});
 

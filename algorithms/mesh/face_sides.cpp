@@ -7,7 +7,7 @@
 namespace terrane {
 namespace {
 
-/// The least corner first, the same winding.
+/// Rotates a triangle so that its least corner comes first; the winding is kept.
 Triangle turned(Triangle t) {
     std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
     return t;

@@ -21,8 +21,8 @@ struct SurfaceInfo {
     friend bool operator==(const SurfaceInfo&, const SurfaceInfo&) = default;
 };
 
-/// One mesh of several surfaces, with doubles: what writers write and TetGen gets.
-/// A triangle may belong to several surfaces (where they coincide).
+/// One mesh of several surfaces with coordinates in doubles, as it is written to files and passed
+/// to TetGen. A triangle belongs to several surfaces where these coincide.
 struct Mesh {
     std::vector<SurfaceInfo> surfaces;     ///< order of the input
     std::vector<Point3> vertices;          ///< unit of the input
@@ -36,7 +36,7 @@ struct Mesh {
     std::vector<Edge> intersection_edges; ///< sorted, unique
 };
 
-/// Tetrahedra that honour the triangles of a mesh.
+/// A tetrahedral mesh that conforms to the triangles of a mesh.
 struct TetrahedralMesh {
     std::vector<SurfaceInfo> surfaces; ///< of the mesh it was made from, then "box" last
                                        ///< where a box was added

@@ -10,7 +10,7 @@
 
 namespace terrane {
 
-/// Of the place: 0 and -0 are one.
+/// Hashes the coordinates of a point; -0 hashes like 0.
 inline std::uint64_t hash_of(const Point3& p) {
     const auto mix = [](std::uint64_t h, double d) {
         h = (h ^ std::bit_cast<std::uint64_t>(d + 0.0)) * 0x9e3779b97f4a7c15u;
@@ -25,12 +25,13 @@ struct PointHash {
     std::size_t operator()(const Point3& p) const { return hash_of(p); }
 };
 
-/// Tells points at one place (open addressing).
+/// Finds points with equal coordinates. It is a hash table with open addressing.
 class PointTable {
 public:
     explicit PointTable(std::size_t expected) : slots_(std::bit_ceil(2 * expected + 2), none) {}
 
-    /// The first point that was entered at the place of points[v]. At most as many as expected.
+    /// Enters point v unless a point with equal coordinates was entered before. Returns the index
+    /// of the point in the table. At most `expected` points may be entered.
     std::uint32_t enter(std::span<const Point3> points, std::uint32_t v) {
         const std::size_t mask = slots_.size() - 1;
         for (std::size_t s = hash_of(points[v]) & mask;; s = (s + 1) & mask) {

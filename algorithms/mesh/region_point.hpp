@@ -10,7 +10,7 @@ namespace terrane {
 /// A point inside a volume (see region_points.hpp).
 struct RegionPoint {
     Point3 place;
-    std::uint32_t region = 0; ///< number of the volume
+    std::uint32_t region = 0; ///< number of the block
 };
 
 } // namespace terrane

@@ -10,16 +10,16 @@
 
 namespace terrane {
 
-/// Corner indices into an array of vertices that stands beside it.
+/// The corners of a triangle, as indices into the array of vertices that accompanies it.
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// What a surface is to the geologist. Never changes the geometry.
+/// The geological role of a surface. It does not influence the geometry of an arrangement.
 enum class Role : std::uint8_t { unknown, horizon, fault, boundary };
 
-/// A triangulated surface as it comes: open, crossing itself, duplicated, degenerate: anything
-/// finite.
+/// A triangulated surface as it is read. It may be open, cross itself, and have duplicate or
+/// degenerate triangles; only its coordinates must be finite.
 struct Surface {
-    std::string name; ///< as in the file; need not be unique
+    std::string name; ///< from the file; need not be unique
     Role role = Role::unknown;
     std::vector<Point3> vertices;    ///< order and unit of the file; finite
     std::vector<Triangle> triangles; ///< order of the file; indices < vertices.size()

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint32_t most_in_leaf = 4;
 
-/// How far along a b the nearest point is, from 0 to 1.
+/// Returns the position on the segment a b of the point nearest to p, from 0 at a to 1 at b.
 double nearest_share(const Point3& p, const Point3& a, const Point3& b) {
     const Point3 d = minus(b, a), from = minus(p, a);
     const double square = dot(d, d);
@@ -119,12 +119,12 @@ void TriangleTree::for_near(const Point3& p, const double& bound, const Visit& v
     if (nodes_.empty()) return;
     struct Open {
         std::uint32_t node;
-        double distance; ///< to its box
+        double distance; ///< from the point to the box of the node
     };
     const auto opened = [&](std::uint32_t n) {
         return Open{n, distance_to_box(p, nodes_[n].low, nodes_[n].high)};
     };
-    std::array<Open, 96> stack; // two per level, and the tree is halved at each
+    std::array<Open, 96> stack; // at most two per level of the balanced tree
     std::size_t top = 0;
     stack[top++] = opened(0);
     while (top > 0) {

@@ -10,26 +10,28 @@
 
 namespace terrane {
 
-/// Finds the triangle nearest to a point, in floating point: a tree of boxes, halved at the median.
-/// The points must outlive it.
+/// Finds the triangle nearest to a point, in floating point, by a tree of boxes that is split at
+/// medians. The points must outlive it.
 class TriangleTree {
 public:
     TriangleTree(std::span<const Point3> points, std::vector<Triangle> triangles);
 
-    /// Distance to the nearest triangle if it is less than `bound`, else `bound`.
-    /// Cost: about O(log n) where the bound or the distance is small against the tree.
+    /// Returns the distance to the nearest triangle if it is less than `bound`, otherwise `bound`.
+    /// Cost: about O(log n) if the bound or the distance is small compared with the tree.
     [[nodiscard]] double distance(const Point3& p, double bound) const;
 
     struct Near {
         Point3 place{};
         double distance = 0;
-        Triangle triangle{}; ///< on which it lies
+        Triangle triangle{}; ///< the triangle that contains it
     };
-    /// The nearest point on the triangles if it is nearer than `bound`. Cost: the same.
+    /// Returns the nearest point on the triangles if it is nearer than `bound`. Cost: as
+    /// distance().
     [[nodiscard]] std::optional<Near> nearest(const Point3& p, double bound) const;
 
 private:
-    /// Calls visit(triangle) for those that may be nearer than `bound`, which it may lower.
+    /// Calls visit(triangle) for the triangles that may be nearer than `bound`; visit may reduce
+    /// it.
     template <class Visit>
     void for_near(const Point3& p, const double& bound, const Visit& visit) const;
 
@@ -47,12 +49,12 @@ private:
     std::vector<Node> nodes_;
 };
 
-/// Distance from p to the box, in floating point; 0 inside.
+/// Returns the distance from p to a box, in floating point; 0 inside.
 double distance_to_box(const Point3& p, const Point3& low, const Point3& high);
 
-/// Distance from p to the triangle, in floating point.
+/// Returns the distance from p to a triangle, in floating point.
 double distance_to_triangle(const Point3& p, const Point3& a, const Point3& b, const Point3& c);
 
-/// The point of the triangle that is nearest to p, in floating point.
+/// Returns the point of a triangle that is nearest to p, in floating point.
 Point3 nearest_on_triangle(const Point3& p, const Point3& a, const Point3& b, const Point3& c);
 } // namespace terrane

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Vectors in floating point, for measures: exact signs come from the kernel's predicates.
+// Vectors in floating point, for measures only; exact signs are computed by the kernel's
+// predicates.
 #pragma once
 
 #include <cmath>
@@ -15,10 +16,10 @@ inline Point3 minus(const Point3& a, const Point3& b) {
 inline double dot(const Point3& a, const Point3& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
-/// Without overflow or underflow on the way.
+/// Returns the length of a vector; intermediate results neither overflow nor underflow.
 inline double length(const Point3& a) {
     const double square = dot(a, a);
-    constexpr double least = 1e-290, most = 1e290; // what is between has not lost any digits
+    constexpr double least = 1e-290, most = 1e290; // results in between have lost no digits
     return square > least && square < most ? std::sqrt(square) : std::hypot(a.x, a.y, a.z);
 }
 inline Point3 cross(const Point3& a, const Point3& b) {

@@ -20,13 +20,14 @@ double area_of(std::span<const Point3> v, const Triangle& t) {
     const double wx = c.x - a.x, wy = c.y - a.y, wz = c.z - a.z;
     const double x = uy * wz - uz * wy, y = uz * wx - ux * wz, z = ux * wy - uy * wx;
     const double squared = x * x + y * y + z * z;
-    // Range of the type, no tolerance: below, squares that matter may have underflown.
+    // The limits come from the range of double and are no tolerance: outside of them relevant
+    // squares may have underflown or overflown.
     const bool in_range = squared > std::numeric_limits<double>::min() * 0x1p+100 &&
                           squared <= std::numeric_limits<double>::max();
     return 0.5 * (in_range ? std::sqrt(squared) : std::hypot(x, y, z));
 }
 
-/// A slot is a triangle in one of its surfaces.
+/// Joins triangles across edges. A slot stands for a triangle in one of its surfaces.
 class Diffusion {
 public:
     Diffusion(std::span<const Triangle> triangles, const IndexLists<std::uint32_t>& surfaces_of,
@@ -34,7 +35,7 @@ public:
         triangles_(triangles),
         surfaces_of_(surfaces_of), stops_(stops), run_(run), sets_(surfaces_of.values.size()) {}
 
-    /// Spreads over all edges that are no stops; lists the sides of the others.
+    /// Joins triangles across all edges that are not stops, and lists the triangles at the stops.
     void spread(const Adjacency& adjacency) {
         spread_within(adjacency.inner);
         auto stop = stops_.begin();
@@ -52,7 +53,7 @@ public:
         Regions out;
         const auto& surfaces = surfaces_of_;
         const auto& first_slot = sets_.flattened();
-        auto order = first_slots(first_slot); // of regions, by surface then by triangle
+        auto order = first_slots(first_slot); // of regions: by surface, then by triangle
         std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
             return surfaces.values[a] < surfaces.values[b];
         });
@@ -73,8 +74,8 @@ public:
     }
 
 private:
-    /// Each range of triangles has its own sets, so threads do not disturb each other; what joins
-    /// two ranges comes after.
+    /// Joins triangles across inner edges. Each range of triangles has its own sets, so that
+    /// threads do not interfere; edges between two ranges follow afterwards.
     void spread_within(const std::vector<Adjacency::Inner>& inner) {
         const auto crossing = parts_of_ranges<Adjacency::Inner>(
             surfaces_of_.size(), run_,
@@ -90,7 +91,7 @@ private:
                                 others.push_back({t, u});
                         }
                 };
-                if (surfaces_of_.values.size() == surfaces_of_.size()) // a slot per triangle
+                if (surfaces_of_.values.size() == surfaces_of_.size()) // each triangle has one slot
                     join_those_within([](std::uint32_t t) { return t; });
                 else
                     join_those_within([&](std::uint32_t t) { return surfaces_of_.offsets[t]; });
@@ -108,15 +109,16 @@ private:
                                           offsets.begin() - 1);
     }
 
-    /// Of one region: triangles one after the other that lie in the same regions.
+    /// Consecutive triangles that lie in the same regions, as a part of one of these regions.
     struct Stretch {
         std::uint32_t region;
         std::size_t triangles;
         double area;
     };
 
-    /// Counts and areas. The last digits of a sum depend on its order: stretches end at multiples
-    /// of a fixed number of triangles and are added up one after the other.
+    /// Counts the triangles of each region and sums up their areas. The last digits of a sum depend
+    /// on its order. So stretches end at multiples of a fixed number of triangles and are added one
+    /// after the other: the sums do not depend on the number of threads.
     void measure(std::span<const Point3> vertices, Regions& out) const {
         constexpr std::size_t block = 4096;
         const std::size_t count = triangles_.size();
@@ -145,14 +147,14 @@ private:
             }
     }
 
-    // Two triangles of an edge that is no stop lie in the same surfaces.
+    // Two triangles at an edge that is not a stop lie in the same surfaces.
     void join(std::uint32_t t, std::uint32_t u) {
         const std::uint32_t a = surfaces_of_.offsets[t], b = surfaces_of_.offsets[u];
         const auto n = surfaces_of_[t].size();
         for (std::uint32_t k = 0; k < n; ++k) sets_.join(a + k, b + k);
     }
 
-    /// Those that stand for themselves, ascending.
+    /// Returns the slots that are the first of their set, ascending.
     [[nodiscard]] std::vector<std::uint32_t>
     first_slots(const std::vector<std::uint32_t>& first_slot) const {
         return concatenated(parts_of_ranges<std::vector<std::uint32_t>>(
@@ -164,10 +166,11 @@ private:
             }));
     }
 
-    /// Calls visit(r, q) for regions r that have q on the other side of a stop; often the same.
+    /// Calls visit(r, q) for all pairs of regions that meet at a stop; a pair may be repeated.
     template <class Visit>
     void for_neighbours(const Regions& out, const Visit& visit) const {
-        // Along a curve the same few come again and again: those seen last are passed over.
+        // Along a curve the same few regions meet at each edge; sets that were seen last are
+        // skipped.
         std::array<std::array<std::uint32_t, 4>, 256> seen{};
         std::vector<std::uint32_t> here;
         for (std::size_t e = 0; e < at_stop_.size(); ++e) {
@@ -191,7 +194,7 @@ private:
     }
 
     void find_neighbours(Regions& out) const {
-        std::vector<std::size_t> end(out.regions.size() + 1, 0); // counted one place ahead
+        std::vector<std::size_t> end(out.regions.size() + 1, 0); // the count of r is at r + 1
         for_neighbours(out, [&](std::uint32_t r, std::uint32_t) { ++end[r + 1]; });
         std::partial_sum(end.begin(), end.end(), end.begin());
         std::vector<std::uint32_t> found(end.back());
@@ -213,7 +216,7 @@ private:
     std::span<const Edge> stops_;
     const Run& run_;
     DisjointSets sets_;
-    IndexLists<std::uint32_t> at_stop_; ///< per stop: the triangles at it
+    IndexLists<std::uint32_t> at_stop_; ///< per stop: its triangles
 };
 
 } // namespace

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // The regions into which intersection edges divide each surface.
-// Guarantees: each triangle of a surface is in exactly one of its regions; two triangles are in the
-// same one iff a path over edges that are no intersections joins them. Numbers are by surface, then
-// by lowest triangle.
+// Guarantees: each triangle of a surface is in exactly one region of that surface; two triangles
+// are in the same region iff a path across edges that are not intersection edges connects them.
+// Regions are numbered by surface, then by lowest triangle.
 // Cost: linear. Source: the paper, section 3, step 2b (diffusion over edges, stopped at the curve).
 #pragma once
 
@@ -21,11 +21,11 @@ namespace terrane {
 
 struct Region {
     std::uint32_t surface = 0;
-    std::uint32_t first_triangle = 0; ///< the lowest
+    std::uint32_t first_triangle = 0; ///< the lowest triangle of the region
     std::size_t triangles = 0;
-    double area = 0;                       ///< squared unit; in floating point
-    std::vector<std::uint32_t> neighbours; ///< regions of any surface across an intersection edge,
-                                           ///< ascending
+    double area = 0;                       ///< in squared units of the input; floating point
+    std::vector<std::uint32_t> neighbours; ///< regions of any surface that share an intersection
+                                           ///< edge with it, ascending
 };
 
 struct Regions {
@@ -33,7 +33,8 @@ struct Regions {
     std::vector<Region> regions;
 };
 
-/// `intersection_edges` are sorted, none of them is an inner edge.
+/// Finds the regions of a mesh. `intersection_edges` are sorted; none of them is an inner edge of
+/// the adjacency.
 Regions find_regions(std::span<const Point3> vertices, std::span<const Triangle> triangles,
                      const IndexLists<std::uint32_t>& surfaces_of, const Adjacency& adjacency,
                      std::span<const Edge> intersection_edges, const Run& run = {});

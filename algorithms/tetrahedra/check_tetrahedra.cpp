@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::uint32_t none = UINT32_MAX;
 
-/// A tetrahedron with a face on a triangle, and on which side of that triangle it is.
+/// A tetrahedron at a face that lies on a triangle, and its side of that triangle.
 struct Neighbour {
     std::uint32_t face = 0, tetrahedron = 0;
     bool in_front = false;
@@ -33,7 +33,7 @@ Triangle sorted(Triangle t) {
     return t;
 }
 
-/// For each face on a triangle (not on the box) the tetrahedra on its sides.
+/// Returns the tetrahedra on the sides of each face that lies on a triangle, not on the box.
 std::vector<Neighbour> neighbours_of_faces(const TetrahedralMesh& m) {
     std::vector<std::pair<Triangle, std::uint32_t>> faces;
     for (std::uint32_t f = 0; f < m.faces.size(); ++f)
@@ -61,7 +61,7 @@ std::uint32_t volume_at(const TetrahedralMesh& m, const Volumes& volumes, const 
     return volumes.of_sides[m.face_triangle[n.face]][n.in_front ? 0 : 1];
 }
 
-/// Six times the volume of a tetrahedron with a corner at the origin.
+/// Returns six times the volume of the tetrahedron with corners a, b, c and the origin.
 Exact six_volumes(const std::vector<Point3>& v, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     const auto vector = [&](std::uint32_t i) {
         return polynomial::Vector<Exact>{Exact(v[i].x), Exact(v[i].y), Exact(v[i].z)};
@@ -106,7 +106,8 @@ private:
             if (!is_union(t, faces_of[t])) violation("triangle {} is no union of faces", t);
     }
 
-    /// A disk (connected, Euler characteristic 1) with one border, which has the corners.
+    /// Tells whether the faces make up triangle t: whether they are a disk (with Euler
+    /// characteristic 1) whose border passes through the corners of t.
     [[nodiscard]] bool is_union(std::uint32_t t, const std::vector<std::uint32_t>& faces) const {
         std::map<Edge, int> edges;
         std::set<std::uint32_t> vertices;
@@ -117,7 +118,7 @@ private:
                 vertices.insert(made_.faces[f][i]);
             }
         if (faces.empty() || vertices.size() + faces.size() != edges.size() + 1) return false;
-        std::map<std::uint32_t, int> on_border; // per vertex, border edges
+        std::map<std::uint32_t, int> on_border; // per vertex: number of border edges
         for (const auto& [edge, count] : edges) {
             if (count > 2) return false;
             if (count == 2) continue;
@@ -135,7 +136,8 @@ private:
 
     void check_regions() {
         const auto diffused = regions_of_tetrahedra(made_);
-        std::map<std::uint32_t, std::uint32_t> region_of, diffused_of; // one to one
+        std::map<std::uint32_t, std::uint32_t> region_of,
+            diffused_of; // must be inverse to each other
         for (std::size_t t = 0; t < diffused.size(); ++t) {
             const std::uint32_t region = made_.region_of[t];
             const bool same = region_of.try_emplace(diffused[t], region).first->second == region;
@@ -156,7 +158,7 @@ private:
                       volumes_.measures.size());
     }
 
-    /// How far the corners of a face are from its triangle, at most.
+    /// Returns the largest distance of a corner of a face from its triangle.
     [[nodiscard]] double distance_from_triangle(std::size_t face) const {
         const auto& [a, b, c] = mesh_.triangles[made_.face_triangle[face]];
         double most = 0;
@@ -185,7 +187,7 @@ private:
             of_blocks[front] -= six;
         }
         for (std::size_t t = 0; t < made_.tetrahedra.size(); ++t) {
-            if (made_.region_of[t] >= count) continue; // said already
+            if (made_.region_of[t] >= count) continue; // was reported already
             const auto& [a, b, c, d] = made_.tetrahedra[t];
             const auto& v = made_.vertices;
             of_tetrahedra[made_.region_of[t]] += six_volumes(v, b, c, d) - six_volumes(v, a, c, d) +
@@ -228,7 +230,7 @@ TetrahedraReport check_tetrahedra(const TetrahedralMesh& tetrahedra, const Mesh&
 
 Status adopt_volume_numbers(const Volumes& volumes, TetrahedralMesh& tetrahedra) {
     std::vector<std::uint32_t> volume_of(tetrahedra.region_count, none);
-    volume_of[0] = 0; // touches the box, and so does the outside
+    volume_of[0] = 0; // region 0 touches the box, and so does the outside
     std::vector<std::uint32_t> region_of(volumes.measures.size(), none);
     region_of[0] = 0;
     for (const Neighbour& n : neighbours_of_faces(tetrahedra)) {

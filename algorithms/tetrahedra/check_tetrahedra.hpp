@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Tetrahedra against the surfaces and blocks that they fill. Two methods that share no code meet
-// here: regions by diffusion over the tetrahedra, blocks by shells and lines (volumes.hpp).
+// Checks tetrahedra against the surfaces and blocks that they fill. It compares two methods that
+// share no code: regions by diffusion over the tetrahedra, and blocks by shells and lines
+// (volumes.hpp).
 #pragma once
 
 #include <cstdint>
@@ -15,37 +16,37 @@
 
 namespace terrane {
 
-/// A block as it is, and as tetrahedra fill it. Cubic unit.
+/// The volume of a block and that of its tetrahedra, in cubic units of the input.
 struct RegionVolume {
     double block = 0; ///< nearest to the exact volume; [0]: negative, as the box is not counted
-    double tetrahedra = 0; ///< nearest to their exact sum
-    double difference = 0; ///< nearest to the exact one, tetrahedra - block
-    double bound = 0;   ///< on the difference of the two, from vertices that were rounded next to
-                        ///< triangles: the largest distance of one from its triangle times the
-                        ///< area of all faces around the block, doubled
-    bool equal = false; ///< exactly
+    double tetrahedra = 0; ///< nearest to the exact sum of their volumes
+    double difference = 0; ///< nearest to the exact difference, tetrahedra - block
+    double bound = 0;      ///< on the difference, which comes from vertices rounded off their
+                           ///< triangles: twice the largest distance of a vertex from its triangle
+                           ///< times the area of all faces around the block
+    bool equal = false;    ///< whether the two volumes are exactly equal
 };
 
 struct TetrahedraReport {
-    std::vector<std::string> violations; ///< a sentence each; empty: all is well
+    std::vector<std::string> violations; ///< one sentence each; empty: no violation
     std::vector<RegionVolume> volumes;   ///< per volume; [0], the outside, is not compared
-    TetrahedraShape shape;               ///< judged by nobody
+    TetrahedraShape shape;               ///< reported only; never a violation
 };
 
-/// Finds
-///   a tetrahedron that is inverted or has no volume;
-///   a triangle that is not the union of faces: those that name it must be a disk whose border goes
-///   through its three corners;
-///   a region (by diffusion) that is not one block: the tetrahedra in front of and behind each face
-///   must have the volumes of its triangle as region_of;
-///   a block whose tetrahedra have another volume than it, beyond the bound.
-/// `volumes` are those of the mesh. Cost: O(n log n); exact sums.
+/// Reports
+///   - tetrahedra that are inverted or have no volume;
+///   - triangles that are not the union of faces: the faces that name a triangle must be a disk
+///     whose border passes through the three corners of the triangle;
+///   - regions (by diffusion) that are not exactly one block: region_of the tetrahedra in front of
+///     and behind each face must be the volumes on the sides of its triangle;
+///   - blocks whose volume differs from that of their tetrahedra by more than the bound.
+/// `volumes` are those of the mesh. Cost: O(n log n); sums are exact.
 TetrahedraReport check_tetrahedra(const TetrahedralMesh& tetrahedra, const Mesh& mesh,
                                   const Volumes& volumes);
 
 /// Gives the regions of the tetrahedra the numbers of the volumes of the mesh.
-/// Errors: internal, with the place, where a region touches triangles of two volumes, or two
-/// regions those of one; where a region that touches no triangle is not the outside.
+/// Errors: internal, with the place, if a region touches triangles of two volumes, if two regions
+/// touch triangles of one volume, or if a region that touches no triangle is not the outside.
 Status adopt_volume_numbers(const Volumes& volumes, TetrahedralMesh& tetrahedra);
 
 } // namespace terrane

@@ -10,7 +10,7 @@
 namespace terrane {
 namespace {
 
-/// Away from the edge p q, in the plane of the triangle with the third corner r.
+/// Returns the direction away from the edge p q in the plane of the triangle p q r.
 Point3 away(const Point3& p, const Point3& q, const Point3& r) {
     const Point3 e = minus(q, p), d = minus(r, p);
     const double share = dot(d, e) / dot(e, e);

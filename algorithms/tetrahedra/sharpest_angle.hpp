@@ -12,8 +12,8 @@ struct SharpAngle {
     Point3 place{};     ///< the middle of the edge
 };
 
-/// The smallest angle between triangles that share an edge, in floating point; nothing where none
-/// do. Where makers of tetrahedra fail, it is where they are most likely to. Cost: linear.
+/// Returns the smallest angle between triangles that share an edge, in floating point; none if no
+/// two triangles do. This is where tetrahedral meshing is most likely to fail. Cost: linear.
 std::optional<SharpAngle> sharpest_angle(const Mesh& mesh);
 
 } // namespace terrane

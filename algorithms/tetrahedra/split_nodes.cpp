@@ -30,7 +30,7 @@ public:
     }
 
 private:
-    /// A corner of a tetrahedron, as an element of the sets.
+    /// Returns the element of the sets that stands for a corner of a tetrahedron.
     static std::uint32_t element(std::uint32_t tetrahedron, std::uint32_t corner) {
         return 4 * tetrahedron + corner;
     }
@@ -42,7 +42,7 @@ private:
                            [&](std::uint32_t s) { return is_split_surface_[s]; });
     }
 
-    /// Split faces and the vertices on them.
+    /// Collects the split faces and marks their vertices.
     void mark() {
         sides_ = sides_of_faces(mesh_);
         for (std::size_t f = 0; f < mesh_.faces.size(); ++f) {
@@ -55,7 +55,8 @@ private:
         std::sort(split_.begin(), split_.end());
     }
 
-    /// Joins what lies on either side of faces that are not split, at their marked vertices.
+    /// Joins the corners of the tetrahedra on both sides of each face that is not split, at its
+    /// marked vertices.
     void join() {
         std::vector<CellFacet<3>> facets;
         for (std::uint32_t t = 0; t < mesh_.tetrahedra.size(); ++t)
@@ -86,7 +87,8 @@ private:
                                           corners.begin());
     }
 
-    /// A set is named after its lowest element, which belongs to its lowest tetrahedron.
+    /// Numbers the nodes. The root of a set is its lowest element, which belongs to its lowest
+    /// tetrahedron.
     Status name_nodes() {
         std::vector<std::array<std::uint32_t, 2>> heads; // {vertex, lowest element}
         for (std::uint32_t t = 0; t < mesh_.tetrahedra.size(); ++t)
@@ -113,7 +115,7 @@ private:
         return on_split_[vertex] ? node_of_[sets_.find(element(tetrahedron, corner))] : vertex;
     }
 
-    /// The corners of a face as the tetrahedron on it has them.
+    /// Returns the nodes of a face that the tetrahedron on this side has.
     [[nodiscard]] Triangle seen_from(const TetrahedronSide& side, Triangle face) {
         for (std::uint32_t& v : face) v = node(side.tetrahedron, corner_at(side.tetrahedron, v));
         return face;
@@ -144,7 +146,7 @@ private:
     std::vector<bool> on_split_;         ///< per vertex: a corner of a split face
     std::vector<FaceSides> sides_;       ///< per face
     std::vector<Triangle> split_;        ///< corners of split faces, ascending; sorted
-    DisjointSets sets_;                  ///< corners of tetrahedra with one node
+    DisjointSets sets_;                  ///< corners of tetrahedra that share a node
     std::vector<std::uint32_t> node_of_; ///< per set, by its lowest element
     std::vector<std::uint32_t> copies_;  ///< per added node: the vertex that it is a copy of
 };

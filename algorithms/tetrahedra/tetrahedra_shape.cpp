@@ -21,7 +21,7 @@ double length(const Vector3& v) {
     return std::hypot(v.x, v.y, v.z);
 }
 
-/// The ends of each edge, then the other two corners.
+/// For each edge, its ends and the other two corners.
 constexpr std::array<std::array<unsigned, 4>, 6> edges{
     {{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 0, 2}, {2, 3, 0, 1}}};
 
@@ -64,7 +64,7 @@ std::array<double, 6> dihedral_angles(const std::array<Point3, 4>& corners) {
         const Vector3 edge = from_to(corners[a], corners[b]);
         const Vector3 u = cross(edge, from_to(corners[a], corners[c]));
         const Vector3 w = cross(edge, from_to(corners[a], corners[d]));
-        // The arc tangent keeps its digits near 0 and 180 degrees, where slivers are.
+        // The arc tangent is accurate near 0 and 180 degrees, the angles of slivers.
         angles[i] = std::atan2(length(cross(u, w)), dot(u, w)) * 180 / std::numbers::pi;
     }
     return angles;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// How well shaped tetrahedra are, as finite element and volume methods care about it.
+// Measures of the shape of tetrahedra that matter to finite element and finite volume methods.
 #pragma once
 
 #include <array>
@@ -11,32 +11,33 @@
 
 namespace terrane {
 
-/// Of a number of values; all 0 where there are none.
+/// The spread of some values; all 0 if there are none.
 struct ShapeSpread {
     double least = 0, mean = 0, largest = 0;
 };
 
-/// Upper ends of the classes of radius-edge ratios, the last class being open: [0, 0.75),
-/// [0.75, 1), ... [100, infinity). The regular tetrahedron has sqrt(6) / 4 = 0.612, the least.
+/// The upper ends of the classes of radius-edge ratios; the last class is open: [0, 0.75),
+/// [0.75, 1), ... [100, infinity). The least ratio is that of the regular tetrahedron,
+/// sqrt(6) / 4 = 0.612.
 inline constexpr std::array<double, 11> radius_edge_bounds{0.75, 1,  1.25, 1.5, 2,  3,
                                                            5,    10, 20,   50,  100};
-inline constexpr std::size_t dihedral_bins = 18; ///< of 10 degrees each; 180 counts to the last
+inline constexpr std::size_t dihedral_bins = 18; ///< of 10 degrees each; 180 is in the last
 
 struct TetrahedraShape {
     ShapeSpread dihedral; ///< degrees, six per tetrahedron
     std::array<std::size_t, dihedral_bins> dihedral_histogram{};
-    ShapeSpread
-        radius_edge; ///< circumradius to shortest edge; infinite where a tetrahedron is flat
+    ShapeSpread radius_edge; ///< circumradius over shortest edge; infinite for a flat tetrahedron
     std::array<std::size_t, radius_edge_bounds.size() + 1> radius_edge_histogram{};
 };
 
-/// Angle between the two faces on each edge, degrees in [0, 180]:
-/// edges 01, 02, 03, 12, 13, 23.
+/// Returns the angle between the two faces at each edge, in degrees in [0, 180], for the edges 01,
+/// 02, 03, 12, 13, 23.
 std::array<double, 6> dihedral_angles(const std::array<Point3, 4>& corners);
 
 double radius_edge_ratio(const std::array<Point3, 4>& corners);
 
-/// Of all tetrahedra, those of the outside too. In doubles: for information, no decision.
+/// Measures all tetrahedra, including those of the outside. The values are computed in doubles and
+/// decide nothing.
 TetrahedraShape shape_of(const TetrahedralMesh& mesh);
 
 } // namespace terrane

@@ -17,7 +17,7 @@ Triangle sorted(Triangle t) {
     return t;
 }
 
-/// Faces of the tetrahedra, sorted.
+/// Returns the faces of the tetrahedra, sorted.
 std::vector<Triangle> faces_of(const std::vector<std::array<std::uint32_t, 4>>& tetrahedra) {
     std::vector<Triangle> faces;
     faces.reserve(4 * tetrahedra.size());
@@ -40,7 +40,7 @@ void drop_tetrahedra(TetrahedralMesh& m) {
     m.region_of.resize(kept);
 }
 
-/// Faces on the box, and those without a tetrahedron.
+/// Removes the faces on the box, and those without a tetrahedron.
 void drop_faces(TetrahedralMesh& m) {
     const auto left = faces_of(m.tetrahedra);
     std::vector<Triangle> faces;

@@ -13,7 +13,7 @@
 namespace terrane {
 namespace {
 
-constexpr std::size_t most_triangles = 24; ///< of a block, from which its point is sought
+constexpr std::size_t most_triangles = 24; ///< of a block, tried to find its point
 
 using Vector3 = polynomial::Vector<double>;
 
@@ -25,7 +25,7 @@ Point3 moved(const Point3& p, const Vector3& v, double share) {
     return {p.x + share * v.x, p.y + share * v.y, p.z + share * v.z};
 }
 
-/// Points far beyond the mesh, in directions that are unlikely to meet edges.
+/// Returns points far outside the mesh, in directions that are unlikely to hit edges.
 std::vector<Point3> ends_outside(const Mesh& mesh, const Point3& from) {
     double reach = 1;
     for (const Point3& p : mesh.vertices)
@@ -44,7 +44,7 @@ std::vector<Point3> ends_outside(const Mesh& mesh, const Point3& from) {
 
 enum class Meeting { none, inside, edge, start };
 
-/// How the segment p q meets a triangle: not, in its inside, in its border, or with p.
+/// Tells how the segment p q meets a triangle: not at all, inside it, on its border, or at p.
 Meeting meet(const Point3& p, const Point3& q, const Point3& a, const Point3& b, const Point3& c) {
     const Sign at_p = orient3d(a, b, c, p);
     const Sign at_q = orient3d(a, b, c, q);
@@ -60,7 +60,7 @@ Meeting meet(const Point3& p, const Point3& q, const Point3& a, const Point3& b,
     return at_q == Sign::Zero ? Meeting::edge : Meeting::inside;
 }
 
-/// Where a segment from p crosses a plane: at the share `above / all` of its length; all > 0.
+/// The point where a segment from p crosses a plane, at above / all of its length; all > 0.
 struct Crossing {
     Exact above, all;
     std::uint32_t triangle = 0;
@@ -82,7 +82,8 @@ Crossing crossing(const Mesh& mesh, std::uint32_t t, const Point3& p, const Poin
 
 enum class Walk { done, edge, on_triangle };
 
-/// The nearest triangle on the segment p q, and the volume on its side of p; outside: 0.
+/// Finds the first triangle on the segment from p to q; returns the volume on its side towards p,
+/// or 0, the outside, if there is none.
 std::pair<Walk, std::uint32_t> walk(const Point3& p, const Point3& q, const Mesh& mesh,
                                     const Volumes& volumes) {
     std::optional<Crossing> nearest;
@@ -107,7 +108,8 @@ std::pair<Walk, std::uint32_t> walk(const Point3& p, const Point3& q, const Mesh
     return {Walk::done, volumes.of_sides[nearest->triangle][front ? 0 : 1]};
 }
 
-/// Share of `direction` after which it meets the first triangle, about; `self` not counted.
+/// Returns the share of `direction` after which a ray meets the first triangle other than `self`,
+/// in floating point.
 double clear_share(const Mesh& mesh, std::uint32_t self, const Point3& from,
                    const Vector3& direction) {
     double least = HUGE_VAL;
@@ -127,10 +129,10 @@ double clear_share(const Mesh& mesh, std::uint32_t self, const Point3& from,
 struct BlockSide {
     double area = 0;
     std::uint32_t triangle = 0;
-    bool front = false; ///< the block is in front of it
+    bool front = false; ///< whether the block is in front of the triangle
 };
 
-/// Per volume its triangles, the largest first, no more than are tried.
+/// Returns the largest triangles of each volume, the largest first, at most most_triangles.
 std::vector<std::vector<BlockSide>> largest_sides(const Mesh& mesh, const Volumes& volumes) {
     std::vector<std::vector<BlockSide>> sides(volumes.measures.size());
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {

@@ -15,15 +15,16 @@
 
 namespace terrane {
 
-/// One point for each block, in their order; a block in which no point of doubles was found has
-/// none. The point is guessed (half way from the middle of a large triangle to what it faces) and
-/// then tested by volume_around. `volumes` are those of the mesh, which is conforming.
+/// Returns one point for each block, in their order; a block in which no point with coordinates in
+/// doubles was found has none. A candidate, half way from the middle of a large triangle to the
+/// triangle that it faces, is verified by volume_around. `volumes` are those of the mesh, which is
+/// conforming.
 /// Cost: a few passes over the triangles per block. Errors: interrupted.
 Result<std::vector<RegionPoint>> region_points(const Mesh& mesh, const Volumes& volumes,
                                                const Run& run = {});
 
-/// The volume that a point lies in, by an exact segment to the outside; none where it lies on a
-/// triangle, or every segment that was tried meets an edge.
+/// Returns the volume that contains a point, by exact tests of a segment from it to the outside;
+/// none if the point lies on a triangle, or if every segment that was tried meets an edge.
 std::optional<std::uint32_t> volume_around(const Point3& place, const Mesh& mesh,
                                            const Volumes& volumes);
 

@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::uint32_t none = UINT32_MAX;
 
-/// Per vertex its place in the lexicographic order of all.
+/// Returns the rank of each vertex in the lexicographic order.
 std::vector<std::uint32_t> lexicographic_ranks(const TriangleComplex& sheets) {
     const UpwardRounding guard;
     std::vector<std::uint32_t> order(sheets.vertices.size());
@@ -33,7 +33,8 @@ std::vector<std::uint32_t> lexicographic_ranks(const TriangleComplex& sheets) {
     return rank;
 }
 
-/// A side by the places of its corners, ascending, and from which side those are counterclockwise.
+/// A side of a triangle: the ranks of its corners, ascending, and whether they are counterclockwise
+/// in that order seen from this side.
 using SideKey = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, bool>;
 
 SideKey key_of(Triangle ranks, bool is_front) {
@@ -46,7 +47,7 @@ SideKey key_of(Triangle ranks, bool is_front) {
     return {ranks[0], ranks[1], ranks[2], even == is_front};
 }
 
-/// Step (c): numbers for classes of sides.
+/// Step (c): numbers the sets of joined sides.
 class Numbering {
 public:
     Numbering(const TriangleComplex& sheets, DisjointSets& sides) :
@@ -65,7 +66,7 @@ public:
     }
 
 private:
-    /// What tells blocks with the same least vertex apart.
+    /// The key that tells blocks with the same least vertex apart.
     struct Boundary {
         std::vector<std::uint32_t> vertices{}; ///< ranks, ascending
         SideKey least{none, none, none, true};
@@ -93,7 +94,8 @@ private:
     }
 
     void gather_boundaries_of_tied() {
-        std::vector<std::uint32_t> sharing(sheets_.vertices.size(), 0); // blocks, by least vertex
+        std::vector<std::uint32_t> sharing(sheets_.vertices.size(),
+                                           0); // number of blocks per least vertex
         for (const std::uint32_t b : blocks_) ++sharing[least_[b]];
         slot_.assign(least_.size(), none);
         for (const std::uint32_t b : blocks_) {
@@ -116,7 +118,7 @@ private:
     }
 
     Volumes numbered() {
-        auto& number = least_; // no longer needed
+        auto& number = least_; // reused, as it is no longer needed
         number[sides_.find(outside_)] = 0;
         for (std::uint32_t b = 0; b < blocks_.size(); ++b) number[blocks_[b]] = b + 1;
         Volumes volumes;
@@ -130,10 +132,10 @@ private:
 
     const TriangleComplex& sheets_;
     DisjointSets& sides_;
-    const std::uint32_t outside_; ///< as an element of sides_
+    const std::uint32_t outside_; ///< its element of sides_
     std::vector<std::uint32_t> rank_;
     std::vector<std::uint32_t> least_;  ///< per set: the rank of its least vertex
-    std::vector<std::uint32_t> blocks_; ///< sets
+    std::vector<std::uint32_t> blocks_; ///< the sets that are blocks
     std::vector<std::uint32_t> slot_;   ///< per set: index into tied_, or none
     std::vector<Boundary> tied_;
 };
@@ -180,7 +182,8 @@ auto guarded(const Work& work) -> decltype(work()) {
     }
 }
 
-/// Planes of an arrangement's triangles: their first parents are wound like them.
+/// Returns the planes of the triangles of an arrangement: those of their first parents, which are
+/// wound like them.
 std::vector<Triangle> planes_of(const Arrangement& a) {
     std::vector<Triangle> planes;
     planes.reserve(a.triangles.size());
@@ -189,7 +192,7 @@ std::vector<Triangle> planes_of(const Arrangement& a) {
     return planes;
 }
 
-/// A mesh of doubles as if all its vertices were input.
+/// Views a mesh of doubles as a complex, all of whose vertices are input points.
 class MeshSheets {
 public:
     explicit MeshSheets(const Mesh& mesh) :

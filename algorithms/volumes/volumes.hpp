@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The volumes that surfaces enclose: blocks. No epsilon.
+// The volumes that surfaces enclose, found exactly, without an epsilon.
 //
-// A volume is a connected part of what is left of space without the triangles. Number 0 is the
-// outside, the one without end; 1, 2, ... are the blocks. Steps:
-//   (a) shells: sides of triangles, joined where they face each other round an edge (radial.hpp);
-//   (b) nesting: shells on one volume, by exact lines (nesting.hpp);
-//   (c) numbers: by the block's lexicographically least vertex; among blocks that share it by all
-//       their vertices, ascending, in lexicographic order; then by their least triangle. So they
-//       depend on the points alone, not on the order of files, surfaces, triangles or threads;
-//   (d) measures.
-// Cost: linear, but for sorting the vertices; predicates only at edges of more than two triangles.
-// Source: the paper, section 3, last remark (regions one dimension up), without tetrahedra.
+// A volume is a connected part of the complement of the triangles. Number 0 is the outside, which
+// is unbounded; 1, 2, ... are the blocks. They are found in four steps:
+//   (a) shells: sides of triangles are joined where they face each other around an edge
+//       (detail/radial_sort.hpp);
+//   (b) nesting: shells that bound the same volume are found by exact lines
+//       (detail/shell_nesting.hpp);
+//   (c) numbers: blocks are sorted by their lexicographically least vertex; blocks that share it,
+//       by the sorted list of all their vertices, then by their least triangle. So the numbers
+//       depend on the points only, not on the order of files, surfaces, triangles or threads;
+//   (d) measures: exact volumes, rounded to doubles (detail/exact_volumes.hpp).
+// Cost: linear, plus sorting the vertices; predicates only at edges with more than two triangles.
+// Source: the paper, section 3, last remark (regions in one dimension more), without tetrahedra.
 #pragma once
 
 #include <array>
@@ -28,47 +30,48 @@
 namespace terrane {
 
 struct Volumes {
-    /// Per triangle: the volume in front (from where its corners appear counterclockwise) and the
-    /// one behind. Equal where the triangle dangles: a fault tip, an open sheet.
+    /// Per triangle: the volume in front of it (from where its corners are counterclockwise) and
+    /// the volume behind it. They are equal if the triangle dangles, as at a fault tip.
     std::vector<std::array<std::uint32_t, 2>> of_sides;
-    /// Per volume, cubic unit: the double nearest to the exact volume (ties to even; infinite
-    /// beyond the largest double). [0]: of all that the outside does not fill. The exact ones add
-    /// up: [1] + [2] + ... = [0]; see exact_volumes.
+    /// Per volume, in cubic units of the input: the double nearest to the exact measure (ties to
+    /// even; infinite beyond the largest double). [0] is the measure of all blocks together; for
+    /// the exact measures [1] + [2] + ... = [0] (see exact_volumes).
     std::vector<double> measures = std::vector<double>(1);
     double seconds_shells = 0, seconds_nesting = 0, seconds_measures = 0;
 
-    /// Number of blocks; the outside is not counted.
+    /// Returns the number of blocks, without the outside.
     [[nodiscard]] std::size_t block_count() const { return measures.size() - 1; }
     [[nodiscard]] bool dangles(std::size_t triangle) const {
         return of_sides[triangle][0] == of_sides[triangle][1];
     }
 };
 
-/// Errors: interrupted, out_of_memory; internal where the arrangement is noticed to be none
-/// (triangles overlap).
+/// Finds the volumes of an arrangement. Errors: interrupted, out_of_memory; internal if triangles
+/// are found to overlap, so that it is no arrangement.
 Result<Volumes> find_volumes(const Arrangement& arrangement, const Run& run = {});
 
-/// The same for doubles that are conforming (see check.hpp, rounding.hpp).
+/// Finds the volumes of a conforming mesh of doubles (see check.hpp, rounding.hpp).
 /// Errors: as above; bad_index, bad_number.
 Result<Volumes> find_volumes(const Mesh& mesh, const Run& run = {});
 
-/// The exact measures, as reduced fractions in digits of a base (see fraction.hpp): "1", "125/6".
-/// Cost: numbers have as many digits as all constructed corners together: 10 000 such corners take
-/// seconds, 100 000 minutes.
+/// Returns the exact measures as reduced fractions in a base (see fraction.hpp): "1", "125/6".
+/// Cost: a number has about as many digits as all constructed corners of its block together; 10 000
+/// such corners take seconds, 100 000 take minutes.
 std::vector<std::string> exact_volumes(const Arrangement& arrangement, const Volumes& volumes,
                                        int base = 10);
 std::vector<std::string> exact_volumes(const Mesh& mesh, const Volumes& volumes, int base = 10);
 
-/// Which block of the exact arrangement each block of its rounded mesh is: per volume of the mesh
-/// its number among `exact`, or UINT32_MAX where rounding made it. [0] is 0. No number comes twice.
-/// By the triangles that both have (with corners at the nearest doubles of the exact ones): the
-/// pair of blocks with most of them first.
+/// Matches the blocks of a rounded mesh with those of its exact arrangement: returns, per volume of
+/// the mesh, its number among `exact`, or UINT32_MAX if rounding made it. [0] is 0; no number
+/// occurs twice. Blocks are matched by the triangles that both have (with corners at the doubles
+/// nearest to the exact ones); the pair with the most common triangles is matched first. Defined in
+/// detail/match.cpp.
 std::vector<std::uint32_t> match_volumes(const Arrangement& arrangement, const Volumes& exact,
                                          const Mesh& mesh, const Volumes& rounded);
 
-/// The same volumes with the numbers of their matches, of which there are `exact`, the outside
-/// counted; those without a match follow after. Numbers that are not taken become blocks without
-/// triangles, of measure 0: too thin for doubles.
+/// Renumbers volumes by their matches, of which there are `exact` including the outside; volumes
+/// without a match follow after these. A number that no volume matches becomes a block without
+/// triangles, of measure 0: it was too thin for doubles. Defined in detail/match.cpp.
 Volumes renumbered(const Volumes& volumes, std::span<const std::uint32_t> match, std::size_t exact);
 
 } // namespace terrane

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What volumes are found from: triangles that meet only in shared vertices and edges, with exact
-// points. Private to volumes.
+// The input of the search for volumes: triangles that meet only in shared vertices and edges, with
+// exact points.
 #pragma once
 
 #include <cstdint>
@@ -15,21 +15,21 @@
 
 namespace terrane {
 
-/// A view; what it names must outlive it.
+/// A view of such a complex; the objects that it refers to must outlive it.
 struct TriangleComplex {
     const PointStore& points;
     std::span<const PointIndex> vertices; ///< per vertex: its point; pairwise distinct
     std::span<const Triangle> triangles;  ///< indices into vertices; with area, unique
-    const EdgeSides& edges;               ///< of the triangles
+    const EdgeSides& edges;               ///< edges of the triangles
     std::span<const Triangle> planes;     ///< per triangle: three input points that span its plane,
                                           ///< wound like the triangle
     const IndexLists<std::uint32_t>*
         parents; ///< per triangle, sorted: triangles with a common parent
-                 ///< are coplanar; nullptr where nothing is known
+                 ///< are coplanar; nullptr if parents are unknown
 };
 
-/// A triangle has two sides, numbered 2 t and 2 t + 1. The front is the side from which its corners
-/// appear counterclockwise: where orient3d is Positive.
+/// Triangle t has two sides, numbered 2 t (front) and 2 t + 1 (back). The front is the side from
+/// which its corners are counterclockwise: where orient3d is Positive.
 constexpr std::uint32_t front_of(std::uint32_t triangle) {
     return 2 * triangle;
 }
@@ -40,8 +40,8 @@ constexpr std::uint32_t opposite(std::uint32_t side) {
     return side ^ 1U;
 }
 
-/// Which side of the triangle's plane a vertex lies on: Positive in front. The caller holds an
-/// UpwardRounding.
+/// Returns the side of the plane of a triangle on which a vertex lies: Positive in front. The
+/// caller holds an UpwardRounding.
 inline Sign side_of(const TriangleComplex& sheets, std::uint32_t triangle, std::uint32_t vertex) {
     const Triangle& p = sheets.planes[triangle];
     return sheets.points.side_of_plane(p[0], p[1], p[2], sheets.vertices[vertex]);

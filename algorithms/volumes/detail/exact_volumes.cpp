@@ -15,11 +15,12 @@
 namespace terrane {
 namespace {
 
-// Six times the volume behind a triangle is the determinant of its corners, summed over the closed
-// boundary; in front of it the negative.
+// Six times the volume of a body is the sum, over its closed boundary, of the determinants of the
+// corners of triangles that have the body behind them, minus that of triangles with the body in
+// front of them.
 
-/// Calls add(volume, sign) for the two sides of a triangle that does not dangle. The outside counts
-/// as what it leaves: with the opposite sign.
+/// Calls add(volume, sign) for the two sides of a triangle that does not dangle. The sign for the
+/// outside is reversed, so that its sum is the volume that the outside does not fill.
 template <class Add>
 void for_sides(const std::array<std::uint32_t, 2>& sides, const Add& add) {
     const auto [front, back] = sides;
@@ -58,7 +59,7 @@ std::vector<DoubleDouble> quick_sums(const TriangleComplex& sheets, VolumeSides 
     const auto at = relative_to(sheets.points.input(first.v[0]), sheets);
     for (std::size_t t = 0; t < sheets.triangles.size(); ++t) {
         const Triangle& corners = sheets.triangles[t];
-        std::optional<DoubleDouble> determinant; // made when first needed
+        std::optional<DoubleDouble> determinant; // computed when first needed
         for_sides(of_sides[t], [&](std::uint32_t volume, int sign) {
             if (!determinant)
                 determinant = dot(cross(at[corners[0]], at[corners[1]]), at[corners[2]]);
@@ -76,7 +77,7 @@ mpq_class rational(const Exact& number) {
     return q;
 }
 
-/// Sums in pairs: what is added is of like size, so that the work is that of the last few sums.
+/// Sums in pairs, so that terms of similar size are added and the last few sums dominate the cost.
 class PairwiseSum {
 public:
     void add(mpq_class term) {
@@ -95,7 +96,8 @@ private:
     std::size_t count_ = 0;
 };
 
-/// Exact measure of one volume. Triangles of input points are summed without denominators.
+/// Sums up the exact measure of one volume. Triangles of input points are summed without
+/// denominators.
 class ExactSum {
 public:
     void add(const TriangleComplex& sheets, const Triangle& t, int sign) {
@@ -121,7 +123,7 @@ private:
     PairwiseSum of_constructed_;
 };
 
-/// Of the volumes that are wanted; the others stay 0.
+/// Returns the sums of the wanted volumes; those of others stay 0.
 std::vector<ExactSum> exact_sums(const TriangleComplex& sheets, VolumeSides of_sides,
                                  const std::vector<bool>& wanted) {
     std::vector<ExactSum> sums(wanted.size());

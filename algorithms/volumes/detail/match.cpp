@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::uint32_t none = UINT32_MAX;
 
-/// Per vertex of the arrangement the vertex of the mesh at its nearest doubles; none where there is
-/// no such one.
+/// Returns, for each vertex of the arrangement, the vertex of the mesh at its nearest doubles, or
+/// none.
 std::vector<std::uint32_t> vertices_in_mesh(const Arrangement& a, const Mesh& mesh) {
     std::unordered_map<Point3, std::uint32_t, PointHash> at;
     at.reserve(mesh.vertices.size());
@@ -26,13 +26,13 @@ std::vector<std::uint32_t> vertices_in_mesh(const Arrangement& a, const Mesh& me
     return found;
 }
 
-/// The least corner first, the order round the triangle kept.
+/// Rotates a triangle so that its least corner comes first; the winding is kept.
 Triangle turned(Triangle t) {
     std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
     return t;
 }
 
-/// A triangle of the mesh by its corners, least first.
+/// A triangle of the mesh: its corners, least first, and its index.
 using Named = std::pair<Triangle, std::uint32_t>;
 
 std::vector<Named> by_corners(std::span<const Triangle> triangles) {
@@ -44,7 +44,8 @@ std::vector<Named> by_corners(std::span<const Triangle> triangles) {
     return named;
 }
 
-/// {volume of the mesh, volume of the arrangement} on each side of the triangles that both have.
+/// Returns {volume of the mesh, volume of the arrangement} for each side of the triangles that
+/// both have.
 std::vector<std::array<std::uint32_t, 2>> common_sides(const Arrangement& a, const Volumes& exact,
                                                        const Mesh& mesh, const Volumes& rounded) {
     const auto vertex = vertices_in_mesh(a, mesh);

@@ -17,13 +17,14 @@ bool have_common_value(std::span<const std::uint32_t> a, std::span<const std::ui
     return false;
 }
 
-/// Directions of triangles away from one edge, compared by angle.
+/// Compares the directions of triangles away from one edge by their angles.
 class Directions {
 public:
     Directions(const TriangleComplex& sheets, std::uint32_t low, const Side& reference) :
         sheets_(sheets), low_(low), reference_(reference) {}
 
-    /// Strictly smaller angle, counted from the reference in [0, 2 pi).
+    /// Tells whether p has a strictly smaller angle than q, measured from the reference in
+    /// [0, 2 pi).
     [[nodiscard]] bool before(const Side& p, const Side& q) const {
         if (p.triangle == q.triangle) return false;
         const int a = sector(p), b = sector(q);
@@ -33,20 +34,20 @@ public:
     }
 
 private:
-    /// The reference is 0; less than half a turn from it 1; half a turn 2; more 3.
+    /// Returns 0 for the angle 0 of the reference, 1 for angles below pi, 2 for pi, 3 above.
     [[nodiscard]] int sector(const Side& q) const {
         if (q.triangle == reference_.triangle) return 0;
         const Sign s = turn(reference_, q);
         return s == Sign::Positive ? 1 : s == Sign::Zero ? 2 : 3;
     }
 
-    /// Positive iff q is less than half a turn ahead of p; Zero iff it is opposite.
+    /// Returns Positive iff q is less than half a turn ahead of p, Zero iff it is opposite.
     [[nodiscard]] Sign turn(const Side& p, const Side& q) const {
         if (sheets_.parents != nullptr &&
             have_common_value((*sheets_.parents)[p.triangle], (*sheets_.parents)[q.triangle]))
             return Sign::Zero;
         const auto [a, b, c] = sheets_.triangles[q.triangle];
-        const std::uint32_t apex = a ^ b ^ c ^ low_ ^ q.high; // the third one
+        const std::uint32_t apex = a ^ b ^ c ^ low_ ^ q.high; // the third corner
         const Sign side = side_of(sheets_, p.triangle, apex);
         return runs_along(sheets_.triangles[p.triangle], low_, p.high) ? side : -side;
     }
@@ -56,7 +57,7 @@ private:
     const Side reference_;
 };
 
-/// The side of the triangle that faces growing angles.
+/// Returns the side of the triangle that faces growing angles.
 std::uint32_t ahead(const TriangleComplex& sheets, std::uint32_t low, const Side& s) {
     const bool upward = runs_along(sheets.triangles[s.triangle], low, s.high);
     return upward ? front_of(s.triangle) : back_of(s.triangle);

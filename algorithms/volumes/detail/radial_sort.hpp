@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The order of the triangles round an edge, and the shells that follow from it. Private to volumes.
+// The radial order of the triangles around an edge, and the shells that follow from it.
 #pragma once
 
 #include <cstdint>
@@ -12,17 +12,17 @@
 
 namespace terrane {
 
-/// Sorts the sides of one edge (low, high) counterclockwise about the direction from low to high,
-/// the first one staying first. Exact; triangles that share a parent cost no exact numbers.
-/// Precondition: no two triangles overlap, so that no two lie in the same direction.
-/// Throws std::logic_error where two do. The caller holds an UpwardRounding.
+/// Sorts the sides of one edge (low, high) counterclockwise around the direction from low to high;
+/// the first one stays first. The order is exact; triangles that share a parent need no exact
+/// arithmetic. Precondition: no two triangles overlap, so that no two have the same direction; if
+/// two do, std::logic_error is thrown. The caller holds an UpwardRounding.
 void sort_round_edge(const TriangleComplex& sheets, std::uint32_t low,
                      std::span<EdgeSides::Side> sides);
 
-/// Joins the sides of triangles that face each other round each edge: what is joined is a shell,
-/// and lies on one volume. Two triangles at an edge need no predicate; one, at a free border, joins
-/// its front with its back. `sides` has two elements per triangle (see sheets.hpp). Cost: linear
-/// but for edges with many triangles, O(k log k) each; one allocation.
+/// Joins the sides of triangles that face each other around each edge. Joined sides form a shell,
+/// which bounds one volume. An edge with two triangles needs no predicate; a single triangle, at a
+/// free border, has its front joined with its back. `sides` has two elements per triangle (see
+/// complex.hpp). Cost: linear, plus O(k log k) for each edge with k > 2 triangles; one allocation.
 void join_round_edges(const TriangleComplex& sheets, DisjointSets& sides);
 
 } // namespace terrane

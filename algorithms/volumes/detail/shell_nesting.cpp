@@ -14,17 +14,17 @@ namespace {
 
 using polynomial::Vector;
 
-/// A line along an axis, by where it passes through the projection.
+/// A line along an axis, given by its point in the projection along that axis.
 struct Line {
-    ExactPoint exact;        ///< its coordinate along the axis means nothing
-    ApproximatePoint about;  ///< the same in the projection
-    std::uint32_t component; ///< its number, for messages
+    ExactPoint exact;        ///< its coordinate along the axis has no meaning
+    ApproximatePoint about;  ///< the point in the projection, approximately
+    std::uint32_t component; ///< number of its component, for messages
 };
 
-/// A triangle that a line passes through.
+/// The intersection of a line with a triangle.
 struct Hit {
     std::uint32_t line, triangle;
-    Interval height; ///< encloses the coordinate along the axis
+    Interval height; ///< encloses its coordinate along the axis
 };
 
 template <class T>
@@ -39,7 +39,7 @@ double coordinate(const Point3& p, unsigned k) {
     return k == 0 ? p.x : k == 1 ? p.y : p.z;
 }
 
-/// Lines along one axis, and what they pass through.
+/// The lines along one axis, and their intersections with triangles.
 class Bundle {
 public:
     Bundle(const TriangleComplex& sheets, Axis axis) :
@@ -81,7 +81,7 @@ private:
     [[nodiscard]] Interval height(std::uint32_t triangle, const Line& line) const;
     [[nodiscard]] bool below(const Hit& a, const Hit& b) const;
 
-    /// The side that faces the far end of the axis.
+    /// Returns the side of a triangle that faces the positive end of the axis.
     [[nodiscard]] std::uint32_t upper_side(std::uint32_t triangle) const {
         const Triangle& p = sheets_.planes[triangle];
         const Sign s = sheets_.points.orient2d(axis_, p[0], p[1], p[2]);
@@ -102,8 +102,8 @@ private:
     std::vector<Hit> hits_;
 };
 
-/// A point inside the projected triangle: the centroid as doubles where they lie strictly inside,
-/// the exact one otherwise.
+/// Returns the line through a point inside the projected triangle: its centroid in doubles if that
+/// lies strictly inside, otherwise the exact centroid.
 Line Bundle::inside(std::uint32_t triangle) const {
     const unsigned u = (k_ + 1) % 3, v = (k_ + 2) % 3;
     std::array<double, 3> middle{};
@@ -128,8 +128,8 @@ Line Bundle::inside(std::uint32_t triangle) const {
     return line;
 }
 
-/// Positive iff the shifted line passes to the left of a b in the projection; Zero only where a and
-/// b coincide there. The shift adds (b - a) x (epsilon, epsilon^2).
+/// Returns Positive iff the shifted line passes to the left of a b in the projection, and Zero only
+/// if a and b coincide there. The shift adds (b - a) x (epsilon, epsilon^2).
 Sign Bundle::turn(PointIndex a, PointIndex b, const Line& line) const {
     if (const auto quick = filtered_orient2d(sheets_.points.approximate(axis_, a),
                                              sheets_.points.approximate(axis_, b), line.about)) {
@@ -151,15 +151,15 @@ bool Bundle::passes_through(std::uint32_t triangle, const Line& line) const {
     return s != Sign::Zero && turn(b, c, line) == s && turn(c, a, line) == s;
 }
 
-/// Calls visit(triangle, line number) where the box of the triangle's projection holds the line.
-/// The lines are sorted by one coordinate: few of them lie in the range of a small triangle.
+/// Calls visit(triangle, line) if the line passes through the box of the projected triangle. The
+/// lines are sorted by one coordinate, so that only a few are tested for a small triangle.
 template <class Visit>
 void Bundle::for_each_near(const Visit& visit) const {
     const unsigned u = (k_ + 1) % 3, v = (k_ + 2) % 3;
     const auto n = static_cast<std::uint32_t>(lines_.size());
     std::vector<std::uint32_t> by_u(n);
     for (std::uint32_t i = 0; i < n; ++i) by_u[i] = i;
-    // Lines without doubles are near everything.
+    // Lines without doubles are near every triangle.
     const auto everywhere = std::stable_partition(
         by_u.begin(), by_u.end(), [&](std::uint32_t i) { return lines_[i].about.radius == 0; });
     std::sort(by_u.begin(), everywhere, [&](std::uint32_t i, std::uint32_t j) {
@@ -188,7 +188,7 @@ void Bundle::find_hits() {
     });
 }
 
-/// Where the line meets the plane: from n (x - a) = 0.
+/// Encloses the height at which the line meets the plane of a triangle, from n (x - a) = 0.
 Interval Bundle::height(std::uint32_t triangle, const Line& line) const {
     const Triangle& plane = sheets_.planes[triangle];
     const auto at = [&](unsigned i) {
@@ -206,7 +206,8 @@ Interval Bundle::height(std::uint32_t triangle, const Line& line) const {
     return Interval(coordinate(p, k_)) + (coordinate(n, u) * du + coordinate(n, v) * dv) / nk;
 }
 
-/// The same exactly, as numerator / denominator: height, then how it grows with each shift.
+/// The exact height at which a line meets the plane of a triangle, and its derivatives by the two
+/// components of the shift: numerators over a common denominator.
 struct ExactHeight {
     std::array<Exact, 3> numerators;
     Exact denominator; ///< > 0
@@ -245,7 +246,7 @@ bool Bundle::below(const Hit& a, const Hit& b) const {
     throw std::logic_error("two triangles overlap");
 }
 
-/// Along which axis the triangle is seen best.
+/// Returns the axis along which the triangle is projected best.
 Axis best_axis(const TriangleComplex& sheets, std::uint32_t triangle) {
     const Triangle& p = sheets.planes[triangle];
     return projection_axis(sheets.points.input(p[0]), sheets.points.input(p[1]),
@@ -257,7 +258,7 @@ Axis best_axis(const TriangleComplex& sheets, std::uint32_t triangle) {
 void join_nested(const TriangleComplex& sheets, DisjointSets& sides) {
     const auto count = static_cast<std::uint32_t>(sheets.triangles.size());
     DisjointSets components =
-        sides; // front and back of a triangle hang together, and so do its neighbours
+        sides; // in addition to the shells, the front and the back of a triangle are joined
     for (std::uint32_t t = 0; t < count; ++t) components.join(front_of(t), back_of(t));
     const UpwardRounding guard;
     std::array<Bundle, 3> bundles{Bundle(sheets, Axis::x), Bundle(sheets, Axis::y),
