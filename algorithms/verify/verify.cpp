@@ -30,7 +30,7 @@ using verifier::Violations;
 
 // --- R1: indices ------------------------------------------------------------------------------
 
-/// How many of its indices a construction uses; none if its kind or axis does not exist.
+/// Returns the number of indices that a construction uses; none if its kind or axis does not exist.
 std::optional<std::size_t> used_indices(const Construction& construction) {
     switch (construction.kind) {
     case Construction::Kind::input:
@@ -84,7 +84,7 @@ void check_indices(const ArrangementClaim& claim, const Inputs& inputs, Violatio
 
 // --- R2, R3, R4: vertices and triangles -------------------------------------------------------
 
-/// The points of the claim; where one is undefined, a violation.
+/// Constructs the points of the claim and reports those that are undefined.
 std::vector<Vector4> construct_all(const ArrangementClaim& claim, std::span<const Vector4> inputs,
                                    Violations& found) {
     std::vector<Vector4> points;
@@ -101,7 +101,7 @@ std::vector<Vector4> construct_all(const ArrangementClaim& claim, std::span<cons
     return points;
 }
 
-/// The numbers of the items, equal ones side by side and then ascending.
+/// Returns the numbers of the items, sorted by the items, equal items in ascending order.
 template <class T>
 Numbers sorted_numbers(std::span<const T> items) {
     Numbers order(items.size());
@@ -160,7 +160,7 @@ void check_contacts(const ExactMesh& mesh, Violations& found) {
     }
 }
 
-/// The rules that speak of the mesh alone.
+/// Checks the rules about the mesh itself.
 void check_mesh(const ExactMesh& mesh, Violations& found) {
     check_distinct(mesh, found);
     check_triangles(mesh, found);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The independent verifier: GMP rationals and value types only. It shares no predicate, no search
-// structure and no arrangement code with the producer; a test reads its includes.
+// The independent verifier uses GMP rationals and value types only. It shares no predicate, search
+// structure or arrangement code with the producer; a test checks its includes.
 #pragma once
 
 #include <array>
@@ -18,13 +18,13 @@
 
 namespace terrane {
 
-/// What an arrangement says of itself, in numbers that count through all input surfaces:
-/// input vertex k of surface s is (vertices of surfaces before s) + k; triangles likewise.
+/// The claims of an arrangement. Input vertices and triangles are numbered through all surfaces:
+/// vertex k of surface s is (vertices of the surfaces before s) + k; triangles likewise.
 struct ArrangementClaim {
     std::vector<Construction> vertices;    ///< pairwise distinct points
     std::vector<Triangle> triangles;       ///< indices into vertices; unique as sets
-    IndexLists<std::uint32_t> parents_of;  ///< per triangle: all input triangles that contain it
-                                           ///< (duplicates too), sorted, >= 1
+    IndexLists<std::uint32_t> parents_of;  ///< per triangle: all input triangles that contain it,
+                                           ///< including duplicates; sorted, >= 1
     std::vector<Edge> intersection_edges;  ///< sorted, unique; see rule R7
     std::vector<std::uint32_t> degenerate; ///< input triangles without area, sorted
     std::vector<std::array<std::uint32_t, 2>> duplicates; ///< {triangle, the first one with the
@@ -39,28 +39,28 @@ enum class Rule : std::uint8_t {
     R5_contacts,  ///< two triangles meet other than in a shared vertex or edge
     R6_parents,   ///< an input triangle is not exactly the union of the triangles that name
                   ///< it: a child lies outside of it, or the areas do not add up
-    R7_intersection_edges, ///< listed but none, or one but not listed
-    R8_set_aside,          ///< degenerate or duplicate, but not listed as such, or the reverse
-    // R9 and those that follow judge a certificate: see verify_certificate.hpp.
-    R9_inputs,           ///< an input file is not the one that the certificate speaks of
+    R7_intersection_edges, ///< an intersection edge is not listed, or another edge is
+    R8_set_aside,          ///< a degenerate or duplicate triangle is not listed, or another one is
+    // R9 and the following rules judge a certificate: see verify_certificate.hpp.
+    R9_inputs,           ///< an input file is not the one that the certificate describes
     R10_rounded_indices, ///< in the mesh of doubles: as R1, or a number is not finite
-    R11_conforming,      ///< the doubles are not conforming, though said to be, or the reverse
-    R12_rounded_parents, ///< a parent without area; an input triangle of which nothing is left, but
-                         ///< not listed as vanished, or the reverse
+    R11_conforming,      ///< the doubles are stated to be conforming and are not, or the reverse
+    R12_rounded_parents, ///< a parent without area; an input triangle without any part that is not
+                         ///< listed as vanished, or the reverse
     R13_deviation,       ///< a triangle is farther from a parent than the stated deviation
     R14_moves,           ///< a vertex is farther from its exact point than the stated largest move
     R15_rounded_edges,   ///< as R7, in the mesh of doubles
-    R16_regions,         ///< regions are not what intersection edges divide the surfaces into
+    R16_regions,         ///< regions are not those into which intersection edges divide surfaces
     R17_digest,          ///< the digest is not that of the arrangement
     R18_coverage,        ///< the triangles that name an input triangle leave a hole in it
 };
 
-/// "R5"
+/// Returns "R5" for rule R5, and so on.
 std::string name_of(Rule rule);
 
 struct Violation {
     Rule rule{};
-    std::vector<std::uint32_t> elements; ///< R1: what has the wrong index, empty for a whole list
+    std::vector<std::uint32_t> elements; ///< R1: the element with the wrong index, empty for a list
                                          ///< R2, R3: vertices; R4, R5: triangles
                                          ///< R6: {input triangle}, {input triangle, triangle}, or
                                          ///<     {duplicate, first}
@@ -72,26 +72,26 @@ struct Violation {
     std::string sentence;
 };
 
-/// Once this many pairs violate R5, those after are not searched for: the claim is refuted enough.
+/// Once this many pairs violate R5, no more are searched for: the claim is sufficiently refuted.
 inline constexpr std::size_t most_contacts_listed = 100'000;
 
-/// All violations of the rules, sorted by rule and elements; none if the claim is true.
-/// (1) Whatever the claim holds, the answer is a list of violations. After one of R1 or R2 the
-///     rules that follow are not judged.
-/// (2) R5: two triangles may share, as closed sets, exactly the convex hull of the vertices they
-///     share: nothing, a vertex or an edge.
-/// (3) R7: an edge is an intersection edge iff more than two triangles meet in it, or two that do
-///     differ in the number of geometrically distinct parents that they have in some surface.
-/// (4) R8: triangles without area are degenerate, and not compared for duplicates; equal points are
-///     equal coordinates, whatever their indices.
+/// Returns all violations of the rules, sorted by rule and elements; none if the claim is true.
+/// (1) Any claim is judged, whatever it contains. After a violation of R1 or R2 the following rules
+///     are not judged.
+/// (2) R5: the intersection of two triangles, as closed sets, must be the convex hull of the
+///     vertices that they share: nothing, a vertex or an edge.
+/// (3) R7: an edge is an intersection edge iff more than two triangles meet in it, or if it has two
+///     triangles that differ in the number of geometrically distinct parents in some surface.
+/// (4) R8: triangles without area are degenerate and are not compared for duplicates; points are
+///     equal if their coordinates are equal, whatever their indices.
 ///
-/// Cost: O(n log n + k) for k pairs of triangles whose boxes touch, an exact test each; 100 000
-/// triangles take about a second.
+/// Cost: O(n log n + k) for k pairs of triangles whose boxes touch, with an exact test each; 100
+/// 000 triangles take about a second.
 std::vector<Violation> verify_arrangement(std::span<const Surface> inputs,
                                           const ArrangementClaim& claim);
 
-/// All violations of R1, R3, R4 and R5 in a mesh of doubles, judged by rationals. After a violation
-/// of R1 the others are not judged.
+/// Returns all violations of R1, R3, R4 and R5 in a mesh of doubles, judged by rationals. After a
+/// violation of R1 the other rules are not judged.
 std::vector<Violation> verify_conforming(std::span<const Point3> vertices,
                                          std::span<const Triangle> triangles);
 

@@ -22,7 +22,7 @@ std::vector<CertifiedSurface> described(std::span<const Surface> surfaces) {
     return result;
 }
 
-/// What differs between a file and its description; empty if nothing.
+/// Describes a difference between a file and its description; empty if there is none.
 std::string difference(const InputFile& file, const CertifiedInput& stated) {
     if (file.sha256 != stated.sha256) return "has another SHA-256";
     if (file.bytes != stated.bytes) return "has another size";

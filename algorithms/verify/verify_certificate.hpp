@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// A certificate (its format: io/certificate.hpp) judged from the inputs alone: value types, GMP,
-// SHA-256 and JSON; no reader, predicate, search or arrangement code.
+// Judges a certificate (for its format see io/certificate.hpp) from the inputs only. This uses
+// value types, GMP, SHA-256 and JSON, but no reader, predicate, search or arrangement code.
 //
-// A certificate that is accepted shows, for the input files whose hashes it holds:
-// (1) the exact part is the arrangement of the surfaces in them (rules R1 to R8);
-// (2) the mesh of doubles is conforming, or said not to be (R10, R11);
-// (3) each point of it is within `deviation` of each input triangle that it is said to be part of
-//     (R13; a distance to a triangle is convex, so its corners tell for the whole of a triangle),
-//     and each input triangle with area is part of it or listed as vanished (R12);
-//     No point of an input triangle that is farther than `deviation` from its border is left
-//     uncovered, seen along its normal (R18);
-// (4) where it has the triangles of the exact part, each vertex is within `max_move` of the exact
-//     one (R14);
-// (5) its intersection edges, regions and the digest are what they are called (R15 to R17).
+// A certificate that is accepted proves, for the input files whose hashes it contains:
+// (1) The exact part is the arrangement of the surfaces in these files (rules R1 to R8).
+// (2) The mesh of doubles is conforming, or is stated not to be (R10, R11).
+// (3) Each point of a triangle of the mesh is within `deviation` of each of its parents (R13; the
+//     distance to a triangle is convex, so it suffices to judge corners). Each input triangle with
+//     area is a parent, or listed as vanished (R12). Projected along its normal, each point of an
+//     input triangle that is farther than `deviation` from its border is covered (R18).
+// (4) If the mesh has the triangles of the exact part, each vertex is within `max_move` of the
+// exact
+//     vertex (R14).
+// (5) Its intersection edges, its regions and the digest are correct (R15 to R17).
 #pragma once
 
 #include <cstdint>
@@ -47,7 +47,7 @@ struct CertifiedInput {
     std::vector<CertifiedSurface> surfaces; ///< order of the file
 };
 
-/// What a certificate says of the mesh of doubles.
+/// The claims of a certificate about the mesh of doubles.
 struct RoundedClaim {
     std::vector<Point3> vertices;
     std::vector<Triangle> triangles;      ///< indices into vertices
@@ -57,7 +57,7 @@ struct RoundedClaim {
         regions_of;                      ///< per triangle: its region in each surface of
                                          ///< its parents, by surface
     bool clean = false;                  ///< conforming
-    std::uint32_t rounds = 0;            ///< of snapping; not judged
+    std::uint32_t rounds = 0;            ///< rounds of snapping; not judged
     double max_move = 0, deviation = 0;  ///< unit of the input
     std::vector<std::uint32_t> vanished; ///< input triangles, sorted
 };
@@ -69,29 +69,29 @@ struct Certificate {
     std::string digest; ///< "sha256:" and 64 hexadecimal digits; see digest.hpp
 };
 
-/// Errors: bad_syntax with "source, line l, column c" where it is no JSON, and with
-/// "source, exact.triangles[12]" where it is no certificate: a key missing, unknown, or of another
-/// type; a number out of its range.
-/// Cost: linear; some ten times the size of the text in memory.
+/// Parses a certificate. Errors: bad_syntax with "source, line l, column c" if the text is not
+/// JSON, and with "source, exact.triangles[12]" if it is not a certificate: if a key is missing or
+/// unknown, a value has the wrong type, or a number is out of range.
+/// Cost: linear; about ten times the size of the text in memory.
 Result<Certificate> parse_certificate(std::string_view text, std::string_view source);
 
-/// An input file as it is found.
+/// An input file as it was found.
 struct InputFile {
     std::string sha256; ///< of its bytes, 64 lower-case hexadecimal digits
     std::uint64_t bytes = 0;
-    std::vector<Surface> surfaces; ///< what a reader makes of them; none where it can't be read
+    std::vector<Surface> surfaces; ///< its surfaces; none if it cannot be read
 };
 
 InputFile input_file(std::string_view contents, std::vector<Surface> surfaces);
 
-/// All violations, sorted by rule and elements; none if the certificate is right.
-/// (1) After a violation of R9 no other rule is judged; after one of R1, R2 or R10 those that need
-///     the index are not.
-/// Cost: as verify_arrangement, about twice.
+/// Returns all violations, sorted by rule and elements; none if the certificate is true. After a
+/// violation of R9 no other rule is judged; after one of R1, R2 or R10 the rules that need the
+/// index are not judged. Cost: about twice that of verify_arrangement.
 std::vector<Violation> verify_certificate(std::span<const InputFile> files,
                                           const Certificate& certificate);
 
-/// Rules R10 to R16 and R18 alone. Precondition: the exact claim breaks neither R1 nor R2.
+/// Judges the rules R10 to R16 and R18 only. Precondition: the exact claim violates neither R1 nor
+/// R2.
 std::vector<Violation> verify_rounded(std::span<const Surface> inputs,
                                       const ArrangementClaim& exact, const RoundedClaim& rounded);
 

@@ -13,7 +13,7 @@ namespace {
 using Corners = std::array<const Vector4*, 3>;
 using Heights = std::array<mpz_class, 3>;
 
-/// Two triangles, their corners ordered so that the shared ones come first, in the same order.
+/// Two triangles with their corners ordered so that the shared ones come first, in the same order.
 struct Pair {
     std::array<Corners, 2> corners;
     std::size_t shared = 0;
@@ -36,15 +36,15 @@ Pair make_pair_of(const ExactMesh& mesh, Triangle a, Triangle b) {
     return pair;
 }
 
-/// The heights of a triangle's corners over a plane that holds the shared ones.
+/// Returns the heights of the corners of a triangle over a plane that contains the shared corners.
 Heights heights_over(const Vector4& plane, const Corners& corners, std::size_t shared) {
     Heights heights;
     for (std::size_t i = shared; i < 3; ++i) heights[i] = dot(plane, *corners[i]);
     return heights;
 }
 
-/// Whether all corners that are not shared lie strictly on one side: then the triangle meets the
-/// plane in the hull of the shared corners only.
+/// Tells whether all corners that are not shared lie strictly on one side; then the triangle meets
+/// the plane only in the convex hull of the shared corners.
 bool on_one_side(const Heights& heights, std::size_t shared) {
     const int side = sgn(heights[2]);
     if (side == 0) return false;
@@ -58,7 +58,8 @@ int side_of(const Vector4& from, const Vector4& to, const Vector4& point, std::s
     return sgn(turn(from, to, point, axis));
 }
 
-/// Two convex polygons are disjoint iff the line of some edge separates them.
+/// Tells whether the line of some edge of the first triangle separates the two. Convex polygons are
+/// disjoint iff the line of an edge of one of them separates them.
 bool some_edge_separates(const Corners& triangle, const Corners& other, std::size_t axis) {
     for (std::size_t i = 0; i < 3; ++i) {
         if (std::all_of(other.begin(), other.end(), [&](const Vector4* corner) {
@@ -70,7 +71,8 @@ bool some_edge_separates(const Corners& triangle, const Corners& other, std::siz
     return false;
 }
 
-/// Whether the cone at corner 0 of a counterclockwise triangle holds another corner of `other`.
+/// Tells whether the cone at corner 0 of a counterclockwise triangle contains another corner of
+/// `other`.
 bool cone_holds_some(const Corners& triangle, const Corners& other, std::size_t axis) {
     const auto in_cone = [&](const Vector4& point) {
         return side_of(*triangle[0], *triangle[1], point, axis) >= 0 &&
@@ -89,7 +91,7 @@ bool coplanar_meet_properly(Pair pair, std::size_t axis) {
             std::swap((*corners)[1], (*corners)[2]);
         }
     }
-    // Two cones with one apex share a ray iff a border ray of one lies in the other.
+    // Two cones with a common apex share a ray iff a border ray of one lies in the other.
     if (pair.shared == 1) return !cone_holds_some(a, b, axis) && !cone_holds_some(b, a, axis);
     return some_edge_separates(a, b, axis) || some_edge_separates(b, a, axis);
 }
@@ -106,7 +108,7 @@ struct Position {
     }
 };
 
-/// What a triangle and the line share.
+/// The interval in which a triangle meets the line.
 struct Interval {
     Position low;
     Position high;
@@ -122,7 +124,8 @@ void extend(std::optional<Interval>& interval, const Position& position) {
     }
 }
 
-/// Where the segment from p to q, whose heights have opposite signs, crosses height zero.
+/// Returns the point where the segment from p to q, whose heights have opposite signs, crosses
+/// height zero.
 Position crossing(const Vector4& p, const Vector4& q, const mpz_class& height_p,
                   const mpz_class& height_q, std::size_t axis) {
     Position result{height_p * q[axis] - height_q * p[axis], height_p * q[3] - height_q * p[3]};
@@ -133,9 +136,10 @@ Position crossing(const Vector4& p, const Vector4& q, const mpz_class& height_p,
     return result;
 }
 
-/// What a triangle shares with the plane over which its corners have these heights, in coordinate
-/// `axis`: the hull of the corners at height zero and the points where edges cross it.
-/// None iff all corners lie strictly on one side. Precondition: not all heights are zero.
+/// Returns the intersection of a triangle with the plane over which its corners have these heights,
+/// as an interval of coordinate `axis`: the hull of the corners at height zero and of the points
+/// where edges cross the plane. It is none iff all corners lie strictly on one side.
+/// Precondition: not all heights are zero.
 std::optional<Interval> section(const Corners& corners, const Heights& heights, std::size_t axis) {
     std::optional<Interval> result;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -148,7 +152,7 @@ std::optional<Interval> section(const Corners& corners, const Heights& heights, 
     return result;
 }
 
-/// A coordinate in which the line that two planes share is not constant.
+/// Returns a coordinate that is not constant on the line of intersection of two planes.
 std::size_t line_axis(const Vector4& a, const Vector4& b) {
     for (std::size_t axis = 0; axis < 2; ++axis) {
         const std::size_t u = (axis + 1) % 3;
@@ -158,7 +162,8 @@ std::size_t line_axis(const Vector4& a, const Vector4& b) {
     return 2;
 }
 
-/// Of triangles with at most one shared corner: their common interval is empty, or that corner.
+/// Tells whether two triangles with at most one shared corner meet properly: their intervals on the
+/// line have nothing in common, or only that corner.
 bool sections_meet_properly(const std::optional<Interval>& a, const std::optional<Interval>& b,
                             std::size_t shared) {
     if (!a || !b) return true;
@@ -219,7 +224,7 @@ void extend(Box& box, const Box& other) {
     }
 }
 
-/// A tree of boxes over some items: each node's box holds the boxes of all items below it.
+/// A tree of boxes over some items: the box of a node contains the boxes of all items below it.
 class BoxTree {
 public:
     /// Item i has box boxes[i].
@@ -228,7 +233,7 @@ public:
         if (!items_.empty()) build(0, items_.size());
     }
 
-    /// Items above `item` whose box touches its box, sorted.
+    /// Returns the items larger than `item` whose boxes touch its box, sorted.
     [[nodiscard]] std::vector<std::uint32_t> touching_above(std::uint32_t item) const {
         std::vector<std::uint32_t> found;
         for (std::size_t n = 0; n < nodes_.size();) {
@@ -248,7 +253,7 @@ public:
     }
 
 private:
-    /// Nodes stand in depth-first order: a node's first child follows it.
+    /// A node of the tree. Nodes are in depth-first order: the first child of a node follows it.
     struct Node {
         Box box;
         std::size_t first = 0; ///< of a leaf: its items are items_[first, last)
@@ -273,7 +278,7 @@ private:
         nodes_[n].after = nodes_.size();
     }
 
-    /// Halves the items along the longest side of their box. Any split would be right.
+    /// Splits the items in half along the longest side of their box. Any split would be correct.
     std::size_t split(std::size_t first, std::size_t last, const Box& box) {
         std::size_t axis = 0;
         for (std::size_t i = 1; i < 3; ++i) {

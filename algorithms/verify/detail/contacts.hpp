@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Internal to the verifier: rule R5, which pairs of triangles meet as they should not.
+// Rule R5 of the verifier: the pairs of triangles that meet improperly.
 #pragma once
 
 #include <array>
@@ -23,18 +23,18 @@ struct ExactMesh {
                                  ///< no area
 };
 
-/// The planes are computed from the rest.
+/// Makes a mesh and computes its planes.
 ExactMesh make_exact_mesh(std::vector<Vector4> points, const mpz_class& scale,
                           std::span<const Triangle> triangles);
 
-/// Whether two triangles with area, both closed sets, share exactly the convex hull of the corners
-/// whose indices they share: nothing, a corner or an edge.
-/// True if they share all three indices: that is another rule's business.
+/// Tells whether two triangles with area, as closed sets, have exactly the convex hull of their
+/// shared corners in common: nothing, a corner or an edge. It is true if they share all three
+/// corners, which another rule judges.
 /// Cost: six to some thirty multiplications of integers.
 bool meet_properly(const ExactMesh& mesh, std::uint32_t first, std::uint32_t second);
 
-/// All pairs (lower index first, sorted) of triangles with area that do not meet properly.
-/// Gives up after the first triangle with which there are `at_most` pairs or more.
+/// Returns the pairs (lower index first, sorted) of triangles with area that do not meet properly.
+/// It stops after the first triangle with which there are `at_most` pairs or more.
 /// Cost: O(n log n) to find the k pairs whose boxes touch, and k exact tests.
 std::vector<std::array<std::uint32_t, 2>> find_improper_pairs(const ExactMesh& mesh,
                                                               std::size_t at_most);

@@ -9,7 +9,7 @@ namespace terrane::verifier {
 
 namespace {
 
-/// A number: first / second, where second is positive.
+/// A fraction first / second with a positive denominator.
 using Fraction = std::pair<mpz_class, mpz_class>;
 
 int compare(const Fraction& a, const Fraction& b) {
@@ -22,7 +22,7 @@ Vector4 weighted(const Vector4& a, const mpz_class& s, const Vector4& b, const m
     return sum;
 }
 
-/// Halfway, in space.
+/// Returns the middle between two points.
 Vector4 middle(const Vector4& a, const Vector4& b) {
     return weighted(a, b[3], b, a[3]);
 }
@@ -35,7 +35,8 @@ Coverage::Coverage(const std::array<const Vector4*, 3>& parent, std::span<const 
     points_(points), collar_(collar),
     normal_(cross(difference(*parent[1], *parent[0]), difference(*parent[2], *parent[0]))) {}
 
-/// Positive: left of the line, seen against the normal. `from` and `to` have w = 1.
+/// Returns 1 for a point on the left of the line, seen against the normal, -1 on its right, 0 on
+/// it. `from` and `to` have w = 1.
 int Coverage::side_of(const Vector4& from, const Vector4& to, const Vector4& point) const {
     return sgn(dot(normal_, cross(difference(to, from), difference(point, from))));
 }
@@ -65,7 +66,7 @@ bool Coverage::covers_centroid(std::span<const Triangle> children) const {
     return std::ranges::any_of(children, [&](const Triangle& t) { return has_in(t, centroid); });
 }
 
-/// The children that have area, seen along the normal; counterclockwise.
+/// Returns the children that have area when projected along the normal, made counterclockwise.
 std::vector<Triangle> Coverage::facing(std::span<const Triangle> children) const {
     std::vector<Triangle> result;
     for (Triangle t : children) {
@@ -76,15 +77,15 @@ std::vector<Triangle> Coverage::facing(std::span<const Triangle> children) const
     return result;
 }
 
-/// Where the border of a child meets an edge, seen along the normal: points of the edge in order,
-/// each once, with its ends.
+/// Returns the points where borders of children meet an edge when projected along the normal:
+/// points of the edge, in order, each once, including its ends.
 std::vector<Vector4> Coverage::crossings(const Edge& edge,
                                          std::span<const Triangle> children) const {
     const Vector4& from = points_[edge[0]];
     const Vector4& to = points_[edge[1]];
     const Vector3 along = difference(to, from);
     const Vector3 left = cross(normal_, along);
-    const Vector3 forward = cross(left, normal_); // the edge, seen along the normal
+    const Vector3 forward = cross(left, normal_); // the edge, projected along the normal
     const mpz_class length = dot(forward, along);
     std::vector<Fraction> places{{0, 1}, {length, 1}};
     const auto add = [&](const mpz_class& above, const mpz_class& below) {
@@ -111,7 +112,8 @@ std::vector<Vector4> Coverage::crossings(const Edge& edge,
     return points;
 }
 
-/// Whether a child holds what is near a point, no end of its edges, on the other side of an edge.
+/// Tells whether a child covers the neighbourhood of a point on the other side of an edge. The
+/// point is no corner of the child.
 bool Coverage::covers_beside(const Triangle& child, const Side& side, const Vector4& point) const {
     const Vector4& from = points_[side.edge[0]];
     const Vector4& to = points_[side.edge[1]];
@@ -124,8 +126,8 @@ bool Coverage::covers_beside(const Triangle& child, const Side& side, const Vect
     return true;
 }
 
-/// Whether other children cover what lies beyond an edge that has children on one side only, but
-/// for what is near the border.
+/// Tells whether other children cover the other side of an edge that has children on one side only,
+/// except near the border of the parent.
 bool Coverage::covered_elsewhere(const Side& side, std::span<const Triangle> children) const {
     const auto places = crossings(side.edge, children);
     for (std::size_t i = 1; i < places.size(); ++i) {

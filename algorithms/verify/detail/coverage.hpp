@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Internal to the verifier: rule R18, whether what is left of an input triangle (the parent) after
-// its corners have moved a little (its children) still covers it.
+// Rule R18 of the verifier: whether the triangles that remain of an input triangle (the children of
+// the parent) after their corners have moved a little still cover it.
 #pragma once
 
 #include <array>
@@ -15,26 +15,28 @@
 
 namespace terrane::verifier {
 
-/// Seen along the normal of the parent, its children are triangles in a plane. Their union ends
-/// only along edges. If each point in which it ends is within `collar` of the border of the parent,
-/// then, the parent less that collar being connected, the union covers all of this or nothing; the
-/// centroid tells which. (A parent that is so thin that the centroid is in the collar is not
-/// asked for it.)
-/// Holds references to the points. All points have w = 1.
+/// Judges whether the children cover their parent except for a collar along its border.
+/// Projected along the normal of the parent, the children are triangles in a plane, and the border
+/// of their union consists of parts of edges. If all of it is within `collar` of the border of the
+/// parent, the union covers all of the parent without the collar, or nothing of it, because that
+/// set is connected; the centroid tells which. (In a parent so thin that its centroid is in the
+/// collar, the centroid need not be covered.)
+/// It holds references to the points. All points have w = 1.
 class Coverage {
 public:
     /// Precondition: the parent has area.
     Coverage(const std::array<const Vector4*, 3>& parent, std::span<const Vector4> points,
              const mpz_class& collar);
 
-    /// Cost: some ten products of integers per edge; where the children overlap, that for each
-    /// pair of such an edge and a child.
+    /// Tells whether the children cover the parent. Cost: some ten products of integers per edge;
+    /// if children overlap, the same for each pair of an edge with children on one side and a
+    /// child.
     [[nodiscard]] bool holds(std::span<const Triangle> children) const;
 
 private:
     struct Side {
         Edge edge;
-        int sign; ///< on which side of the edge a child lies; never 0
+        int sign; ///< side of the edge on which the child lies: 1 or -1
     };
 
     [[nodiscard]] int side_of(const Vector4& from, const Vector4& to, const Vector4& point) const;

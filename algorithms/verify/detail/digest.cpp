@@ -35,7 +35,7 @@ void feed_sorted(Sha256& state, std::array<Hash, n> hashes) {
     state.feed(hashes);
 }
 
-/// The inputs of the claim, as hashes.
+/// The hashes of the inputs of a claim.
 struct HashedInputs {
     std::vector<Vector4> points;
     mpz_class scale = 1;
@@ -77,7 +77,7 @@ std::optional<std::vector<Hash>> hash_vertices(const HashedInputs& inputs,
     return hashes;
 }
 
-/// Each vertex with the parents of the triangles at it.
+/// Hashes each vertex together with the parents of the triangles at it.
 std::vector<Hash> hash_corners(const ArrangementClaim& claim, const HashedInputs& inputs,
                                const std::vector<Hash>& vertices) {
     std::vector<std::set<std::uint32_t>> parents_at(vertices.size());
@@ -98,7 +98,7 @@ std::vector<Hash> hash_corners(const ArrangementClaim& claim, const HashedInputs
     return hashes;
 }
 
-/// Each parent with the number of its triangles.
+/// Hashes each parent together with the number of its triangles.
 std::vector<Hash> hash_parents(const ArrangementClaim& claim, const HashedInputs& inputs) {
     std::map<std::uint32_t, std::size_t> children;
     for (const std::uint32_t parent : claim.parents_of.values) ++children[parent];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Internal to the verifier: the canonical digest, as digest.hpp defines it, written a second time.
+// The canonical digest that digest.hpp defines, implemented a second time for the verifier.
 #pragma once
 
 #include <optional>
@@ -12,8 +12,8 @@
 
 namespace terrane::verifier {
 
-/// None where a construction of the claim is undefined.
-/// Precondition: the claim's indices are in range (rule R1).
+/// Returns the digest of the claim; none if one of its constructions is undefined.
+/// Precondition: the indices of the claim are in range (rule R1).
 std::optional<std::string> digest_of(std::span<const Surface> inputs,
                                      const ArrangementClaim& claim);
 

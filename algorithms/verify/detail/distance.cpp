@@ -32,7 +32,7 @@ bool within(const Vector4& a, const Vector4& b, const mpz_class& bound) {
 bool within_of_segment(const Vector4& point, const Vector4& start, const Vector4& end,
                        const mpz_class& bound) {
     const Vector3 along = difference(end, start);
-    const Vector3 from_start = difference(point, start); // times w, as all that is compared
+    const Vector3 from_start = difference(point, start); // times w, like all compared terms
     const mpz_class limit = bound * point[3];
     const mpz_class place = dot(from_start, along);
     if (sgn(place) <= 0) return dot(from_start, from_start) <= limit * limit;
@@ -51,13 +51,13 @@ bool within(const Vector4& point, const std::array<const Vector4*, 3>& triangle,
     const mpz_class height = dot(normal, difference(point, *triangle[0]));
     const mpz_class limit = bound * point[3];
     if (height * height > limit * limit * dot(normal, normal)) return false;
-    bool above = true; // the triangle, seen along its normal
+    bool above = true; // whether the point projects into the triangle along its normal
     for (std::size_t i = 0; i < 3; ++i) {
         const Vector4& start = *triangle[i];
         const Vector4& end = *triangle[(i + 1) % 3];
         if (sgn(dot(normal, cross(difference(end, start), difference(point, start)))) >= 0)
             continue;
-        above = false; // beyond a side: the nearest point is on such a side
+        above = false; // outside of this side: the nearest point is on one of these sides
         if (within_of_segment(point, start, end, bound)) return true;
     }
     return above;

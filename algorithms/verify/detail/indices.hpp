@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Internal to the verifier: whether indices are in range and lists sorted; reported under the rule
-// that is given.
+// Checks of the verifier that indices are in range and lists are sorted; violations are reported
+// under the given rule.
 #pragma once
 
 #include <algorithm>
@@ -24,20 +24,20 @@ bool sorted_and_unique(std::span<const T> values) {
 
 bool all_below(std::span<const std::uint32_t> values, std::size_t count);
 
-/// As many lists as `count`, with offsets that ascend from 0 to the number of values.
+/// Tells whether there are `count` lists, with offsets that ascend from 0 to the number of values.
 bool well_formed(const IndexLists<std::uint32_t>& lists, std::size_t count);
 
-/// `name`: "vertex", ...
+/// Checks that all coordinates are finite; `name` is the name of a point in sentences: "vertex".
 void check_finite(std::span<const Point3> vertices, const std::string& name, Rule rule,
                   Violations& found);
 void check_corners(std::span<const Triangle> triangles, std::size_t vertex_count, Rule rule,
                    Violations& found);
-/// One sorted list of input triangles, not empty, per triangle.
+/// Checks that each triangle has a sorted list of input triangles that is not empty.
 void check_parents(const Parts& parts, std::size_t input_triangles, Rule rule, Violations& found);
 void check_edge_list(std::span<const Edge> edges, std::size_t vertex_count, Rule rule,
                      Violations& found);
 
-/// Calls `visit` with each value that is in `of` and not in `in`. Both are sorted.
+/// Calls visit(value) for each value that is in `of` but not in `in`. Both are sorted.
 template <class T, class Visit>
 void for_each_missing(const std::vector<T>& of, const std::vector<T>& in, Visit visit) {
     std::vector<T> missing;

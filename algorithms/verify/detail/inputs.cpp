@@ -86,7 +86,7 @@ IndexLists<std::uint32_t> children_of(const IndexLists<std::uint32_t>& parents_o
 
 namespace {
 
-/// {surface, the number of different parents in it}, sorted.
+/// {surface, number of geometrically distinct parents in it}, sorted.
 using Signature = std::vector<std::array<std::uint32_t, 2>>;
 
 Signature signature(std::span<const std::uint32_t> parents, const Inputs& inputs,
@@ -112,7 +112,7 @@ struct EdgeUse {
     friend bool operator==(const EdgeUse&, const EdgeUse&) = default;
 };
 
-/// All edges of all triangles, sorted and unique.
+/// Returns the edges of all triangles, sorted and unique.
 std::vector<EdgeUse> edge_uses(std::span<const Triangle> triangles) {
     std::vector<EdgeUse> uses;
     uses.reserve(3 * triangles.size());
@@ -125,7 +125,8 @@ std::vector<EdgeUse> edge_uses(std::span<const Triangle> triangles) {
     std::sort(uses.begin(), uses.end(), [](const EdgeUse& a, const EdgeUse& b) {
         return std::tie(a.edge, a.triangle) < std::tie(b.edge, b.triangle);
     });
-    uses.erase(std::unique(uses.begin(), uses.end()), uses.end()); // of a triangle without area
+    uses.erase(std::unique(uses.begin(), uses.end()),
+               uses.end()); // a triangle without area may repeat one
     return uses;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Internal to the verifier: the inputs as one, and what about them is true whatever is claimed.
+// The joined inputs of the verifier, and facts about them that do not depend on the claim.
 #pragma once
 
 #include <array>
@@ -25,43 +25,43 @@ std::string text(Edge pair); ///< "3 and 7"
 
 void sort_by_rule(Violations& violations);
 
-/// The inputs in numbers that count through all surfaces.
+/// The vertices and triangles of all surfaces, numbered consecutively.
 struct Inputs {
     std::vector<Point3> vertices;
     std::vector<Triangle> triangles; ///< indices into vertices
     Numbers surface_of;              ///< per triangle
 };
 
-/// What rule R8 is about, computed from the inputs alone.
+/// The triangles that rule R8 sets aside, computed from the inputs only.
 struct SetAside {
     Numbers degenerate;                                   ///< sorted
     std::vector<std::array<std::uint32_t, 2>> duplicates; ///< {triangle, first}, sorted
-    Numbers first_of; ///< per input triangle: the first with the same points, mostly itself
+    Numbers first_of; ///< per input triangle: the first one with the same points, often itself
 };
 
-/// Joins the surfaces; a triangle with an index out of range is reported (R1), with corners 0, 0,
-/// 0.
+/// Joins the surfaces. A triangle with an index out of range is reported (R1), and gets the corners
+/// 0, 0, 0.
 Inputs join_inputs(std::span<const Surface> surfaces, Violations& found);
 
-/// `points` are those of the inputs.
+/// Finds degenerate and duplicate triangles. `points` are the points of the inputs.
 SetAside find_set_aside(const Inputs& inputs, std::span<const Vector4> points);
 
-/// Per input triangle, the triangles that name it as a parent, sorted.
+/// Returns, for each input triangle, the triangles that name it as a parent, sorted.
 /// Precondition: the parents are in range.
 IndexLists<std::uint32_t> children_of(const IndexLists<std::uint32_t>& parents_of,
                                       std::size_t input_count);
 
-/// Triangles and the input triangles they are part of.
+/// Triangles and their parents, the input triangles that contain them.
 struct Parts {
     std::span<const Triangle> triangles;
     const IndexLists<std::uint32_t>& parents_of; ///< per triangle
 };
 
-/// What rule R7 calls intersection edges, sorted.
+/// Returns the intersection edges as rule R7 defines them, sorted.
 std::vector<Edge> find_intersection_edges(const Parts& parts, const Inputs& inputs,
                                           const SetAside& set_aside);
 
-/// Reports under `rule` which edges are missing in `listed`, and which should not be there.
+/// Reports under `rule` the edges that are missing in `listed`, and those that do not belong there.
 void check_intersection_edges(const std::vector<Edge>& truth, const std::vector<Edge>& listed,
                               Rule rule, Violations& found);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// A certificate from its text. Strict: what is not understood is refused, so that nobody takes for
-// certified what was never judged.
+// Parses certificates strictly: everything that is not understood is refused, so that no statement
+// counts as certified that was not judged.
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -26,7 +26,7 @@ struct Malformed {
     std::string sentence;
 };
 
-/// A value in a JSON text, and where it is.
+/// A value in a JSON text, and its path.
 class Node {
 public:
     explicit Node(const Json& json) : json_(json) {}
@@ -39,7 +39,7 @@ public:
     [[nodiscard]] bool has(std::string_view key) const { return json_.contains(key); }
     [[nodiscard]] bool is_null() const { return json_.is_null(); }
 
-    /// The value must be an object with these keys and no others than these and the optional ones.
+    /// Checks that the value is an object with all required keys, and no others but optional ones.
     void expect_keys(std::initializer_list<std::string_view> required,
                      std::initializer_list<std::string_view> optional = {}) const {
         if (!json_.is_object()) fail("an object is needed");
@@ -51,7 +51,7 @@ public:
                 fail("an unknown key");
     }
 
-    /// The size of an array.
+    /// Returns the size of an array.
     [[nodiscard]] std::size_t size() const {
         if (!json_.is_array()) fail("an array is needed");
         return json_.size();
@@ -77,7 +77,7 @@ public:
         if (!json_.is_string()) fail("a string is needed");
         return json_.get_ref<const std::string&>();
     }
-    /// A double, as decimal text.
+    /// Returns a double that is given as decimal text.
     [[nodiscard]] double number() const {
         const std::string& text = string();
         double value = 0;
@@ -103,12 +103,12 @@ private:
     }
 
     const Json& json_;
-    const Node* up_ = nullptr; ///< none: the whole text
+    const Node* up_ = nullptr; ///< nullptr: the value is the whole text
     std::string_view key_;     ///< of an object's member
     std::size_t i_ = 0;        ///< of an array's
 };
 
-/// What `read` makes of each item of an array.
+/// Returns read(item) for each item of an array.
 template <class Read>
 auto each(const Node& array, const Read& read) {
     const std::size_t n = array.size();
@@ -154,7 +154,7 @@ CertifiedInput input(const Node& node) {
             each(node["surfaces"], surface)};
 }
 
-/// ["v", i], ["lp", 5 indices], ["ppp", 9 indices], ["ll", 4 indices, "x" | "y" | "z"]
+/// Reads ["v", i], ["lp", 5 indices], ["ppp", 9 indices] or ["ll", 4 indices, "x" | "y" | "z"].
 Construction construction(const Node& node) {
     if (node.size() == 0) node.fail("a construction is needed");
     using Kind = Construction::Kind;
@@ -223,7 +223,7 @@ Certificate certificate(const Node& node) {
     return result;
 }
 
-/// "line 3, column 7", from the count of bytes read.
+/// Returns "line 3, column 7" for the number of bytes read.
 std::string place_in(std::string_view text, std::size_t bytes) {
     const std::string_view before = text.substr(0, bytes > 0 ? bytes - 1 : 0);
     const auto line = std::ranges::count(before, '\n') + 1;

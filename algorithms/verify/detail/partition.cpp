@@ -12,13 +12,13 @@ namespace terrane::verifier {
 
 namespace {
 
-/// Twice an area, as numerator / denominator, not reduced; denominator > 0.
+/// Twice an area, as a fraction that is not reduced; denominator > 0.
 struct Area {
     mpz_class numerator = 0;
     mpz_class denominator = 1;
 };
 
-/// Adds by halves, so that numbers of like size are multiplied.
+/// Adds areas recursively by halves, so that numbers of similar size are multiplied.
 Area sum(std::span<const Area> areas) {
     if (areas.empty()) return {};
     if (areas.size() == 1) return areas.front();
@@ -28,19 +28,19 @@ Area sum(std::span<const Area> areas) {
             a.denominator * b.denominator};
 }
 
-/// Twice the signed area between the origin and an edge, in a projection. Summed over the borders
-/// of counterclockwise triangles it gives twice the sum of their areas.
+/// Returns twice the signed area between the origin and an edge in a projection. The sum over the
+/// borders of counterclockwise triangles is twice the sum of their areas.
 Area area_beside(const Vector4& from, const Vector4& to, std::size_t axis) {
     const std::size_t u = (axis + 1) % 3;
     const std::size_t v = (axis + 2) % 3;
     return {from[u] * to[v] - from[v] * to[u], from[3] * to[3]};
 }
 
-/// The areas beside all edges of the children, each made counterclockwise. An edge that is run
-/// through in both directions adds nothing and is left out, which is most of them.
+/// Returns the areas beside all edges of the children, each of which is made counterclockwise. An
+/// edge that occurs in both directions, as most edges do, contributes nothing and is left out.
 std::vector<Area> areas_beside_borders(const ExactMesh& mesh,
                                        std::span<const std::uint32_t> children, std::size_t axis) {
-    std::map<Edge, int> runs; // how often from the lower index to the higher, minus the reverse
+    std::map<Edge, int> runs; // number of times from lower to higher index, minus the reverse
     for (const std::uint32_t child : children) {
         Triangle t = mesh.triangles[child];
         if (sgn(mesh.planes[child][axis]) < 0) std::swap(t[1], t[2]);

@@ -59,7 +59,7 @@ std::optional<std::size_t> projection_axis(const Vector4& plane) {
 
 namespace {
 
-/// Makes a point of any multiple of its coordinates; none if it lies at infinity.
+/// Normalises a multiple of the coordinates of a point; none if the point is at infinity.
 std::optional<Vector4> to_point(Vector4 vector) {
     if (sgn(vector[3]) == 0) return std::nullopt;
     make_primitive(vector);
@@ -69,7 +69,7 @@ std::optional<Vector4> to_point(Vector4 vector) {
     return vector;
 }
 
-/// Where the line through p and q meets a plane.
+/// Returns the point where the line through p and q meets a plane.
 std::optional<Vector4> meet(const Vector4& p, const Vector4& q, const Vector4& plane) {
     const mpz_class height_p = dot(plane, p);
     const mpz_class height_q = dot(plane, q);
@@ -110,7 +110,7 @@ ScaledPoints scale_to_integers(std::span<const Point3> points) {
             if (exact.get_den() > result.scale) result.scale = exact.get_den();
         }
     }
-    // All denominators are powers of two, so the largest is a multiple of each.
+    // All denominators are powers of two, so the largest is a multiple of all.
     const auto integer = [&](double d) -> mpz_class {
         return mpq_class(mpq_class(d) * result.scale).get_num();
     };

@@ -92,7 +92,7 @@ void check_vanished(const Inputs& inputs, const IndexLists<std::uint32_t>& child
 
 // --- R13, R14: distances ----------------------------------------------------------------------
 
-/// The inputs, the vertices and the stated distances as integers, in one scale.
+/// The inputs, the vertices and the stated distances as integers of one scale.
 struct Scaled {
     std::vector<Vector4> inputs, vertices;
     mpz_class max_move, deviation;
@@ -113,7 +113,7 @@ Scaled scale(const Inputs& inputs, const RoundedClaim& rounded) {
     return scaled;
 }
 
-/// All {parent, corner of one of its children}, sorted and unique.
+/// Returns all pairs {parent, corner of one of its children}, sorted and unique.
 std::vector<Edge> parents_and_corners(const RoundedClaim& rounded) {
     std::vector<Edge> pairs;
     for (std::size_t t = 0; t < rounded.triangles.size(); ++t)
@@ -182,7 +182,7 @@ void check_coverage(const Inputs& inputs, const Scaled& scaled,
 
 // --- R16: regions -----------------------------------------------------------------------------
 
-/// Sets that are joined: union by index, the lowest stands for all.
+/// Disjoint sets; the lowest element of a set represents it.
 class JoinedSets {
 public:
     explicit JoinedSets(std::size_t count) : up_(count) { std::iota(up_.begin(), up_.end(), 0U); }
@@ -201,7 +201,7 @@ private:
     Numbers up_;
 };
 
-/// Per triangle, the surfaces of its parents, sorted, each once.
+/// Returns the surfaces of the parents of each triangle, sorted and unique.
 IndexLists<std::uint32_t> surfaces_of_parents(const Inputs& inputs, const RoundedClaim& rounded) {
     IndexLists<std::uint32_t> surfaces;
     for (std::size_t t = 0; t < rounded.triangles.size(); ++t) {
@@ -215,7 +215,7 @@ IndexLists<std::uint32_t> surfaces_of_parents(const Inputs& inputs, const Rounde
     return surfaces;
 }
 
-/// The two triangles at each edge that is no intersection edge.
+/// Returns the two triangles at each edge that is not an intersection edge.
 std::vector<std::array<std::uint32_t, 2>> joined_triangles(const RoundedClaim& rounded) {
     std::vector<std::pair<Edge, std::uint32_t>> sides;
     for (std::uint32_t t = 0; t < rounded.triangles.size(); ++t)
@@ -233,7 +233,7 @@ std::vector<std::array<std::uint32_t, 2>> joined_triangles(const RoundedClaim& r
     return pairs;
 }
 
-/// Joins the places in `surfaces` of two triangles wherever they have a surface in common.
+/// Joins the entries of two triangles in `surfaces` for each surface that they have in common.
 void join_common(const IndexLists<std::uint32_t>& surfaces, std::uint32_t s, std::uint32_t t,
                  JoinedSets& sets) {
     for (std::uint32_t i = surfaces.offsets[s]; i < surfaces.offsets[s + 1]; ++i)
@@ -256,7 +256,8 @@ void check_regions(const Inputs& inputs, const RoundedClaim& rounded, Violations
     for (std::uint32_t t = 0; t < surfaces.size(); ++t)
         for (std::uint32_t i = surfaces.offsets[t]; i < surfaces.offsets[t + 1]; ++i)
             regions.push_back({stated[i], sets.find(i), t});
-    for (const std::size_t key : {0U, 1U}) { // the same stated, the same true one; and the reverse
+    for (const std::size_t key :
+         {0U, 1U}) { // equal stated regions have equal true ones, and vice versa
         std::ranges::sort(regions, {}, [key](const auto& r) {
             return std::array{r[key], r[1 - key], r[2]};
         });
