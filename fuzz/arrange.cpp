@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Property: an arrangement holds for the independent verifier; order, reflection, scale, axes,
-// search and threads do not change it.
+// Property: the independent verifier accepts the arrangement; order, reflection, scale, axes,
+// search method and threads do not change it.
 #include "property.hpp"
 #include "shapes.hpp"
 

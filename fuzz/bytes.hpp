@@ -7,9 +7,9 @@
 
 namespace terrane::fuzz {
 
-/// Small numbers from a fuzzer's bytes, one byte each and from the front, so that a changed byte
-/// changes one number; zeros once the bytes are used up. (clang's FuzzedDataProvider takes them
-/// from the back, and other compilers do not have it.)
+/// Reads small numbers from the bytes of a fuzzer, from the front and one byte each, so that a
+/// changed byte changes one number; after the last byte they are zero. (FuzzedDataProvider of clang
+/// takes bytes from the back, and other compilers do not have it.)
 class Bytes {
 public:
     Bytes(const std::uint8_t* bytes, std::size_t size) : next_(bytes), end_(bytes + size) {}
@@ -20,15 +20,15 @@ public:
 
     bool flag() { return (byte() & 1) != 0; }
 
-    /// In [0, count); count <= 256.
+    /// Returns a number in [0, count); count <= 256.
     unsigned below(unsigned count) { return byte() % count; }
 
-    /// In [low, high], which holds at most 256 numbers.
+    /// Returns a number in [low, high], which has at most 256 numbers.
     int between(int low, int high) {
         return low + static_cast<int>(below(static_cast<unsigned>(high - low + 1)));
     }
 
-    /// Any of eight bytes, not a number and infinite ones too.
+    /// Returns any double, from eight bytes, including NaN and infinities.
     double any_double() {
         std::uint64_t bits = 0;
         for (int i = 0; i < 8; ++i) bits = bits << 8 | byte();

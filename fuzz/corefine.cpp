@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Property: the arrangement of two surfaces is CGAL's corefinement: per input triangle the same
-// points, number of parts and area; the same intersection edges; of closed surfaces the volumes of
-// the four Booleans. Where an input breaks a condition of CGAL's, it is counted under its name.
+// Property: the arrangement of two surfaces equals their corefinement by CGAL. They have, per input
+// triangle, the same points, number of parts and area; the same intersection edges; and for closed
+// surfaces the same volumes of the four Booleans. An input that violates a condition of CGAL is
+// counted under the name of the condition.
 #include "property.hpp"
 #include "report.hpp"
 #include "shapes.hpp"
@@ -20,7 +21,7 @@ namespace terrane::fuzz {
 
 namespace {
 
-/// How often what was skipped, said at the end of a campaign.
+/// Counts skipped inputs by reason, and prints the counts at the end of a campaign.
 class Tally {
 public:
     Tally() { CGAL::set_error_behaviour(CGAL::THROW_EXCEPTION); }
@@ -41,7 +42,7 @@ Tally& tally() {
     return all;
 }
 
-/// Triangles round a point: a disc, or what is left of one.
+/// Adds triangles around a point: a disc, or a part of one.
 void add_disc(Surface& surface, Points& points, Bytes& bytes) {
     const unsigned corners = 3 + bytes.below(4);
     for (unsigned i = 0; i <= corners; ++i) surface.vertices.push_back(points.next(bytes));
@@ -50,7 +51,7 @@ void add_disc(Surface& surface, Points& points, Bytes& bytes) {
     if (whole) surface.triangles.push_back({0, corners, 1});
 }
 
-/// Closed pieces outward, where they are in general position.
+/// Orients a closed piece outward if its points are in general position.
 void turn_outward(Surface& s, const Point3& below, const Point3& above) {
     const Triangle t = s.triangles[0];
     const auto& v = s.vertices;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// libFuzzer's entry to the targets about surfaces.
+// The entry point of libFuzzer for the targets about surfaces.
 #include "property.hpp"
 #include "report.hpp"
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Reduces what a target about surfaces finds to the fewest triangles and the simplest numbers:
+// Reduces a finding of a target about surfaces to as few triangles and as simple numbers as
+// possible:
 //
 //     minimise_arrange CRASH|SOUP.obj WHAT [FOLDER]
 //
-// reads the fuzzer's bytes, or an OBJ file, and writes FOLDER/NNN-WHAT.obj with the next free
-// number. Each attempt runs in a process of its own: crashes and hangs can be reduced as well.
-// Without WHAT it prints what the bytes stand for, as an OBJ file.
+// reads the bytes of the fuzzer, or an OBJ file, and writes FOLDER/NNN-WHAT.obj with the next free
+// number. Each attempt runs in a process of its own, so that crashes and hangs can be reduced too.
+// Without WHAT it prints the surfaces that the bytes stand for as an OBJ file.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -34,7 +35,7 @@ using Surfaces = std::vector<Surface>;
 
 constexpr unsigned seconds_per_attempt = 5;
 
-/// Whether the property fails, or never ends, or crashes.
+/// Tells whether the property fails, crashes or never ends.
 bool fails(const Surfaces& surfaces) {
     std::fflush(nullptr);
     const pid_t child = fork();
@@ -48,14 +49,15 @@ bool fails(const Surfaces& surfaces) {
            !(WIFEXITED(status) && WEXITSTATUS(status) == 0);
 }
 
-/// Takes the change if the property still fails.
+/// Accepts a change if the property still fails.
 bool accept(Surfaces& current, const Surfaces& changed) {
     if (!fails(changed)) return false;
     current = changed;
     return true;
 }
 
-/// Pieces of half the triangles, of a quarter, ... of one: whatever can go, goes.
+/// Removes pieces of half the triangles, of a quarter, ..., of one triangle, if the property still
+/// fails without them.
 bool drop_triangles(Surfaces& current) {
     bool any = false;
     for (std::size_t s = 0; s < current.size(); ++s)
@@ -75,7 +77,8 @@ bool drop_triangles(Surfaces& current) {
     return any;
 }
 
-/// Equal points become one vertex; unused ones go. The points of the triangles stay.
+/// Merges vertices at equal points and removes unused ones. The points of the triangles do not
+/// change.
 void compact(Surface& s) {
     Surface result{s.name, s.role, {}, s.triangles};
     for (Triangle& t : result.triangles)
@@ -88,7 +91,7 @@ void compact(Surface& s) {
     s = result;
 }
 
-/// Simpler numbers in the place of x, the simplest first.
+/// Returns simpler numbers near x, the simplest first.
 std::vector<double> simpler(double x) {
     std::vector<double> tries{0, 1, -1, std::round(x), std::trunc(x / 2)};
     for (int digits = 1; digits < 16; ++digits) {
@@ -104,12 +107,12 @@ std::size_t length(double x) {
     return static_cast<std::size_t>(std::to_chars(text, text + sizeof text, x).ptr - text);
 }
 
-/// Fewer digits, and of two numbers of as many digits the one nearer to zero.
+/// Tells whether a is simpler than b: it has fewer digits, or as many and is nearer to zero.
 bool is_simpler(double a, double b) {
     return length(a) < length(b) || (length(a) == length(b) && std::fabs(a) < std::fabs(b));
 }
 
-/// One number everywhere that it occurs: what is shared or coplanar mostly stays so.
+/// Replaces a number everywhere, so that shared points and coplanar triangles mostly remain so.
 Surfaces replaced(Surfaces surfaces, double from, double to) {
     for (Surface& s : surfaces)
         for (Point3& p : s.vertices)
@@ -163,7 +166,7 @@ Surfaces read(const fs::path& path) {
     return fuzz::input(bytes);
 }
 
-/// FOLDER/NNN-what.obj, one after the highest number there.
+/// Returns FOLDER/NNN-what.obj, with the number after the highest one there.
 fs::path next_file(const fs::path& folder, const std::string& what) {
     int last = 0;
     for (const auto& entry : fs::directory_iterator(folder)) {

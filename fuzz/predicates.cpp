@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Property: every predicate gives the sign that exact integers give, on input points and on
-// constructed ones; on input points CGAL's exact kernel says the same.
+// Property: every predicate has the sign that exact integers give, for input points and constructed
+// points; for input points CGAL's exact kernel agrees.
 #include "bytes.hpp"
 #include "report.hpp"
 
@@ -27,7 +27,7 @@ Axis any_axis(Bytes& bytes) {
     return static_cast<Axis>(bytes.below(3));
 }
 
-/// Mostly small integers and their neighbours; sometimes any double that is finite.
+/// Returns a small integer or a neighbour of one; sometimes any finite double.
 double coordinate(Bytes& bytes) {
     const unsigned kind = bytes.byte();
     const double integer = bytes.between(-8, 8);
@@ -42,7 +42,7 @@ double coordinate(Bytes& bytes) {
     return std::isfinite(any) ? any : integer;
 }
 
-/// In a plane, at half of the times, as far as doubles go.
+/// Returns points which, half of the time, are in a plane as nearly as doubles allow.
 std::vector<Point3> input_points(Bytes& bytes) {
     std::vector<Point3> points(4 + bytes.below(5));
     const unsigned kind = bytes.byte();
@@ -63,7 +63,7 @@ std::vector<Point3> input_points(Bytes& bytes) {
     return points;
 }
 
-/// `count` different ones of the first `inputs`, ascending.
+/// Picks different numbers below `inputs`, ascending.
 void pick(Bytes& bytes, std::size_t inputs, std::span<std::uint32_t> into) {
     std::vector<std::uint32_t> all(inputs);
     for (std::uint32_t i = 0; i < inputs; ++i) all[i] = i;
@@ -153,7 +153,7 @@ void check_inputs(Bytes& bytes, const Twins& t) {
     if (bytes.byte() % 4 == 0) check_against_cgal(axis, p);
 }
 
-/// Numerator over denominator times 2^exponent against a double.
+/// Compares the fraction n / w * 2^exponent with a double.
 int compare(const oracle::Int& n, const oracle::Int& w, int exponent, double d) {
     const auto scale = std::min({exponent, oracle::Binary(d).exponent, 0});
     return cmp(oracle::Int(n << static_cast<mp_bitcnt_t>(exponent - scale)),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// A target about surfaces is two functions; the fuzzer (entry.cpp) and the minimiser call them.
+// A target about surfaces consists of two functions, which the fuzzer (entry.cpp) and the minimiser
+// call.
 #pragma once
 
 #include <span>
@@ -13,10 +14,10 @@
 
 namespace terrane::fuzz {
 
-/// What the bytes stand for. Finite coordinates, indices in range.
+/// Returns the surfaces that the bytes stand for, with finite coordinates and indices in range.
 std::vector<Surface> input(Bytes& bytes);
 
-/// What is wrong, in a sentence; empty where the property holds or says nothing of such surfaces.
+/// Describes how the property is violated; empty if it holds, or does not apply to such surfaces.
 std::string flaw(std::span<const Surface> surfaces);
 
 } // namespace terrane::fuzz

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Property: regions are what remains connected when surfaces are cut along their intersection
-// edges: found a second time by looking at all pairs of triangles.
+// Property: regions are the connected parts of surfaces cut along their intersection edges, which
+// are found a second time from all pairs of triangles.
 #include "property.hpp"
 #include "shapes.hpp"
 
@@ -23,11 +23,12 @@ namespace {
 /// A triangle as a part of one surface.
 struct Part {
     std::uint32_t triangle, surface;
-    std::uint32_t region = 0; ///< as find_regions says
-    std::size_t group = 0;    ///< as found here
+    std::uint32_t region = 0; ///< found by find_regions
+    std::size_t group = 0;    ///< found here
 };
 
-/// All three for a triangle and itself, as a part of two surfaces.
+/// Returns the common edges of two triangles: all three for a triangle that is a part of two
+/// surfaces, and itself.
 std::vector<Edge> common_edges(const Triangle& a, const Triangle& b) {
     std::vector<std::uint32_t> shared;
     for (const auto v : a)
@@ -52,7 +53,8 @@ void join(std::vector<Part>& parts, std::size_t from, std::size_t to) {
         if (p.group == from) p.group = to;
 }
 
-/// Joins parts over edges that are no intersections; notes which regions have one that is.
+/// Joins parts across edges that are not intersection edges; returns the neighbours of regions
+/// across intersection edges.
 std::map<std::uint32_t, std::set<std::uint32_t>> spread(const Arrangement& a,
                                                         std::vector<Part>& parts) {
     std::map<std::uint32_t, std::set<std::uint32_t>> neighbours;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Runs a target over files without libFuzzer: replay_TARGET FILE|FOLDER...
+// Runs a target on files without libFuzzer: replay_TARGET FILE|FOLDER...
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The files of all folders, by name.
+/// Returns the files, and those in the folders, by name.
 std::vector<fs::path> files(int argc, char** argv) {
     std::vector<fs::path> all;
     for (int i = 1; i < argc; ++i) {

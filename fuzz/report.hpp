@@ -10,7 +10,7 @@
 
 namespace terrane::fuzz {
 
-/// Ends the process: the fuzzer keeps the bytes that led here.
+/// Ends the process, so that the fuzzer keeps the bytes.
 [[noreturn]] inline void fail(const std::string& sentence) {
     std::fprintf(stderr, "FOUND: %s\n", sentence.c_str());
     std::abort();
@@ -20,7 +20,7 @@ inline void require(bool holds, const char* sentence) {
     if (!holds) fail(sentence);
 }
 
-/// The surfaces as an OBJ file that reads back the same.
+/// Returns an OBJ file from which the same surfaces are read.
 inline std::string obj_text(std::span<const Surface> surfaces) {
     std::string text;
     std::size_t first = 1;

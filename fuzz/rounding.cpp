@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Property: the doubles of an arrangement are conforming for the verifier's rationals, or refused;
-// moves, deviation, parents, edges and regions are what they are said to be; what is conforming is
-// its own arrangement. Also with one round of snapping and with none, which are refused more often.
+// Property: the rounded mesh of an arrangement is conforming by the rationals of the verifier, or
+// is refused; its moves, deviation, parents, edges and regions are as stated; a conforming mesh is
+// its own arrangement. This holds for one round of snapping and for none as well, where meshes are
+// refused more often.
 #include "property.hpp"
 #include "shapes.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Property: every search method, with one thread and with two, gives the pairs of overlapping boxes
-// that comparing all of them gives, sorted, each once.
+// Property: every search method, with one thread and with two, finds the same pairs of overlapping
+// boxes as the comparison of all pairs: sorted, each once.
 #include "report.hpp"
 #include "shapes.hpp"
 
@@ -26,14 +26,14 @@ Box around(const Point3& a, const Point3& b) {
             {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}};
 }
 
-/// Sides of a box: a whole number, nothing, or far smaller or larger than the others'.
+/// Returns the length of a side of a box: a small integer, zero, or a far smaller or larger number.
 double side(Bytes& bytes) {
     const unsigned byte = bytes.byte();
     if (byte < 200) return byte % 4;
     return std::ldexp(1, static_cast<int>(byte) - 232);
 }
 
-/// One box, or a row of boxes that touch or overlap.
+/// Adds one box, or a row of boxes that touch or overlap.
 void add_boxes(Boxes& boxes, const fuzz::Frame& frame, Bytes& bytes) {
     const unsigned kind = bytes.byte();
     Point3 low{double(bytes.between(-16, 16)), double(bytes.between(-16, 16)),
@@ -69,7 +69,7 @@ bool meet(const Box& a, const Box& b) {
     return true;
 }
 
-/// Every box with those that begin before it ends, along x.
+/// Compares every box with those that begin along x before it ends.
 Pairs expected(const Boxes& boxes, const Groups& groups) {
     Groups order(boxes.size());
     for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -106,7 +106,7 @@ void check_active(const Boxes& boxes, const Groups& groups, const Pairs& all, By
             "filtered pairs of active boxes differ");
 }
 
-/// So many small boxes that the threads share the work.
+/// Checks so many small boxes that threads share the work.
 void check_many(Bytes& bytes) {
     bytes.byte();
     bytes.byte();
@@ -147,7 +147,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             const std::string name(name_of(method));
             if (candidate_pairs(boxes, groups, method) != right) fuzz::fail(name + " differs");
         }
-        // The only method that uses threads.
+        // This is the only method that uses threads.
         require(candidate_pairs(boxes, groups, Search::bvh, {.threads = 2}) == right,
                 "hierarchy with two threads differs");
         check_active(boxes, groups, right, bytes);

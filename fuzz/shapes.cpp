@@ -9,7 +9,7 @@ namespace terrane::fuzz {
 
 namespace {
 
-/// A lattice number; the highest bytes are nudged, halved or negative zeros.
+/// Returns a number of the lattice; the highest bytes stand for neighbours, halves and -0.
 double coordinate(Bytes& bytes, int range) {
     const unsigned byte = bytes.byte();
     const double lattice = static_cast<int>(byte % static_cast<unsigned>(2 * range + 1)) - range;
@@ -36,7 +36,8 @@ std::size_t count(const std::vector<Surface>& surfaces) {
     return triangles;
 }
 
-/// Of nothing but vertices there is no copy: copies of copies would be too many.
+/// Appends a shifted copy of another surface, if it has triangles: copies of copies of vertices
+/// only would become too many.
 void add_copy(Surface& surface, const Surface& other, const Point3& by) {
     if (other.triangles.empty()) return;
     const auto first = static_cast<std::uint32_t>(surface.vertices.size());

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Property: tetrahedra of a conforming mesh fill the box exactly, and the faces that name a
-// triangle have its area; or TetGen, in its child process, is said to have failed. What is not
-// conforming is refused by name.
+// Property: the tetrahedra of a conforming mesh fill the box exactly, and the faces that name a
+// triangle have its area; or a failure of TetGen, in its child process, is reported. A mesh that is
+// not conforming is refused with the right error.
 #include "property.hpp"
 #include "shapes.hpp"
 
@@ -45,7 +45,8 @@ Vector normal(const std::vector<Point3>& p, const Triangle& t) {
     return cross(between(p[t[0]], p[t[1]]), between(p[t[0]], p[t[2]]));
 }
 
-/// The box is that of all vertices: its corners are among them.
+/// Compares the volume of the tetrahedra with that of the box of all vertices, to which the corners
+/// of the box belong.
 std::string volume_flaw(const TetrahedralMesh& mesh) {
     Rational sum = 0;
     for (const auto& t : mesh.tetrahedra) {
@@ -62,7 +63,8 @@ std::string volume_flaw(const TetrahedralMesh& mesh) {
     return sum == 6 * size[0] * size[1] * size[2] ? "" : "the volumes do not add up to the box";
 }
 
-/// Undivided faces are the triangles; the normals of parts add up, since they are not rounded.
+/// Compares faces with triangles: an undivided face equals its triangle; the normals of parts,
+/// which are not rounded, add up to that of the triangle.
 std::string faces_flaw(const Mesh& mesh, const TetrahedralMesh& made) {
     std::map<std::uint32_t, Vector> sums;
     std::map<std::uint32_t, std::size_t> parts;
@@ -89,7 +91,7 @@ std::string flaw(std::span<const Surface> surfaces) {
     const auto rounded = round_to_doubles(arranged.value());
     if (!rounded || rounded.value().mesh.triangles.empty()) return "";
     const Mesh& mesh = rounded.value().mesh;
-    const auto made = tetrahedralize(mesh, {.time_limit = 1}, {}); // TetGen may go round for ever
+    const auto made = tetrahedralize(mesh, {.time_limit = 1}, {}); // TetGen may loop for ever
     if (!rounded.value().report.clean)
         return !made && made.error().code == ErrorCode::improper_contact
                    ? ""

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Property: two triangles meet as CGAL's exact kernel says: the same points, where they are said to
-// be, in either order, for any first corner; and improperly iff the verifier's rationals find so.
+// Property: two triangles meet in the same points as in CGAL's exact kernel, in the stated
+// simplices, in either order and for any first corner; and they meet improperly iff the verifier
+// finds so.
 #include "property.hpp"
 #include "shapes.hpp"
 
@@ -22,7 +23,7 @@ std::vector<Surface> input(Bytes& bytes) {
 
 namespace {
 
-/// Equal points get the same index.
+/// Joins surfaces into one list of triangles; equal points get the same index.
 std::vector<Triangle> merged(std::span<const Surface> surfaces, std::vector<Point3>& points) {
     std::vector<Triangle> triangles;
     for (const Surface& s : surfaces)

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Property: as many volumes as the homology of the triangles says, on the sides that segments cross
-// as stated, of the exact sizes; and doubles that are conforming enclose blocks by the same rules.
+// Property: there are as many volumes as the homology of the triangles implies; segments cross from
+// one to the other as stated; their measures are exact. The same holds for the blocks of a
+// conforming rounded mesh.
 #include "property.hpp"
 #include "shapes.hpp"
 
@@ -36,7 +37,7 @@ std::string flaw_of(const Arrangement& a, const Volumes& volumes) {
     }
     if (sum != expected[0]) return "volumes do not add up";
     if (a.triangles.empty()) return "";
-    std::mt19937_64 random(a.triangles.size()); // the same for the same surfaces
+    std::mt19937_64 random(a.triangles.size()); // repeatable for equal surfaces
     for (int k = 0; k < 4; ++k)
         if (auto what = oracle.flaw_on_segment(volumes, random); !what.empty()) return what;
     return "";

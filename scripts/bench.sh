@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: LGPL-3.0-or-later
-# Builds with benchmarks and prints the table of required speeds: medians, ratios to CGAL and to the
-# floor, all from one run. With --parts the memory it takes and the benchmarks of all parts follow.
+# Builds with benchmarks and prints the table of required speeds: medians, and ratios to CGAL and to
+# the floor, all from one run. With --parts the memory use and the benchmarks of all parts follow.
 # Other arguments:
 #   --repeats N   --large   NAME...
 set -eu

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: LGPL-3.0-or-later
 #
-# From real surfaces to one conforming mesh, its regions and tetrahedra: sets up, builds the library
-# and the program, and runs it on models of tests/data. Writes into out/demo.
+# Makes conforming meshes, regions and tetrahedra from real surfaces: sets up, builds the library
+# and the program, and runs it on models of tests/data. It writes into out/demo.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -19,7 +19,7 @@ run() {
     "$@"
 }
 
-# expect FILE.json KEY NUMBER: one of the numbers that --stats wrote.
+# expect FILE.json KEY NUMBER: checks one of the numbers that --stats wrote.
 expect() {
     local found
     found=$(sed -n "s/^ *\"$2\": \([0-9.]*\),\{0,1\}\$/\1/p" "$1" | tail -n 1)

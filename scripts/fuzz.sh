@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: LGPL-3.0-or-later
 #
-# Fuzzes: scripts/fuzz.sh [SECONDS [TARGET...]]
-# Builds the preset fuzz (FUZZ_PRESET: another one) and runs each target (all, unless some are
-# named) for so many seconds, 60 unless given, two at a time (FUZZ_JOBS), from the committed seeds.
-# FUZZ_SEED makes a run repeatable as far as time allows (0, the default: another one each time);
-# FUZZ_CORPUS names a folder in which the corpora are kept from one run to the next. Ends with a
-# table; where something was found with the file that reproduces it, and status 1.
+# Runs the fuzz targets: scripts/fuzz.sh [SECONDS [TARGET...]]
+# It builds the preset fuzz (or FUZZ_PRESET) and runs each target (all, unless some are named) for
+# SECONDS (default 60), two at a time (or FUZZ_JOBS), from the committed seeds. FUZZ_SEED makes a
+# run repeatable as far as timing allows (0, the default, is different each time); FUZZ_CORPUS
+# names a folder that keeps the corpora from one run to the next. It ends with a table; for each
+# finding the table names the file that reproduces it, and the status is 1.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -28,10 +28,10 @@ findings=$PWD/build/$preset/findings
 corpora=${FUZZ_CORPUS:-$results/corpus}
 rm -rf "$results" && mkdir -p "$results" "$findings" "$corpora"
 
-# Of each allocation the innermost caller: whole stacks took a third of the time.
+# Record only the innermost caller of each allocation: whole stacks took a third of the time.
 export ASAN_OPTIONS=malloc_context_size=1${ASAN_OPTIONS:+:$ASAN_OPTIONS}
 
-# A finding ends the target: what is found first is to be mended first.
+# A finding ends the target, as the first finding is to be fixed first.
 run_target() {
     local target=$1 options=(-max_len=400 -len_control=10 -entropic=0)
     local seed=${FUZZ_SEED:-0}
@@ -40,8 +40,8 @@ run_target() {
     if [[ $target == read_* ]]; then
         options=(-max_len=4096 -malloc_limit_mb=256 "-dict=$PWD/fuzz/dictionaries/${target#read_}.dict")
     fi
-    # len_control: inputs may grow sooner. entropic: its book-keeping is linear in the features of
-    # a run, and took two thirds of the time.
+    # len_control lets inputs grow sooner. entropic is off, as its cost is linear in the features of
+    # a run and took two thirds of the time.
     "$binaries/fuzz_$target" "${options[@]}" -seed="$seed" -max_total_time="$seconds" -timeout=20 \
         -rss_limit_mb=2048 -print_final_stats=1 -artifact_prefix="$findings/$target-" \
         "$corpora/$target" "$seeds" >"$results/$target.log" 2>&1 ||
@@ -57,7 +57,7 @@ wait
 printf '%-12s %12s %9s %9s %9s\n' target executions per_second edges features
 for target in "${targets[@]}"; do
     log=$results/$target.log
-    progress=$(grep -aE '^#[0-9]+.* cov: ' "$log" | tail -1) || true # none: the first seed failed
+    progress=$(grep -aE '^#[0-9]+.* cov: ' "$log" | tail -1) || true # no line if the first seed failed
     printf '%-12s %12s %9s %9s %9s\n' "$target" \
         "$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")" \
         "$(sed -n 's/^stat::average_exec_per_sec: *//p' "$log")" \

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: LGPL-3.0-or-later
 #
-# Fuzzes the fuzzers: scripts/fuzz_mutations.sh [SECONDS [SCRATCH [NAME...]]]
-# Plants a bug in a copy of the sources, builds the target concerned and runs it from the committed
-# seeds until it is found, at most so many seconds (300 unless given). Prints a table of the times;
-# status 1 where a bug was not found, or can no longer be planted. SCRATCH keeps the copy and its
-# build for another time; names choose among the bugs.
+# Tests the fuzz targets: scripts/fuzz_mutations.sh [SECONDS [SCRATCH [NAME...]]]
+# It plants a bug in a copy of the sources, builds the target concerned and runs it from the
+# committed seeds until the bug is found, at most for SECONDS (default 300). It prints a table of
+# the times; the status is 1 if a bug was not found, or can no longer be planted. SCRATCH keeps the
+# copy and its build for the next run; NAME selects bugs.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -15,7 +15,7 @@ shift $(($# < 2 ? $# : 2))
 chosen=" $* "
 jobs=${FUZZ_JOBS:-$(nproc)}
 
-# name ~ target ~ file ~ perl: what changes in it
+# name ~ target ~ file ~ the change, in Perl
 mutations=(
     'orientation-sign~predicates~kernel/predicates.cpp~s/return \{p\.y, p\.z\};/return {p.z, p.y};/'
     'filter-bound~predicates~kernel/predicates.cpp~s/, 9 \* unit \* u \* v\)/, 0.25 * unit * u * v)/'
@@ -38,7 +38,7 @@ mutations=(
 )
 
 mkdir -p "$scratch/findings"
-# What differs only, and with new times: the build in SCRATCH may be of a planted bug.
+# Copy only changed files, with new times, since the build in SCRATCH may have a planted bug.
 git ls-files | while read -r file; do
     cmp -s "$file" "$scratch/$file" || cp --parents "$file" "$scratch"
 done
@@ -46,7 +46,7 @@ cmake -S "$scratch" --preset fuzz >/dev/null
 
 build() { cmake --build "$scratch/build/fuzz" -j "$jobs" --target "fuzz_$1" >"$scratch/build.log" 2>&1; }
 
-# Seconds until the target ends on a finding; empty if it does not.
+# Prints the seconds until the target ends with a finding; nothing if it does not.
 time_to_find() {
     local start options=(-max_len=400 -entropic=0)
     [[ $1 != read_* ]] || options=(-max_len=4096 "-dict=$scratch/fuzz/dictionaries/${1#read_}.dict")

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: LGPL-3.0-or-later
 #
-# Format and names: scripts/lint.sh [since]
-# clang-format over all sources; clang-tidy over the library and the program, or only over the
-# files that changed since a commit, if one is given. Changes nothing.
+# Checks format and names: scripts/lint.sh [since]
+# It runs clang-format over all sources, and clang-tidy over the library and the program, or only
+# over the files that changed since a commit if one is given. It changes nothing.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

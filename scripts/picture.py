@@ -36,7 +36,7 @@ def read(reader, path):
 
 
 def surfaces_of(path):
-    """Points, triangles and the surface of each triangle."""
+    """Returns points, triangles and the surface of each triangle."""
     data = read(vtk.vtkXMLPolyDataReader(), path)
     points = vtk_to_numpy(data.GetPoints().GetData()).astype(float)
     triangles = vtk_to_numpy(data.GetPolys().GetConnectivityArray()).reshape(-1, 3)
@@ -44,7 +44,7 @@ def surfaces_of(path):
 
 
 def tetrahedra_of(path):
-    """Points, tetrahedra and the region of each."""
+    """Returns points, tetrahedra and the region of each tetrahedron."""
     data = read(vtk.vtkXMLUnstructuredGridReader(), path)
     points = vtk_to_numpy(data.GetPoints().GetData()).astype(float)
     is_tetrahedron = vtk_to_numpy(data.GetCellTypesArray()) == vtk.VTK_TETRA
@@ -55,7 +55,7 @@ def tetrahedra_of(path):
 
 
 def poly_data(points, cells, kind):
-    """kind: 2 for lines, 3 for triangles."""
+    """Makes poly data of cells with `kind` points: 2 for lines, 3 for triangles."""
     used, renumbered = np.unique(cells, return_inverse=True)
     data = vtk.vtkPolyData()
     vertices = vtk.vtkPoints()
@@ -97,7 +97,7 @@ def line_actor(points, lines, width):
 
 
 def crossing_edges(triangles):
-    """Edges in which more than two triangles meet."""
+    """Returns the edges in which more than two triangles meet."""
     sides = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]],
                                     triangles[:, [2, 0]]]), axis=1)
     edges, count = np.unique(sides, axis=0, return_counts=True)
@@ -105,7 +105,7 @@ def crossing_edges(triangles):
 
 
 def border_faces(tetrahedra):
-    """Faces with one tetrahedron."""
+    """Returns the faces with one tetrahedron."""
     faces = np.concatenate([tetrahedra[:, [0, 2, 1]], tetrahedra[:, [0, 1, 3]],
                             tetrahedra[:, [1, 2, 3]], tetrahedra[:, [2, 0, 3]]])
     _, first, count = np.unique(np.sort(faces, axis=1), axis=0, return_index=True,
@@ -159,7 +159,7 @@ def draw_surfaces(renderer, path):
 
 
 def layer_colours(centres):
-    """The model has three blocks between two faults: a colour per layer, a shade per block."""
+    """Returns a colour per layer and a shade per block; three blocks lie between two faults."""
     colours = {}
     by_x = np.argsort(centres[:, 0])
     for block, members in enumerate(np.array_split(by_x, 3)):
@@ -187,7 +187,7 @@ def draw_tetrahedra(renderer, path):
 
 
 def write_png(image, path):
-    """With a palette of 256 colours: a third of the bytes."""
+    """Writes an image with a palette of 256 colours, which takes a third of the bytes."""
     quantized = vtk.vtkImageQuantizeRGBToIndex()
     quantized.SetInputConnection(image.GetOutputPort())
     quantized.SetNumberOfColors(256)

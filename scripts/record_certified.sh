@@ -3,7 +3,7 @@
 #
 # Makes a case for tests/certified, if the verifier accepts the result:
 #   scripts/record_certified.sh NAME INPUT...
-#   scripts/record_certified.sh --all           records what is expected of all cases anew
+#   scripts/record_certified.sh --all           records the expected results of all cases again
 # BUILD names the build tree (default: build/release).
 set -euo pipefail
 cd "$(dirname "$0")/.."

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: LGPL-3.0-or-later
 #
-# The same bytes come out whatever compiler, build type and number of threads: arranges a few files
-# of tests/data with each and compares what is written.
+# Checks that the output does not depend on compiler, build type and number of threads: arranges a
+# few files of tests/data with each and compares the written files.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -11,7 +11,7 @@ if [[ ! -e cli/CMakeLists.txt ]]; then
     exit 0
 fi
 
-presets=(release asan) # gcc, optimised, is what the other is compared with: clang, debug
+presets=(release asan) # clang, debug, is compared with gcc, optimised
 data=tests/data
 cases=(
     "$data/ringmesh/split_cube.ml"
@@ -28,7 +28,8 @@ done
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# arrange DIR PRESET THREADS: all cases, in all formats. 1 is an answer ("can't round"): kept, too.
+# arrange DIR PRESET THREADS: arranges all cases and writes all formats. Status 1 (rounding failed)
+# is a result as well.
 arrange() {
     local number=0 inputs format status
     mkdir -p "$1"

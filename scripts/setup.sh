@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: LGPL-3.0-or-later
 #
-# Installs what a Debian 12 needs to build and test Terrane. Safe to run again: with everything in
-# place it needs neither network nor root.
+# Installs the packages that Debian 12 needs to build and test Terrane. It may be run again: if all
+# are installed it needs neither network nor root.
 set -euo pipefail
 
 packages=(
@@ -11,7 +11,7 @@ packages=(
     libcgal-dev libgmp-dev libmpfr-dev nettle-dev libeigen3-dev libnanoflann-dev libtbb-dev
     libcli11-dev libfmt-dev nlohmann-json3-dev libpugixml-dev zlib1g-dev
     libtet1.5-dev catch2 libbenchmark-dev
-    python3-vtk9 python3-meshio gmsh # read back what is written, in tests only
+    python3-vtk9 python3-meshio gmsh # read the written files back, in tests only
 )
 
 is_installed() {
@@ -38,7 +38,7 @@ as_root=()
 if [[ $EUID -ne 0 ]]; then
     command -v sudo >/dev/null || fail "not root, and there is no sudo"
     as_root=(sudo)
-    [[ -t 0 ]] || as_root=(sudo -n) # nobody there to type a password
+    [[ -t 0 ]] || as_root=(sudo -n) # nobody can type a password
 fi
 
 echo "setup: installing ${missing[*]}"

@@ -85,8 +85,8 @@ inline constexpr std::size_t most_contacts_listed = 100'000;
 /// (4) R8: triangles without area are degenerate and are not compared for duplicates; points are
 ///     equal if their coordinates are equal, whatever their indices.
 ///
-/// Cost: O(n log n + k) for k pairs of triangles whose boxes touch, with an exact test each; 100
-/// 000 triangles take about a second.
+/// Cost: O(n log n + k) for k pairs of triangles whose boxes touch, with an exact test each.
+/// 100 000 triangles take about a second.
 std::vector<Violation> verify_arrangement(std::span<const Surface> inputs,
                                           const ArrangementClaim& claim);
 

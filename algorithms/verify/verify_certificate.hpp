@@ -11,8 +11,7 @@
 //     area is a parent, or listed as vanished (R12). Projected along its normal, each point of an
 //     input triangle that is farther than `deviation` from its border is covered (R18).
 // (4) If the mesh has the triangles of the exact part, each vertex is within `max_move` of the
-// exact
-//     vertex (R14).
+//     exact vertex (R14).
 // (5) Its intersection edges, its regions and the digest are correct (R15 to R17).
 #pragma once
 

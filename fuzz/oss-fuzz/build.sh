@@ -1,10 +1,10 @@
 #!/bin/bash -eu
 # SPDX-License-Identifier: LGPL-3.0-or-later
 #
-# Builds all fuzz targets into $OUT, with seeds, dictionaries and options, as OSS-Fuzz wants it:
-# with $CC, $CXX, $CFLAGS, $CXXFLAGS (which hold the sanitizers) and $LIB_FUZZING_ENGINE. Sources
-# are in $SRC/terrane; dependencies that are not in $SRC are the system's.
-# TetGen is left out: it is slow, and its bugs are not ours.
+# Builds all fuzz targets into $OUT, with seeds, dictionaries and options, as OSS-Fuzz requires:
+# with $CC, $CXX, $CFLAGS, $CXXFLAGS (which contain the sanitizers) and $LIB_FUZZING_ENGINE. The
+# sources are in $SRC/terrane; dependencies that are not in $SRC come from the system.
+# TetGen is left out, since it is slow and its bugs are not ours.
 
 work=${WORK:-$SRC/work}
 prefix=$work/prefix
@@ -20,7 +20,7 @@ dependency() {
 dependency oneTBB -DTBB_TEST=OFF -DTBB_STRICT=OFF
 dependency fmt -DFMT_TEST=OFF -DFMT_DOC=OFF
 
-# A folder with nothing but archives, searched first: -lgmp is the static one.
+# This folder has only archives and is searched first, so that -lgmp is the static library.
 for library in gmp gmpxx mpfr nettle z; do
     archive=$("$CC" -print-file-name="lib$library.a")
     [[ -e $archive ]] && ln -sf "$archive" "$work/static/"

@@ -13,7 +13,7 @@
 
 namespace terrane {
 
-/// Writes the triangles as polygons, in order. Its cell arrays of type Int32 are
+/// Writes the triangles as polygons, in order. The cell arrays (Int32) are
 ///   surface        index of the first surface of the triangle
 ///   surface_count  number of its surfaces (> 1: they coincide there)
 ///   region         its region in that first surface, if the mesh has regions
@@ -25,8 +25,7 @@ namespace terrane {
 Result<std::string> to_vtp(const Mesh& mesh, bool compress = true,
                            std::span<const CellArray> cells = {});
 
-/// Writes the tetrahedra, then their faces on surfaces as triangles. Its cell arrays of type Int32
-/// are
+/// Writes the tetrahedra, then their faces on surfaces as triangles. The cell arrays (Int32) are
 ///   region   of the tetrahedron; -1 for a face
 ///   surface  index of the first surface of the face; -1 for a tetrahedron
 ///   surface_count  number of its surfaces; 0 for a tetrahedron

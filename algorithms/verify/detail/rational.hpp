@@ -24,10 +24,9 @@ namespace terrane::verifier {
 using Vector4 = std::array<mpz_class, 4>;
 
 /// Returns the vector that is orthogonal to a, b and c.
-/// (1) For three points it is the plane through them; zero iff they are collinear. The normal
-/// points
-///     to the side from which they are counterclockwise: for (0,0,0), (1,0,0), (0,1,0) it is
-///     (0,0,1,0).
+/// (1) For three points it is the plane through them; zero iff they are collinear. Its normal is
+///     on the side from which they are counterclockwise: for (0,0,0), (1,0,0), (0,1,0) the plane
+///     is (0,0,1,0).
 /// (2) For three planes it is their common point; w = 0 iff they do not have exactly one.
 /// (3) For two points and a direction (w = 0) it is the plane that contains all three.
 Vector4 orthogonal(const Vector4& a, const Vector4& b, const Vector4& c);
