@@ -139,6 +139,20 @@ TEST_CASE("TetGen's helper: it works whichever standard streams are closed",
     }
 }
 
+TEST_CASE("TetGen's helper: no channel to it takes the place of a closed standard stream",
+          "[tetrahedra][helper]") {
+    const Impostor sleeper("exec sleep 100");
+    TetgenInput input = cube_input();
+    input.helper = sleeper.path();
+    input.time_limit = 1;
+    CHECK(holds_in_child([&] {
+        for (int fd = 0; fd < 3; ++fd) close(fd);
+        const std::jthread caller([&] { (void)run_tetgen(input, {}); });
+        std::this_thread::sleep_for(std::chrono::milliseconds(300)); // it runs; we may print
+        return fcntl(0, F_GETFD) == -1 && fcntl(1, F_GETFD) == -1 && fcntl(2, F_GETFD) == -1;
+    }));
+}
+
 TEST_CASE("TetGen's helper: it works whatever signals are blocked or ignored",
           "[tetrahedra][helper]") {
     const fs::path helper = find_tetgen_helper().value();
