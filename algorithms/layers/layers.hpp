@@ -45,6 +45,7 @@ struct Layer {
     double hardness = 0;       ///< no unit; more is harder; finite
 };
 
+/// Options of stack_layers() and harden().
 struct LayerOptions {
     double min_thickness = 0; ///< D, along z, unit of the surfaces; >= 0
     unsigned max_rounds = 8;  ///< of snapping, see rounding.hpp
@@ -56,12 +57,14 @@ struct LayerReport {
     std::size_t dropped = 0;   ///< triangles of the arrangement that were its own
     std::size_t taken = 0;     ///< triangles of harder ones that it has instead
     std::size_t parts = 0;     ///< connected parts of what was dropped: regions
-    double dropped_area = 0, taken_area = 0;
+    double dropped_area = 0;   ///< of `dropped`
+    double taken_area = 0;     ///< of `taken`
     double largest_move = 0; ///< along z, of a corner of what was dropped, to the harder one there
     double step_length = 0; ///< of borders between what stays and what was dropped where the harder
                             ///< one ends
 };
 
+/// A stack of layers.
 struct Layered {
     RoundedMesh rounded; ///< its surfaces are those of `order`, in that order. Triangles where
                          ///< layers coincide have several. If report.clean is false, don't use it

@@ -30,24 +30,27 @@
 
 namespace terrane {
 
+/// Options of seal().
 struct SealOptions {
-    double distance = 0; ///< > 0, unit of the input
-    ArrangeOptions arrange{};
+    double distance = 0;      ///< > 0, unit of the input
+    ArrangeOptions arrange{}; ///< for the arrangements that are made
 };
 
+/// What was done to a border: a strip was added, or what reached beyond was removed.
 enum class SealKind : std::uint8_t { extended, trimmed };
 
 /// One connected part of a border.
 struct SealChange {
-    SealKind kind = SealKind::extended;
-    std::uint32_t surface = 0;
-    double length = 0;  ///< of the free border there, before
+    SealKind kind = SealKind::extended; ///< what was done
+    std::uint32_t surface = 0;          ///< of the input
+    double length = 0;                  ///< of the free border there, before
     double largest = 0; ///< distance: of the border from the nearest other surface, or of what
                         ///< is trimmed from the curve
     Point3 place{};     ///< where it is largest
     std::size_t triangles = 0; ///< of the arrangement: added, or removed
 };
 
+/// Surfaces whose gaps are closed, arranged.
 struct Sealed {
     std::vector<Surface> surfaces; ///< of the input; triangles of strips stand last in each, and so
                                    ///< count among the input triangles of the arrangement

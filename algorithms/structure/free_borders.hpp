@@ -16,31 +16,33 @@ namespace terrane {
 /// that what stops a hair short is not mixed with what ends far from anything.
 struct BorderGap {
     std::uint32_t surface = 0; ///< the nearest one that the border does not belong to
-    int decade = 0;    ///< distances are in [10^decade, 10^(decade + 1)); INT_MIN: they are 0
-    double length = 0; ///< of the border there
-    double least = 0;  ///< smallest and largest distance of an edge, at its farther end
-    double largest = 0;
-    Point3 place{}; ///< the vertex with the largest
+    int decade = 0;     ///< distances are in [10^decade, 10^(decade + 1)); INT_MIN: they are 0
+    double length = 0;  ///< of the border there
+    double least = 0;   ///< smallest distance of an edge, at its farther end
+    double largest = 0; ///< largest distance of an edge, at its farther end
+    Point3 place{};     ///< the vertex with the largest
 };
 
 /// One free border, from corner to corner or closed.
 struct FreeBorder {
     std::uint32_t line = 0;                ///< of the structure, of kind free_border
     std::vector<std::uint32_t> surfaces{}; ///< that end here, ascending
-    double length = 0;
-    bool closed = false;
+    double length = 0;                     ///< unit of the mesh
+    bool closed = false;                   ///< whether it is a loop without corner
     std::vector<BorderGap> gaps{}; ///< by decade, then surface; empty without other surfaces
 };
 
 /// Two surfaces, one of which ends near the other without meeting it; at distances of one order of
 /// magnitude, as above.
 struct Leak {
-    std::uint32_t from = 0, to = 0; ///< the one that ends; the one nearest to it
-    int decade = 0;
+    std::uint32_t from = 0;  ///< the surface that ends
+    std::uint32_t to = 0;    ///< the surface nearest to it
+    int decade = 0;          ///< as in BorderGap
     std::size_t borders = 0; ///< parts of borders
     double length = 0;       ///< of them
-    double least = 0, largest = 0;
-    Point3 place{}; ///< where it is largest
+    double least = 0;        ///< smallest distance
+    double largest = 0;      ///< largest distance
+    Point3 place{};          ///< where it is largest
 };
 
 /// All free borders, in the order of their lines. Each edge counts for the surface nearest to its

@@ -40,13 +40,15 @@ enum class LineKind : std::uint8_t {
 /// "free border", "boundary line", "cutoff line", "branch line", "intersection curve".
 std::string_view name_of(LineKind kind);
 
+/// A vertex at which lines end.
 struct ModelCorner {
     std::uint32_t vertex = 0;           ///< of the mesh
     std::vector<std::uint32_t> lines{}; ///< that end here, ascending; twice for both ends
 };
 
+/// A chain of edges at which patches meet or end.
 struct ModelLine {
-    LineKind kind = LineKind::free_border;
+    LineKind kind = LineKind::free_border;  ///< by the roles of the surfaces
     std::vector<std::uint32_t> vertices{};  ///< of the mesh, >= 2, in order; first = last: closed
     std::vector<std::uint32_t> patches{};   ///< that meet here, ascending, each once
     std::vector<std::uint32_t> surfaces{};  ///< of the triangles that meet here, ascending
@@ -54,13 +56,15 @@ struct ModelLine {
     double length = 0;                      ///< unit of the mesh
 };
 
+/// A connected part of an interface.
 struct ModelPatch {
-    std::uint32_t interface = 0;
+    std::uint32_t interface = 0;            ///< the interface that it is part of
     std::vector<std::uint32_t> triangles{}; ///< of the mesh, ascending
     std::vector<std::uint32_t> lines{};     ///< around it and within it, ascending
     double area = 0;                        ///< squared unit
 };
 
+/// What lies between the same two volumes and in the same surfaces.
 struct ModelInterface {
     std::array<std::uint32_t, 2> volumes{}; ///< on its sides, the lower first; equal: it dangles
     std::vector<std::uint32_t> surfaces{};  ///< of all its triangles, ascending, >= 1
@@ -68,6 +72,7 @@ struct ModelInterface {
     std::vector<std::uint32_t> triangles{}; ///< of the mesh, ascending
     double area = 0;                        ///< squared unit
 
+    /// Whether the same volume is on both sides.
     [[nodiscard]] bool dangles() const { return volumes[0] == volumes[1]; }
 };
 
@@ -78,19 +83,22 @@ struct ModelInterface {
 struct ModelBlock {
     std::string name{}; ///< "top/base|fault": above/below|beside, "-" for none, "+" between two;
                         ///< unique: one met again gets " 2", " 3", ...
-    std::vector<std::uint32_t> above{}, below{}, beside{}; ///< surfaces, ascending
-    std::vector<std::uint32_t> interfaces{};               ///< around it; none that dangles
-    std::vector<std::uint32_t> inner_interfaces{};         ///< that dangle in it
-    std::vector<std::uint32_t> neighbours{};               ///< volumes beyond the former, ascending
+    std::vector<std::uint32_t> above{};            ///< surfaces above it, ascending
+    std::vector<std::uint32_t> below{};            ///< surfaces below it, ascending
+    std::vector<std::uint32_t> beside{};           ///< surfaces beside it, ascending
+    std::vector<std::uint32_t> interfaces{};       ///< around it; none that dangles
+    std::vector<std::uint32_t> inner_interfaces{}; ///< that dangle in it
+    std::vector<std::uint32_t> neighbours{};       ///< volumes beyond the former, ascending
     double volume = 0; ///< cubic unit: the double nearest to the exact volume of the mesh
     double area = 0;   ///< of the boundary
 };
 
+/// The boundary representation of a model.
 struct Structure {
-    std::vector<ModelCorner> corners{};
-    std::vector<ModelLine> lines{};
-    std::vector<ModelPatch> patches{};
-    std::vector<ModelInterface> interfaces{};
+    std::vector<ModelCorner> corners{};        ///< in lexicographic order of their positions
+    std::vector<ModelLine> lines{};            ///< by their least vertices
+    std::vector<ModelPatch> patches{};         ///< by their least vertices
+    std::vector<ModelInterface> interfaces{};  ///< by their volumes
     std::vector<ModelBlock> blocks{};          ///< per volume; [0] is the outside, "outside"
     std::vector<std::uint32_t> patch_of{};     ///< per triangle
     std::vector<std::uint32_t> interface_of{}; ///< per triangle

@@ -17,7 +17,7 @@ namespace terrane {
 /// A part of a mesh. It has all its surfaces, the vertices that its triangles use, in their order,
 /// and no intersection edges.
 struct MeshPart {
-    Mesh mesh;
+    Mesh mesh;                            ///< the part as a mesh of its own
     std::vector<std::uint32_t> triangles; ///< per triangle of the part: its number in the whole
 };
 

@@ -24,6 +24,7 @@
 
 namespace terrane {
 
+/// x and y, in the unit of the surfaces.
 using Point2 = std::array<double, 2>;
 
 /// Unit of the surfaces; angles in degrees.

@@ -26,20 +26,22 @@
 
 namespace terrane {
 
+/// Options of extend_to_boundary().
 struct ExtendOptions {
-    double limit = 0; ///< > 0, unit of the input: no strip is wider, but at corners
-    ArrangeOptions arrange{};
+    double limit = 0;         ///< > 0, unit of the input: no strip is wider, but at corners
+    ArrangeOptions arrange{}; ///< for the arrangements that are made
 };
 
 /// A connected part of a border inside the volume.
 struct ExtendedBorder {
-    std::uint32_t surface = 0;
-    bool reached = false;  ///< the boundary: it was extended
-    double length = 0;     ///< of the free border; unit of the input
-    Point3 place{};        ///< its lexicographically least vertex
-    std::size_t edges = 0; ///< border edges of the input
+    std::uint32_t surface = 0; ///< of the input
+    bool reached = false;      ///< the boundary: it was extended
+    double length = 0;         ///< of the free border; unit of the input
+    Point3 place{};            ///< its lexicographically least vertex
+    std::size_t edges = 0;     ///< border edges of the input
 };
 
+/// Surfaces extended to a boundary.
 struct Extended {
     std::vector<Surface> surfaces;       ///< of the input; triangles of strips stand last in each
     std::vector<ExtendedBorder> borders; ///< by surface, then place

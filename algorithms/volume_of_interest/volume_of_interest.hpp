@@ -23,6 +23,7 @@
 
 namespace terrane {
 
+/// Where a triangle lies with respect to a boundary.
 enum class Where : std::uint8_t { outside, inside, boundary };
 
 /// Where each triangle of the arrangement lies. `boundary`: indices of the surfaces that bound the
@@ -34,7 +35,8 @@ Result<std::vector<Where>> locate(const Arrangement& arrangement,
 /// What the cut does to one surface. Areas in squared units, in floating point; they add up to the
 /// area of the surface.
 struct SurfaceCut {
-    double area_inside = 0, area_outside = 0;
+    double area_inside = 0;       ///< squared unit
+    double area_outside = 0;      ///< squared unit
     double area_on_boundary = 0;  ///< of the boundary's own faces, all of it
     std::size_t pieces = 0;       ///< connected over edges, of what is kept
     double open_length = 0;       ///< of its borders that are free inside the volume
@@ -48,14 +50,16 @@ struct OpenBorder {
     Point3 place{};            ///< its lexicographically least vertex, to the nearest double
 };
 
+/// What the cut did to each surface.
 struct VolumeReport {
     std::vector<SurfaceCut> surfaces; ///< of the arrangement
     std::vector<OpenBorder> borders;  ///< by surface, then place; not of the boundary
 };
 
+/// The inside of a boundary.
 struct VolumeOfInterest {
     Arrangement arrangement; ///< restricted to what is inside and to the boundary
-    VolumeReport report;
+    VolumeReport report;     ///< what was cut
 };
 
 /// Keeps what is inside and the boundary. Errors: as locate.

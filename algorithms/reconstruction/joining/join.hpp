@@ -34,6 +34,7 @@
 
 namespace terrane {
 
+/// Options of join_filling().
 struct JoinOptions {
     double strip = 0; ///< d, the half width of S_bound, unit of the surface; 0: half the median
                       ///< border edge; if that fails, an eighth of it, then larger ones, up to four
@@ -52,16 +53,18 @@ struct JoinReport {
     std::size_t curve_vertices = 0;   ///< vertices of the line that the strip cuts into the filling
     std::size_t inside_triangles = 0; ///< triangles of the filling inside of the line
     std::size_t given_way = 0;        ///< vertices removed because they were too near to the border
-    std::size_t new_vertices = 0, new_triangles = 0;
-    double area = 0;         ///< of the new triangles
-    std::size_t islands = 0; ///< islands that were joined
-    double largest_step = 0; ///< largest distance of the filling from a border vertex
+    std::size_t new_vertices = 0;     ///< that the surface did not have
+    std::size_t new_triangles = 0;    ///< that the surface did not have
+    double area = 0;                  ///< of the new triangles
+    std::size_t islands = 0;          ///< islands that were joined
+    double largest_step = 0;          ///< largest distance of the filling from a border vertex
 };
 
+/// A surface with its filling.
 struct Joined {
     Surface surface; ///< vertices and triangles of the surface, then the new ones
     std::vector<std::uint32_t> filling_vertices; ///< per new vertex: its index in the filling
-    JoinReport report;
+    JoinReport report;                           ///< how they were joined
 };
 
 /// Joins a filling to the hole `loop`, which must be one of find_border_loops(surface). Only the

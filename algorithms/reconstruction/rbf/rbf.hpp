@@ -42,6 +42,7 @@
 
 namespace terrane {
 
+/// Options of fill_by_rbf().
 struct RbfOptions {
     double reach = 1;               ///< of the data, in radii of a disk with the hole's area
     unsigned rings = 4;             ///< least number of rings of vertices that are data
@@ -53,7 +54,7 @@ struct RbfOptions {
                           ///< enlarged if the hole would need more than most_vertices, and reduced,
                           ///< down to a quarter, if the triangles would cut corners at the border
                           ///< or be farther from the zero level than its expected error
-    std::size_t most_vertices = 50'000;
+    std::size_t most_vertices = 50'000; ///< of the filling
     unsigned degree = 0; ///< of the polynomial part along the hole, up to 8 (1 in the paper); 0:
                          ///< the one of least validation error
     std::optional<double> smoothing{};   ///< none: every datum is interpolated. Otherwise the root
@@ -69,16 +70,19 @@ struct RbfOptions {
 
 /// Describes a fit. Lengths are in the unit of the surface.
 struct RbfReport {
-    std::size_t data = 0, centres = 0, offsets = 0; ///< centres on the surface; constraints off it
-    unsigned degree = 0;                            ///< of the polynomial part
-    std::size_t patches = 0;                        ///< of step (4); 0 if step (3) sufficed
-    double missed = 0;                              ///< largest |f| at the data after step (3)
+    std::size_t data = 0;     ///< points of the surface and of islands
+    std::size_t centres = 0;  ///< centres on the surface
+    std::size_t offsets = 0;  ///< constraints off the surface
+    unsigned degree = 0;      ///< of the polynomial part
+    std::size_t patches = 0;  ///< of step (4); 0 if step (3) sufficed
+    double missed = 0;        ///< largest |f| at the data after step (3)
     double largest_error = 0; ///< largest |f| at the data at the end: the interpolation error
-    double rms_error = 0;
-    double freedom = 0;          ///< degrees of freedom that smoothing leaves; 0 if every datum is
-                                 ///< interpolated
-    double offset = 0, size = 0; ///< as used
-    RbfSolution solution;
+    double rms_error = 0;     ///< root mean square of f at the data at the end
+    double freedom = 0;       ///< degrees of freedom that smoothing leaves; 0 if every datum is
+                              ///< interpolated
+    double offset = 0;        ///< as used
+    double size = 0;          ///< edge length as used
+    RbfSolution solution;     ///< how well the system was solved
 };
 
 /// Fills a hole by steps (1) to (5). Errors: bad_option, bad_index, bad_number; unsupported (an
