@@ -38,7 +38,9 @@ int main(int argc, char** argv) {
 
     const auto volumes = terrane::find_volumes(mesh);
     if (!volumes) return fail(volumes.error());
-    const auto tetrahedra = terrane::tetrahedralize(mesh, {.margin = 0.2, .time_limit = 60}, {});
+    const terrane::TetrahedraOptions options{
+        .margin = 0.2, .time_limit = 60, .helper = TERRANE_TETGEN_HELPER};
+    const auto tetrahedra = terrane::tetrahedralize(mesh, options, {});
     if (!tetrahedra) return fail(tetrahedra.error());
     const auto report = terrane::check_tetrahedra(*tetrahedra, mesh, *volumes);
     for (const std::string& violation : report.violations)
