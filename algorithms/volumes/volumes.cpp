@@ -12,6 +12,7 @@
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
+#include <terrane/algorithms/mesh/work_hook.hpp>
 #include <terrane/algorithms/volumes/detail/exact_volumes.hpp>
 #include <terrane/algorithms/volumes/detail/radial_sort.hpp>
 #include <terrane/algorithms/volumes/detail/shell_nesting.hpp>
@@ -205,6 +206,7 @@ private:
 
 Result<Volumes> find_volumes(const Arrangement& a, const Run& run) {
     return guarded("for the volumes", "volumes", [&]() -> Result<Volumes> {
+        detail::announce_work("find exact volumes", {}, a.triangles);
         const auto planes = planes_of(a);
         const auto edges = group_edges(a.triangles, a.vertices.size(), run);
         return find({a.points, a.vertices, a.triangles, edges, planes, &a.parents_of}, run);
@@ -214,6 +216,7 @@ Result<Volumes> find_volumes(const Arrangement& a, const Run& run) {
 Result<Volumes> find_volumes(const Mesh& mesh, const Run& run) {
     return guarded("for the volumes", "volumes", [&]() -> Result<Volumes> {
         if (auto valid = validate(mesh.vertices, mesh.triangles, run); !valid) return valid.error();
+        detail::announce_work("find volumes", mesh.vertices, mesh.triangles);
         return find(MeshSheets(mesh).view(), run);
     });
 }
