@@ -7,40 +7,14 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
-#include <terrane/algorithms/intersection/intersection.hpp>
+#include <terrane/algorithms/intersection/contact_kind.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
-#include <terrane/algorithms/search/search.hpp>
 
 namespace terrane {
-
-/// How two triangles meet that should not.
-enum class ContactKind : std::uint8_t {
-    vertex_on_edge,
-    vertex_on_face,
-    edges_cross,     ///< in one point, inside both
-    edges_overlap,   ///< collinear, along a segment
-    edge_on_face,    ///< an edge lies in the other triangle
-    crossing,        ///< along a segment through the inside of at least one of them
-    coplanar_overlap ///< in an area
-};
-
-/// "vertex on edge", ...
-std::string_view name_of(ContactKind kind);
-
-/// The kind of a contact, from its points' places alone.
-ContactKind kind_of(const Contact& contact);
-
-/// Two triangles that meet other than in a shared vertex or edge.
-struct ImproperContact {
-    std::array<std::uint32_t, 2> triangles{}; ///< input triangles, counted through all surfaces
-    ContactKind kind{};                       ///< how they meet
-    Point3 place;                             ///< a point that both share, to the nearest double
-};
 
 /// Triangles and vertices are counted through all surfaces, in order.
 struct CheckReport {

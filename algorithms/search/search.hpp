@@ -8,32 +8,14 @@
 #include <array>
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
+#include <terrane/algorithms/search/method.hpp>
 
 namespace terrane {
-
-enum class Search : std::uint8_t {
-    automatic,   ///< bvh, or brute for a handful of boxes (see choose)
-    grid,        ///< structured search, paper 2.1
-    ab,          ///< alternating binary tree in the order of insertion, paper 2.2: a list at worst
-    ab_balanced, ///< alternating binary tree balanced by quantiles, paper 2.2 and Table 1
-    mixed,       ///< reduction to cells that several groups share, then a balanced tree, paper 2.3
-    bvh,         ///< the same idea for speed and any mixture of sizes: reduction to shared cells,
-                 ///< then flat trees of boxes joined leaf by leaf; the only one that uses threads
-    brute,       ///< every box against every box
-};
-
-/// "auto", "grid", "ab", "ab-balanced", "mixed", "hierarchy", "brute".
-std::string_view name_of(Search method);
-
-/// The method of that name.
-std::optional<Search> search_named(std::string_view name);
 
 /// Axis-aligned and closed: boxes that touch overlap. low <= high.
 struct Box {

@@ -30,7 +30,7 @@
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
 #include <terrane/algorithms/reconstruction/holes/holes.hpp>
-#include <terrane/algorithms/search/search.hpp>
+#include <terrane/algorithms/search/method.hpp>
 
 namespace terrane {
 

@@ -182,7 +182,7 @@ std::vector<Point3> thinned(const KrigingData& data, std::size_t border) {
     return kept;
 }
 
-Kriging model_of(const KrigingData& data, std::size_t border, const FitOptions& options,
+Kriging model_of(const KrigingData& data, std::size_t border, const VariogramFitOptions& options,
                  FillReport& report) {
     const auto choice = detail::choose_model(data.points, data.edges, longest_pair(data.points),
                                              data.noise, options);

@@ -38,7 +38,6 @@
 #include <terrane/algorithms/mesh/surface.hpp>
 #include <terrane/algorithms/reconstruction/holes/filling.hpp>
 #include <terrane/algorithms/reconstruction/holes/holes.hpp>
-#include <terrane/algorithms/reconstruction/rbf/detail/function.hpp>
 
 namespace terrane {
 
@@ -66,6 +65,15 @@ struct RbfOptions {
                              ///< half median border edges are data, too: a function that
                              ///< interpolates vertices alone may deviate far from the triangles of
                              ///< a cliff
+};
+
+/// Quality of the solution of the system of step (3); see detail/function.hpp.
+struct RbfSolution {
+    std::size_t centres = 0;
+    double condition = 0;      ///< estimate for the positive definite part, in the 1-norm
+    unsigned refinements = 0;  ///< steps that reduced the residual
+    double first_residual = 0; ///< largest, before refinement; unit of the values
+    double residual = 0;       ///< largest, of the final coefficients; unit of the values
 };
 
 /// Describes a fit. Lengths are in the unit of the surface.

@@ -83,7 +83,7 @@ public:
     }
 
     /// Tries one kind of model and keeps it if its error is sufficiently less than the best one's.
-    void attempt(unsigned degree, const FitOptions& options) {
+    void attempt(unsigned degree, const VariogramFitOptions& options) {
         double share = share_for(degree, options);
         Variogram variogram = fit_variogram(bins_[degree - 1], options);
         const bool smooth = variogram.model == VariogramModel::gaussian && options.most_nugget == 0;
@@ -101,7 +101,7 @@ public:
 
     /// Tries the best model again with anisotropy.
     void attempt_anisotropy() {
-        FitOptions options = options_;
+        VariogramFitOptions options = options_;
         options.anisotropy = true;
         attempt(best_.degree, options);
     }
@@ -110,7 +110,7 @@ public:
     [[nodiscard]] const ModelChoice& best() const { return best_; }
 
 private:
-    [[nodiscard]] double share_for(unsigned degree, const FitOptions& options) const {
+    [[nodiscard]] double share_for(unsigned degree, const VariogramFitOptions& options) const {
         double share = 1;
         if (options.most_nugget == 0 && best_.variogram.nugget > 0) share *= worth_no_nugget;
         if (degree > best_.degree) share *= worth_degree_2;
@@ -125,16 +125,16 @@ private:
     Patches patches_;
     std::vector<std::vector<VariogramBin>> bins_; ///< by degree - 1
     ModelChoice best_;
-    FitOptions options_;
+    VariogramFitOptions options_;
 };
 
 } // namespace
 
 ModelChoice choose_model(std::span<const Point3> data,
                          std::span<const std::array<std::uint32_t, 2>> close, double longest,
-                         double noise, const FitOptions& options) {
+                         double noise, const VariogramFitOptions& options) {
     Chooser chooser(data, close, longest);
-    FitOptions fit = options;
+    VariogramFitOptions fit = options;
     fit.anisotropy = false;
     const unsigned highest = chooser.few() ? 1 : 2;
     for (const auto model : all_models) {

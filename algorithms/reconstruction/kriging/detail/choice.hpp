@@ -33,6 +33,6 @@ struct ModelChoice {
 /// if it reduces the error. `close` and `longest` are those of experimental_variogram().
 ModelChoice choose_model(std::span<const Point3> data,
                          std::span<const std::array<std::uint32_t, 2>> close, double longest,
-                         double noise, const FitOptions& options);
+                         double noise, const VariogramFitOptions& options);
 
 } // namespace terrane::detail

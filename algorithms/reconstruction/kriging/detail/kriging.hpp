@@ -10,7 +10,7 @@
 #include <vector>
 
 #include <terrane/algorithms/core/run.hpp>
-#include <terrane/algorithms/reconstruction/kriging/detail/variogram.hpp>
+#include <terrane/algorithms/reconstruction/kriging/variogram.hpp>
 #include <terrane/kernel/point.hpp>
 
 namespace terrane {

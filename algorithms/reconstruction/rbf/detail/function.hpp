@@ -19,6 +19,7 @@
 
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
+#include <terrane/algorithms/reconstruction/rbf/rbf.hpp>
 #include <terrane/kernel/point.hpp>
 
 namespace terrane {
@@ -36,15 +37,6 @@ struct RbfPolynomial {
         const std::size_t flat = (degree + 1) * (degree + 2) / 2;
         return in_space ? flat * (degree + 3) / 3 : flat + 1;
     }
-};
-
-/// Quality of the solution of the system.
-struct RbfSolution {
-    std::size_t centres = 0;
-    double condition = 0;      ///< estimate for the positive definite part, in the 1-norm
-    unsigned refinements = 0;  ///< steps that reduced the residual
-    double first_residual = 0; ///< largest, before refinement; unit of the values
-    double residual = 0;       ///< largest, of the final coefficients; unit of the values
 };
 
 struct RbfFit;

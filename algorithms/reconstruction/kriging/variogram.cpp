@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/algorithms/reconstruction/kriging/detail/variogram.hpp>
+#include <terrane/algorithms/reconstruction/kriging/variogram.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -190,7 +190,7 @@ private:
     std::vector<Bin> bins_;
 };
 
-Fit best_model(std::span<const VariogramBin> bins, const FitOptions& options, double angle,
+Fit best_model(std::span<const VariogramBin> bins, const VariogramFitOptions& options, double angle,
                double ratio) {
     const Fitter fitter(bins, angle, ratio, options.most_nugget);
     if (options.model) return fitter.best(*options.model);
@@ -248,7 +248,7 @@ experimental_variogram(std::span<const Point3> points,
     return classes.means();
 }
 
-Variogram fit_variogram(std::span<const VariogramBin> bins, const FitOptions& options) {
+Variogram fit_variogram(std::span<const VariogramBin> bins, const VariogramFitOptions& options) {
     const auto differs = [](const VariogramBin& bin) { return bin.gamma > 0; };
     if (std::none_of(bins.begin(), bins.end(), differs))
         return {options.model.value_or(VariogramModel::spherical)};

@@ -64,7 +64,7 @@ std::vector<VariogramBin>
 experimental_variogram(std::span<const Point3> points,
                        std::span<const std::array<std::uint32_t, 2>> close, double longest);
 
-struct FitOptions {
+struct VariogramFitOptions {
     std::optional<VariogramModel> model{}; ///< none: the model that fits best
     double most_nugget =
         HUGE_VAL;           ///< unit of z, squared: upper bound of the nugget, if the noise is
@@ -75,6 +75,7 @@ struct FitOptions {
 /// Fits a variogram by least squares; bins are weighted by pairs / distance^2. Range, exponent and
 /// anisotropy are searched, nugget and sill are exact for each of them. Bins without any difference
 /// give sill 0.
-Variogram fit_variogram(std::span<const VariogramBin> bins, const FitOptions& options = {});
+Variogram fit_variogram(std::span<const VariogramBin> bins,
+                        const VariogramFitOptions& options = {});
 
 } // namespace terrane
