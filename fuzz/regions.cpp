@@ -6,7 +6,8 @@
 #include "shapes.hpp"
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>
-#include <terrane/algorithms/regions/regions.hpp>
+#include <terrane/algorithms/arrangement/exact_arrangement.hpp>
+#include <terrane/algorithms/regions/regions_over.hpp>
 
 #include <algorithm>
 #include <map>
@@ -93,9 +94,9 @@ std::string flaw(std::span<const Surface> surfaces) {
     if (!made) return made.error().message();
     const Arrangement& a = made.value();
     std::vector<Point3> vertices;
-    for (const PointIndex p : a.vertices) vertices.push_back(a.points.nearest(p));
-    const Regions regions =
-        find_regions(vertices, a.triangles, a.surfaces_of, a.adjacency, a.intersection_edges);
+    for (const PointIndex p : a.vertices) vertices.push_back(a.state->points.nearest(p));
+    const Regions regions = find_regions(vertices, a.triangles, a.surfaces_of, a.state->adjacency,
+                                         a.intersection_edges);
     auto parts = parts_of(a, regions);
     auto neighbours = spread(a, parts);
     if (auto what = groups_flaw(parts, regions); !what.empty()) return what;

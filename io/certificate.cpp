@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <terrane/algorithms/arrangement/digest.hpp>
+#include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/algorithms/core/sha256.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/text/names.hpp>
@@ -126,7 +127,7 @@ void write_inputs(Writer& out, const Certified& certified) {
 void write_exact(Writer& out, const Arrangement& a) {
     out.raw("{\"vertices\":");
     out.array(
-        a.vertices, [&](PointIndex p) { write_construction(out, a.points.construction(p)); },
+        a.vertices, [&](PointIndex p) { write_construction(out, a.state->points.construction(p)); },
         ",\n");
     out.raw(",\n\"triangles\":");
     out.arrays(a.triangles);

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <utility>
 
+#include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/io/text/names.hpp>
@@ -25,13 +26,13 @@ ExactText to_exact(const Arrangement& a, const Run& run) {
     }
     using Block = std::vector<std::array<std::string, 3>>;
     const Run unstoppable{.threads = run.threads};
-    auto blocks = for_blocks<Block>(a.vertices.size(), 1024, unstoppable,
-                                    [&](std::size_t first, std::size_t last) {
-                                        Block block;
-                                        for (std::size_t v = first; v < last; ++v)
-                                            block.push_back(fractions(a.points, a.vertices[v], 10));
-                                        return block;
-                                    });
+    auto blocks = for_blocks<Block>(
+        a.vertices.size(), 1024, unstoppable, [&](std::size_t first, std::size_t last) {
+            Block block;
+            for (std::size_t v = first; v < last; ++v)
+                block.push_back(fractions(a.state->points, a.vertices[v], 10));
+            return block;
+        });
     for (Block& b : blocks) std::move(b.begin(), b.end(), std::back_inserter(exact.vertices));
     exact.triangles = a.triangles;
     exact.parents_of = a.parents_of;

@@ -8,9 +8,9 @@
 #include <CGAL/Interval_nt.h>
 #include <CGAL/Mpzf.h>
 
-#include <cstdint>
 #include <optional>
 
+#include <terrane/kernel/predicate_counts.hpp>
 #include <terrane/kernel/sign.hpp>
 
 namespace terrane {
@@ -37,26 +37,6 @@ inline std::optional<Sign> certain_sign(const Interval& i) {
 inline Sign exact_sign(const Exact& e) {
     return static_cast<Sign>(static_cast<int>(CGAL::sign(e)));
 }
-
-/// Which stage decided how many predicates.
-struct PredicateCounts {
-    std::uint64_t static_filter = 0;
-    std::uint64_t interval = 0;
-    std::uint64_t exact = 0;
-
-    PredicateCounts& operator+=(const PredicateCounts& o) {
-        static_filter += o.static_filter;
-        interval += o.interval;
-        exact += o.exact;
-        return *this;
-    }
-    friend PredicateCounts operator-(PredicateCounts a, const PredicateCounts& b) {
-        a.static_filter -= b.static_filter;
-        a.interval -= b.interval;
-        a.exact -= b.exact;
-        return a;
-    }
-};
 
 /// The default rounding mode for as long as it lives, inside an UpwardRounding or not.
 class ToNearest {

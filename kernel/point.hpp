@@ -2,6 +2,7 @@
 #pragma once
 
 #include <compare>
+#include <cstdint>
 
 namespace terrane {
 
@@ -14,5 +15,8 @@ struct Point3 {
     friend bool operator==(const Point3&, const Point3&) = default;
     friend auto operator<=>(const Point3&, const Point3&) = default; ///< lexicographic
 };
+
+/// Index of a point of an arrangement: input vertices first, constructed points after them.
+using PointIndex = std::uint32_t;
 
 } // namespace terrane

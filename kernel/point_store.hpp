@@ -40,9 +40,6 @@
 
 namespace terrane {
 
-/// Index into a PointStore: input points first, constructed ones after them.
-using PointIndex = std::uint32_t;
-
 /// Exact homogeneous coordinates, w > 0.
 using ExactPoint = polynomial::Coordinates<Exact, Exact>;
 

@@ -5,6 +5,8 @@
 #include <atomic>
 #include <utility>
 
+#include <terrane/algorithms/arrangement/exact_arrangement.hpp>
+#include <terrane/algorithms/arrangement/intersection_edges.hpp>
 #include <terrane/algorithms/arrangement/retriangulation.hpp>
 #include <terrane/algorithms/arrangement/soup.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
@@ -12,6 +14,7 @@
 #include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/algorithms/intersection/injective_patches.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
+#include <terrane/kernel/fraction.hpp>
 
 namespace terrane {
 namespace {
@@ -104,11 +107,11 @@ Labels labels_of(const Soup& soup, const InjectivePatches& patches, const Run& r
 
 /// Points in use become vertices: input ones by number, constructed ones in lexicographic order.
 /// Returns the vertex of each point.
-std::vector<std::uint32_t> name_vertices(Arrangement& a, std::span<const PointIndex> ascending,
-                                         const Run& run) {
-    const auto inputs = static_cast<PointIndex>(a.points.input_count());
+std::vector<std::uint32_t> name_vertices(Arrangement& a, const PointStore& points,
+                                         std::span<const PointIndex> ascending, const Run& run) {
+    const auto inputs = static_cast<PointIndex>(points.input_count());
     constexpr std::uint32_t unused = UINT32_MAX;
-    std::vector<std::uint32_t> vertex_of(a.points.size(), unused);
+    std::vector<std::uint32_t> vertex_of(points.size(), unused);
     for_ranges(a.triangles.size(), run, [&](std::size_t first, std::size_t last) {
         for (std::size_t t = first; t < last; ++t)
             for (const PointIndex p : a.triangles[t])
@@ -170,10 +173,12 @@ Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
     a.statistics.seconds_triangulate = d.seconds_triangulate;
     watch.lap();
 
-    a.inputs = {soup.first_input_triangle, soup.first_input_vertex, std::move(soup.input_corners),
-                soup.duplicates};
+    a.inputs = {soup.first_input_triangle, soup.first_input_vertex, soup.duplicates};
     a.degenerate = soup.degenerate;
-    a.neighbours = neighbours_of_divided(soup, division, run);
+    const auto state = std::make_shared<ExactState>();
+    a.state = state;
+    state->corners = std::move(soup.input_corners);
+    state->neighbours = neighbours_of_divided(soup, division, run);
     const Labels labels = labels_of(soup, patches, run);
     std::vector<std::uint32_t> vertex_of;
     both(
@@ -183,22 +188,52 @@ Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
             a.surfaces_of = surfaces_of_parents(a.inputs, a.parents_of, run);
         },
         [&] {
-            a.patches = patches_of_faces(std::move(patches), division.faces_of, run);
-            a.points = std::move(division.points);
+            state->patches = patches_of_faces(std::move(patches), division.faces_of, run);
+            state->points = std::move(division.points);
             a.triangles = std::move(division.triangles);
-            vertex_of = name_vertices(a, division.ascending, run);
+            vertex_of = name_vertices(a, state->points, division.ascending, run);
         });
     report(0.9);
-    a.adjacency = adjacency_after(
+    state->adjacency = adjacency_after(
         soup.edges, labels,
         {a.triangles, division.faces_of, division.unchanged_as, vertex_of, a.vertices.size()}, run);
-    a.intersection_edges = find_intersection_edges(a.adjacency, a.inputs, a.parents_of);
+    a.intersection_edges = find_intersection_edges(state->adjacency, a.inputs, a.parents_of);
     a.statistics.seconds_stitch = d.seconds_stitch + watch.lap();
     report(1);
     return a;
 }
 
 } // namespace
+
+std::shared_ptr<const ExactState> empty_state() {
+    static const auto empty = std::make_shared<const ExactState>();
+    return empty;
+}
+
+ExactState& own_state(Arrangement& a) {
+    if (a.state.use_count() != 1) a.state = std::make_shared<ExactState>(*a.state);
+    return const_cast<ExactState&>(*a.state); // made without const, here or by arrange
+}
+
+const Point3& Arrangement::nearest(std::uint32_t vertex) const {
+    return state->points.nearest(vertices[vertex]);
+}
+
+std::array<std::string, 3> Arrangement::coordinates(std::uint32_t vertex) const {
+    return fractions(state->points, vertices[vertex], 10);
+}
+
+Construction Arrangement::construction(std::uint32_t vertex) const {
+    return state->points.construction(vertices[vertex]);
+}
+
+std::span<const Point3> Arrangement::input_vertices() const {
+    return state->points.inputs();
+}
+
+std::span<const Triangle> Arrangement::input_corners() const {
+    return state->corners;
+}
 
 Result<Arrangement> arrange(std::span<const Surface> surfaces, const ArrangeOptions& options,
                             const Run& run) {

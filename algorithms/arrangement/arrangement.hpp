@@ -10,20 +10,23 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
-#include <functional>
+#include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
-#include <terrane/algorithms/arrangement/detail/intersection_edges.hpp>
+#include <terrane/algorithms/arrangement/input_triangles.hpp>
+#include <terrane/algorithms/core/index_lists.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
-#include <terrane/algorithms/intersection/injective_patches.hpp>
-#include <terrane/algorithms/mesh/adjacency.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
-#include <terrane/algorithms/search/search.hpp>
-#include <terrane/kernel/point_store.hpp>
+#include <terrane/algorithms/search/method.hpp>
+#include <terrane/kernel/construction.hpp>
+#include <terrane/kernel/point.hpp>
+#include <terrane/kernel/predicate_counts.hpp>
 
 namespace terrane {
 
@@ -46,12 +49,18 @@ struct ArrangeStatistics {
     double seconds_stitch = 0;          ///< for vertices, parents and intersection edges
 };
 
+/// The exact points and what later stages need of the arrangement; exact_arrangement.hpp, which is
+/// the library's own, defines it.
+struct ExactState;
+
+/// That of an arrangement without surfaces.
+std::shared_ptr<const ExactState> empty_state();
+
 /// Input vertices and triangles are counted through all surfaces: vertex k of surface s is
 /// (vertices of the surfaces before s) + k; triangles likewise.
 struct Arrangement {
     std::vector<SurfaceInfo> surfaces;     ///< order of the input
     InputTriangles inputs;                 ///< how input triangles are counted; duplicates
-    PointStore points;                     ///< all input vertices, and all constructed points
     std::vector<PointIndex> vertices;      ///< the points in use: input ones by number, then
                                            ///< constructed ones in lexicographic order
     std::vector<Triangle> triangles;       ///< indices into vertices; unique; oriented as the first
@@ -64,18 +73,19 @@ struct Arrangement {
                                            ///< surface; sorted, unique. The parents of an edge
                                            ///< are those of the triangles at it
     std::vector<std::uint32_t> degenerate; ///< input triangles without area, ascending
-    InjectivePatches patches;              ///< of the triangles: within one, none meet improperly
-    std::vector<CandidatePair> neighbours; ///< input triangles, one of them with constructed
-                                           ///< points, not both within one patch, that meet or may
-                                           ///< do so when points are rounded to nearest doubles;
-                                           ///< no duplicates; sorted
-    Adjacency adjacency;                   ///< of the triangles, for what follows
-    bool whole = true;                     ///< false: some triangles were taken out, see
-                                           ///< restricted.hpp
-    /// Takes the same out of an arrangement of the same surfaces after a small move of their
-    /// vertices: rounding needs it where it arranges anew. Empty where `whole`, or not known.
-    std::function<Result<Arrangement>(Arrangement, const Run&)> restrict_again{};
-    ArrangeStatistics statistics; ///< what was done
+    ArrangeStatistics statistics;          ///< what was done
+    std::shared_ptr<const ExactState> state = empty_state(); ///< never null; shared by copies
+
+    /// The doubles nearest to a vertex (an index into vertices).
+    [[nodiscard]] const Point3& nearest(std::uint32_t vertex) const;
+    /// The exact coordinates of a vertex as reduced fractions: "-5/3", "7".
+    [[nodiscard]] std::array<std::string, 3> coordinates(std::uint32_t vertex) const;
+    /// How a vertex follows from input vertices.
+    [[nodiscard]] Construction construction(std::uint32_t vertex) const;
+    /// All input vertices, used or not.
+    [[nodiscard]] std::span<const Point3> input_vertices() const;
+    /// Per input triangle: its corners, each the first input vertex with the same coordinates.
+    [[nodiscard]] std::span<const Triangle> input_corners() const;
 };
 
 /// Errors: bad_number (a coordinate is not finite), bad_index, interrupted, out_of_memory.

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/core/sha256.hpp>
 #include <terrane/kernel/fraction.hpp>
@@ -30,7 +31,7 @@ class Digest {
 public:
     Digest(std::span<const Surface> inputs, const Arrangement& arrangement, const Run& run) :
         arrangement_(arrangement), run_(run) {
-        const PointStore& points = arrangement.points;
+        const PointStore& points = arrangement.state->points;
         hash_points(points.size());
         hash_inputs(inputs);
     }
@@ -57,7 +58,7 @@ private:
                 Hashes block;
                 for (std::size_t p = first; p < last; ++p) {
                     const auto [x, y, z] =
-                        fractions(arrangement_.points, static_cast<PointIndex>(p), 16);
+                        fractions(arrangement_.state->points, static_cast<PointIndex>(p), 16);
                     Sha256 state;
                     state.feed(x);
                     state.feed(" ");

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include <terrane/algorithms/arrangement/exact_arrangement.hpp>
+#include <terrane/algorithms/arrangement/intersection_edges.hpp>
 #include <terrane/algorithms/mesh/edges.hpp>
 #include <terrane/algorithms/mesh/submesh.hpp>
 
@@ -34,11 +36,12 @@ void drop_unused_vertices(Arrangement& a) {
 
 /// By patch, and by surface where there is none; triangles with several parents have no label.
 Labels labels_of(const Arrangement& a) {
-    const auto patches = static_cast<std::uint32_t>(a.patches.axis.size());
+    const InjectivePatches& in = a.state->patches;
+    const auto patches = static_cast<std::uint32_t>(in.axis.size());
     Labels labels;
     labels.reserve(a.triangles.size());
     for (std::size_t t = 0; t < a.triangles.size(); ++t) {
-        const std::uint32_t patch = a.patches.of[t];
+        const std::uint32_t patch = in.of[t];
         const std::uint32_t label = patch != no_group ? patch : patches + a.surfaces_of[t][0];
         labels.push_back(a.parents_of[t].size() == 1 ? label : no_label);
     }
@@ -46,10 +49,10 @@ Labels labels_of(const Arrangement& a) {
 }
 
 /// Keeps pairs of input triangles both of which have a part.
-void drop_neighbours_without_parts(Arrangement& a) {
-    std::vector<bool> has_part(a.inputs.corners.size(), false);
+void drop_neighbours_without_parts(const Arrangement& a, ExactState& state) {
+    std::vector<bool> has_part(state.corners.size(), false);
     for (const std::uint32_t p : a.parents_of.values) has_part[p] = true;
-    std::erase_if(a.neighbours, [&](const CandidatePair& p) {
+    std::erase_if(state.neighbours, [&](const CandidatePair& p) {
         return !has_part[p.first] || !has_part[p.second];
     });
 }
@@ -58,15 +61,16 @@ void drop_neighbours_without_parts(Arrangement& a) {
 
 Arrangement restricted(Arrangement a, const std::vector<bool>& keep, const Run& run) {
     if (std::find(keep.begin(), keep.end(), false) == keep.end()) return a;
-    a.whole = false;
+    ExactState& state = own_state(a);
+    state.whole = false;
     a.triangles = kept_values(a.triangles, keep);
-    a.patches.of = kept_values(a.patches.of, keep);
+    state.patches.of = kept_values(state.patches.of, keep);
     a.parents_of = kept_lists(a.parents_of, keep);
     a.surfaces_of = kept_lists(a.surfaces_of, keep);
     drop_unused_vertices(a);
-    drop_neighbours_without_parts(a);
-    a.adjacency = adjacency_of(group_edges(a.triangles, a.vertices.size(), run), labels_of(a));
-    a.intersection_edges = find_intersection_edges(a.adjacency, a.inputs, a.parents_of);
+    drop_neighbours_without_parts(a, state);
+    state.adjacency = adjacency_of(group_edges(a.triangles, a.vertices.size(), run), labels_of(a));
+    a.intersection_edges = find_intersection_edges(state.adjacency, a.inputs, a.parents_of);
     return a;
 }
 

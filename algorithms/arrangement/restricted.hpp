@@ -14,11 +14,10 @@ namespace terrane {
 /// (2) Adjacency, intersection edges and neighbours are those of the kept triangles alone. So
 ///     rounding, volumes, structure and tetrahedra work on it as on any other.
 /// (3) Surfaces and the numbers of input triangles stay, also of those with nothing left.
-/// (4) Rounding may move input vertices, as it does where nothing else helps, only if
-/// restrict_again
-///     is set. It is left as it was.
-/// (5) Input triangles are no longer the union of those that name them: `whole` becomes false, and
-///     there is no certificate for it.
+/// (4) Rounding may move input vertices, which is its last resort, only if restrict_again of the
+///     state is set (exact_arrangement.hpp). This function leaves it unchanged.
+/// (5) Input triangles are no longer the union of those that name them: `whole` of the state becomes
+///     false, and there is no certificate for it.
 /// Cost: linear.
 Arrangement restricted(Arrangement arrangement, const std::vector<bool>& keep, const Run& run = {});
 

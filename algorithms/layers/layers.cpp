@@ -11,6 +11,7 @@
 #include <utility>
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>
+#include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/algorithms/arrangement/soup.hpp>
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
@@ -143,7 +144,7 @@ private:
     Status note(LayerReport& report, const Set& dropped, const Set& taken, const Set& soft,
                 const std::vector<Relation>& relations) const;
     [[nodiscard]] Point3 corner(std::uint32_t t, unsigned k) const {
-        return a_.points.nearest(a_.vertices[a_.triangles[t][k]]);
+        return a_.state->points.nearest(a_.vertices[a_.triangles[t][k]]);
     }
     [[nodiscard]] double area(std::uint32_t t) const {
         const Point3 n =
@@ -175,15 +176,15 @@ Status Stacker::prepare() {
         const auto surfaces = a_.surfaces_of[t];
         if (surfaces[0] == copies_.size()) continue; // of walls alone
         const Triangle& c = a_.triangles[t];
-        const auto seen =
-            seen_along_z(a_.points, {a_.vertices[c[0]], a_.vertices[c[1]], a_.vertices[c[2]]});
+        const auto seen = seen_along_z(a_.state->points,
+                                       {a_.vertices[c[0]], a_.vertices[c[1]], a_.vertices[c[2]]});
         if (!seen)
             return Error{ErrorCode::unsupported, "a layer has an upright triangle: it is no graph",
                          place(t)};
         seen_[t] = *seen;
         Box box{{HUGE_VAL, HUGE_VAL, 0}, {-HUGE_VAL, -HUGE_VAL, 0}};
         for (const PointIndex p : *seen) {
-            const Enclosure e = a_.points.enclosure(p);
+            const Enclosure e = a_.state->points.enclosure(p);
             for (std::size_t k = 0; k < 2; ++k) {
                 box.low[k] = std::min(box.low[k], e.low[k]);
                 box.high[k] = std::max(box.high[k], e.high[k]);
@@ -216,9 +217,10 @@ Result<std::vector<Stacker::Relation>> Stacker::relate(const Set& soft, const Se
             std::vector<Relation> found;
             for (std::size_t i = first; i < last; ++i) {
                 const std::uint32_t s = of(pairs[i].first), t = of(pairs[i].second);
-                if (s != t && !overlap_along_z(a_.points, seen_[s], seen_[t])) continue;
+                if (s != t && !overlap_along_z(a_.state->points, seen_[s], seen_[t])) continue;
                 found.push_back(
-                    {s, t, s == t ? Sign::Zero : above_along_z(a_.points, seen_[s], seen_[t])});
+                    {s, t,
+                     s == t ? Sign::Zero : above_along_z(a_.state->points, seen_[s], seen_[t])});
             }
             return found;
         });
@@ -292,8 +294,8 @@ Status Stacker::note(LayerReport& report, const Set& dropped, const Set& taken, 
             if (!stays)
                 for (const auto& s : sides) parts.join(sides[0].triangle, s.triangle);
             if (!stays || !goes || (is_taken(a) && is_taken(b))) return;
-            const Point3 d =
-                minus(a_.points.nearest(a_.vertices[b]), a_.points.nearest(a_.vertices[a]));
+            const Point3 d = minus(a_.state->points.nearest(a_.vertices[b]),
+                                   a_.state->points.nearest(a_.vertices[a]));
             report.step_length += std::hypot(d.x, d.y, d.z);
         });
     for (std::uint32_t i = 0; i < soft.size(); ++i)
@@ -308,8 +310,8 @@ Status Stacker::note(LayerReport& report, const Set& dropped, const Set& taken, 
             const PointIndex v = a_.vertices[a_.triangles[r.first][k]];
             bool over = true;
             for (unsigned e = 0; e < 3 && over; ++e)
-                over = a_.points.orient2d(Axis::z, seen_[r.second][e], seen_[r.second][(e + 1) % 3],
-                                          v) != Sign::Negative;
+                over = a_.state->points.orient2d(Axis::z, seen_[r.second][e],
+                                                 seen_[r.second][(e + 1) % 3], v) != Sign::Negative;
             if (!over) continue;
             const double height = dot(minus(corner(r.first, k), p), n) / n.z;
             report.largest_move = std::max(report.largest_move, std::fabs(height));
@@ -368,8 +370,8 @@ private:
     /// Per part the one input triangle it is of (of duplicates the first), if it is one.
     void find_parts() {
         whole_of_.assign(a_.triangles.size(), UINT32_MAX);
-        parts_.assign(a_.inputs.corners.size(), {});
-        is_whole_.assign(a_.inputs.corners.size(), true);
+        parts_.assign(a_.state->corners.size(), {});
+        is_whole_.assign(a_.state->corners.size(), true);
         for (std::uint32_t t = 0; t < a_.triangles.size(); ++t) {
             Set parents;
             for (const std::uint32_t p : a_.parents_of[t])
@@ -405,7 +407,7 @@ private:
             for (const std::uint32_t t : used) {
                 const auto whole = (*this)(t);
                 if (!whole) continue;
-                const Triangle& corners = a_.inputs.corners[*whole];
+                const Triangle& corners = a_.state->corners[*whole];
                 for (const std::uint32_t v : a_.triangles[t]) {
                     const bool own =
                         std::find(corners.begin(), corners.end(), a_.vertices[v]) != corners.end();
@@ -433,7 +435,7 @@ Surface surface_of(const Arrangement& a, const Set& triangles, const WholeTriang
         for (unsigned k = 0; k < 3; ++k) {
             const auto [at, added] =
                 name.try_emplace(corners[k], static_cast<std::uint32_t>(s.vertices.size()));
-            if (added) s.vertices.push_back(a.points.nearest(corners[k]));
+            if (added) s.vertices.push_back(a.state->points.nearest(corners[k]));
             named[k] = at->second;
         }
         s.triangles.push_back(named);
@@ -447,7 +449,7 @@ Surface surface_of(const Arrangement& a, const Set& triangles, const WholeTriang
             add({a.vertices[c[0]], a.vertices[c[1]], a.vertices[c[2]]});
     }
     sort_unique(wholes);
-    for (const std::uint32_t t : wholes) add(a.inputs.corners[t]);
+    for (const std::uint32_t t : wholes) add(a.state->corners[t]);
     return s;
 }
 

@@ -8,6 +8,8 @@
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
+#include <terrane/algorithms/mesh/edges.hpp>
+#include <terrane/algorithms/regions/regions_over.hpp>
 
 namespace terrane {
 namespace {
@@ -227,6 +229,17 @@ Regions find_regions(std::span<const Point3> vertices, std::span<const Triangle>
     Diffusion diffusion(triangles, surfaces_of, intersection_edges, run);
     diffusion.spread(adjacency);
     return diffusion.number(vertices);
+}
+
+Regions find_regions(const Mesh& mesh, const Run& run) {
+    // Without parents any edge may be an intersection, so none is taken for an inner one.
+    const Labels labels = mesh.parents_of.size() == mesh.triangles.size()
+                              ? labels_of(mesh.surfaces_of, mesh.parents_of)
+                              : Labels(mesh.triangles.size(), no_label);
+    const Adjacency adjacency =
+        adjacency_of(group_edges(mesh.triangles, mesh.vertices.size(), run), labels);
+    return find_regions(mesh.vertices, mesh.triangles, mesh.surfaces_of, adjacency,
+                        mesh.intersection_edges, run);
 }
 
 } // namespace terrane

@@ -8,13 +8,10 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
-#include <string>
 #include <vector>
 
 #include <terrane/algorithms/core/index_lists.hpp>
 #include <terrane/algorithms/core/run.hpp>
-#include <terrane/algorithms/mesh/adjacency.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
 
 namespace terrane {
@@ -35,10 +32,7 @@ struct Regions {
     std::vector<Region> regions;          ///< by surface, then by lowest triangle
 };
 
-/// Finds the regions of a mesh. `intersection_edges` are sorted; none of them is an inner edge of
-/// the adjacency.
-Regions find_regions(std::span<const Point3> vertices, std::span<const Triangle> triangles,
-                     const IndexLists<std::uint32_t>& surfaces_of, const Adjacency& adjacency,
-                     std::span<const Edge> intersection_edges, const Run& run = {});
+/// Finds the regions of a mesh. Its intersection_edges separate them; its regions_of is ignored.
+Regions find_regions(const Mesh& mesh, const Run& run = {});
 
 } // namespace terrane

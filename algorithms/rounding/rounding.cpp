@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/algorithms/arrangement/retriangulation.hpp>
 #include <terrane/algorithms/arrangement/soup.hpp>
 #include <terrane/algorithms/core/disjoint_sets.hpp>
@@ -14,6 +15,7 @@
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/algorithms/mesh/work_hook.hpp>
+#include <terrane/algorithms/regions/regions_over.hpp>
 #include <terrane/algorithms/rounding/detail/separation.hpp>
 #include <terrane/algorithms/rounding/detail/snapped_input.hpp>
 #include <terrane/algorithms/rounding/detail/state.hpp>
@@ -109,7 +111,7 @@ private:
 void Rounding::to_nearest() {
     const Arrangement& a = arrangement_;
     const auto first_constructed = static_cast<std::size_t>(
-        std::lower_bound(a.vertices.begin(), a.vertices.end(), a.points.input_count()) -
+        std::lower_bound(a.vertices.begin(), a.vertices.end(), a.state->points.input_count()) -
         a.vertices.begin());
     state_.input_vertices = first_constructed;
     both(
@@ -121,7 +123,7 @@ void Rounding::to_nearest() {
         [&] {
             state_.points.reserve(a.vertices.size());
             for (std::size_t v = 0; v < first_constructed; ++v)
-                state_.points.push_back(a.points.input(a.vertices[v]));
+                state_.points.push_back(a.state->points.input(a.vertices[v]));
             state_.points.resize(a.vertices.size());
             state_.move.assign(a.vertices.size(), 0);
             state_.is_dirty.assign(a.vertices.size(), false);
@@ -131,8 +133,8 @@ void Rounding::to_nearest() {
     for_blocks<Nothing>(constructed, 1024, run_, [&](std::size_t first, std::size_t last) {
         for (std::size_t k = first; k < last; ++k) {
             const std::size_t v = first_constructed + k;
-            state_.points[v] = a.points.nearest(a.vertices[v]);
-            state_.move[v] = rounding_bound(a.points, a.vertices[v]);
+            state_.points[v] = a.state->points.nearest(a.vertices[v]);
+            state_.move[v] = rounding_bound(a.state->points, a.vertices[v]);
         }
         return Nothing{};
     });
@@ -193,21 +195,21 @@ std::vector<CandidatePair> Rounding::first_contacts() {
     const auto turn = [&](std::uint32_t t, Axis axis) { // as that of its parent
         const std::uint32_t parent = a.parents_of[t][0];
         if (parent == last) return last_turn;
-        const Triangle& c = a.inputs.corners[last = parent];
-        const auto at = [&](unsigned i) { return a.points.input(c[i]); };
+        const Triangle& c = a.state->corners[last = parent];
+        const auto at = [&](unsigned i) { return a.state->points.input(c[i]); };
         return last_turn = orient2d(axis, at(0), at(1), at(2));
     };
     Unproven unproven;
     both(
         run_,
         [&] {
-            holds = recheck_injective_patches(state_.points, state_.triangles, a.adjacency, dirty,
-                                              state_.is_dirty, turn, a.patches);
+            holds = recheck_injective_patches(state_.points, state_.triangles, a.state->adjacency,
+                                              dirty, state_.is_dirty, turn, a.state->patches);
         },
         [&] {
-            unproven = find_unproven({a.points.inputs(), a.inputs.corners, a.vertices,
+            unproven = find_unproven({a.state->points.inputs(), a.state->corners, a.vertices,
                                       state_.points, state_.move, state_.triangles, a.parents_of},
-                                     a.neighbours, run_);
+                                     a.state->neighbours, run_);
         });
     const auto improper = is_improper();
     std::vector<CandidatePair> pairs;
@@ -217,11 +219,11 @@ std::vector<CandidatePair> Rounding::first_contacts() {
             if (improper(p)) pairs.push_back(p);
     }
     const auto patch_of = [&](std::uint32_t t) {
-        const std::uint32_t p = a.patches.of[t];
+        const std::uint32_t p = a.state->patches.of[t];
         return p != no_group && holds[p] ? p : no_group;
     };
     for (const std::uint32_t t : dirty)
-        if (patch_of(t) != a.patches.of[t]) unproven.parts.push_back(t);
+        if (patch_of(t) != a.state->patches.of[t]) unproven.parts.push_back(t);
     for (const std::uint32_t t : unproven.ill_conditioned) // two of one patch are known not to meet
         if (patch_of(t) == no_group) unproven.parts.push_back(t);
     if (unproven.parts.empty()) return pairs;
@@ -287,7 +289,7 @@ void Rounding::report_moves() {
         const double decade = m > 0 ? std::floor(std::log10(m)) + 24 : 0;
         ++r.moves[static_cast<std::size_t>(m > 0 ? std::clamp(decade, 1.0, 31.0) : 0)];
         if (v < state_.input_vertices &&
-            state_.points[v] != arrangement_.points.input(arrangement_.vertices[v]))
+            state_.points[v] != arrangement_.state->points.input(arrangement_.vertices[v]))
             ++r.moved_input_vertices;
     }
     r.merged_vertices = state_.merged;
@@ -303,7 +305,7 @@ void Rounding::find_first_regions() {
     if (changed_) return;
     Stopwatch watch;
     const Arrangement& a = arrangement_;
-    regions_ = find_regions(state_.points, state_.triangles, a.surfaces_of, a.adjacency,
+    regions_ = find_regions(state_.points, state_.triangles, a.surfaces_of, a.state->adjacency,
                             a.intersection_edges, run_);
     out_.report.seconds_regions = watch.lap();
 }
@@ -356,8 +358,8 @@ double largest_distance(const Arrangement& a, const Mesh& mesh) {
     double largest = 0;
     if (mesh.triangles != a.triangles) return largest;
     for (std::size_t v = 0; v < std::min(a.vertices.size(), mesh.vertices.size()); ++v)
-        largest =
-            std::max(largest, distance_bound(a.points.enclosure(a.vertices[v]), mesh.vertices[v]));
+        largest = std::max(
+            largest, distance_bound(a.state->points.enclosure(a.vertices[v]), mesh.vertices[v]));
     return largest;
 }
 
@@ -385,9 +387,9 @@ std::vector<std::size_t> regions_per_surface(std::size_t surfaces,
 /// Compares with the regions of the exact surfaces.
 void report_lost_regions(const Arrangement& a, RoundedMesh& rounded) {
     std::vector<Point3> places;
-    for (const PointIndex v : a.vertices) places.push_back(a.points.nearest(v));
+    for (const PointIndex v : a.vertices) places.push_back(a.state->points.nearest(v));
     const auto exact =
-        find_regions(places, a.triangles, a.surfaces_of, a.adjacency, a.intersection_edges);
+        find_regions(places, a.triangles, a.surfaces_of, a.state->adjacency, a.intersection_edges);
     const auto before = regions_per_surface(a.surfaces.size(), exact.regions);
     const auto after = regions_per_surface(a.surfaces.size(), rounded.regions);
     for (std::uint32_t s = 0; s < before.size(); ++s)
@@ -400,7 +402,7 @@ void name_input(const Arrangement& a, Arrangement& snapped) {
     snapped.surfaces = a.surfaces;
     snapped.inputs.duplicates = a.inputs.duplicates;
     snapped.intersection_edges =
-        find_intersection_edges(snapped.adjacency, snapped.inputs, snapped.parents_of);
+        find_intersection_edges(snapped.state->adjacency, snapped.inputs, snapped.parents_of);
 }
 
 /// Whether an error has nothing to do with the surfaces.
@@ -419,8 +421,8 @@ Result<RoundedMesh> snap_input(const Arrangement& a, RoundedMesh first,
             auto again = arrange(snapped.surfaces(digits), {}, run);
             if (!again) return again.error();
             name_input(a, again.value());
-            if (a.restrict_again) {
-                again = a.restrict_again(std::move(again).value(), run);
+            if (a.state->restrict_again) {
+                again = a.state->restrict_again(std::move(again).value(), run);
                 if (!again && is_external(again.error().code)) return again.error();
                 if (!again) return first; // too coarse: a boundary is no longer closed
             }
@@ -440,7 +442,8 @@ Result<RoundedMesh> snap_input(const Arrangement& a, RoundedMesh first,
 Result<RoundedMesh> round_all(const Arrangement& a, const RoundingOptions& options,
                               const Run& run) {
     // Arranged anew, the input gets back what was taken out.
-    const bool may_snap_input = (a.whole || a.restrict_again) && options.max_rounds > 0;
+    const bool may_snap_input =
+        (a.state->whole || a.state->restrict_again) && options.max_rounds > 0;
     Rounding where_it_lies(a, options, !may_snap_input, run);
     auto rounded = where_it_lies();
     const auto is_unclean = [&] { return rounded && !rounded.value().report.clean; };

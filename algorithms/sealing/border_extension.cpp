@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/mesh/edges.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
@@ -28,8 +29,9 @@ Point3 unit(const Point3& a) {
 }
 
 Axis axis_of(const Arrangement& a, std::uint32_t input_triangle) {
-    const Triangle& c = a.inputs.corners[input_triangle];
-    return projection_axis(a.points.input(c[0]), a.points.input(c[1]), a.points.input(c[2]));
+    const Triangle& c = a.state->corners[input_triangle];
+    return projection_axis(a.state->points.input(c[0]), a.state->points.input(c[1]),
+                           a.state->points.input(c[2]));
 }
 
 /// Key of an undirected edge of a surface.
@@ -47,11 +49,11 @@ void add_borders(const Arrangement& a, std::uint32_t surface, const std::vector<
     std::vector<std::uint32_t> number;
     for (std::uint32_t t = inputs.first[surface]; t < inputs.first[surface + 1]; ++t) {
         if (unusable[t]) continue;
-        triangles.push_back(inputs.corners[t]);
+        triangles.push_back(a.state->corners[t]);
         number.push_back(t);
     }
     // Vertices of this surface's range, and earlier ones that have the same coordinates.
-    group_edges(triangles, a.points.input_count())
+    group_edges(triangles, a.state->points.input_count())
         .for_each([&](std::uint32_t low, std::uint32_t high, auto sides) {
             if (sides.size() != 1) return;
             const std::uint32_t t = sides[0].triangle;
@@ -89,11 +91,11 @@ public:
     }
 
 private:
-    [[nodiscard]] const Point3& at(std::uint32_t v) const { return a_.points.input(v); }
+    [[nodiscard]] const Point3& at(std::uint32_t v) const { return a_.state->points.input(v); }
 
     /// In the plane of the edge's triangle, away from it, of length 1.
     [[nodiscard]] Point3 outward(const StripEdge& e) const {
-        const Triangle& c = a_.inputs.corners[e.edge.triangle];
+        const Triangle& c = a_.state->corners[e.edge.triangle];
         const Point3 n = unit(cross(minus(at(c[1]), at(c[0])), minus(at(c[2]), at(c[0]))));
         return unit(cross(unit(minus(at(e.edge.to), at(e.edge.from))), n));
     }
@@ -159,18 +161,18 @@ bool lies_on(const Arrangement& a, const Edge& edge, std::uint32_t input_triangl
              std::uint32_t from, std::uint32_t to) {
     const Axis axis = axis_of(a, input_triangle);
     return std::all_of(edge.begin(), edge.end(), [&](std::uint32_t v) {
-        return a.points.orient2d(axis, from, to, a.vertices[v]) == Sign::Zero;
+        return a.state->points.orient2d(axis, from, to, a.vertices[v]) == Sign::Zero;
     });
 }
 
 std::vector<BorderEdge> open_border_edges(const Arrangement& a, std::vector<bool> unusable) {
-    unusable.resize(a.inputs.corners.size(), false);
+    unusable.resize(a.state->corners.size(), false);
     for (const std::uint32_t t : a.degenerate) unusable[t] = true;
     for (const auto& [repeated, first] : a.inputs.duplicates)
         if (a.inputs.surface_of(repeated) == a.inputs.surface_of(first)) unusable[repeated] = true;
     std::vector<std::vector<std::uint32_t>> open(a.surfaces.size()); // edges of the adjacency
-    for (std::uint32_t e = 0; e < a.adjacency.edges.size(); ++e) {
-        const auto at = a.adjacency.triangles_at[e];
+    for (std::uint32_t e = 0; e < a.state->adjacency.edges.size(); ++e) {
+        const auto at = a.state->adjacency.triangles_at[e];
         if (at.size() != 1) continue;
         for (const std::uint32_t s : a.surfaces_of[at[0]]) open[s].push_back(e);
     }
@@ -181,16 +183,16 @@ std::vector<BorderEdge> open_border_edges(const Arrangement& a, std::vector<bool
         std::map<EdgeKey, BorderEdge> borders;
         add_borders(a, s, unusable, borders);
         for (const std::uint32_t e : open[s])
-            for (const std::uint32_t p : a.parents_of[a.adjacency.triangles_at[e][0]]) {
+            for (const std::uint32_t p : a.parents_of[a.state->adjacency.triangles_at[e][0]]) {
                 if (a.inputs.surface_of(p) != s) continue;
-                const Triangle& c = a.inputs.corners[p];
+                const Triangle& c = a.state->corners[p];
                 for (unsigned k = 0; k < 3; ++k) {
                     const auto border = borders.find(key_of(s, c[k], c[(k + 1) % 3]));
                     if (border == borders.end() || border->second.triangle != p ||
-                        !lies_on(a, a.adjacency.edges[e], p, c[k], c[(k + 1) % 3]))
+                        !lies_on(a, a.state->adjacency.edges[e], p, c[k], c[(k + 1) % 3]))
                         continue;
-                    border->second.open.push_back(a.adjacency.edges[e]);
-                    const auto own = a.surfaces_of[a.adjacency.triangles_at[e][0]];
+                    border->second.open.push_back(a.state->adjacency.edges[e]);
+                    const auto own = a.surfaces_of[a.state->adjacency.triangles_at[e][0]];
                     border->second.own.insert(border->second.own.end(), own.begin(), own.end());
                     sort_unique(border->second.own);
                 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 
 namespace terrane {
@@ -47,14 +48,14 @@ private:
     [[nodiscard]] bool is_strip(std::uint32_t t) const { return strip_of_[t] != none; }
 
     void list_edges() {
-        for (const auto& list : a_.adjacency.inner)
+        for (const auto& list : a_.state->adjacency.inner)
             for (const auto& [t, u] : list)
                 if (is_strip(t) || is_strip(u))
                     edges_.push_back({common_edge(a_.triangles[t], a_.triangles[u]), {t, u}});
-        for (std::size_t e = 0; e < a_.adjacency.edges.size(); ++e) {
-            const auto at = a_.adjacency.triangles_at[e];
+        for (std::size_t e = 0; e < a_.state->adjacency.edges.size(); ++e) {
+            const auto at = a_.state->adjacency.triangles_at[e];
             if (std::any_of(at.begin(), at.end(), [&](auto t) { return is_strip(t); }))
-                edges_.push_back({a_.adjacency.edges[e], {at.begin(), at.end()}});
+                edges_.push_back({a_.state->adjacency.edges[e], {at.begin(), at.end()}});
         }
     }
 
@@ -128,7 +129,7 @@ private:
     [[nodiscard]] bool is_side(std::uint32_t t, const Edge& edge) const {
         for (const std::uint32_t p : a_.parents_of[t]) {
             const ExtensionTriangle& strip = strips_[by_input_[p]];
-            const Triangle& c = a_.inputs.corners[p];
+            const Triangle& c = a_.state->corners[p];
             const unsigned k = strip.side;
             if (!strip.is_fan && lies_on(a_, edge, p, c[k], c[(k + 1) % 3])) return true;
         }
@@ -154,7 +155,7 @@ std::vector<std::uint32_t> strips_by_input(const Arrangement& a,
     for (const ExtensionTriangle& t : strips) ++count[t.surface];
     std::vector<std::uint32_t> next(count.size());
     for (std::size_t s = 0; s < count.size(); ++s) next[s] = first[s + 1] - count[s];
-    std::vector<std::uint32_t> by_input(a.inputs.corners.size(), none);
+    std::vector<std::uint32_t> by_input(a.state->corners.size(), none);
     for (std::uint32_t i = 0; i < strips.size(); ++i) by_input[next[strips[i].surface]++] = i;
     return by_input;
 }

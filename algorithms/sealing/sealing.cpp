@@ -12,6 +12,7 @@
 #include <tuple>
 #include <utility>
 
+#include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/algorithms/arrangement/restricted.hpp>
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
@@ -58,7 +59,7 @@ struct Gap {
 class Distances {
 public:
     Distances(const Arrangement& a, double bound) : bound_(std::nextafter(bound, HUGE_VAL)) {
-        for (const PointIndex v : a.vertices) places_.push_back(a.points.nearest(v));
+        for (const PointIndex v : a.vertices) places_.push_back(a.state->points.nearest(v));
         std::vector<std::vector<Triangle>> triangles(a.surfaces.size());
         for (std::size_t t = 0; t < a.triangles.size(); ++t)
             for (const std::uint32_t s : a.surfaces_of[t]) triangles[s].push_back(a.triangles[t]);
@@ -219,8 +220,8 @@ private:
         std::vector<StripEdge> edges;
         const auto done = edges_with_strip();
         for (Gap& gap : gaps(distances)) {
-            const std::array ends{kept_.points.input(gap.edge.from),
-                                  kept_.points.input(gap.edge.to)};
+            const std::array ends{kept_.state->points.input(gap.edge.from),
+                                  kept_.state->points.input(gap.edge.to)};
             if (done.contains(in_order(ends[0], ends[1]))) continue;
             StripEdge& strip = edges.emplace_back();
             strip.edge = gap.edge;
@@ -281,8 +282,8 @@ private:
         for (const Gap& gap : gaps(Distances(kept_, options_.distance))) sealed_.left += gap.length;
         sealed_.surfaces = with(strips_);
         sealed_.arrangement = std::move(kept_);
-        if (!sealed_.arrangement.whole)
-            sealed_.arrangement.restrict_again =
+        if (!sealed_.arrangement.state->whole)
+            own_state(sealed_.arrangement).restrict_again =
                 [strips = strips_, d = options_.distance](Arrangement a, const Run& run) {
                     return judged_again(std::move(a), strips, d, run);
                 };

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
@@ -78,10 +79,10 @@ private:
             if (folded[borders.find(e)]) windows_[e] *= 2;
     }
 
-    [[nodiscard]] const Point3& at(std::uint32_t v) const { return a_.points.input(v); }
+    [[nodiscard]] const Point3& at(std::uint32_t v) const { return a_.state->points.input(v); }
     /// In the plane of the edge's triangle, away from it, of length 1.
     [[nodiscard]] Point3 outward_of(const BorderEdge& e) const {
-        const Triangle& c = a_.inputs.corners[e.triangle];
+        const Triangle& c = a_.state->corners[e.triangle];
         const Point3 n = cross(minus(at(c[1]), at(c[0])), minus(at(c[2]), at(c[0]))),
                      way = cross(minus(at(e.to), at(e.from)), n);
         return along({}, 1 / length(way), way);
@@ -140,7 +141,7 @@ std::vector<ExtensionTriangle> strips_beyond(const Arrangement& a,
 /// corner: it ends inside. Exact.
 bool ends_here(const Arrangement& a, std::uint32_t t, std::uint32_t parent,
                const ExtensionTriangle& strip) {
-    const Triangle &corners = a.inputs.corners[parent], &part = a.triangles[t];
+    const Triangle &corners = a.state->corners[parent], &part = a.triangles[t];
     for (unsigned k = 0; k < 3; ++k) {
         const unsigned next = (k + 1) % 3;
         const bool is_outer =
@@ -205,8 +206,8 @@ std::vector<ExtendedBorder> list(const Arrangement& inside, std::span<const Bord
     for (std::uint32_t e = 0; e < edges.size(); ++e) {
         ExtendedBorder& border = borders[sets.find(e)];
         for (const Edge& part : edges[e].open) {
-            const Point3 p = inside.points.nearest(inside.vertices[part[0]]),
-                         q = inside.points.nearest(inside.vertices[part[1]]);
+            const Point3 p = inside.state->points.nearest(inside.vertices[part[0]]),
+                         q = inside.state->points.nearest(inside.vertices[part[1]]);
             const bool is_first = border.length == 0;
             border.place = is_first ? std::min(p, q) : std::min({border.place, p, q});
             border.length += length(minus(q, p));

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/algorithms/arrangement/restricted.hpp>
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
@@ -108,7 +109,7 @@ double area_of(std::span<const Point3> places, const Triangle& t) {
 std::vector<Point3> places_of(const Arrangement& a) {
     std::vector<Point3> places;
     places.reserve(a.vertices.size());
-    for (const PointIndex v : a.vertices) places.push_back(a.points.nearest(v));
+    for (const PointIndex v : a.vertices) places.push_back(a.state->points.nearest(v));
     return places;
 }
 
@@ -131,12 +132,12 @@ std::vector<SurfaceCut> areas(const Arrangement& a, std::span<const Where> where
 /// more at it.
 template <class Join>
 void for_joined(const Arrangement& a, const Join& join) {
-    for (const auto& inner : a.adjacency.inner)
+    for (const auto& inner : a.state->adjacency.inner)
         for (const auto& [t, u] : inner) join(a.surfaces_of[t][0], t, u);
     std::map<std::uint32_t, std::uint32_t> first; // of a surface, at this edge
-    for (std::size_t e = 0; e < a.adjacency.edges.size(); ++e) {
+    for (std::size_t e = 0; e < a.state->adjacency.edges.size(); ++e) {
         first.clear();
-        for (const std::uint32_t t : a.adjacency.triangles_at[e])
+        for (const std::uint32_t t : a.state->adjacency.triangles_at[e])
             for (const std::uint32_t s : a.surfaces_of[t])
                 if (const auto [at, fresh] = first.emplace(s, t); !fresh) join(s, at->second, t);
     }
@@ -163,10 +164,11 @@ void count_pieces(const Arrangement& a, std::vector<SurfaceCut>& cuts) {
 std::vector<OpenBorder> open_borders(const Arrangement& a, std::span<const std::uint32_t> but) {
     const auto places = places_of(a);
     std::map<std::uint32_t, std::vector<Edge>> edges; // by surface
-    for (std::size_t e = 0; e < a.adjacency.edges.size(); ++e) {
-        const auto at = a.adjacency.triangles_at[e];
+    for (std::size_t e = 0; e < a.state->adjacency.edges.size(); ++e) {
+        const auto at = a.state->adjacency.triangles_at[e];
         if (at.size() != 1 || has_any(a.surfaces_of[at[0]], but)) continue;
-        for (const std::uint32_t s : a.surfaces_of[at[0]]) edges[s].push_back(a.adjacency.edges[e]);
+        for (const std::uint32_t s : a.surfaces_of[at[0]])
+            edges[s].push_back(a.state->adjacency.edges[e]);
     }
     std::vector<OpenBorder> borders;
     for (const auto& [surface, open] : edges) {
@@ -220,10 +222,10 @@ Result<VolumeOfInterest> cut(Arrangement a, std::span<const std::uint32_t> bound
     result.report.surfaces = areas(a, where.value());
     std::vector<bool> keep(a.triangles.size());
     for (std::size_t t = 0; t < keep.size(); ++t) keep[t] = where.value()[t] != Where::outside;
-    auto before = std::move(a.restrict_again);
+    auto before = a.state->restrict_again;
     result.arrangement = restricted(std::move(a), keep, run);
-    if (!result.arrangement.whole)
-        result.arrangement.restrict_again =
+    if (!result.arrangement.state->whole)
+        own_state(result.arrangement).restrict_again =
             again(std::move(before), {boundary.begin(), boundary.end()});
     count_pieces(result.arrangement, result.report.surfaces);
     result.report.borders = open_borders(result.arrangement, boundary);

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
@@ -179,7 +180,7 @@ std::vector<Triangle> planes_of(const Arrangement& a) {
     std::vector<Triangle> planes;
     planes.reserve(a.triangles.size());
     for (std::size_t t = 0; t < a.triangles.size(); ++t)
-        planes.push_back(a.inputs.corners[a.parents_of[t][0]]);
+        planes.push_back(a.state->corners[a.parents_of[t][0]]);
     return planes;
 }
 
@@ -209,7 +210,7 @@ Result<Volumes> find_volumes(const Arrangement& a, const Run& run) {
         detail::announce_work("find exact volumes", {}, a.triangles);
         const auto planes = planes_of(a);
         const auto edges = group_edges(a.triangles, a.vertices.size(), run);
-        return find({a.points, a.vertices, a.triangles, edges, planes, &a.parents_of}, run);
+        return find({a.state->points, a.vertices, a.triangles, edges, planes, &a.parents_of}, run);
     });
 }
 
@@ -224,7 +225,7 @@ Result<Volumes> find_volumes(const Mesh& mesh, const Run& run) {
 std::vector<std::string> exact_volumes(const Arrangement& a, const Volumes& volumes, int base) {
     const auto planes = planes_of(a);
     const auto edges = group_edges(a.triangles, a.vertices.size());
-    return exact_measures({a.points, a.vertices, a.triangles, edges, planes, &a.parents_of},
+    return exact_measures({a.state->points, a.vertices, a.triangles, edges, planes, &a.parents_of},
                           volumes.of_sides, volumes.measures.size(), base);
 }
 

@@ -8,7 +8,7 @@
 #include <terrane/algorithms/arrangement/soup.hpp>
 #include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/algorithms/mesh/edges.hpp>
-#include <terrane/algorithms/regions/regions.hpp>
+#include <terrane/algorithms/regions/regions_over.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
 #include <terrane/algorithms/search/methods.hpp>
 #include <terrane/cli/paper/paper_models.hpp>

@@ -7,6 +7,7 @@
 #include <string>
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>
+#include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/algorithms/verify/verify.hpp>
 
 namespace test_support {
@@ -14,7 +15,7 @@ namespace test_support {
 inline terrane::ArrangementClaim claim_of(const terrane::Arrangement& a) {
     terrane::ArrangementClaim claim;
     for (const terrane::PointIndex p : a.vertices)
-        claim.vertices.push_back(a.points.construction(p));
+        claim.vertices.push_back(a.state->points.construction(p));
     claim.triangles = a.triangles;
     claim.parents_of = a.parents_of;
     claim.intersection_edges = a.intersection_edges;

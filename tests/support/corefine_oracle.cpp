@@ -21,6 +21,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <vector>
 
 namespace corefine_oracle {
@@ -143,7 +144,7 @@ Parts parts_of(const ExactMesh& mesh, const ParentMap& parents, const Constraine
 std::vector<Spot> spots_of(const Arrangement& a) {
     std::vector<Spot> spots;
     for (const terrane::PointIndex p : a.vertices) {
-        const auto e = a.points.exact(p);
+        const auto e = a.state->points.exact(p);
         const Rational w = rational(e.w);
         spots.push_back({rational(e.x) / w, rational(e.y) / w, rational(e.z) / w});
     }
@@ -168,7 +169,7 @@ bool alike(const std::array<Spot, 3>& p, const std::array<Spot, 3>& q) {
 std::array<Spot, 3> corners_of(const Arrangement& a, std::uint32_t input_triangle) {
     std::array<Spot, 3> corners;
     for (unsigned i = 0; i < 3; ++i) {
-        const auto& p = a.points.input(a.inputs.corners[input_triangle][i]);
+        const auto& p = a.state->points.input(a.state->corners[input_triangle][i]);
         corners[i] = {Rational(p.x), Rational(p.y), Rational(p.z)};
     }
     return corners;

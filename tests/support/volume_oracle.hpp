@@ -23,6 +23,7 @@
 
 #include "support/oracle.hpp"
 #include <terrane/algorithms/arrangement/arrangement.hpp>
+#include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 
 namespace test_support {
@@ -30,11 +31,12 @@ namespace test_support {
 class VolumeOracle {
 public:
     explicit VolumeOracle(const terrane::Arrangement& a) : triangles_(a.triangles) {
-        std::vector<terrane::Point3> inputs(a.points.inputs().begin(), a.points.inputs().end());
+        std::vector<terrane::Point3> inputs(a.state->points.inputs().begin(),
+                                            a.state->points.inputs().end());
         exponent_ = oracle::lowest_exponent(inputs);
         const auto scaled = oracle::points(inputs);
         for (const terrane::PointIndex p : a.vertices)
-            points_.push_back(oracle::construct(a.points.construction(p), scaled));
+            points_.push_back(oracle::construct(a.state->points.construction(p), scaled));
         for (const terrane::Triangle& t : triangles_) planes_.push_back(plane_of(t));
     }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/algorithms/rounding/detail/state.hpp>
 
 namespace terrane::rounding::detail {
@@ -25,14 +26,14 @@ SnapGrid grid_of_digits(std::span<const Point3> points, int digits) {
 }
 
 SnappedInput::SnappedInput(const Arrangement& a) :
-    arrangement_(a), chosen_(a.points.input_count(), false) {}
+    arrangement_(a), chosen_(a.state->points.input_count(), false) {}
 
 bool SnappedInput::choose(const RoundedMesh& rounded) {
     bool any = false;
     for (const ImproperContact& c : rounded.report.contacts)
         for (const std::uint32_t t : c.triangles)
             for (const std::uint32_t parent : rounded.mesh->parents_of[t])
-                for (const std::uint32_t v : arrangement_.inputs.corners[parent]) {
+                for (const std::uint32_t v : arrangement_.state->corners[parent]) {
                     any = any || !chosen_[v];
                     chosen_[v] = true;
                 }
@@ -40,7 +41,7 @@ bool SnappedInput::choose(const RoundedMesh& rounded) {
 }
 
 std::vector<Surface> SnappedInput::surfaces(int digits) {
-    const auto inputs = arrangement_.points.inputs();
+    const auto inputs = arrangement_.state->points.inputs();
     const SnapGrid grid = grid_of_digits(inputs, digits);
     std::unordered_set<Point3, PointHash> cells;
     for (std::size_t v = 0; v < inputs.size(); ++v)
@@ -74,7 +75,7 @@ Point3 SnappedInput::snapped(const Point3& p, const SnapGrid& grid,
 /// The corners of an input triangle. A degenerate one gets its first corner three times: the grid
 /// must not give it an area.
 Triangle SnappedInput::corners_of(std::uint32_t t) const {
-    const Triangle& c = arrangement_.inputs.corners[t];
+    const Triangle& c = arrangement_.state->corners[t];
     const auto& degenerate = arrangement_.degenerate;
     if (!std::binary_search(degenerate.begin(), degenerate.end(), t)) return c;
     return {c[0], c[0], c[0]};

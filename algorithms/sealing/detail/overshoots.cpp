@@ -8,9 +8,10 @@
 #include <set>
 #include <utility>
 
+#include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/algorithms/mesh/triangle_tree.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
-#include <terrane/algorithms/regions/regions.hpp>
+#include <terrane/algorithms/regions/regions_over.hpp>
 
 namespace terrane {
 namespace {
@@ -21,9 +22,9 @@ constexpr int samples = 8; ///< along each edge of a triangle
 class Finder {
 public:
     Finder(const Arrangement& a, double distance) : a_(a), distance_(distance) {
-        for (const PointIndex v : a.vertices) places_.push_back(a.points.nearest(v));
-        regions_ =
-            find_regions(places_, a.triangles, a.surfaces_of, a.adjacency, a.intersection_edges);
+        for (const PointIndex v : a.vertices) places_.push_back(a.state->points.nearest(v));
+        regions_ = find_regions(places_, a.triangles, a.surfaces_of, a.state->adjacency,
+                                a.intersection_edges);
     }
 
     std::vector<Overshoot> operator()() {
@@ -53,10 +54,10 @@ private:
     }
 
     void collect() {
-        for (std::size_t e = 0; e < a_.adjacency.edges.size(); ++e) {
-            const auto at = a_.adjacency.triangles_at[e];
+        for (std::size_t e = 0; e < a_.state->adjacency.edges.size(); ++e) {
+            const auto at = a_.state->adjacency.triangles_at[e];
             if (at.size() != 1 || region_of(at[0]) == none) continue;
-            const auto& [v, w] = a_.adjacency.edges[e];
+            const auto& [v, w] = a_.state->adjacency.edges[e];
             candidates_[region_of(at[0])].border += length(minus(places_[v], places_[w]));
         }
         for (std::uint32_t t = 0; t < a_.triangles.size(); ++t)
@@ -68,9 +69,9 @@ private:
                 else
                     it->second.triangles.push_back(t);
             }
-        for (std::size_t e = 0; e < a_.adjacency.edges.size(); ++e) {
-            const Edge& edge = a_.adjacency.edges[e];
-            const auto at = a_.adjacency.triangles_at[e];
+        for (std::size_t e = 0; e < a_.state->adjacency.edges.size(); ++e) {
+            const Edge& edge = a_.state->adjacency.edges[e];
+            const auto at = a_.state->adjacency.triangles_at[e];
             if (!std::binary_search(a_.intersection_edges.begin(), a_.intersection_edges.end(),
                                     edge))
                 continue;
@@ -139,8 +140,8 @@ private:
     void keep_what_others_end_on(std::map<std::uint32_t, Overshoot>& found) const {
         for (bool changed = true; changed;) {
             changed = false;
-            for (std::size_t e = 0; e < a_.adjacency.edges.size(); ++e) {
-                const auto at = a_.adjacency.triangles_at[e];
+            for (std::size_t e = 0; e < a_.state->adjacency.edges.size(); ++e) {
+                const auto at = a_.state->adjacency.triangles_at[e];
                 const auto goes = [&](std::uint32_t t) { return found.contains(region_of(t)); };
                 const auto left = static_cast<std::size_t>(
                     std::count_if(at.begin(), at.end(), [&](auto t) { return !goes(t); }));

@@ -3,6 +3,7 @@
 #include <tuple>
 #include <unordered_map>
 
+#include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/algorithms/mesh/point_table.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 
@@ -20,7 +21,7 @@ std::vector<std::uint32_t> vertices_in_mesh(const Arrangement& a, const Mesh& me
     std::vector<std::uint32_t> found;
     found.reserve(a.vertices.size());
     for (const PointIndex p : a.vertices) {
-        const auto it = at.find(a.points.nearest(p));
+        const auto it = at.find(a.state->points.nearest(p));
         found.push_back(it == at.end() ? none : it->second);
     }
     return found;

@@ -6,6 +6,7 @@
 #include "support/sheets.hpp"
 
 #include <catch2/catch.hpp>
+#include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 
 namespace {
 
@@ -130,7 +131,7 @@ TEST_CASE("arrange: three surfaces through one point, and four planes") {
     const auto a = arrange(four);
     int origins = 0;
     for (const PointIndex p : a.value().vertices)
-        origins += a.value().points.nearest(p) == Point3{};
+        origins += a.value().state->points.nearest(p) == Point3{};
     CHECK(origins == 1);
 }
 
@@ -144,7 +145,7 @@ TEST_CASE("arrange: constraints cross within a triangle, in points of three plan
     int of_three_planes = 0;
     for (const PointIndex p : a.value().vertices)
         of_three_planes +=
-            a.value().points.construction(p).kind == Construction::Kind::three_planes;
+            a.value().state->points.construction(p).kind == Construction::Kind::three_planes;
     CHECK(of_three_planes > 0);
 }
 
@@ -244,6 +245,6 @@ TEST_CASE("arrange: threads may share out the triangles in front of a divided on
         const Arrangement several = arrange(surfaces, {}, {.threads = threads}).value();
         CHECK(several.triangles == one.triangles);
         CHECK(several.parents_of == one.parents_of);
-        CHECK(several.adjacency.edges == one.adjacency.edges);
+        CHECK(several.state->adjacency.edges == one.state->adjacency.edges);
     }
 }

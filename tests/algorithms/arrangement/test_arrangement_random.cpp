@@ -5,6 +5,7 @@
 #include "support/effort.hpp"
 #include "support/points.hpp"
 
+#include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/kernel/predicates.hpp>
 
 #include <catch2/catch.hpp>
@@ -107,7 +108,7 @@ using Vertices = std::vector<Construction>;
 
 Vertices constructions(const Arrangement& a) {
     Vertices all;
-    for (const PointIndex p : a.vertices) all.push_back(a.points.construction(p));
+    for (const PointIndex p : a.vertices) all.push_back(a.state->points.construction(p));
     return all;
 }
 

@@ -13,7 +13,8 @@
 #include "support/certified_inputs.hpp"
 #include "support/points.hpp"
 #include <terrane/algorithms/arrangement/arrangement.hpp>
-#include <terrane/algorithms/regions/regions.hpp>
+#include <terrane/algorithms/arrangement/exact_arrangement.hpp>
+#include <terrane/algorithms/regions/regions_over.hpp>
 
 using namespace terrane;
 using namespace test_support;
@@ -125,9 +126,10 @@ TEST_CASE("diffusion: of triangles it finds the regions of find_regions", "[regi
             for (const Triangle& t : a.value().triangles) triangles.push_back(t);
             std::vector<Point3> places;
             for (const PointIndex p : a.value().vertices)
-                places.push_back(a.value().points.nearest(p));
-            const auto expected = find_regions(places, a.value().triangles, a.value().surfaces_of,
-                                               a.value().adjacency, a.value().intersection_edges);
+                places.push_back(a.value().state->points.nearest(p));
+            const auto expected =
+                find_regions(places, a.value().triangles, a.value().surfaces_of,
+                             a.value().state->adjacency, a.value().intersection_edges);
             CHECK(regions_of_polygons(triangles, a.value().intersection_edges) ==
                   expected.regions_of.values);
             compared += triangles.size();

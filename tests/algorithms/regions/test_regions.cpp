@@ -3,7 +3,8 @@
 // Regions of models whose regions are known.
 #include "support/claim.hpp"
 
-#include <terrane/algorithms/regions/regions.hpp>
+#include <terrane/algorithms/arrangement/exact_arrangement.hpp>
+#include <terrane/algorithms/regions/regions_over.hpp>
 
 #include <catch2/catch.hpp>
 
@@ -34,14 +35,36 @@ Surface wall(double x0, double y0, double x1, double y1) {
     return surface({{x0, y0, -1}, {x1, y1, -1}, {x1, y1, 1}, {x0, y0, 1}}, {{0, 1, 2}, {0, 2, 3}});
 }
 
+void check_same(const Regions& r, const Regions& expected) {
+    CHECK(r.regions_of == expected.regions_of);
+    REQUIRE(r.regions.size() == expected.regions.size());
+    for (std::size_t i = 0; i < r.regions.size(); ++i) {
+        CHECK(r.regions[i].area == expected.regions[i].area);
+        CHECK(r.regions[i].neighbours == expected.regions[i].neighbours);
+    }
+}
+
+/// What a mesh alone says must agree with what the arrangement's adjacency says.
 Regions regions(const std::vector<Surface>& surfaces) {
     const auto arranged = arrange(surfaces);
     REQUIRE(arranged);
     const Arrangement& a = arranged.value();
     REQUIRE(flaws(surfaces, a) == "");
     std::vector<Point3> vertices;
-    for (const PointIndex p : a.vertices) vertices.push_back(a.points.nearest(p));
-    return find_regions(vertices, a.triangles, a.surfaces_of, a.adjacency, a.intersection_edges);
+    for (const PointIndex p : a.vertices) vertices.push_back(a.state->points.nearest(p));
+    const Regions found = find_regions(vertices, a.triangles, a.surfaces_of, a.state->adjacency,
+                                       a.intersection_edges);
+    Mesh mesh{.surfaces = a.surfaces,
+              .vertices = vertices,
+              .triangles = a.triangles,
+              .surfaces_of = a.surfaces_of,
+              .regions_of = {},
+              .parents_of = a.parents_of,
+              .intersection_edges = a.intersection_edges};
+    check_same(find_regions(mesh), found);
+    mesh.parents_of = {}; // as a mesh from elsewhere
+    check_same(find_regions(mesh), found);
+    return found;
 }
 
 /// Areas of a surface's regions, ascending.

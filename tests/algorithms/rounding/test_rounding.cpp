@@ -7,6 +7,7 @@
 #include "support/sheets.hpp"
 #include "support/soup_laws.hpp"
 
+#include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/algorithms/rounding/detail/collapsed_triangles.hpp>
 #include <terrane/algorithms/rounding/detail/state.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
@@ -126,7 +127,7 @@ TEST_CASE("rounding: nothing is farther from its exact place than reported") {
     CHECK(r.report.max_move > 0);
     CHECK(r.report.max_move < 1e-15);
     for (std::size_t v = 0; v < a.vertices.size(); ++v) {
-        const Enclosure e = a.points.enclosure(a.vertices[v]);
+        const Enclosure e = a.state->points.enclosure(a.vertices[v]);
         CHECK(r.mesh->vertices[v].x >= e.low[0] - r.report.max_move);
         CHECK(r.mesh->vertices[v].x <= e.high[0] + r.report.max_move);
     }
@@ -332,12 +333,12 @@ Arrangement check_threads_change_nothing(const std::vector<Surface>& surfaces) {
         CHECK(a.intersection_edges == b.intersection_edges);
         CHECK(a.degenerate == b.degenerate);
         CHECK(a.inputs.duplicates == b.inputs.duplicates);
-        CHECK(a.neighbours == b.neighbours);
-        CHECK(a.patches.of == b.patches.of);
-        CHECK(a.adjacency.edges == b.adjacency.edges);
-        CHECK(a.adjacency.triangles_at == b.adjacency.triangles_at);
-        CHECK(a.inputs.corners == b.inputs.corners);
-        CHECK(a.patches.turn == b.patches.turn);
+        CHECK(a.state->neighbours == b.state->neighbours);
+        CHECK(a.state->patches.of == b.state->patches.of);
+        CHECK(a.state->adjacency.edges == b.state->adjacency.edges);
+        CHECK(a.state->adjacency.triangles_at == b.state->adjacency.triangles_at);
+        CHECK(a.state->corners == b.state->corners);
+        CHECK(a.state->patches.turn == b.state->patches.turn);
         const RoundedMesh n = round_to_doubles(b, {}, run).value();
         CHECK(m.mesh->vertices == n.mesh->vertices);
         CHECK(m.mesh->triangles == n.mesh->triangles);

@@ -6,6 +6,7 @@
 #include "support/points.hpp"
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>
+#include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/algorithms/intersection/intersection.hpp>
 #include <terrane/algorithms/rounding/detail/separation.hpp>
 #include <terrane/kernel/predicates.hpp>
@@ -69,7 +70,7 @@ struct Moved {
 Moved moved(Random& random, const Arrangement& a, double size) {
     Moved m;
     for (const PointIndex v : a.vertices) {
-        const Point3 p = a.points.nearest(v);
+        const Point3 p = a.state->points.nearest(v);
         const double most = size / 2;
         const Point3 by = point_of([&] { return random_real(random, -most, most); });
         m.points.push_back({p.x + by.x, p.y + by.y, p.z + by.z});
@@ -119,7 +120,7 @@ void examine(Random& random, const Surface& surface, double size, Found& found) 
     if (!a.degenerate.empty() || !a.inputs.duplicates.empty() || a.triangles.size() > 400) return;
     const Moved m = moved(random, a, size);
     if (has_flat(m, a.triangles)) return;
-    const Unproven unproven = find_unproven({a.points.inputs(), a.inputs.corners, a.vertices,
+    const Unproven unproven = find_unproven({a.state->points.inputs(), a.state->corners, a.vertices,
                                              m.points, m.moves, a.triangles, a.parents_of},
                                             all_pairs(a.inputs.first.back()), {});
     for (const CandidatePair& p : all_pairs(static_cast<std::uint32_t>(a.triangles.size()))) {
@@ -162,9 +163,10 @@ TEST_CASE("clearance: the same of a face with so many parts that far ones are le
                                             [](auto p) { return p == 0; });
         REQUIRE(of_first > 256);
         const Moved m = moved(random, a, std::pow(10, random_real(random, -4, -1)));
-        const Unproven unproven = find_unproven({a.points.inputs(), a.inputs.corners, a.vertices,
-                                                 m.points, m.moves, a.triangles, a.parents_of},
-                                                all_pairs(a.inputs.first.back()), {});
+        const Unproven unproven =
+            find_unproven({a.state->points.inputs(), a.state->corners, a.vertices, m.points,
+                           m.moves, a.triangles, a.parents_of},
+                          all_pairs(a.inputs.first.back()), {});
         const auto pairs = candidate_pairs({m.points, a.triangles}, {}, Search::automatic);
         for (const CandidatePair& p : pairs) {
             if (!improper_contact(m.points, a.triangles[p.first], a.triangles[p.second])) continue;
@@ -225,9 +227,10 @@ TEST_CASE("clearance: hardly any part of a smooth sheet is unproven after roundi
     for (int i = 0; i < cases(200); ++i) {
         const Arrangement a = arrange(std::vector{crossed_sheet(random)}).value();
         const Moved m = moved(random, a, 1e-15);
-        const Unproven unproven = find_unproven({a.points.inputs(), a.inputs.corners, a.vertices,
-                                                 m.points, m.moves, a.triangles, a.parents_of},
-                                                all_pairs(a.inputs.first.back()), {});
+        const Unproven unproven =
+            find_unproven({a.state->points.inputs(), a.state->corners, a.vertices, m.points,
+                           m.moves, a.triangles, a.parents_of},
+                          all_pairs(a.inputs.first.back()), {});
         unclear_pairs += unproven.pairs.size();
         parts += a.triangles.size();
     }

@@ -16,6 +16,7 @@
 #include "support/effort.hpp"
 #include "support/points.hpp"
 #include "support/solids.hpp"
+#include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/algorithms/arrangement/restricted.hpp>
 #include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
@@ -31,13 +32,14 @@ namespace {
 /// wide.
 void check_strip_ends(const std::vector<Surface>& surfaces, const Sealed& s, double distance) {
     const Arrangement& a = s.arrangement;
-    for (std::size_t e = 0; e < a.adjacency.edges.size(); ++e) {
-        const auto at = a.adjacency.triangles_at[e];
+    for (std::size_t e = 0; e < a.state->adjacency.edges.size(); ++e) {
+        const auto at = a.state->adjacency.triangles_at[e];
         if (at.size() != 1) continue;
         const std::uint32_t parent = a.parents_of[at[0]][0], surface = a.inputs.surface_of(parent);
         if (parent - a.inputs.first[surface] < surfaces[surface].triangles.size()) continue;
-        const auto [v, w] = a.adjacency.edges[e];
-        const Point3 p = a.points.nearest(a.vertices[v]), q = a.points.nearest(a.vertices[w]);
+        const auto [v, w] = a.state->adjacency.edges[e];
+        const Point3 p = a.state->points.nearest(a.vertices[v]),
+                     q = a.state->points.nearest(a.vertices[w]);
         CHECK(std::hypot(p.x - q.x, p.y - q.y, p.z - q.z) < 12 * distance);
     }
 }
@@ -122,7 +124,7 @@ TEST_CASE("sealing: nothing moves where no gap is small enough", "[seal]") {
     const Arrangement a = arrange(model).value();
     const Sealed s = sealed(model, 0.0999);
     CHECK(s.changes.empty());
-    CHECK(s.arrangement.whole);
+    CHECK(s.arrangement.state->whole);
     CHECK(s.arrangement.triangles == a.triangles);
     CHECK(s.arrangement.vertices == a.vertices);
     CHECK(s.arrangement.parents_of == a.parents_of);
@@ -177,8 +179,8 @@ TEST_CASE("sealing: along a part of a border only", "[seal]") {
     // Four of the eight edges are closed; each is an edge of three triangles now.
     std::size_t on_fault = 0;
     for (const Edge& e : s.arrangement.intersection_edges) {
-        const Point3 p = s.arrangement.points.nearest(s.arrangement.vertices[e[0]]),
-                     q = s.arrangement.points.nearest(s.arrangement.vertices[e[1]]);
+        const Point3 p = s.arrangement.state->points.nearest(s.arrangement.vertices[e[0]]),
+                     q = s.arrangement.state->points.nearest(s.arrangement.vertices[e[1]]);
         CHECK(p.x == 4);
         CHECK(q.x == 4);
         on_fault += 1;
@@ -196,13 +198,13 @@ TEST_CASE("sealing: ends that reach beyond are trimmed", "[seal]") {
     CHECK(s.changes[0].kind == SealKind::trimmed);
     CHECK(s.changes[0].largest == Approx(std::hypot(0.1, 0.08)));
     for (const PointIndex v : s.arrangement.vertices) {
-        const Point3 p = s.arrangement.points.nearest(v);
+        const Point3 p = s.arrangement.state->points.nearest(v);
         CHECK((p.x >= 0 && p.x <= 8 && p.y >= 0 && p.y <= 8));
     }
     check_rounds(s.arrangement);
     const Sealed none = sealed(model, 0.09); // less than its corner
     CHECK(none.changes.empty());
-    CHECK(none.arrangement.whole);
+    CHECK(none.arrangement.state->whole);
 }
 
 TEST_CASE("sealing: a border that crosses the fault to and fro", "[seal]") {
@@ -331,8 +333,9 @@ TEST_CASE("sealing: the same for any number of threads; and within a volume of i
     CHECK(cut.value().report.borders.empty());
     check_rounds(cut.value().arrangement);
     // done again on the same surfaces with their strips it gives the same
-    REQUIRE(cut.value().arrangement.restrict_again);
-    const auto again = cut.value().arrangement.restrict_again(arrange(a.surfaces).value(), Run{});
+    REQUIRE(cut.value().arrangement.state->restrict_again);
+    const auto again =
+        cut.value().arrangement.state->restrict_again(arrange(a.surfaces).value(), Run{});
     REQUIRE(again);
     CHECK(again.value().triangles == cut.value().arrangement.triangles);
     std::stop_source source;

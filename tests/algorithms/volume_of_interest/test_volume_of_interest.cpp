@@ -18,6 +18,7 @@
 #include "support/effort.hpp"
 #include "support/points.hpp"
 #include "support/solids.hpp"
+#include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/algorithms/arrangement/restricted.hpp>
 #include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
@@ -34,7 +35,7 @@ using Spot = std::array<mpq_class, 3>;
 std::vector<Spot> spots_of(const Arrangement& a) {
     std::vector<Spot> spots;
     for (const PointIndex v : a.vertices) {
-        const auto text = fractions(a.points, v, 10);
+        const auto text = fractions(a.state->points, v, 10);
         spots.push_back({mpq_class(text[0]), mpq_class(text[1]), mpq_class(text[2])});
     }
     return spots;
@@ -83,7 +84,7 @@ Case cut(std::vector<Surface> surfaces, const std::vector<Surface>& boundary) {
 void check_consistent(const Arrangement& a) {
     REQUIRE(a.parents_of.size() == a.triangles.size());
     REQUIRE(a.surfaces_of.size() == a.triangles.size());
-    REQUIRE(a.patches.of.size() == a.triangles.size());
+    REQUIRE(a.state->patches.of.size() == a.triangles.size());
     std::vector<bool> used(a.vertices.size(), false);
     for (const Triangle& t : a.triangles)
         for (const std::uint32_t v : t) used.at(v) = true;
@@ -93,10 +94,10 @@ void check_consistent(const Arrangement& a) {
                                               labels_of(a.surfaces_of, a.parents_of));
     CHECK(a.intersection_edges == find_intersection_edges(by_surface, a.inputs, a.parents_of));
     std::size_t inner = 0;
-    for (const auto& list : a.adjacency.inner) inner += list.size();
+    for (const auto& list : a.state->adjacency.inner) inner += list.size();
     std::size_t sides = 2 * inner;
-    for (std::size_t e = 0; e < a.adjacency.edges.size(); ++e)
-        sides += a.adjacency.triangles_at[e].size();
+    for (std::size_t e = 0; e < a.state->adjacency.edges.size(); ++e)
+        sides += a.state->adjacency.triangles_at[e].size();
     CHECK(sides == 3 * a.triangles.size());
 }
 
@@ -152,7 +153,7 @@ Surface soup_of(Random& random, Family family, std::size_t triangles) {
 /// of each input triangle add up to it: inside, outside and on the boundary.
 void check_against_box(const Case& c, const Point3& low, const Point3& high) {
     const auto spots = spots_of(c.whole);
-    std::vector<Spot> sums(c.whole.inputs.corners.size());
+    std::vector<Spot> sums(c.whole.state->corners.size());
     for (std::size_t t = 0; t < c.whole.triangles.size(); ++t) {
         const auto [i, j, k] = c.whole.triangles[t];
         Spot centre;
@@ -304,11 +305,11 @@ TEST_CASE("restricted: everything kept is the same, nothing kept is nothing", "[
     const auto a = arrange(std::vector{cube(0, 4), level(2, -1, -1, 5, 5)}).value();
     const Arrangement same = restricted(a, std::vector<bool>(a.triangles.size(), true));
     CHECK(same.triangles == a.triangles);
-    CHECK(same.whole);
+    CHECK(same.state->whole);
     const Arrangement none = restricted(a, std::vector<bool>(a.triangles.size(), false));
     CHECK(none.triangles.empty());
     CHECK(none.vertices.empty());
-    CHECK_FALSE(none.whole);
+    CHECK_FALSE(none.state->whole);
     check_consistent(none);
     CHECK(find_volumes(none).value().block_count() == 0);
 }

@@ -19,6 +19,7 @@
 #include "support/points.hpp"
 #include "support/solids.hpp"
 #include "support/volume_oracle.hpp"
+#include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/io/files.hpp>
 
 using namespace terrane;
@@ -227,7 +228,8 @@ std::set<std::uint32_t> blocks_inside(const Found& found, double half) {
     for (std::size_t t = 0; t < found.arrangement.triangles.size(); ++t)
         for (const std::uint32_t block : found.volumes.of_sides[t])
             for (const std::uint32_t v : found.arrangement.triangles[t]) {
-                const Point3 p = found.arrangement.points.nearest(found.arrangement.vertices[v]);
+                const Point3 p =
+                    found.arrangement.state->points.nearest(found.arrangement.vertices[v]);
                 in.insert(block);
                 if (std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) > half)
                     out.insert(block);

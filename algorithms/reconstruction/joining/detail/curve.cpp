@@ -7,6 +7,7 @@
 #include <optional>
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>
+#include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/mesh/edges.hpp>
 #include <terrane/kernel/predicates.hpp>
@@ -80,9 +81,9 @@ Status LineFinder::find_curve() {
     for (std::uint32_t t = 0; t < a_.triangles.size(); ++t)
         if (const auto list = a_.surfaces_of[t]; list.size() > 1 && list[0] == strip_)
             return fault((a_.parents_of[t][0] - first) / 2, "and the filling overlap in an area");
-    for (std::size_t e = 0; e < a_.adjacency.edges.size(); ++e) {
+    for (std::size_t e = 0; e < a_.state->adjacency.edges.size(); ++e) {
         std::vector<std::uint32_t> of_filling, on_walls;
-        for (const std::uint32_t t : a_.adjacency.triangles_at[e])
+        for (const std::uint32_t t : a_.state->adjacency.triangles_at[e])
             if (a_.surfaces_of[t][0] == filling_)
                 of_filling.push_back(t);
             else if (a_.surfaces_of[t][0] == strip_)
@@ -93,7 +94,8 @@ Status LineFinder::find_curve() {
             return fault(on_walls[0], "meets the filling along a normal or crosses itself there");
         if (of_filling.size() != 2)
             return fault(on_walls[0], "meets the filling where that ends or is no simple sheet");
-        curve_.push_back({a_.adjacency.edges[e], on_walls[0], {of_filling[0], of_filling[1]}});
+        curve_.push_back(
+            {a_.state->adjacency.edges[e], on_walls[0], {of_filling[0], of_filling[1]}});
     }
     return Done{};
 }
@@ -176,11 +178,11 @@ Status LineFinder::find_corners() {
 /// ends of the normals lie.
 Result<Sign> LineFinder::direction() const {
     std::optional<Sign> common;
-    const auto points = a_.points.inputs();
+    const auto points = a_.state->points.inputs();
     const std::uint32_t first = a_.inputs.first_vertex[strip_];
     for (std::size_t i = 0; i < walls(); ++i)
         for (const std::uint32_t t : line_.edges[line_.corner_at[i]].triangles) {
-            const Triangle& c = a_.inputs.corners[a_.parents_of[t][0]];
+            const Triangle& c = a_.state->corners[a_.parents_of[t][0]];
             const Point3& top = points[first + 2 * i + 1];
             const Sign side = orient3d(points[c[0]], points[c[1]], points[c[2]], top);
             if (side == Sign::Zero) continue;
@@ -220,7 +222,9 @@ private:
     struct Flaws {
         std::vector<std::uint32_t> border, crowded;
     };
-    [[nodiscard]] Point3 point(std::uint32_t v) const { return a_.points.nearest(a_.vertices[v]); }
+    [[nodiscard]] Point3 point(std::uint32_t v) const {
+        return a_.state->points.nearest(a_.vertices[v]);
+    }
     [[nodiscard]] Flaws join_neighbours(DisjointSets& sets) const;
     Status spread(DisjointSets& sets, const Flaws& flaws);
     [[nodiscard]] bool is_disk_with_holes() const;
@@ -340,7 +344,7 @@ Result<InnerPart> InnerPartFinder::part() const {
     };
     for (const std::uint32_t v : used) {
         const PointIndex p = a_.vertices[v];
-        if (!a_.points.is_input(p) || p < first)
+        if (!a_.state->points.is_input(p) || p < first)
             return Error{ErrorCode::improper_contact,
                          "the filling crosses itself, or a strip, inside the hole",
                          text_of(point(v))};

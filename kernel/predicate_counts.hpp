@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+
+namespace terrane {
+
+/// Which stage decided how many predicates.
+struct PredicateCounts {
+    std::uint64_t static_filter = 0;
+    std::uint64_t interval = 0;
+    std::uint64_t exact = 0;
+
+    PredicateCounts& operator+=(const PredicateCounts& o) {
+        static_filter += o.static_filter;
+        interval += o.interval;
+        exact += o.exact;
+        return *this;
+    }
+    friend PredicateCounts operator-(PredicateCounts a, const PredicateCounts& b) {
+        a.static_filter -= b.static_filter;
+        a.interval -= b.interval;
+        a.exact -= b.exact;
+        return a;
+    }
+};
+
+} // namespace terrane
