@@ -43,6 +43,13 @@ def sources(root: Path):
     ]
 
 
+def public_headers(root: Path):
+    """The headers that are installed; terrane.hpp, which includes the others, is none of sources()."""
+    listed = root / "scripts/cmake/public_headers.cmake"
+    lines = listed.read_text() if listed.exists() else ""
+    return [h for h in re.findall(r"^ +([a-z0-9_/]+\.hpp)", lines, re.M) if h != "terrane.hpp"]
+
+
 def folder_of(path: Path) -> str:
     """The folder that a file counts to: detail/ and helper/ are parts of the folder around them."""
     parent = path.parent
@@ -125,7 +132,8 @@ def main():
         files = sources(options.root)
         headers = [f for f in files if f.suffix == ".hpp"]
         private = sum(f.parent.name == "detail" for f in headers)
-        print(f"{len(files)} files, {len(headers)} headers ({private} in detail/), "
+        public = len(public_headers(options.root))
+        print(f"{len(files)} files, {len(headers)} headers ({public} public, {private} in detail/), "
               f"{len(arrows)} arrows between {len(ORDER)} folders, "
               f"{'acyclic' if not cycle else 'with a cycle'}")
     for problem in problems:

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What the verifier may include, and how includes are written. Which folder may include which one is
+// What public headers and the verifier may include, and how includes are written. Which folder may include which one is
 // checked by tests/test_include_graph.py.
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <regex>
@@ -50,6 +51,16 @@ bool is_verifier(const std::string& file) {
     return file.starts_with("algorithms/verify/");
 }
 
+/// The installed headers, as scripts/cmake/public_headers.cmake lists them.
+std::set<std::string> public_headers() {
+    static const std::regex header(R"(^ +([a-z0-9_/]+\.hpp)\)?$)");
+    std::set<std::string> result;
+    std::ifstream in(root / "scripts/cmake/public_headers.cmake");
+    for (std::string line; std::getline(in, line);)
+        if (std::smatch found; std::regex_match(line, found, header)) result.insert(found[1]);
+    return result;
+}
+
 /// Headers of the standard library have neither a folder nor an extension.
 bool is_standard(const std::string& include) {
     return include.find_first_of("./") == std::string::npos;
@@ -66,6 +77,32 @@ TEST_CASE("includes: all that is ours is included by its installed name") {
                 if (const std::string target = ours(include); !target.empty())
                     CHECK(fs::exists(root / target));
             }
+}
+
+TEST_CASE("includes: public headers include public headers and the standard library only") {
+    const auto listed = public_headers();
+    REQUIRE(listed.size() > 45);
+    for (const std::string& header : listed) {
+        REQUIRE(fs::exists(root / header));
+        CHECK(fs::path(header).parent_path().filename() != "detail");
+        for (const std::string& include : includes_of(root / header)) {
+            INFO(header << " includes " << include);
+            const std::string target = ours(include);
+            if (target.empty())
+                CHECK((is_standard(include) || include == "malloc.h")); // the C library's
+            else
+                CHECK(listed.count(target) == 1);
+        }
+    }
+}
+
+TEST_CASE("includes: terrane.hpp includes each public header of its library") {
+    const auto included = includes_of(root / "terrane.hpp");
+    for (const std::string& header : public_headers()) {
+        if (header == "terrane.hpp" || is_verifier(header)) continue;
+        INFO(header);
+        CHECK(std::count(included.begin(), included.end(), "terrane/" + header) == 1);
+    }
 }
 
 TEST_CASE("includes: the producer does not use the verifier") {

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 # cmake -DBUILD=... -DSOURCE=... -DWORK=... -DTETGEN=... -DCOMPILER=... -DSANITIZE=... -P run.cmake
-# Installs the build tree into WORK/prefix; configures, builds and runs the consumer against it.
+# Installs the build tree into WORK/prefix; configures, builds and runs the consumer against it, with
+# the library's compiler and with the other one of gcc and clang, where there is one.
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE failed)
   if(failed)
@@ -9,24 +10,50 @@ function(run)
   endif()
 endfunction()
 
+# The files that the consumer was compiled from: those of Terrane are installed ones, and none is
+# one of a library that Terrane uses inside.
+function(judge_dependencies build)
+  execute_process(COMMAND ninja -C ${build} -t deps OUTPUT_VARIABLE files RESULT_VARIABLE failed)
+  if(failed OR NOT files MATCHES "prefix/include/terrane/terrane.hpp")
+    message(FATAL_ERROR "ninja does not say what the consumer was compiled from: ${files}")
+  endif()
+  string(REGEX MATCHALL "[^\n]*(CGAL|boost|[Ee]igen3?/|gmp(xx)?\\.h|mpfr\\.h|tbb/|fmt/|nlohmann|nettle|tetgen\\.h)[^\n]*"
+         strange "${files}")
+  if(strange)
+    message(FATAL_ERROR "installed headers include ${strange}")
+  endif()
+endfunction()
+
 file(REMOVE_RECURSE ${WORK})
 set(flags)
-if(SANITIZE)
+set(compilers ${COMPILER})
+if(SANITIZE) # the runtimes of two compilers do not mix
   set(flags "-DCMAKE_CXX_FLAGS=-fsanitize=address,undefined")
+elseif(COMPILER MATCHES "clang")
+  find_program(other NAMES g++)
+else()
+  find_program(other NAMES clang++-14 clang++)
+endif()
+if(other)
+  list(APPEND compilers ${other})
 endif()
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
 file(GLOB licences ${WORK}/prefix/share/doc/*/LICENSES/LGPL-3.0-or-later.txt)
 if(NOT licences)
   message(FATAL_ERROR "the text of the licence is not installed")
 endif()
-run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/build -G Ninja -DCMAKE_PREFIX_PATH=${WORK}/prefix
-    -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=${COMPILER} -DWITH_TETGEN=${TETGEN} ${flags})
-run(${CMAKE_COMMAND} --build ${WORK}/build)
-# The installed programs find each other wherever they are: what was installed is moved first.
+foreach(compiler IN LISTS compilers)
+  cmake_path(GET compiler FILENAME name)
+  set(build ${WORK}/build-${name})
+  run(${CMAKE_COMMAND} -S ${SOURCE} -B ${build} -G Ninja -DCMAKE_PREFIX_PATH=${WORK}/prefix
+      -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=${compiler} -DWITH_TETGEN=${TETGEN} ${flags})
+  run(${CMAKE_COMMAND} --build ${build})
+  judge_dependencies(${build})
+  run(${build}/consumer)
+endforeach()
+# The installed programs find each other wherever they are: what was installed is moved.
 file(RENAME ${WORK}/prefix ${WORK}/moved)
 file(GLOB program ${WORK}/moved/bin/terrane)
 if(program AND TETGEN)
   run(${program} tetrahedralize ${SOURCE}/../data/arrangements/three_cubes.stl -o ${WORK}/cubes.vtu)
 endif()
-file(RENAME ${WORK}/moved ${WORK}/prefix)
-run(${WORK}/build/consumer)

@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: LGPL-3.0-or-later
+# The public interface: the headers that are installed, by library. They include no other header of
+# ours (tests/test_include_order.cpp), nor one of a library that the user would have to install.
+set(terrane_headers
+    terrane.hpp
+    kernel/construction.hpp
+    kernel/point.hpp
+    kernel/predicate_counts.hpp
+    algorithms/core/index_lists.hpp
+    algorithms/core/process_memory.hpp
+    algorithms/core/result.hpp
+    algorithms/core/run.hpp
+    algorithms/mesh/mesh.hpp
+    algorithms/mesh/region_point.hpp
+    algorithms/mesh/surface.hpp
+    algorithms/search/method.hpp
+    algorithms/intersection/contact_kind.hpp
+    algorithms/arrangement/arrangement.hpp
+    algorithms/arrangement/digest.hpp
+    algorithms/arrangement/input_triangles.hpp
+    algorithms/check/check.hpp
+    algorithms/regions/regions.hpp
+    algorithms/rounding/rounding.hpp
+    algorithms/volumes/region_points.hpp
+    algorithms/volumes/volumes.hpp
+    algorithms/structure/free_borders.hpp
+    algorithms/structure/structure.hpp
+    algorithms/structure/structure_meshes.hpp
+    algorithms/layers/layers.hpp
+    algorithms/quality/deviation.hpp
+    algorithms/quality/improve.hpp
+    algorithms/quality/improve_back.hpp
+    algorithms/quality/quality.hpp
+    algorithms/reconstruction/holes/filling.hpp
+    algorithms/reconstruction/holes/holes.hpp
+    algorithms/reconstruction/joining/join.hpp
+    algorithms/reconstruction/kriging/fill_kriging.hpp
+    algorithms/reconstruction/kriging/variogram.hpp
+    algorithms/reconstruction/rbf/rbf.hpp
+    algorithms/reconstruction/rbf/rbf_join.hpp
+    algorithms/sealing/sealing.hpp
+    algorithms/volume_of_interest/boundary_surfaces.hpp
+    algorithms/volume_of_interest/extension.hpp
+    algorithms/volume_of_interest/volume_of_interest.hpp
+    algorithms/tetrahedra/check_tetrahedra.hpp
+    algorithms/tetrahedra/split_nodes.hpp
+    algorithms/tetrahedra/tetrahedra_shape.hpp
+    algorithms/tetrahedra/without_outside.hpp
+    algorithms/tetgen/tetgen_helper.hpp
+    algorithms/tetgen/tetrahedra.hpp
+    io/certificate.hpp
+    io/exact_text.hpp
+    io/files.hpp
+    io/gocad/gocad.hpp
+    io/grids/grid.hpp
+    io/meshes/cell_array.hpp
+    io/meshes/poly.hpp
+    io/project.hpp
+    io/structure_json.hpp)
+set(verify_headers
+    algorithms/verify/verify.hpp
+    algorithms/verify/verify_certificate.hpp)

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// The whole library, all stages. The verifier (terrane/algorithms/verify/verify.hpp) is a library of
+// its own.
+#pragma once
+
+#include <terrane/algorithms/arrangement/arrangement.hpp>
+#include <terrane/algorithms/arrangement/digest.hpp>
+#include <terrane/algorithms/arrangement/input_triangles.hpp>
+#include <terrane/algorithms/check/check.hpp>
+#include <terrane/algorithms/core/index_lists.hpp>
+#include <terrane/algorithms/core/process_memory.hpp>
+#include <terrane/algorithms/core/result.hpp>
+#include <terrane/algorithms/core/run.hpp>
+#include <terrane/algorithms/intersection/contact_kind.hpp>
+#include <terrane/algorithms/layers/layers.hpp>
+#include <terrane/algorithms/mesh/mesh.hpp>
+#include <terrane/algorithms/mesh/region_point.hpp>
+#include <terrane/algorithms/mesh/surface.hpp>
+#include <terrane/algorithms/quality/deviation.hpp>
+#include <terrane/algorithms/quality/improve.hpp>
+#include <terrane/algorithms/quality/improve_back.hpp>
+#include <terrane/algorithms/quality/quality.hpp>
+#include <terrane/algorithms/reconstruction/holes/filling.hpp>
+#include <terrane/algorithms/reconstruction/holes/holes.hpp>
+#include <terrane/algorithms/reconstruction/joining/join.hpp>
+#include <terrane/algorithms/reconstruction/kriging/fill_kriging.hpp>
+#include <terrane/algorithms/reconstruction/kriging/variogram.hpp>
+#include <terrane/algorithms/reconstruction/rbf/rbf.hpp>
+#include <terrane/algorithms/reconstruction/rbf/rbf_join.hpp>
+#include <terrane/algorithms/regions/regions.hpp>
+#include <terrane/algorithms/rounding/rounding.hpp>
+#include <terrane/algorithms/sealing/sealing.hpp>
+#include <terrane/algorithms/search/method.hpp>
+#include <terrane/algorithms/structure/free_borders.hpp>
+#include <terrane/algorithms/structure/structure.hpp>
+#include <terrane/algorithms/structure/structure_meshes.hpp>
+#include <terrane/algorithms/tetgen/tetgen_helper.hpp>
+#include <terrane/algorithms/tetgen/tetrahedra.hpp>
+#include <terrane/algorithms/tetrahedra/check_tetrahedra.hpp>
+#include <terrane/algorithms/tetrahedra/split_nodes.hpp>
+#include <terrane/algorithms/tetrahedra/tetrahedra_shape.hpp>
+#include <terrane/algorithms/tetrahedra/without_outside.hpp>
+#include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
+#include <terrane/algorithms/volume_of_interest/extension.hpp>
+#include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
+#include <terrane/algorithms/volumes/region_points.hpp>
+#include <terrane/algorithms/volumes/volumes.hpp>
+#include <terrane/io/certificate.hpp>
+#include <terrane/io/exact_text.hpp>
+#include <terrane/io/files.hpp>
+#include <terrane/io/gocad/gocad.hpp>
+#include <terrane/io/grids/grid.hpp>
+#include <terrane/io/meshes/cell_array.hpp>
+#include <terrane/io/meshes/poly.hpp>
+#include <terrane/io/project.hpp>
+#include <terrane/io/structure_json.hpp>
+#include <terrane/kernel/construction.hpp>
+#include <terrane/kernel/point.hpp>
+#include <terrane/kernel/predicate_counts.hpp>
