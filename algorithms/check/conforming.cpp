@@ -15,6 +15,7 @@
 #include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/algorithms/mesh/work_hook.hpp>
+#include <terrane/algorithms/search/search.hpp>
 
 namespace terrane {
 namespace {

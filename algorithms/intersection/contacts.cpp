@@ -12,6 +12,9 @@
 #include <terrane/kernel/separation_filter.hpp>
 
 namespace terrane {
+
+using namespace intersection::detail;
+
 namespace {
 
 /// What comes of a range of candidates.

@@ -21,6 +21,9 @@
 #include <terrane/algorithms/mesh/vectors.hpp>
 
 namespace terrane {
+
+using namespace layers::detail;
+
 namespace {
 
 using Set = std::vector<std::uint32_t>; ///< triangles of the arrangement, ascending

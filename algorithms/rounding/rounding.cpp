@@ -8,12 +8,14 @@
 #include <utility>
 
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
+#include <terrane/algorithms/arrangement/intersection_edges.hpp>
 #include <terrane/algorithms/arrangement/retriangulation.hpp>
 #include <terrane/algorithms/arrangement/soup.hpp>
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/core/stopwatch.hpp>
+#include <terrane/algorithms/intersection/intersection.hpp>
 #include <terrane/algorithms/mesh/work_hook.hpp>
 #include <terrane/algorithms/regions/regions_over.hpp>
 #include <terrane/algorithms/rounding/detail/separation.hpp>
@@ -38,12 +40,9 @@ public:
 
 } // namespace rounding::detail
 
-namespace {
+using namespace rounding::detail;
 
-using rounding::detail::grid_of_digits;
-using rounding::detail::rounding_tuning;
-using rounding::detail::SnapGrid;
-using rounding::detail::SnappedInput;
+namespace {
 
 /// Input triangles that have parts in the arrangement, but none that names them; ascending.
 std::vector<std::uint32_t> vanished(const Arrangement& a,

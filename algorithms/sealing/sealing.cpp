@@ -23,6 +23,9 @@
 #include <terrane/algorithms/sealing/extension_faces.hpp>
 
 namespace terrane {
+
+using namespace sealing::detail;
+
 namespace {
 
 constexpr std::uint32_t none = UINT32_MAX;

@@ -32,9 +32,9 @@ private:
 /// its centre (7, 8). A query looks in all cells that the query box, widened by half a cell,
 /// overlaps: a box that overlaps the query box has its centre no farther from it than half its own
 /// size, and no box is larger than a cell.
-class Grid {
+class CellGrid {
 public:
-    explicit Grid(std::span<const Box> boxes);
+    explicit CellGrid(std::span<const Box> boxes);
 
     template <class Report>
     void query(const Box& q, const Report& report) const {

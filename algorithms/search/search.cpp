@@ -116,7 +116,7 @@ std::vector<CandidatePair> candidate_pairs(const BoxSource& source,
     const std::vector<Box> boxes = source.listed();
     switch (method) {
     case Search::grid:
-        return all_pairs<search::Grid>(boxes, groups);
+        return all_pairs<search::CellGrid>(boxes, groups);
     case Search::ab:
         return all_pairs<search::AbTree>(boxes, groups);
     case Search::ab_balanced:

@@ -12,6 +12,9 @@
 #include <terrane/algorithms/structure/detail/parts.hpp>
 
 namespace terrane {
+
+using namespace structure::detail;
+
 namespace {
 
 /// The vertices of triangles by rank, each once, ascending: what parts are ordered by.

@@ -13,8 +13,7 @@
 
 namespace terrane {
 
-using detail::next;
-using detail::previous;
+using namespace triangulation::detail;
 
 void FaceInput::clear() {
     for (auto& e : edge_points) e.clear();

@@ -19,6 +19,9 @@
 #include <terrane/algorithms/volumes/detail/shell_nesting.hpp>
 
 namespace terrane {
+
+using namespace volumes::detail;
+
 namespace {
 
 constexpr std::uint32_t none = UINT32_MAX;

@@ -88,7 +88,7 @@ void measure_d(const RedAndBlue& all, PaperRow& row) {
     std::vector<std::size_t> count(all.boxes.size() - all.red);
     for (const auto& [red, blue] : candidate_pairs(all.boxes, all.groups, Search::bvh))
         ++count[blue - all.red];
-    search::Grid grid(std::span(all.boxes).first(all.red));
+    search::CellGrid grid(std::span(all.boxes).first(all.red));
     std::size_t filled = 0, looking = 0, looked_at = 0;
     for (std::size_t b = 0; b < count.size(); ++b) {
         filled += count[b] > 0 ? 1 : 0;

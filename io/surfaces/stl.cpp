@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include <terrane/io/surfaces/detail/point_index.hpp>
+#include <terrane/io/surfaces/detail/point_numbering.hpp>
 #include <terrane/io/text/bytes.hpp>
 #include <terrane/io/text/names.hpp>
 #include <terrane/io/text/text.hpp>
@@ -45,7 +45,7 @@ public:
 
     MaybeError read(Surface& surface) {
         if (contents_.size() != binary_size(contents_)) return wrong_size();
-        PointIndex points;
+        PointNumbering points;
         surface.triangles.reserve((contents_.size() - facets_begin) / facet_size);
         for (auto at = facets_begin; at < contents_.size(); at += facet_size)
             if (auto trouble = read_facet(at, points, surface.triangles.emplace_back()))
@@ -66,7 +66,7 @@ private:
                 fmt::format("{}, byte {}", source_, header_size)};
     }
 
-    MaybeError read_facet(std::size_t at, PointIndex& points, Triangle& triangle) const {
+    MaybeError read_facet(std::size_t at, PointNumbering& points, Triangle& triangle) const {
         for (std::size_t corner = 0; corner < 3; ++corner) {
             std::array<double, 3> xyz{};
             for (std::size_t i = 0; i < 3; ++i) {
@@ -129,7 +129,7 @@ private:
     }
 
     MaybeError read_solid(Surface& surface) {
-        PointIndex points;
+        PointNumbering points;
         while (next_word() && !same_ignoring_case(word_, "endsolid")) {
             if (auto trouble = check("facet")) return trouble;
             if (auto trouble = read_facet(points, surface.triangles.emplace_back())) return trouble;
@@ -140,7 +140,7 @@ private:
         return std::nullopt;
     }
 
-    MaybeError read_facet(PointIndex& points, Triangle& triangle) {
+    MaybeError read_facet(PointNumbering& points, Triangle& triangle) {
         while (next_word() && !same_ignoring_case(word_, "outer")) {
         } // the normal
         if (auto trouble = check("outer")) return trouble;

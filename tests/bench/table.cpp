@@ -17,6 +17,7 @@
 #include <terrane/algorithms/arrangement/arrangement.hpp>
 #include <terrane/algorithms/core/process_memory.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
+#include <terrane/algorithms/search/search.hpp>
 
 #include "floor.hpp"
 #include "models.hpp"

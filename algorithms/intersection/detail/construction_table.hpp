@@ -9,7 +9,7 @@
 #include <terrane/kernel/construction.hpp>
 #include <terrane/kernel/point_store.hpp>
 
-namespace terrane {
+namespace terrane::intersection::detail {
 
 /// Names constructions by index, each once: input points keep theirs, others count from `first`.
 class ConstructionTable {
@@ -58,4 +58,4 @@ private:
     std::vector<std::uint32_t> slots_;
 };
 
-} // namespace terrane
+} // namespace terrane::intersection::detail

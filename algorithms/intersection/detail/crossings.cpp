@@ -9,6 +9,9 @@
 #include <terrane/kernel/predicates.hpp>
 
 namespace terrane {
+
+using namespace intersection::detail;
+
 namespace {
 
 using Line = std::array<std::uint32_t, 2>;

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-namespace terrane {
+namespace terrane::layers::detail {
 namespace {
 
 constexpr auto right = Sign::Negative, left = Sign::Positive;
@@ -74,4 +74,4 @@ Sign above_along_z(const PointStore& points, const UprightTriangle& s, const Upr
     return Sign::Zero;
 }
 
-} // namespace terrane
+} // namespace terrane::layers::detail

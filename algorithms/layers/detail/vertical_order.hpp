@@ -9,7 +9,7 @@
 #include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/kernel/point_store.hpp>
 
-namespace terrane {
+namespace terrane::layers::detail {
 
 /// Corners in a store, counterclockwise in the projection along z.
 using UprightTriangle = std::array<PointIndex, 3>;
@@ -25,4 +25,4 @@ bool overlap_along_z(const PointStore& points, const UprightTriangle& s, const U
 /// heights all over, which is the same triangle. The caller holds an UpwardRounding.
 Sign above_along_z(const PointStore& points, const UprightTriangle& s, const UprightTriangle& t);
 
-} // namespace terrane
+} // namespace terrane::layers::detail

@@ -159,7 +159,7 @@ private:
                                   ///< there
     std::vector<GridBox> box_of_; ///< per triangle
     Borders borders_;
-    Grid grid_;
+    TriangleGrid grid_;
     std::size_t ungrouped_ = 0;
 
     tbb::enumerable_thread_specific<ThreadScratch> scratches_;

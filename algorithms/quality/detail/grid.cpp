@@ -12,14 +12,14 @@ constexpr std::size_t most_levels = 32; ///< the last level has one cell in each
 
 } // namespace
 
-void Grid::Level::enter(const Entry& entry) {
+void TriangleGrid::Level::enter(const Entry& entry) {
     const std::size_t b = bucket_of(place_of(*this, entry.box.low));
     if (entries[b].empty()) patch_of[b] = entry.patch;
     if (patch_of[b] != entry.patch) patch_of[b] = no_group;
     entries[b].push_back(entry);
 }
 
-void Grid::Level::grow() {
+void TriangleGrid::Level::grow() {
     const auto before = std::move(entries);
     const std::size_t size = std::max(least_buckets, 2 * before.size());
     patch_of.assign(size, vacant);
@@ -28,7 +28,7 @@ void Grid::Level::grow() {
         for (const Entry& e : bucket) enter(e);
 }
 
-void Grid::reset(const Point3& origin, double size) {
+void TriangleGrid::reset(const Point3& origin, double size) {
     origin_ = {origin.x, origin.y, origin.z};
     inverse_ = 1 / size;
     levels_.assign(most_levels, {});
@@ -39,7 +39,7 @@ void Grid::reset(const Point3& origin, double size) {
     }
 }
 
-std::size_t Grid::level_of(const GridBox& box) const {
+std::size_t TriangleGrid::level_of(const GridBox& box) const {
     float size = 0;
     for (std::size_t k = 0; k < 3; ++k) size = std::max(size, box.high[k] - box.low[k]);
     std::size_t level = 0;
@@ -47,14 +47,14 @@ std::size_t Grid::level_of(const GridBox& box) const {
     return level;
 }
 
-void Grid::enter(std::uint32_t t, const GridBox& box, std::uint32_t patch) {
+void TriangleGrid::enter(std::uint32_t t, const GridBox& box, std::uint32_t patch) {
     Level& level = levels_[level_of(box)];
     if (2 * level.count >= level.entries.size()) level.grow();
     ++level.count;
     level.enter({box, t, patch});
 }
 
-void Grid::leave(std::uint32_t t, const GridBox& box) {
+void TriangleGrid::leave(std::uint32_t t, const GridBox& box) {
     Level& level = levels_[level_of(box)];
     const std::size_t b = level.bucket_of(place_of(level, box.low));
     auto& entries = level.entries[b];
@@ -66,7 +66,7 @@ void Grid::leave(std::uint32_t t, const GridBox& box) {
     --level.count;
 }
 
-void Grid::move(std::uint32_t t, const GridBox& before, const GridBox& box, std::uint32_t patch) {
+void TriangleGrid::move(std::uint32_t t, const GridBox& before, const GridBox& box, std::uint32_t patch) {
     const std::size_t here = level_of(box);
     Level& level = levels_[here];
     const std::size_t b = level.bucket_of(place_of(level, before.low));

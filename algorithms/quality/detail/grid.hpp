@@ -42,7 +42,7 @@ struct GridBox {
 /// A hierarchical hash grid. A box is stored in the cell of its lowest corner, at the level whose
 /// cells are as large as the box, so a query extends its range by one cell downwards. Several cells
 /// may share a bucket, which does no harm, as boxes are compared.
-class Grid {
+class TriangleGrid {
 public:
     /// Empties the grid. `origin` should be near the triangles to come; `size` is that of the
     /// smallest cells.

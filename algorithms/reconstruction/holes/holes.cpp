@@ -12,9 +12,10 @@
 #include <terrane/algorithms/reconstruction/holes/detail/shape.hpp>
 
 namespace terrane {
-namespace {
 
-using detail::TracedLoop;
+using namespace holes::detail;
+
+namespace {
 
 constexpr std::uint32_t none = UINT32_MAX;
 
@@ -171,13 +172,13 @@ std::vector<bool> outer_loops(const Soup& soup, const std::vector<TracedLoop>& l
                               BorderTracer& tracer) {
     std::map<std::uint32_t, double> size_of_part;
     for (const auto& [triangle, vertices] : tracer.vertices_of_parts())
-        size_of_part[soup.input_of[triangle]] = detail::diagonal_of(soup.points, vertices);
+        size_of_part[soup.input_of[triangle]] = diagonal_of(soup.points, vertices);
     std::map<std::uint32_t, std::pair<double, std::size_t>> longest; // per part: diagonal and index
                                                                      // of a loop
     std::vector<bool> outer(loops.size());
     for (std::size_t i = 0; i < loops.size(); ++i) {
         outer[i] = loops[i].shared > 0;
-        const double diagonal = detail::diagonal_of(soup.points, loops[i].vertices);
+        const double diagonal = diagonal_of(soup.points, loops[i].vertices);
         auto& best = longest.try_emplace(loops[i].part, -1.0, i).first->second;
         if (diagonal > best.first) best = {diagonal, i};
     }
@@ -212,8 +213,8 @@ Result<std::vector<BorderLoop>> find_border_loops(const Surface& surface, const 
         loop.vertices = traced[i].vertices;
         loop.part = traced[i].part;
         loop.shared = traced[i].shared;
-        detail::measure_loop(soup, traced[i], loop);
-        const bool gap = !outer[i] && detail::is_fault_gap(soup, traced[i], rule, loop);
+        measure_loop(soup, traced[i], loop);
+        const bool gap = !outer[i] && is_fault_gap(soup, traced[i], rule, loop);
         loop.kind = outer[i] ? LoopKind::outer : gap ? LoopKind::fault_gap : LoopKind::hole;
     }
     std::sort(loops.begin(), loops.end(), before);

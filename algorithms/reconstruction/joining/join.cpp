@@ -21,6 +21,9 @@
 #include <terrane/kernel/point_store.hpp>
 
 namespace terrane {
+
+using namespace joining::detail;
+
 namespace {
 
 std::string text_of(const Point3& p) {

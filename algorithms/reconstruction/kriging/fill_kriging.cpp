@@ -16,9 +16,10 @@
 #include <terrane/kernel/predicates.hpp>
 
 namespace terrane {
-namespace {
 
-using detail::KrigingData;
+using namespace kriging::detail;
+
+namespace {
 
 constexpr std::size_t most_places = 20'000;
 constexpr std::size_t most_validated = 400;
@@ -35,7 +36,7 @@ std::vector<const BorderLoop*> loops_within(const Surface& surface, const Border
     for (const BorderLoop& other : all) {
         if (other.kind != LoopKind::outer || other.part == loop.part) continue;
         const Point3& p = surface.vertices[other.vertices[0]];
-        if (detail::is_inside(surface.vertices, loop.vertices, p.x, p.y)) result.push_back(&other);
+        if (is_inside(surface.vertices, loop.vertices, p.x, p.y)) result.push_back(&other);
     }
     return result;
 }
@@ -99,7 +100,7 @@ Result<FlatFilling> mesh_of(const KrigingData& data, double mesh_size, const Run
     for (const Polygon& polygon : data.borders) flat.border += polygon.size();
     std::vector<Point3> points(data.points.begin(),
                                data.points.begin() + static_cast<std::ptrdiff_t>(flat.border));
-    const auto places = detail::places_within(points, data.borders, mesh_size, most_places);
+    const auto places = places_within(points, data.borders, mesh_size, most_places);
     points.insert(points.end(), places.begin(), places.end());
     auto triangles = triangulate_inside(points, data.borders, run);
     if (!triangles) {
@@ -184,8 +185,8 @@ std::vector<Point3> thinned(const KrigingData& data, std::size_t border) {
 
 Kriging model_of(const KrigingData& data, std::size_t border, const VariogramFitOptions& options,
                  FillReport& report) {
-    const auto choice = detail::choose_model(data.points, data.edges, longest_pair(data.points),
-                                             data.noise, options);
+    const auto choice =
+        choose_model(data.points, data.edges, longest_pair(data.points), data.noise, options);
     Kriging kriging(thinned(data, border), choice.variogram, choice.degree);
     const auto single = kriging.validate(most_validated);
     report.data = data.points.size();
@@ -205,10 +206,10 @@ Result<Filling> fill_by_kriging(const Surface& surface, const BorderLoop& loop,
         return Error{ErrorCode::bad_option, "rings and mesh size must be positive", ""};
     // 1. Collect the data and check that they are a graph.
     const auto loops = loops_within(surface, loop, options.loops);
-    auto found = detail::collect_data(surface, loops, options.rings);
+    auto found = collect_data(surface, loops, options.rings);
     if (!found) return found.error();
     const KrigingData& data = found.value();
-    const double area = detail::signed_area(data.points, data.borders[0]);
+    const double area = signed_area(data.points, data.borders[0]);
     double mesh_size =
         options.mesh_size > 0 ? options.mesh_size : median_edge(data.points, data.borders[0]);
     if (area == 0 || !(mesh_size > 0))

@@ -24,6 +24,9 @@
 #include <terrane/algorithms/reconstruction/rbf/detail/zero_level.hpp>
 
 namespace terrane {
+
+using namespace rbf::detail;
+
 namespace {
 
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();

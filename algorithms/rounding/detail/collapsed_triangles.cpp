@@ -6,7 +6,7 @@
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 
-namespace terrane {
+namespace terrane::rounding::detail {
 
 Side side_of(const Triangle& t, unsigned i) {
     const auto [low, high] = std::minmax(t[i], t[(i + 1) % 3]);
@@ -76,4 +76,4 @@ void divide_at(const Triangle& t, const PointsInSides& within, std::vector<Trian
               {{{within[i].begin() + 1, within[i].end()}, within[next], {}}}, out);
 }
 
-} // namespace terrane
+} // namespace terrane::rounding::detail

@@ -10,7 +10,7 @@
 #include <terrane/algorithms/mesh/surface.hpp>
 #include <terrane/kernel/point.hpp>
 
-namespace terrane {
+namespace terrane::rounding::detail {
 
 using Side = std::array<std::uint32_t, 2>; ///< two vertices, ascending
 
@@ -47,4 +47,4 @@ private:
 /// Appends t, divided at points inside its sides.
 void divide_at(const Triangle& t, const PointsInSides& within, std::vector<Triangle>& out);
 
-} // namespace terrane
+} // namespace terrane::rounding::detail

@@ -15,10 +15,8 @@
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/rounding/detail/separation_faces.hpp>
 
-namespace terrane {
+namespace terrane::rounding::detail {
 namespace {
-
-using namespace clearance;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -408,4 +406,4 @@ Unproven find_unproven(const MovedParts& moved, std::span<const CandidatePair> m
     return Prover(moved, meeting, run)(run);
 }
 
-} // namespace terrane
+} // namespace terrane::rounding::detail

@@ -21,7 +21,7 @@
 #include <terrane/algorithms/search/search.hpp>
 #include <terrane/kernel/point_store.hpp>
 
-namespace terrane {
+namespace terrane::rounding::detail {
 
 /// Divided faces and their parts, after the move.
 struct MovedParts {
@@ -49,4 +49,4 @@ struct Unproven {
 Unproven find_unproven(const MovedParts& moved, std::span<const CandidatePair> meeting,
                        const Run& run);
 
-} // namespace terrane
+} // namespace terrane::rounding::detail

@@ -10,7 +10,7 @@
 #include <terrane/kernel/numbers.hpp>
 #include <terrane/kernel/polynomials.hpp>
 
-namespace terrane::clearance {
+namespace terrane::rounding::detail {
 namespace {
 
 std::array<Point3, 3> corners_of(const MovedParts& moved, std::uint32_t face) {
@@ -180,4 +180,4 @@ void Faces::measure_parts(const Face& face, double move) {
     }
 }
 
-} // namespace terrane::clearance
+} // namespace terrane::rounding::detail

@@ -14,7 +14,7 @@
 #include <terrane/algorithms/rounding/detail/separation.hpp>
 #include <terrane/algorithms/search/search.hpp>
 
-namespace terrane::clearance {
+namespace terrane::rounding::detail {
 
 constexpr std::uint32_t none = UINT32_MAX;
 constexpr double unit = std::numeric_limits<double>::epsilon(); ///< of one operation, in any mode
@@ -89,4 +89,4 @@ private:
     void measure_parts(const Face& face, double move);
 };
 
-} // namespace terrane::clearance
+} // namespace terrane::rounding::detail

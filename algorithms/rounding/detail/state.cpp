@@ -13,7 +13,7 @@
 #include <terrane/algorithms/rounding/detail/collapsed_triangles.hpp>
 #include <terrane/kernel/predicates.hpp>
 
-namespace terrane {
+namespace terrane::rounding::detail {
 namespace {
 
 constexpr std::uint32_t none = UINT32_MAX;
@@ -261,4 +261,4 @@ void RoundingState::drop_unused_points() {
     numbers.rename(triangles);
 }
 
-} // namespace terrane
+} // namespace terrane::rounding::detail

@@ -14,7 +14,7 @@
 #include <terrane/algorithms/search/search.hpp>
 #include <terrane/kernel/point_store.hpp>
 
-namespace terrane {
+namespace terrane::rounding::detail {
 
 class CollapsedTriangles;
 
@@ -91,4 +91,4 @@ void RoundingState::move_into(std::span<const Point3> cells, const Snap& snap) {
     }
 }
 
-} // namespace terrane
+} // namespace terrane::rounding::detail

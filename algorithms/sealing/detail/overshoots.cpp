@@ -13,7 +13,7 @@
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/regions/regions_over.hpp>
 
-namespace terrane {
+namespace terrane::sealing::detail {
 namespace {
 
 constexpr std::uint32_t none = UINT32_MAX;
@@ -164,4 +164,4 @@ std::vector<Overshoot> find_overshoots(const Arrangement& arrangement, double di
     return Finder(arrangement, distance)();
 }
 
-} // namespace terrane
+} // namespace terrane::sealing::detail

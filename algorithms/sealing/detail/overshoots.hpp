@@ -8,7 +8,7 @@
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>
 
-namespace terrane {
+namespace terrane::sealing::detail {
 
 struct Overshoot {
     std::uint32_t surface = 0;
@@ -25,4 +25,4 @@ struct Overshoot {
 /// Triangles of several surfaces are never part of one.
 std::vector<Overshoot> find_overshoots(const Arrangement& arrangement, double distance);
 
-} // namespace terrane
+} // namespace terrane::sealing::detail

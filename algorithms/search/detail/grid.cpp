@@ -22,7 +22,7 @@ void cap(std::array<double, 3>& cells, double most) {
 
 } // namespace
 
-void Grid::choose_cells(std::span<const Box> boxes) {
+void CellGrid::choose_cells(std::span<const Box> boxes) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     std::array<double, 3> low{infinity, infinity, infinity};
     std::array<double, 3> high{-infinity, -infinity, -infinity}, largest{};
@@ -54,7 +54,7 @@ void Grid::choose_cells(std::span<const Box> boxes) {
     }
 }
 
-Grid::Grid(std::span<const Box> boxes) {
+CellGrid::CellGrid(std::span<const Box> boxes) {
     choose_cells(boxes);
     starts_.assign(std::size_t{counts_[0]} * counts_[1] * counts_[2] + 1, 0);
     for (const Box& b : boxes) ++starts_[cell_of(b) + 1];
@@ -65,14 +65,14 @@ Grid::Grid(std::span<const Box> boxes) {
         stored_[next[cell_of(boxes[i])]++] = {boxes[i], i};
 }
 
-std::uint32_t Grid::cell(unsigned axis, double x) const {
+std::uint32_t CellGrid::cell(unsigned axis, double x) const {
     const double c = (x - origin_[axis]) / size_[axis]; // monotone in x, also where it rounds
     if (!(c > 0)) return 0;
     const double last = counts_[axis] - 1;
     return static_cast<std::uint32_t>(std::min(c, last));
 }
 
-std::size_t Grid::cell_of(const Box& b) const {
+std::size_t CellGrid::cell_of(const Box& b) const {
     const std::size_t x = cell(0, centre(b, 0)), y = cell(1, centre(b, 1));
     return (std::size_t{cell(2, centre(b, 2))} * counts_[1] + y) * counts_[0] + x;
 }
@@ -81,7 +81,7 @@ std::vector<std::uint32_t> boxes_in_mixed_cells(std::span<const Box> boxes,
                                                 std::span<const std::uint32_t> groups) {
     std::vector<std::uint32_t> chosen;
     const auto group_of = [&](std::size_t i) { return groups.empty() ? no_group : groups[i]; };
-    const Grid grid(boxes);
+    const CellGrid grid(boxes);
     struct Cell {
         std::uint32_t group = 0;
         enum : std::uint8_t { empty, one, mixed } state = empty;

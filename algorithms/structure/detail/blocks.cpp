@@ -9,6 +9,9 @@
 #include <terrane/algorithms/structure/detail/parts.hpp>
 
 namespace terrane {
+
+using namespace structure::detail;
+
 namespace {
 
 constexpr double least_share = 0.1; ///< of a surface's area, to be named above, below or beside

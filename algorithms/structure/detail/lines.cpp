@@ -8,6 +8,9 @@
 #include <terrane/algorithms/structure/detail/parts.hpp>
 
 namespace terrane {
+
+using namespace structure::detail;
+
 namespace {
 
 constexpr std::uint32_t none = UINT32_MAX;

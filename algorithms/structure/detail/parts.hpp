@@ -9,7 +9,7 @@
 #include <terrane/algorithms/mesh/edges.hpp>
 #include <terrane/algorithms/structure/structure.hpp>
 
-namespace terrane {
+namespace terrane::structure::detail {
 
 /// Per vertex its place in the lexicographic order.
 std::vector<std::uint32_t> ranks_of(const std::vector<Point3>& vertices);
@@ -24,4 +24,4 @@ void add_blocks(const Mesh& mesh, const Volumes& volumes, Structure& structure);
 /// Twice the area times the unit normal, in front.
 Point3 area_vector(const Mesh& mesh, std::uint32_t triangle);
 
-} // namespace terrane
+} // namespace terrane::structure::detail

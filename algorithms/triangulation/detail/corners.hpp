@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
-namespace terrane::detail {
+namespace terrane::triangulation::detail {
 
 /// The corner of a triangle that follows corner i in its order.
 constexpr unsigned next(unsigned i) {
@@ -13,4 +13,4 @@ constexpr unsigned previous(unsigned i) {
     return i == 0 ? 2 : i - 1;
 }
 
-} // namespace terrane::detail
+} // namespace terrane::triangulation::detail

@@ -8,8 +8,7 @@
 
 namespace terrane {
 
-using detail::next;
-using detail::previous;
+using namespace triangulation::detail;
 
 void FaceTriangulation::fix(Side s) {
     cells_[s.cell].fixed[s.i] = true;

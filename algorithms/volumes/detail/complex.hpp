@@ -13,7 +13,7 @@
 #include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/kernel/point_store.hpp>
 
-namespace terrane {
+namespace terrane::volumes::detail {
 
 /// A view of such a complex; the objects that it refers to must outlive it.
 struct TriangleComplex {
@@ -47,4 +47,4 @@ inline Sign side_of(const TriangleComplex& sheets, std::uint32_t triangle, std::
     return sheets.points.side_of_plane(p[0], p[1], p[2], sheets.vertices[vertex]);
 }
 
-} // namespace terrane
+} // namespace terrane::volumes::detail

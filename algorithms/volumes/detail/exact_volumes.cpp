@@ -12,7 +12,7 @@
 #include <terrane/kernel/nearest.hpp>
 #include <terrane/kernel/polynomials.hpp>
 
-namespace terrane {
+namespace terrane::volumes::detail {
 namespace {
 
 // Six times the volume of a body is the sum, over its closed boundary, of the determinants of the
@@ -165,4 +165,4 @@ std::vector<std::string> exact_measures(const TriangleComplex& sheets, VolumeSid
     return texts;
 }
 
-} // namespace terrane
+} // namespace terrane::volumes::detail

@@ -11,7 +11,7 @@
 
 #include <terrane/algorithms/volumes/detail/complex.hpp>
 
-namespace terrane {
+namespace terrane::volumes::detail {
 
 /// The volumes in front of and behind each triangle.
 using VolumeSides = std::span<const std::array<std::uint32_t, 2>>;
@@ -26,4 +26,4 @@ std::vector<double> measure_volumes(const TriangleComplex& sheets, VolumeSides o
 std::vector<std::string> exact_measures(const TriangleComplex& sheets, VolumeSides of_sides,
                                         std::size_t count, int base);
 
-} // namespace terrane
+} // namespace terrane::volumes::detail

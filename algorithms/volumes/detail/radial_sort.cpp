@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-namespace terrane {
+namespace terrane::volumes::detail {
 namespace {
 
 using Side = EdgeSides::Side;
@@ -85,4 +85,4 @@ void join_round_edges(const TriangleComplex& sheets, DisjointSets& sides) {
     });
 }
 
-} // namespace terrane
+} // namespace terrane::volumes::detail

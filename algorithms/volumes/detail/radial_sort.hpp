@@ -10,7 +10,7 @@
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/volumes/detail/complex.hpp>
 
-namespace terrane {
+namespace terrane::volumes::detail {
 
 /// Sorts the sides of one edge (low, high) counterclockwise around the direction from low to high;
 /// the first one stays first. The order is exact; triangles that share a parent need no exact
@@ -25,4 +25,4 @@ void sort_round_edge(const TriangleComplex& sheets, std::uint32_t low,
 /// complex.hpp). Cost: linear, plus O(k log k) for each edge with k > 2 triangles; one allocation.
 void join_round_edges(const TriangleComplex& sheets, DisjointSets& sides);
 
-} // namespace terrane
+} // namespace terrane::volumes::detail

@@ -9,7 +9,7 @@
 
 #include <terrane/kernel/predicates.hpp>
 
-namespace terrane {
+namespace terrane::volumes::detail {
 namespace {
 
 using polynomial::Vector;
@@ -270,4 +270,4 @@ void join_nested(const TriangleComplex& sheets, DisjointSets& sides) {
         if (!bundle.empty()) bundle.join(sides, 2 * count);
 }
 
-} // namespace terrane
+} // namespace terrane::volumes::detail

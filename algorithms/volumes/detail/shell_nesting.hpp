@@ -13,7 +13,7 @@
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/volumes/detail/complex.hpp>
 
-namespace terrane {
+namespace terrane::volumes::detail {
 
 /// Joins the shells of the same volume; element 2 * triangles of `sides` stands for the outside.
 /// The other elements come from join_round_edges. The result is exact, without randomness.
@@ -22,4 +22,4 @@ namespace terrane {
 /// if triangles overlap.
 void join_nested(const TriangleComplex& sheets, DisjointSets& sides);
 
-} // namespace terrane
+} // namespace terrane::volumes::detail

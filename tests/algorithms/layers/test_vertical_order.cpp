@@ -14,6 +14,7 @@
 #include "support/effort.hpp"
 
 using namespace terrane;
+using namespace terrane::layers::detail;
 
 namespace {
 

@@ -8,6 +8,7 @@
 #include "support/soup_laws.hpp"
 
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
+#include <terrane/algorithms/intersection/intersection.hpp>
 #include <terrane/algorithms/rounding/detail/collapsed_triangles.hpp>
 #include <terrane/algorithms/rounding/detail/state.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
@@ -24,6 +25,7 @@
 namespace {
 
 using namespace terrane;
+using namespace terrane::rounding::detail;
 using namespace test_support;
 
 Surface grid(int n, const std::function<Point3(double, double)>& at) {

@@ -18,6 +18,7 @@
 namespace {
 
 using namespace terrane;
+using namespace terrane::rounding::detail;
 using namespace test_support;
 
 enum class Shape {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/mesh/edges.hpp>
 #include <terrane/algorithms/structure/structure.hpp>
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // Laws of the cut, judged by rationals that share no code with it.
+#include <terrane/algorithms/arrangement/intersection_edges.hpp>
 #include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
 
 #include <algorithm>

@@ -7,7 +7,7 @@
 
 #include <terrane/algorithms/mesh/vectors.hpp>
 
-namespace terrane::detail {
+namespace terrane::holes::detail {
 namespace {
 
 constexpr std::size_t most_probes =
@@ -224,4 +224,4 @@ bool is_fault_gap(const Soup& soup, const TracedLoop& traced, const GapRule& rul
            loop.fault_throw >= roughness_factor * hole.roughness();
 }
 
-} // namespace terrane::detail
+} // namespace terrane::holes::detail

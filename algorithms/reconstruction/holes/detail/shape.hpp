@@ -10,7 +10,7 @@
 #include <terrane/algorithms/arrangement/soup.hpp>
 #include <terrane/algorithms/reconstruction/holes/holes.hpp>
 
-namespace terrane::detail {
+namespace terrane::holes::detail {
 
 /// A border loop with a triangle at each of its edges.
 struct TracedLoop {
@@ -30,4 +30,4 @@ double diagonal_of(std::span<const Point3> points, std::span<const std::uint32_t
 bool is_fault_gap(const Soup& soup, const TracedLoop& traced, const GapRule& rule,
                   BorderLoop& loop);
 
-} // namespace terrane::detail
+} // namespace terrane::holes::detail

@@ -12,7 +12,7 @@
 #include <terrane/algorithms/mesh/edges.hpp>
 #include <terrane/kernel/predicates.hpp>
 
-namespace terrane {
+namespace terrane::joining::detail {
 namespace {
 
 std::string text_of(const Point3& p) {
@@ -404,4 +404,4 @@ Result<InnerPart> cut_inner_part(std::span<const BorderLine> borders, const Surf
     return InnerPartFinder(arrangement.value(), std::move(lines))();
 }
 
-} // namespace terrane
+} // namespace terrane::joining::detail

@@ -12,7 +12,7 @@
 #include <terrane/algorithms/mesh/surface.hpp>
 #include <terrane/algorithms/search/search.hpp>
 
-namespace terrane {
+namespace terrane::joining::detail {
 
 /// A border loop as points, with a unit normal at each. Seen from where the normals point, the
 /// surface lies on the left of the loop.
@@ -47,4 +47,4 @@ struct InnerPart {
 Result<InnerPart> cut_inner_part(std::span<const BorderLine> borders, const Surface& filling,
                                  double half_width, Search search, const Run& run);
 
-} // namespace terrane
+} // namespace terrane::joining::detail

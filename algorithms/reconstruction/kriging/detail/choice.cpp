@@ -6,7 +6,7 @@
 #include <numeric>
 #include <vector>
 
-namespace terrane::detail {
+namespace terrane::kriging::detail {
 namespace {
 
 constexpr std::size_t most_validated = 150;
@@ -156,4 +156,4 @@ ModelChoice choose_model(std::span<const Point3> data,
     return best;
 }
 
-} // namespace terrane::detail
+} // namespace terrane::kriging::detail

@@ -9,7 +9,7 @@
 
 #include <terrane/algorithms/reconstruction/kriging/detail/kriging.hpp>
 
-namespace terrane::detail {
+namespace terrane::kriging::detail {
 
 /// Validation of a model: patches of data are left out and estimated from the others.
 struct BlockValidation {
@@ -35,4 +35,4 @@ ModelChoice choose_model(std::span<const Point3> data,
                          std::span<const std::array<std::uint32_t, 2>> close, double longest,
                          double noise, const VariogramFitOptions& options);
 
-} // namespace terrane::detail
+} // namespace terrane::kriging::detail

@@ -15,7 +15,7 @@
 #include <terrane/algorithms/reconstruction/kriging/detail/flat_cloud.hpp>
 #include <terrane/kernel/predicates.hpp>
 
-namespace terrane::detail {
+namespace terrane::kriging::detail {
 namespace {
 
 constexpr std::uint32_t none = UINT32_MAX;
@@ -371,4 +371,4 @@ std::vector<Point3> places_within(std::span<const Point3> points, std::span<cons
     return places;
 }
 
-} // namespace terrane::detail
+} // namespace terrane::kriging::detail

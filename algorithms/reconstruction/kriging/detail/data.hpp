@@ -11,7 +11,7 @@
 #include <terrane/algorithms/reconstruction/holes/holes.hpp>
 #include <terrane/algorithms/triangulation/planar.hpp>
 
-namespace terrane::detail {
+namespace terrane::kriging::detail {
 
 /// Points of the surface near a hole.
 struct KrigingData {
@@ -42,4 +42,4 @@ double signed_area(std::span<const Point3> points, const Polygon& polygon);
 /// Tells whether a place is inside, by counting crossings; on the border either answer is possible.
 bool is_inside(std::span<const Point3> points, const Polygon& polygon, double x, double y);
 
-} // namespace terrane::detail
+} // namespace terrane::kriging::detail

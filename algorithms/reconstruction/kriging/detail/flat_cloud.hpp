@@ -7,7 +7,7 @@
 
 #include <nanoflann.hpp>
 
-namespace terrane {
+namespace terrane::kriging::detail {
 
 /// Points of the plane in the form that nanoflann reads.
 struct FlatCloud {
@@ -28,4 +28,4 @@ using FlatTree =
     nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, FlatCloud>, FlatCloud,
                                         2>;
 
-} // namespace terrane
+} // namespace terrane::kriging::detail

@@ -15,7 +15,7 @@
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/reconstruction/kriging/detail/flat_cloud.hpp>
 
-namespace terrane {
+namespace terrane::kriging::detail {
 namespace {
 
 using Eigen::MatrixXd;
@@ -322,4 +322,4 @@ Kriging::Validation Kriging::validate(std::size_t most) const {
     return result;
 }
 
-} // namespace terrane
+} // namespace terrane::kriging::detail

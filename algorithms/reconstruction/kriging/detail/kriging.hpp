@@ -13,7 +13,7 @@
 #include <terrane/algorithms/reconstruction/kriging/variogram.hpp>
 #include <terrane/kernel/point.hpp>
 
-namespace terrane {
+namespace terrane::kriging::detail {
 
 /// An estimated height and its uncertainty.
 struct Estimate {
@@ -70,4 +70,4 @@ private:
 /// Subtracts the trend of this degree (0, 1 or 2) from the data.
 std::vector<Point3> residuals(std::span<const Point3> data, unsigned degree);
 
-} // namespace terrane
+} // namespace terrane::kriging::detail

@@ -14,7 +14,7 @@
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/reconstruction/rbf/detail/long_edges.hpp>
 
-namespace terrane {
+namespace terrane::rbf::detail {
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
@@ -234,4 +234,4 @@ Result<RbfData> collect_data(const Surface& surface, const BorderLoop& loop,
     return data;
 }
 
-} // namespace terrane
+} // namespace terrane::rbf::detail

@@ -13,7 +13,7 @@
 #include <terrane/algorithms/mesh/surface.hpp>
 #include <terrane/algorithms/reconstruction/holes/holes.hpp>
 
-namespace terrane {
+namespace terrane::rbf::detail {
 
 /// The vertices near a border, measured along the surface, and on request points on long edges
 /// (long_edges.hpp). Those of the hole's border come first, in order, then those of islands in it.
@@ -44,4 +44,4 @@ struct DataRange {
 Result<RbfData> collect_data(const Surface& surface, const BorderLoop& loop,
                              std::span<const BorderLoop> loops, DataRange range);
 
-} // namespace terrane
+} // namespace terrane::rbf::detail

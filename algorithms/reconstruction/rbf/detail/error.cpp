@@ -10,7 +10,7 @@
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/reconstruction/rbf/detail/fit.hpp>
 
-namespace terrane {
+namespace terrane::rbf::detail {
 namespace {
 
 constexpr std::size_t most_points = 160;
@@ -117,4 +117,4 @@ std::vector<double> RbfError::at(std::span<const Point3> places, bool measured,
     return result;
 }
 
-} // namespace terrane
+} // namespace terrane::rbf::detail

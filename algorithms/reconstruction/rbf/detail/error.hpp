@@ -11,7 +11,7 @@
 #include <terrane/algorithms/reconstruction/rbf/detail/data.hpp>
 #include <terrane/algorithms/reconstruction/rbf/detail/function.hpp>
 
-namespace terrane {
+namespace terrane::rbf::detail {
 
 /// The power function of at most 160 of the data, half of them within a quarter of the hole's
 /// radius of the border. It is the standard deviation of kriging with the same polynomial and |h|^3
@@ -41,4 +41,4 @@ private:
     std::vector<double> inverse_; ///< of the kriging system: square, for points and terms
 };
 
-} // namespace terrane
+} // namespace terrane::rbf::detail

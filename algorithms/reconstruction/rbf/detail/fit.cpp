@@ -11,7 +11,7 @@
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/reconstruction/rbf/detail/error.hpp>
 
-namespace terrane {
+namespace terrane::rbf::detail {
 namespace {
 
 constexpr double graph = 0.5; ///< least cosine of the slope of a surface that counts as a graph
@@ -459,4 +459,4 @@ Result<RbfChoice> choose_form(const RbfData& data, const RbfOptions& options, co
     return best;
 }
 
-} // namespace terrane
+} // namespace terrane::rbf::detail

@@ -12,7 +12,7 @@
 #include <terrane/algorithms/reconstruction/rbf/detail/patches.hpp>
 #include <terrane/algorithms/reconstruction/rbf/rbf.hpp>
 
-namespace terrane {
+namespace terrane::rbf::detail {
 
 struct Implicit {
     RbfFunction smooth;
@@ -64,4 +64,4 @@ Result<RbfChoice> choose_form(const RbfData& data, const RbfOptions& options, co
 std::vector<std::uint32_t> well_spread(const std::vector<Point3>& points, std::size_t count,
                                        const std::vector<bool>& of);
 
-} // namespace terrane
+} // namespace terrane::rbf::detail

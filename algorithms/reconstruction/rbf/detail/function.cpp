@@ -13,7 +13,7 @@
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/kernel/double_double.hpp>
 
-namespace terrane {
+namespace terrane::rbf::detail {
 namespace {
 
 using Matrix = Eigen::MatrixXd;
@@ -306,4 +306,4 @@ Result<RbfFit> fit_rbf(std::span<const Point3> points, std::span<const double> v
     return fit;
 }
 
-} // namespace terrane
+} // namespace terrane::rbf::detail

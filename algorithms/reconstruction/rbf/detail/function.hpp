@@ -22,7 +22,7 @@
 #include <terrane/algorithms/reconstruction/rbf/rbf.hpp>
 #include <terrane/kernel/point.hpp>
 
-namespace terrane {
+namespace terrane::rbf::detail {
 
 /// The polynomial part, in coordinates u, v, w along three orthogonal axes: all monomials in u and
 /// v up to a degree, and w, for a surface near the plane of u and v. If `in_space`, all monomials
@@ -107,4 +107,4 @@ Result<RbfSmoothFit> smooth_rbf(std::span<const Point3> centres, std::span<const
                                 std::span<const double> values, const RbfPolynomial& polynomial,
                                 double rms, const Run& run = {});
 
-} // namespace terrane
+} // namespace terrane::rbf::detail

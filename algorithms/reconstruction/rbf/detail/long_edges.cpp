@@ -11,7 +11,7 @@
 
 #include <terrane/algorithms/mesh/vectors.hpp>
 
-namespace terrane {
+namespace terrane::rbf::detail {
 namespace {
 
 class LongEdges {
@@ -131,4 +131,4 @@ void divide_long_edges(RbfData& data, double limit, double near) {
     }
 }
 
-} // namespace terrane
+} // namespace terrane::rbf::detail

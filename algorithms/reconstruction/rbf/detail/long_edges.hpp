@@ -5,7 +5,7 @@
 
 #include <terrane/algorithms/reconstruction/rbf/detail/data.hpp>
 
-namespace terrane {
+namespace terrane::rbf::detail {
 
 /// Bisects edges longer than `limit`, both of whose ends are within `near` of the border,
 /// repeatedly, and subdivides their triangles. A surface is more than its vertices: a function that
@@ -14,4 +14,4 @@ namespace terrane {
 /// (distances are set, normals are not). Cost: linear in the data if no edge is long.
 void divide_long_edges(RbfData& data, double limit, double near);
 
-} // namespace terrane
+} // namespace terrane::rbf::detail

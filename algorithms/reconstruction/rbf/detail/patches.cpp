@@ -11,7 +11,7 @@
 #include <terrane/algorithms/mesh/triangle_tree.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 
-namespace terrane {
+namespace terrane::rbf::detail {
 namespace {
 
 constexpr std::uint32_t most_in_cell = 48;
@@ -171,4 +171,4 @@ double RbfPatches::operator()(const Point3& p) const {
     return sum / std::max(weights, weight(1 / widening));
 }
 
-} // namespace terrane
+} // namespace terrane::rbf::detail

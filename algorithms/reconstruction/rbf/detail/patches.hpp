@@ -11,7 +11,7 @@
 
 #include <terrane/kernel/point.hpp>
 
-namespace terrane {
+namespace terrane::rbf::detail {
 
 /// Cells of at most 48 points result from bisection at the median. Around each cell is a ball of
 /// one and a half times its radius, with a function sum of w_i |p - p_i| plus a constant that
@@ -59,4 +59,4 @@ private:
     std::vector<Node> nodes_;
 };
 
-} // namespace terrane
+} // namespace terrane::rbf::detail

@@ -14,7 +14,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 
-namespace terrane {
+namespace terrane::rbf::detail {
 namespace {
 
 using Matrix = Eigen::MatrixXd;
@@ -220,4 +220,4 @@ Result<RbfSmoothFit> smooth_rbf(std::span<const Point3> centres, std::span<const
     return fit;
 }
 
-} // namespace terrane
+} // namespace terrane::rbf::detail

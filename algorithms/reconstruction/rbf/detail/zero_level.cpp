@@ -14,7 +14,7 @@
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/reconstruction/joining/disk_mesh.hpp>
 
-namespace terrane {
+namespace terrane::rbf::detail {
 namespace {
 
 // With cubes of `step_share` sizes and vertices thinned to a distance of `shortest` sizes, edges
@@ -391,4 +391,4 @@ Result<Surface> zero_level(const SpaceFunction& function, const ZeroLevelOptions
     return compact(mesh);
 }
 
-} // namespace terrane
+} // namespace terrane::rbf::detail

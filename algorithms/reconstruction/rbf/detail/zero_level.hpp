@@ -20,7 +20,7 @@
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
 
-namespace terrane {
+namespace terrane::rbf::detail {
 
 /// A smooth function of space. It is called from several threads.
 struct SpaceFunction {
@@ -43,4 +43,4 @@ struct ZeroLevelOptions {
 Result<Surface> zero_level(const SpaceFunction& function, const ZeroLevelOptions& options,
                            const Run& run = {});
 
-} // namespace terrane
+} // namespace terrane::rbf::detail

@@ -11,6 +11,7 @@
 #include "support/points.hpp"
 
 using namespace terrane;
+using namespace terrane::kriging::detail;
 using namespace test_support;
 
 namespace {

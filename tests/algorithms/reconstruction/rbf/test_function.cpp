@@ -17,6 +17,7 @@
 #include <terrane/algorithms/reconstruction/rbf/detail/zero_level.hpp>
 
 using namespace terrane;
+using namespace terrane::rbf::detail;
 
 namespace {
 

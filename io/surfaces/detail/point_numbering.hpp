@@ -12,7 +12,7 @@ namespace terrane::detail {
 
 /// Numbers points in the order of their first use; points with equal coordinates (0 equals -0) get
 /// the same number. It is a hash table with open addressing that is at most half full.
-class PointIndex {
+class PointNumbering {
 public:
     std::uint32_t number(const Point3& point) {
         if (2 * (points_.size() + 1) > slots_.size()) grow();
