@@ -11,6 +11,7 @@
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
+#include <terrane/algorithms/quality/detail/constants.hpp>
 #include <terrane/algorithms/quality/detail/operations.hpp>
 #include <terrane/algorithms/quality/detail/sizes.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
@@ -20,8 +21,6 @@ namespace {
 
 using namespace improving;
 
-constexpr double bad_shape = 0.5;       ///< single triangles of smaller q are improved one by one
-constexpr double curve_share = 1.0 / 3; ///< tolerance of curves, as a share of that of their sheets
 constexpr double pi = 3.14159265358979323846;
 
 Error wrong(std::string sentence) {
@@ -65,7 +64,8 @@ std::vector<double> bounds_of_curves(const WorkMesh& mesh, std::size_t curves,
             const std::uint32_t c =
                 mesh.curve_at(mesh.triangles[t][i], mesh.triangles[t][(i + 1) % 3]);
             if (c != none)
-                bounds[c] = std::min(bounds[c], curve_share * bound_of[mesh.sheet_of[t]]);
+                bounds[c] =
+                    std::min(bounds[c], constants.curve_tolerance * bound_of[mesh.sheet_of[t]]);
         }
     return bounds;
 }
@@ -112,7 +112,7 @@ private:
     [[nodiscard]] bool stopped() const { return run_.stop.stop_requested(); }
 
     void regroup_if_needed() {
-        if (!stopped() && 20 * validator_.ungrouped() > mesh_.triangles.size())
+        if (!stopped() && constants.regroup_part * validator_.ungrouped() > mesh_.triangles.size())
             validator_.group_again(run_);
     }
 
@@ -145,27 +145,27 @@ private:
         regroup_if_needed();
         collapse_edges(context_);
         regroup_if_needed();
-        if (pass < 2) jitter(context_);
+        if (pass < constants.jitter_passes) jitter(context_);
         equalize_valences(context_);
         regroup_if_needed();
         smooth(context_);
         swap_edges(context_);
         regroup_if_needed();
         smooth(context_);
-        return 10 * (changes() - before) > mesh_.triangles.size();
+        return constants.pass_part * (changes() - before) > mesh_.triangles.size();
     }
 
     /// Improves the few remaining bad triangles one by one.
     void finish() {
         if (run_.progress) run_.progress("improve", options_.passes / (options_.passes + 1.0));
-        for (unsigned round = 0; round < 2 && !stopped(); ++round) {
+        for (unsigned round = 0; round < constants.finish_rounds && !stopped(); ++round) {
             regroup_if_needed();
             const std::size_t before = context_.collapses + context_.swaps;
-            collapse_bad(context_, bad_shape);
+            collapse_bad(context_, constants.bad_shape);
             swap_edges(context_);
             slide_curves(context_);
             smooth(context_);
-            const std::size_t improved = improve_worst(context_, bad_shape);
+            const std::size_t improved = improve_worst(context_, constants.bad_shape);
             if (context_.collapses + context_.swaps == before && improved == 0) break;
         }
     }
@@ -393,6 +393,10 @@ Result<Improved> improve(const ConformingMesh& mesh, const ImproveOptions& optio
                          const Run& run) {
     return guarded("to improve the mesh", "improve",
                    [&] { return improve_proven(mesh, options, run); });
+}
+
+std::vector<NamedConstant> improve_constants() {
+    return improving::named_constants();
 }
 
 } // namespace terrane

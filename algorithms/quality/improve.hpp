@@ -34,6 +34,7 @@
 #include <vector>
 
 #include <terrane/algorithms/check/conforming.hpp>
+#include <terrane/algorithms/core/named_constant.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
@@ -116,5 +117,8 @@ Result<Improved> improve(const Mesh& mesh, const ImproveOptions& options = {}, c
 /// Improves a mesh that is proven conforming already, without another proof.
 Result<Improved> improve(const ConformingMesh& mesh, const ImproveOptions& options = {},
                          const Run& run = {});
+
+/// Lists the constants that decide the result and are not options.
+std::vector<NamedConstant> improve_constants();
 
 } // namespace terrane

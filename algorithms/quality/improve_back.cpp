@@ -11,6 +11,7 @@
 #include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/algorithms/mesh/triangle_tree.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
+#include <terrane/algorithms/quality/detail/constants.hpp>
 #include <terrane/algorithms/quality/detail/features.hpp>
 #include <terrane/algorithms/quality/detail/reference_surface.hpp>
 #include <terrane/algorithms/quality/deviation.hpp>
@@ -21,8 +22,6 @@ namespace {
 using namespace improving;
 
 constexpr double endless = std::numeric_limits<double>::infinity();
-constexpr unsigned most_parts = 16384; ///< per triangle
-constexpr double most_factor = 8;      ///< the largest multiple of the bound that is tried
 
 /// Arranges the improved mesh by the sheets of the original, as the reference surface to compare
 /// with.
@@ -117,7 +116,7 @@ public:
             const double radius =
                 std::max({apart(middle, c[0]), apart(middle, c[1]), apart(middle, c[2])});
             if (there + radius <= bound) continue;
-            if (there > bound || count == most_parts) return false;
+            if (there > bound || count == constants.most_parts_back) return false;
             if (radius > 4 * bound && contains_within_tolerance(c)) continue;
             divide(c, parts);
         }
@@ -134,7 +133,7 @@ private:
                          &c = surface.vertices[t[2]];
             const Point3 n = cross(minus(b, a), minus(c, a));
             const double longest = std::max({apart(a, b), apart(b, c), apart(c, a)});
-            if (std::sqrt(dot(n, n)) > thinnest * longest * longest) kept.push_back(t);
+            if (std::sqrt(dot(n, n)) > constants.thinnest * longest * longest) kept.push_back(t);
         }
         return kept;
     }
@@ -186,7 +185,7 @@ Result<std::vector<double>> shown(const Mesh& before, const Improved& after,
             });
         });
     };
-    for (double factor = 1; factor <= most_factor && !open.empty(); factor *= 2) {
+    for (double factor = 1; factor <= constants.most_factor_back && !open.empty(); factor *= 2) {
         std::vector<std::uint32_t> still_open;
         for (const std::uint32_t t : open) {
             if (run.stop.stop_requested())

@@ -113,11 +113,14 @@ private:
         const Point3 mean = unit(sum);
         // Mitred: as far from each edge as the reach, but without spikes.
         const double cosine = dot(mean, outward(edges_[vertex.edges[0]]));
-        vertex.beyond = plus(at(v), times(vertex.reach / std::max(cosine, 0.4), mean));
+        vertex.beyond =
+            plus(at(v),
+                 times(vertex.reach / std::max(cosine, strip_constants.least_mitre_cosine), mean));
         if (targets == 0) return;
         const Point3 target = times(1 / static_cast<double>(targets), target_sum);
         const Point3 way = minus(target, at(v));
-        if (way != Point3{}) vertex.beyond = plus(target, times(0.5, way));
+        if (way != Point3{})
+            vertex.beyond = plus(target, times(strip_constants.beyond_targets, way));
     }
 
     void add(const StripEdge& e, std::uint32_t piece, bool is_fan,

@@ -15,6 +15,17 @@
 
 namespace terrane {
 
+/// The constants of strips that sealing and the extension to a boundary share.
+struct StripConstants {
+    /// Least cosine between the directions at a mitred corner and at its edges: corners are wider
+    /// than strips by at most the inverse. Smaller: longer spikes at sharp corners.
+    double least_mitre_cosine = 0.4;
+    /// How far strips go beyond their targets, as a share of the way there, so that they certainly
+    /// cross the surface. Larger: more triangles are cut off again.
+    double beyond_targets = 0.5;
+};
+inline constexpr StripConstants strip_constants;
+
 /// An edge of an input surface with one triangle. Vertices are canonical input vertices, as in
 /// InputTriangles::corners.
 struct BorderEdge {

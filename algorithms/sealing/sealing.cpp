@@ -19,6 +19,7 @@
 #include <terrane/algorithms/mesh/triangle_tree.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/sealing/border_extension.hpp>
+#include <terrane/algorithms/sealing/detail/constants.hpp>
 #include <terrane/algorithms/sealing/detail/overshoots.hpp>
 #include <terrane/algorithms/sealing/extension_faces.hpp>
 
@@ -28,14 +29,9 @@ using namespace sealing::detail;
 
 namespace {
 
+using sealing::detail::constants;
+
 constexpr std::uint32_t none = UINT32_MAX;
-constexpr double along_plane = 4;   ///< width of strips per unit of gap: enough where surfaces
-                                    ///< meet at 15 degrees or more
-constexpr unsigned most_rounds = 4; ///< of removing useless strips; more than one is needed only
-                                    ///< where strips depend on each other
-constexpr double least_steps =
-    1024; ///< least width, in units in the last place of the coordinates:
-          ///< narrower strips have no meaningful direction
 
 Point3 middle(const Point3& p, const Point3& q) {
     return {p.x + (q.x - p.x) / 2, p.y + (q.y - p.y) / 2, p.z + (q.z - p.z) / 2};
@@ -228,7 +224,8 @@ private:
             StripEdge& strip = edges.emplace_back();
             strip.edge = gap.edge;
             strip.piece = static_cast<std::uint32_t>(gaps_.size());
-            strip.reach = std::max(along_plane * gap.largest, least_steps * step_at(ends));
+            strip.reach = std::max(constants.width_per_gap * gap.largest,
+                                   constants.least_width * step_at(ends));
             if (!along) {
                 const auto a = farther.nearest(ends[0], gap.edge),
                            b = farther.nearest(ends[1], gap.edge);
@@ -253,7 +250,7 @@ private:
     /// Adds the fresh strips and removes those of which no part closes a gap, until all do.
     Status add_useful(std::vector<ExtensionTriangle> fresh) {
         strips_.insert(strips_.end(), fresh.begin(), fresh.end());
-        for (unsigned round = 0; round < most_rounds; ++round) {
+        for (unsigned round = 0; round < constants.most_rounds; ++round) {
             if (auto done = update(); !done) return done;
             if (!drop_useless()) return Done{};
         }
@@ -346,6 +343,13 @@ Result<Sealed> seal(std::vector<Surface> surfaces, const SealOptions& options, c
         return Error{ErrorCode::bad_option, "the distance must be positive", "seal"};
     return guarded("for sealing", "sealing",
                    [&] { return Sealing(std::move(surfaces), options, run)(); });
+}
+
+std::vector<NamedConstant> seal_constants() {
+    auto all = sealing::detail::named_constants();
+    all.push_back({"least_mitre_cosine", strip_constants.least_mitre_cosine});
+    all.push_back({"beyond_targets", strip_constants.beyond_targets});
+    return all;
 }
 
 } // namespace terrane

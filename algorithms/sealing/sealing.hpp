@@ -25,6 +25,7 @@
 #include <vector>
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>
+#include <terrane/algorithms/core/named_constant.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
 
@@ -64,5 +65,8 @@ struct Sealed {
 /// Seals the gaps between surfaces. Errors: bad_option (the distance is not positive), those of
 /// arrange().
 Result<Sealed> seal(std::vector<Surface> surfaces, const SealOptions& options, const Run& run = {});
+
+/// Lists the constants that decide the result and are not options.
+std::vector<NamedConstant> seal_constants();
 
 } // namespace terrane

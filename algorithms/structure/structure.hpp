@@ -22,6 +22,7 @@
 #include <vector>
 
 #include <terrane/algorithms/core/index_lists.hpp>
+#include <terrane/algorithms/core/named_constant.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 
@@ -106,5 +107,8 @@ struct Structure {
 
 /// Builds the structure. `volumes` must be those of the mesh; roles come from its surfaces.
 Structure build_structure(const Mesh& mesh, const Volumes& volumes);
+
+/// Lists the constants that decide the result and are not options.
+std::vector<NamedConstant> structure_constants();
 
 } // namespace terrane

@@ -15,15 +15,14 @@
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/sealing/border_extension.hpp>
 #include <terrane/algorithms/sealing/extension_faces.hpp>
+#include <terrane/algorithms/volume_of_interest/detail/constants.hpp>
 #include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
 
 namespace terrane {
 namespace {
 
 constexpr std::uint32_t none = UINT32_MAX;
-constexpr double least_cosine = 0.4;   ///< corners are widened by at most the inverse
-constexpr unsigned most_doublings = 3; ///< of the length along which directions are averaged
-constexpr double past_targets = 1.5;   ///< see StripEdge::targets
+constexpr double past_targets = 1 + strip_constants.beyond_targets; ///< see StripEdge::targets
 
 Point3 along(const Point3& from, double by, const Point3& way) {
     return {from.x + by * way.x, from.y + by * way.y, from.z + by * way.z};
@@ -47,8 +46,9 @@ public:
         std::vector<double> total(edges.size(), 0);
         for (std::uint32_t e = 0; e < edges.size(); ++e) total[sets.find(e)] += lengths_[e];
         for (std::uint32_t e = 0; e < edges.size(); ++e)
-            windows_.push_back(std::min(limit / 2, total[sets.find(e)] / 8));
-        for (unsigned i = 0; i < most_doublings; ++i) widen_where_folded(sets);
+            windows_.push_back(std::min(extension_tuning.window * limit,
+                                        extension_tuning.border_share * total[sets.find(e)]));
+        for (unsigned i = 0; i < extension_tuning.most_doublings; ++i) widen_where_folded(sets);
     }
     /// Returns the point at which the strip aims from a vertex. The strip goes beyond it by half,
     /// to the limit.
@@ -59,7 +59,8 @@ public:
         for (const std::uint32_t e : edges) walk(surface, vertex, e, sum, weight);
         const double size = length(sum) / weight; // 1 along a straight border
         if (!(size > 0)) return along(at(vertex), limit_ / past_targets, outward_[edges[0]]);
-        const double by = limit_ / past_targets / std::max(size, least_cosine);
+        const double by =
+            limit_ / past_targets / std::max(size, strip_constants.least_mitre_cosine);
         return along(at(vertex), by / (size * weight), sum);
     }
 
@@ -256,6 +257,14 @@ Result<Extended> extend_to_boundary(std::vector<Surface> surfaces,
         return Error{ErrorCode::bad_option, "the limit must be positive", "extend"};
     return guarded("to extend surfaces", "extend",
                    [&] { return extend(std::move(surfaces), boundary, options, run); });
+}
+
+std::vector<NamedConstant> extension_constants() {
+    return {{"window", extension_tuning.window},
+            {"border_share", extension_tuning.border_share},
+            {"most_doublings", static_cast<double>(extension_tuning.most_doublings)},
+            {"least_mitre_cosine", strip_constants.least_mitre_cosine},
+            {"beyond_targets", strip_constants.beyond_targets}};
 }
 
 } // namespace terrane

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>
+#include <terrane/algorithms/core/named_constant.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
 
@@ -51,5 +52,8 @@ struct Extended {
 Result<Extended> extend_to_boundary(std::vector<Surface> surfaces,
                                     std::span<const std::uint32_t> boundary,
                                     const ExtendOptions& options, const Run& run = {});
+
+/// Lists the constants that decide the result and are not options.
+std::vector<NamedConstant> extension_constants();
 
 } // namespace terrane

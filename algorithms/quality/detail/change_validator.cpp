@@ -7,14 +7,13 @@
 #include <terrane/algorithms/intersection/injective_patches.hpp>
 #include <terrane/algorithms/intersection/intersection.hpp>
 #include <terrane/algorithms/mesh/edges.hpp>
+#include <terrane/algorithms/quality/detail/constants.hpp>
 #include <terrane/kernel/predicates.hpp>
 
 namespace terrane::improving {
 namespace {
 
-constexpr double cell_share = 1.5;   ///< size of the smallest cells, in mean edge lengths
-constexpr double least_cosine = 0.2; ///< cosine of the angle by which an added triangle may turn
-                                     ///< away
+constexpr double cell_share = 1.5; ///< size of the smallest cells, in mean edge lengths
 
 void widen(Box& box, const Box& by) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -137,7 +136,8 @@ bool ChangeValidator::shapes_hold(const Change& change, std::uint32_t patch) con
             std::find_if(change.facing.begin(), change.facing.end(),
                          [&](const auto& of_sheet) { return of_sheet.first == sheet; });
         const Point3& f = facing->second;
-        if (!(dot(n, f) > least_cosine * std::sqrt(dot(n, n) * dot(f, f)))) return false;
+        if (!(dot(n, f) > constants.least_normal_cosine * std::sqrt(dot(n, n) * dot(f, f))))
+            return false;
         if (patch != no_group) {
             if (orientation_of(change, t, patch) != orientation_[patch]) return false;
         } else if (collinear(a, b, c)) {

@@ -6,12 +6,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include <terrane/algorithms/quality/detail/constants.hpp>
 #include <terrane/algorithms/quality/detail/windows.hpp>
 
 namespace terrane::improving {
 namespace {
-
-constexpr double least_gain = 1e-2; ///< share of the sum of 1 / q by which a move must reduce it
 
 /// An edge of a curve, in the direction of the curve.
 struct CurveEdge {
@@ -103,7 +102,7 @@ bool propose_slide_to(RemeshContext& context, std::uint32_t v, double at, Propos
     change.place = mesh.points[v];
     const double before_it = badness_of_added(mesh, change);
     change.place = point_on(context, curve, at);
-    if (!(badness_of_added(mesh, change) < before_it * (1 - least_gain))) return false;
+    if (!(badness_of_added(mesh, change) < before_it * (1 - constants.least_gain))) return false;
     set_facing(mesh, change);
     return context.validator.check(change, proposal.checked) == Outcome::allowed;
 }
@@ -116,7 +115,7 @@ bool propose_slide(RemeshContext& context, std::uint32_t v, Proposal& proposal) 
     const double from = mesh.place_at(context.curves, curve, mesh.along[v][0], v);
     const double to = mesh.place_at(context.curves, curve, mesh.along[v][1], v);
     const double middle = from + (to - from) / 2, here = mesh.place_on[v];
-    if (std::fabs(middle - here) < 0.05 * (to - from)) return false;
+    if (std::fabs(middle - here) < constants.least_slide * (to - from)) return false;
     return propose_slide_to(context, v, middle, proposal) ||
            propose_slide_to(context, v, here + (middle - here) / 2, proposal);
 }
@@ -129,8 +128,9 @@ bool propose_curve_collapse(RemeshContext& context, std::uint32_t v, Proposal& p
     const double back = mesh.edge_length(v, before), on = mesh.edge_length(v, after);
     const std::uint32_t kept = back < on ? before : after;
     const double wanted = mesh.wanted_length(v, kept);
-    return std::min(back, on) < short_share * wanted && back + on < long_share * wanted &&
-           propose_collapse(context, {v, kept}, 2 * wanted, least_shape, proposal);
+    return std::min(back, on) < constants.collapse_ratio * wanted &&
+           back + on < constants.split_ratio * wanted &&
+           propose_collapse(context, {v, kept}, 2 * wanted, constants.least_shape, proposal);
 }
 
 std::vector<std::uint32_t> curve_vertices(const WorkMesh& mesh) {
@@ -172,11 +172,12 @@ bool chord_within_bound(const RemeshContext& context, std::uint32_t curve, doubl
 
 std::size_t split_curves(RemeshContext& context) {
     std::size_t count = 0;
-    for (unsigned round = 0; round < 32 && !context.run.stop.stop_requested(); ++round) {
+    for (unsigned round = 0; round < constants.split_rounds && !context.run.stop.stop_requested();
+         ++round) {
         std::vector<CurveEdge> edges = curve_edges(context.mesh, context.curves);
         std::erase_if(edges, [&](const CurveEdge& e) {
             const auto [from, to] = places_of(context, e);
-            return !(to - from > long_share * context.mesh.wanted_length(e.from, e.to));
+            return !(to - from > constants.split_ratio * context.mesh.wanted_length(e.from, e.to));
         });
         const std::size_t more = in_windows(
             context, edges,

@@ -30,13 +30,6 @@
 
 namespace terrane::improving {
 
-constexpr double long_share = 4.0 / 3;  ///< edges longer than this multiple of the target length
-                                        ///< are split
-constexpr double short_share = 4.0 / 5; ///< edges shorter than this multiple of the target length
-                                        ///< are collapsed
-constexpr double least_shape = 0.3;     ///< least q that a collapse may leave where triangles were
-                                        ///< better
-
 /// A proposed change, with the data that led to it.
 struct Proposal {
     Change change{};

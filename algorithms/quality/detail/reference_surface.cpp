@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include <terrane/algorithms/mesh/vectors.hpp>
+#include <terrane/algorithms/quality/detail/constants.hpp>
 #include <terrane/algorithms/search/search.hpp>
 #include <terrane/kernel/predicates.hpp>
 
@@ -17,9 +18,6 @@ namespace {
 /// are followed a little too far and heights taken a little too large, never the other way.
 constexpr double share_error = 0x1p-26;
 
-constexpr unsigned most_steps = 256;    ///< of a walk
-constexpr unsigned most_covered = 2048; ///< triangles that cover one part
-constexpr unsigned most_parts = 48;     ///< of one triangle
 constexpr double unit = std::numeric_limits<double>::epsilon();
 
 Point3 towards(const Point3& a, const Point3& b, double share) {
@@ -170,7 +168,7 @@ std::optional<ReferenceSurface::Target> ReferenceSurface::target_of(const Corner
     const double longest =
         std::sqrt(std::max({dot(ab, ab), dot(ac, ac), dot(minus(ac, ab), minus(ac, ab))}));
     const double along = std::max({x, y, z});
-    if (!(along > thinnest * longest * longest)) return std::nullopt;
+    if (!(along > constants.thinnest * longest * longest)) return std::nullopt;
     const Axis axis = z >= x && z >= y ? Axis::z : x >= y ? Axis::x : Axis::y;
     Target target;
     target.frame = along_axis ? frame_of(axis) : frame_along(n, ab);
@@ -199,7 +197,7 @@ ReferenceSurface::Walk ReferenceSurface::walk(const Frame& frame, const Point3& 
                                               const Flat& to, int orientation,
                                               std::uint32_t from) const {
     std::uint32_t t = from, before = none;
-    for (unsigned step = 0; step < most_steps; ++step) {
+    for (unsigned step = 0; step < constants.most_steps; ++step) {
         if (orientation_of(t, frame) != orientation) return {t, false};
         const Facet& facet = facets_[t];
         std::array<Flat, 3> p;
@@ -325,7 +323,7 @@ ReferenceSurface::Cover ReferenceSurface::covered(const Target& target, std::uin
     search.front_.assign(1, start);
     search.seen_[start] = search.number_;
     for (unsigned count = 0; !search.front_.empty(); ++count) {
-        if (count == most_covered) return Cover::open;
+        if (count == constants.most_covered) return Cover::open;
         const std::uint32_t t = search.front_.back();
         search.front_.pop_back();
         search.all_isolated_ = search.all_isolated_ && facets_[t].isolated;
@@ -385,7 +383,7 @@ std::optional<ReferenceSurface::Containment>
 ReferenceSurface::contains_within_tolerance(const Corners& triangle, std::uint32_t hint,
                                             Search& search) const {
     search.seen_.resize(facets_.size(), 0);
-    unsigned budget = most_parts;
+    unsigned budget = constants.most_parts;
     Containment containment{hint, true};
     const double bound = bound_of_[features_.sheet_of[hint]] - slack_;
     if (!contains_part(triangle, containment, bound, budget, search)) return std::nullopt;

@@ -23,15 +23,11 @@
 #include <vector>
 
 #include <terrane/algorithms/core/run.hpp>
+#include <terrane/algorithms/quality/detail/constants.hpp>
 #include <terrane/algorithms/quality/detail/features.hpp>
 #include <terrane/kernel/construction.hpp>
 
 namespace terrane::improving {
-
-/// Least area of a triangle, as a share of half the square of its longest edge, for which its
-/// normal is used. The normal of thinner triangles may be lost in rounding. Omitting them can only
-/// enlarge a bound.
-constexpr double thinnest = 1e-6;
 
 using Corners = std::array<Point3, 3>;
 
@@ -52,7 +48,7 @@ public:
     [[nodiscard]] bool is_isolated(std::uint32_t t) const { return facets_[t].isolated; }
 
     /// Returns the least tolerance that is distinguishable from rounding errors.
-    [[nodiscard]] double least_bound() const { return 1e3 * slack_; }
+    [[nodiscard]] double least_bound() const { return constants.least_bound * slack_; }
     /// Returns an upper bound of the rounding error of a distance.
     [[nodiscard]] double rounding() const { return slack_; }
 

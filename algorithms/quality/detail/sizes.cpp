@@ -9,13 +9,10 @@
 #include <utility>
 
 #include <terrane/algorithms/mesh/vectors.hpp>
+#include <terrane/algorithms/quality/detail/constants.hpp>
 
 namespace terrane::improving {
 namespace {
-
-constexpr double least_share = 0.125; ///< of the target length: lower limit where a surface is
-                                      ///< curved
-constexpr double bound_share = 0.05;  ///< of the target length: default tolerance
 
 Point3 normal_of(const Mesh& mesh, const Triangle& t) {
     return cross(minus(mesh.vertices[t[1]], mesh.vertices[t[0]]),
@@ -66,9 +63,11 @@ void limit_by_curvature(const Mesh& mesh, const Features& features, double turn,
             if (!(angle > 0) || !(way > 0)) continue;
             const double wanted = turn * way / angle;
             for (const std::uint32_t v : a)
-                sizes[v] = std::min(sizes[v], std::max(wanted, least_share * before[v]));
+                sizes[v] =
+                    std::min(sizes[v], std::max(wanted, constants.curvature_floor * before[v]));
             for (const std::uint32_t v : b)
-                sizes[v] = std::min(sizes[v], std::max(wanted, least_share * before[v]));
+                sizes[v] =
+                    std::min(sizes[v], std::max(wanted, constants.curvature_floor * before[v]));
         }
 }
 
@@ -109,8 +108,8 @@ Sizes find_sizes(const Mesh& mesh, const Features& features, const ImproveOption
     for (std::size_t s = 0; s < of_sheets.size(); ++s) {
         for (const std::uint32_t surface : mesh.surfaces_of[features.first_of[s]])
             of_sheets[s] = std::min(of_sheets[s], lengths[surface]);
-        out.bound_of[s] =
-            options.max_deviation > 0 ? options.max_deviation : bound_share * of_sheets[s];
+        out.bound_of[s] = options.max_deviation > 0 ? options.max_deviation
+                                                    : constants.default_tolerance * of_sheets[s];
     }
     out.of_vertices.assign(mesh.vertices.size(), endless);
     for (std::uint32_t t = 0; t < features.triangles.size(); ++t)

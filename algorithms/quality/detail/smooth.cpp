@@ -7,14 +7,11 @@
 #include <cmath>
 #include <limits>
 
+#include <terrane/algorithms/quality/detail/constants.hpp>
 #include <terrane/algorithms/quality/detail/windows.hpp>
 
 namespace terrane::improving {
 namespace {
-
-constexpr double least_gain = 1e-2;   ///< share of the sum of 1 / q by which a move must reduce it
-constexpr double jitter_share = 0.2;  ///< of the target length
-constexpr double square_shape = 0.86; ///< just above the q of half a square, 0.83
 
 /// Computes the position proposed by trapezium drawing.
 Point3 drawn(const WorkMesh& mesh, std::uint32_t v) {
@@ -110,7 +107,7 @@ bool propose_smoothing(const RemeshContext& context, std::uint32_t v, Proposal& 
     if (!proposal.is_tried) return false;
     collect_star(mesh, v, proposal.change);
     const Point3 &from = mesh.points[v], to = drawn(mesh, v);
-    const Badness better{badness_at(mesh, v, from).sum * (1 - least_gain), endless};
+    const Badness better{badness_at(mesh, v, from).sum * (1 - constants.least_gain), endless};
     // Each triangle moves the vertex along its own edge only: half of the way on average.
     return propose_move(context, between(from, to, 2.0), better, proposal) ||
            propose_move(context, between(from, to, 1.0), better, proposal) ||
@@ -147,7 +144,8 @@ bool propose_improvement(const RemeshContext& context, std::uint32_t v, double b
             const double c = step * std::cos(angle), s = step * std::sin(angle);
             const Point3 to{p.x + c * u.x + s * w.x, p.y + c * u.y + s * w.y,
                             p.z + c * u.z + s * w.z};
-            if (!propose_move(context, to, {endless, largest * (1 - least_gain)}, proposal))
+            if (!propose_move(context, to, {endless, largest * (1 - constants.least_gain)},
+                              proposal))
                 continue;
             p = proposal.change.place;
             std::swap(of_p, proposal.checked);
@@ -213,11 +211,11 @@ std::size_t jitter(RemeshContext& context) {
     const WorkMesh& mesh = context.mesh;
     const auto propose = [&](std::uint32_t v, Proposal& proposal) {
         if (!std::all_of(mesh.star[v].begin(), mesh.star[v].end(), [&](std::uint32_t t) {
-                return shape_of(mesh, mesh.triangles[t]) < square_shape;
+                return shape_of(mesh, mesh.triangles[t]) < constants.jitter_below_shape;
             }))
             return false;
         collect_star(mesh, v, proposal.change);
-        const double size = jitter_share * mesh.sizes[v];
+        const double size = constants.jitter * mesh.sizes[v];
         const Point3& p = mesh.points[v];
         const auto off = scattered(v);
         return propose_move(context, {p.x + size * off.x, p.y + size * off.y, p.z + size * off.z},

@@ -9,13 +9,11 @@
 #include <map>
 
 #include <terrane/algorithms/mesh/edges.hpp>
+#include <terrane/algorithms/quality/detail/constants.hpp>
 #include <terrane/algorithms/quality/detail/windows.hpp>
 
 namespace terrane::improving {
 namespace {
-
-constexpr double least_even_cosine = -0.35; ///< least cosine of the angles that equalize_valences()
-                                            ///< may create
 
 /// Returns the class of a ratio from 1: there are four classes for each factor of two. Within a
 /// class edges are processed in the order of their vertices, which saves cache misses.
@@ -165,14 +163,15 @@ bool propose_swap(RemeshContext& context, const Edge& e, Aim aim, Proposal& prop
     const Triangle &first = mesh.triangles[t], &second = mesh.triangles[u];
     const std::uint32_t c = opposite(first, a, b), d = opposite(second, a, b);
     if (a > b && promises(mesh, b, a, d, aim)) return false; // it is also in the list as (b, a)
-    double least = least_even_cosine;
+    double least = constants.least_valence_cosine;
     if (aim == Aim::valences) {
         if (valence_cost(mesh, a, -1) + valence_cost(mesh, b, -1) + valence_cost(mesh, c, 1) +
                 valence_cost(mesh, d, 1) >=
             0)
             return false;
     } else {
-        least = 1e-6 + std::min(least_cosine(mesh, first), least_cosine(mesh, second));
+        least = constants.least_cosine_gain +
+                std::min(least_cosine(mesh, first), least_cosine(mesh, second));
     }
     const Triangle left{c, a, d}, right{d, b, c};
     if (!(least_cosine(mesh, left) > least) || !(least_cosine(mesh, right) > least)) return false;
@@ -235,12 +234,13 @@ bool propose_edge_collapse(RemeshContext& context, const Edge& e, std::uint32_t 
     if (mesh.kinds[a] == VertexKind::unused || mesh.kinds[b] == VertexKind::unused) return false;
     const double wanted = mesh.wanted_length(a, b);
     if (!mesh.changed_since(a, since) && !mesh.changed_since(b, since)) return false;
-    if (!(mesh.edge_length(a, b) < short_share * wanted) || !mesh.are_neighbours(a, b) ||
-        mesh.curve_at(a, b) != none)
+    if (!(mesh.edge_length(a, b) < constants.collapse_ratio * wanted) ||
+        !mesh.are_neighbours(a, b) || mesh.curve_at(a, b) != none)
         return false;
     const auto into = [&](std::uint32_t gone, std::uint32_t kept) {
         return mesh.kinds[gone] == VertexKind::inner &&
-               propose_collapse(context, {gone, kept}, long_share * wanted, least_shape, proposal);
+               propose_collapse(context, {gone, kept}, constants.split_ratio * wanted,
+                                constants.least_shape, proposal);
     };
     return into(a, b) || into(b, a);
 }
@@ -349,10 +349,11 @@ void set_facing(const WorkMesh& mesh, Change& change) {
 std::size_t split_edges(RemeshContext& context) {
     const WorkMesh& mesh = context.mesh;
     std::size_t count = 0;
-    for (unsigned round = 0; round < 32 && !context.run.stop.stop_requested(); ++round) {
+    for (unsigned round = 0; round < constants.split_rounds && !context.run.stop.stop_requested();
+         ++round) {
         const auto classes = by_class(inner_edges(context, [&](std::uint32_t a, std::uint32_t b) {
             const double ratio = mesh.edge_length(a, b) / mesh.wanted_length(a, b);
-            return ratio > long_share ? length_class(ratio) : 0;
+            return ratio > constants.split_ratio ? length_class(ratio) : 0;
         }));
         std::size_t more = 0;
         const std::uint32_t since = ++context.mesh.now;
@@ -367,7 +368,7 @@ std::size_t split_edges(RemeshContext& context) {
         context.splits += more;
         count += more;
         // Halves of slivers are slivers: swapping and collapsing them prevents repeated halving.
-        if (20 * more < mesh.triangles.size()) continue;
+        if (constants.cleanup_part * more < mesh.triangles.size()) continue;
         swap_edges(context);
         collapse_edges(context);
     }
@@ -379,7 +380,7 @@ std::size_t collapse_edges(RemeshContext& context) {
     std::size_t count = 0;
     const auto classes = by_class(inner_edges(context, [&](std::uint32_t a, std::uint32_t b) {
         const double ratio = mesh.edge_length(a, b) / mesh.wanted_length(a, b);
-        return ratio < short_share ? length_class(1 / std::max(ratio, 1e-70)) : 0;
+        return ratio < constants.collapse_ratio ? length_class(1 / std::max(ratio, 1e-70)) : 0;
     }));
     const std::uint32_t since = context.collapsed_at; // what failed then would fail again
     context.collapsed_at = ++context.mesh.now;
@@ -423,12 +424,13 @@ std::size_t equalize_valences(RemeshContext& context) {
 
 std::size_t swap_edges(RemeshContext& context) {
     std::size_t count = 0;
-    for (unsigned round = 0; round < 6 && !context.run.stop.stop_requested(); ++round) {
+    for (unsigned round = 0; round < constants.swap_rounds && !context.run.stop.stop_requested();
+         ++round) {
         const std::uint32_t since = context.swapped_at;
         context.swapped_at = ++context.mesh.now;
         const std::size_t more = swap_those(context, since, Aim::angles);
         count += more;
-        if (100 * more < context.mesh.triangles.size()) break;
+        if (constants.sweep_part * more < context.mesh.triangles.size()) break;
     }
     return count;
 }

@@ -12,12 +12,10 @@
 #include <tbb/partitioner.h>
 
 #include <terrane/algorithms/core/parallel.hpp>
+#include <terrane/algorithms/quality/detail/constants.hpp>
 #include <terrane/algorithms/quality/detail/operations.hpp>
 
 namespace terrane::improving {
-
-/// Largest number of changes in a window. It is fixed, as the result depends on it.
-constexpr std::size_t window_size = 256;
 
 /// Windows of fewer changes run on one thread.
 constexpr std::size_t few = 8;
@@ -75,7 +73,7 @@ std::size_t in_windows(RemeshContext& context, const std::vector<Item>& items,
                        const Propose& propose, const Done& done) {
     if (items.empty()) return 0;
     WorkMesh& mesh = context.mesh;
-    const std::size_t size = std::clamp(items.size() / 16, std::size_t{1}, window_size);
+    const std::size_t size = std::clamp(items.size() / 16, std::size_t{1}, constants.window_size);
     const std::size_t windows = (items.size() + size - 1) / size;
     context.window.resize(std::max(context.window.size(), size));
     Footprints made;

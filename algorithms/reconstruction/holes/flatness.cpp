@@ -6,9 +6,12 @@
 #include <numeric>
 
 #include <terrane/algorithms/mesh/edges.hpp>
+#include <terrane/algorithms/reconstruction/holes/detail/constants.hpp>
 
 namespace terrane::detail {
 namespace {
+
+using holes::detail::constants;
 
 double root_mean_square(std::span<const double> values) {
     const double squares = std::inner_product(values.begin(), values.end(), values.begin(), 0.0);
@@ -32,9 +35,8 @@ std::vector<Edge> some_inner_edges(std::span<const Triangle> triangles, std::siz
 bool flatness_outweighs(std::span<const double> sags, std::span<const double> expected,
                         double size) {
     if (sags.empty()) return false;
-    constexpr double rounding = 1e-6;
     const double sag = root_mean_square(sags), allowed = root_mean_square(expected);
-    return std::isfinite(allowed) && sag > std::max(allowed, rounding * size);
+    return std::isfinite(allowed) && sag > std::max(allowed, constants.rounding * size);
 }
 
 } // namespace terrane::detail

@@ -9,6 +9,7 @@
 #include <terrane/algorithms/arrangement/soup.hpp>
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
+#include <terrane/algorithms/reconstruction/holes/detail/constants.hpp>
 #include <terrane/algorithms/reconstruction/holes/detail/shape.hpp>
 
 namespace terrane {
@@ -183,7 +184,7 @@ std::vector<bool> outer_loops(const Soup& soup, const std::vector<TracedLoop>& l
         if (diagonal > best.first) best = {diagonal, i};
     }
     for (const auto& [part, best] : longest)
-        if (best.first >= size_of_part[part] / 2) outer[best.second] = true;
+        if (best.first >= constants.outer_share * size_of_part[part]) outer[best.second] = true;
     return outer;
 }
 
@@ -219,6 +220,10 @@ Result<std::vector<BorderLoop>> find_border_loops(const Surface& surface, const 
     }
     std::sort(loops.begin(), loops.end(), before);
     return loops;
+}
+
+std::vector<NamedConstant> hole_constants() {
+    return holes::detail::named_constants();
 }
 
 } // namespace terrane

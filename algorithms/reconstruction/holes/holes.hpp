@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <terrane/algorithms/core/named_constant.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
@@ -57,5 +58,8 @@ struct BorderLoop {
 /// Errors: bad_number, bad_index, interrupted.
 Result<std::vector<BorderLoop>> find_border_loops(const Surface& surface, const Run& run = {},
                                                   const GapRule& rule = {});
+
+/// Lists the constants that decide the result and are not options.
+std::vector<NamedConstant> hole_constants();
 
 } // namespace terrane

@@ -7,11 +7,12 @@
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
+#include <terrane/algorithms/reconstruction/joining/detail/constants.hpp>
 
 namespace terrane {
 namespace {
 
-constexpr std::size_t most_sides = 96; ///< of a polygon to triangulate; the effort is cubic
+using joining::detail::constants;
 
 /// Dynamic program for the best triangulation of a polygon: the worst shape between corners i and
 /// j.
@@ -133,7 +134,7 @@ std::optional<DiskMesh::Link> DiskMesh::link_of(std::uint32_t v) const {
 std::optional<std::vector<Triangle>> DiskMesh::fill(std::uint32_t v, const Link& link) const {
     const auto& polygon = link.vertices;
     const std::size_t n = polygon.size();
-    if (n > most_sides) return std::nullopt;
+    if (n > constants.most_sides) return std::nullopt;
     if (n == 2) // a single border triangle is removed; the edge opposite to v keeps its other
                 // triangle
         return triangles_at(polygon[0], polygon[1]) == 2 ? std::optional(std::vector<Triangle>{})
@@ -237,8 +238,7 @@ bool DiskMesh::swap(std::uint32_t a, std::uint32_t b) {
         std::min(shape(p[a], p[b], p[left], normal), shape(p[b], p[a], p[right], normal));
     const double after =
         std::min(shape(p[a], p[right], p[left], normal), shape(p[right], p[b], p[left], normal));
-    constexpr double worth = 1e-3; // prevents endless swaps of equal shapes
-    if (!(after > 0) || after <= before + worth) return false;
+    if (!(after > 0) || after <= before + constants.least_swap_gain) return false;
     const std::array<std::uint32_t, 2> old{sides[0], sides[1]};
     for (const std::uint32_t t : old) erase(t);
     add({a, right, left});
@@ -247,9 +247,8 @@ bool DiskMesh::swap(std::uint32_t a, std::uint32_t b) {
 }
 
 std::size_t DiskMesh::improve(std::span<const std::uint32_t> vertices) {
-    constexpr int most_passes = 20; // few suffice, as the worst shape only improves
     std::size_t swapped = 0;
-    for (int pass = 0; pass < most_passes; ++pass) {
+    for (unsigned pass = 0; pass < constants.most_swap_passes; ++pass) {
         const std::size_t before = swapped;
         for (const std::uint32_t a : vertices)
             for (const std::uint32_t b : neighbours(a)) swapped += swap(a, b) ? 1 : 0;

@@ -16,6 +16,7 @@
 #include <terrane/algorithms/mesh/triangle_tree.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
+#include <terrane/algorithms/reconstruction/joining/detail/constants.hpp>
 #include <terrane/algorithms/reconstruction/joining/detail/curve.hpp>
 #include <terrane/algorithms/reconstruction/joining/disk_mesh.hpp>
 #include <terrane/kernel/point_store.hpp>
@@ -426,6 +427,10 @@ Result<Joined> join_filling(const Surface& surface, const BorderLoop& loop, cons
         return Error{ErrorCode::bad_option, "clearance is a share, from 0 to less than 1", ""};
     return guarded("to join the filling", "join",
                    [&] { return join_valid(surface, loop, filling, options, run); });
+}
+
+std::vector<NamedConstant> join_constants() {
+    return joining::detail::named_constants();
 }
 
 } // namespace terrane

@@ -26,6 +26,7 @@
 #include <span>
 #include <vector>
 
+#include <terrane/algorithms/core/named_constant.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
@@ -75,5 +76,8 @@ struct Joined {
 /// out_of_memory.
 Result<Joined> join_filling(const Surface& surface, const BorderLoop& loop, const Surface& filling,
                             const JoinOptions& options = {}, const Run& run = {});
+
+/// Lists the constants that decide the result and are not options.
+std::vector<NamedConstant> join_constants();
 
 } // namespace terrane

@@ -12,6 +12,7 @@
 #include <terrane/algorithms/mesh/edges.hpp>
 #include <terrane/algorithms/reconstruction/holes/flatness.hpp>
 #include <terrane/algorithms/reconstruction/kriging/detail/choice.hpp>
+#include <terrane/algorithms/reconstruction/kriging/detail/constants.hpp>
 #include <terrane/algorithms/reconstruction/kriging/detail/data.hpp>
 #include <terrane/kernel/predicates.hpp>
 
@@ -20,10 +21,6 @@ namespace terrane {
 using namespace kriging::detail;
 
 namespace {
-
-constexpr std::size_t most_places = 20'000;
-constexpr std::size_t most_validated = 400;
-constexpr std::size_t most_sags = 256;
 
 Error interrupted() {
     return {ErrorCode::interrupted, "interrupted", ""};
@@ -100,7 +97,7 @@ Result<FlatFilling> mesh_of(const KrigingData& data, double mesh_size, const Run
     for (const Polygon& polygon : data.borders) flat.border += polygon.size();
     std::vector<Point3> points(data.points.begin(),
                                data.points.begin() + static_cast<std::ptrdiff_t>(flat.border));
-    const auto places = places_within(points, data.borders, mesh_size, most_places);
+    const auto places = places_within(points, data.borders, mesh_size, constants.most_places);
     points.insert(points.end(), places.begin(), places.end());
     auto triangles = triangulate_inside(points, data.borders, run);
     if (!triangles) {
@@ -144,7 +141,8 @@ std::vector<double> set_heights(FlatFilling& flat, const Kriging& kriging, const
 /// Tells whether smaller triangles would bring the filling nearer to the truth.
 bool is_too_flat(const FlatFilling& flat, const Kriging& kriging, double mesh_size,
                  const Run& run) {
-    const auto edges = detail::some_inner_edges(flat.triangles, flat.points.size(), most_sags);
+    const auto edges =
+        detail::some_inner_edges(flat.triangles, flat.points.size(), constants.most_sags);
     std::vector<Point3> places;
     for (const auto& [a, b] : edges) {
         const Point3 &p = flat.points[a], &q = flat.points[b];
@@ -188,7 +186,7 @@ Kriging model_of(const KrigingData& data, std::size_t border, const VariogramFit
     const auto choice =
         choose_model(data.points, data.edges, longest_pair(data.points), data.noise, options);
     Kriging kriging(thinned(data, border), choice.variogram, choice.degree);
-    const auto single = kriging.validate(most_validated);
+    const auto single = kriging.validate(constants.most_validated);
     report.data = data.points.size();
     report.validated_error = choice.blocks.error;
     report.model = fmt::format(
@@ -225,8 +223,8 @@ Result<Filling> fill_by_kriging(const Surface& surface, const BorderLoop& loop,
     const Kriging kriging = model_of(data, border, options.variogram, filling.report);
     filling.expected_error = set_heights(flat.value(), kriging, run);
     for (int halvings = 0; options.mesh_size == 0 && halvings < detail::most_halvings; ++halvings) {
-        if (4 * (flat.value().points.size() - border) > most_places || run.stop.stop_requested() ||
-            !is_too_flat(flat.value(), kriging, mesh_size, run))
+        if (4 * (flat.value().points.size() - border) > constants.most_places ||
+            run.stop.stop_requested() || !is_too_flat(flat.value(), kriging, mesh_size, run))
             break;
         mesh_size /= 2;
         flat = mesh_of(data, mesh_size, run);
@@ -269,6 +267,10 @@ Surface joined(const Surface& surface, const Filling& filling) {
     for (const Triangle& t : filling.surface.triangles)
         result.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
     return result;
+}
+
+std::vector<NamedConstant> kriging_constants() {
+    return kriging::detail::named_constants();
 }
 
 } // namespace terrane

@@ -5,7 +5,9 @@
 
 #include <cstddef>
 #include <span>
+#include <vector>
 
+#include <terrane/algorithms/core/named_constant.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/reconstruction/holes/filling.hpp>
@@ -42,5 +44,8 @@ Result<Filling> fill_by_kriging(const Surface& surface, const BorderLoop& loop,
 /// Joins a filling that has the exact border to the surface: its vertices and triangles come first,
 /// unchanged, then the new ones. Border vertices are identified by their coordinates.
 Surface joined(const Surface& surface, const Filling& filling);
+
+/// Lists the constants that decide the result and are not options.
+std::vector<NamedConstant> kriging_constants();
 
 } // namespace terrane

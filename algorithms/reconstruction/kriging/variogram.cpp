@@ -7,14 +7,13 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/reconstruction/kriging/detail/constants.hpp>
+
 namespace terrane {
 namespace {
 
-constexpr std::size_t distance_classes = 15;
-constexpr std::size_t direction_classes = 12;
-constexpr std::size_t most_points = 1500;
-constexpr double worth_anisotropy = 0.8; ///< share of the isotropic misfit below which anisotropy
-                                         ///< is accepted
+using kriging::detail::constants;
+
 constexpr std::array all_models{VariogramModel::spherical, VariogramModel::exponential,
                                 VariogramModel::gaussian, VariogramModel::power};
 
@@ -41,7 +40,7 @@ double shape(VariogramModel model, double ratio, double exponent) {
 class Classes {
 public:
     explicit Classes(double longest) :
-        longest_(longest), bins_(distance_classes * direction_classes) {}
+        longest_(longest), bins_(constants.distance_classes * constants.direction_classes) {}
 
     void add(const Point3& a, const Point3& b) {
         double dx = b.x - a.x, dy = b.y - a.y;
@@ -56,8 +55,9 @@ public:
                             classes - 1);
         };
         const double direction = std::atan2(dy, dx) / std::numbers::pi + 0.5; // in [0, 1]
-        VariogramBin& bin = bins_[at(h / longest_, distance_classes) * direction_classes +
-                                  at(direction, direction_classes)];
+        VariogramBin& bin =
+            bins_[at(h / longest_, constants.distance_classes) * constants.direction_classes +
+                  at(direction, constants.direction_classes)];
         bin.dx += dx;
         bin.dy += dy;
         bin.distance += h;
@@ -240,7 +240,7 @@ std::vector<VariogramBin>
 experimental_variogram(std::span<const Point3> points,
                        std::span<const std::array<std::uint32_t, 2>> close, double longest) {
     Classes classes(longest);
-    const auto chosen = std::min(points.size(), most_points);
+    const auto chosen = std::min(points.size(), constants.most_variogram_points);
     const auto pick = [&](std::size_t k) { return points[k * points.size() / chosen]; };
     for (std::size_t i = 0; i < chosen; ++i)
         for (std::size_t j = i + 1; j < chosen; ++j) classes.add(pick(i), pick(j));
@@ -260,8 +260,8 @@ Variogram fit_variogram(std::span<const VariogramBin> bins, const VariogramFitOp
             if (const Fit fit = best_model(bins, options, angle, ratio);
                 fit.misfit < anisotropic.misfit)
                 anisotropic = fit;
-    return anisotropic.misfit < worth_anisotropy * best.misfit ? anisotropic.variogram
-                                                               : best.variogram;
+    return anisotropic.misfit < constants.worth_anisotropy * best.misfit ? anisotropic.variogram
+                                                                         : best.variogram;
 }
 
 } // namespace terrane

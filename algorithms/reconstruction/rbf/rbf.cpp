@@ -18,6 +18,7 @@
 #include <terrane/algorithms/mesh/triangle_tree.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/reconstruction/holes/flatness.hpp>
+#include <terrane/algorithms/reconstruction/rbf/detail/constants.hpp>
 #include <terrane/algorithms/reconstruction/rbf/detail/data.hpp>
 #include <terrane/algorithms/reconstruction/rbf/detail/error.hpp>
 #include <terrane/algorithms/reconstruction/rbf/detail/fit.hpp>
@@ -28,6 +29,8 @@ namespace terrane {
 using namespace rbf::detail;
 
 namespace {
+
+using rbf::detail::constants;
 
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
@@ -66,7 +69,7 @@ public:
         const auto known = inside_.find(cell_of(p));
         if (known != inside_.end() && length(minus(p, known->second.centre)) < known->second.radius)
             return false;
-        const double margin = 3 * size_, under = 1.5 * size_;
+        const double margin = constants.mask_margin * size_, under = constants.mask_under * size_;
         const double border = border_.distance(p, std::numeric_limits<double>::infinity());
         if (border < margin) return false;
         const auto surface = surface_.nearest(p, border);
@@ -75,8 +78,8 @@ public:
         if (distance >= under) {
             const double rim = rim_.distance(p, std::numeric_limits<double>::infinity());
             // Distances change no faster than p does.
-            constexpr double sure = 0.99; // exceeds rounding errors
-            const double radius = sure * std::min(distance - under, (rim - distance) / 2);
+            const double radius =
+                constants.mask_sure * std::min(distance - under, (rim - distance) / 2);
             if (radius > 0) inside_.insert_or_assign(cell_of(p), Ball{p, radius});
             if (rim > distance) return false;
         }
@@ -162,12 +165,11 @@ bool cuts_corners(const Surface& mesh, const Level& level, double size) {
 
 /// Tells whether smaller triangles would bring the filling nearer to the truth.
 bool is_too_flat(const Surface& mesh, const Level& level, double size, const Run& run) {
-    constexpr std::size_t most = 1024;
     const RbfFunction& f = level.f.smooth; // patches fade within less than an edge
     std::vector<Point3> middles;
     std::vector<double> sags;
     for (const auto& [a, b] :
-         detail::some_inner_edges(mesh.triangles, mesh.vertices.size(), most)) {
+         detail::some_inner_edges(mesh.triangles, mesh.vertices.size(), constants.most_sags)) {
         const Point3 &p = mesh.vertices[a], &q = mesh.vertices[b], m = detail::middle_of(p, q);
         if (level.tree.distance(m, size / 2) < size / 2) continue; // over the surface
         sags.push_back((f(m) - (f(p) + f(q)) / 2) / length(f.gradient(m)));
@@ -294,6 +296,10 @@ Result<Filling> fill_by_rbf(const Surface& surface, const BorderLoop& loop,
                             const RbfOptions& options, const Run& run) {
     RbfReport report;
     return fill_by_rbf(surface, loop, options, report, run);
+}
+
+std::vector<NamedConstant> rbf_constants() {
+    return rbf::detail::named_constants();
 }
 
 } // namespace terrane

@@ -32,7 +32,9 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <vector>
 
+#include <terrane/algorithms/core/named_constant.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
@@ -102,5 +104,8 @@ Result<Filling> fill_by_rbf(const Surface& surface, const BorderLoop& loop,
 /// Fills a hole and describes the fit in `report`.
 Result<Filling> fill_by_rbf(const Surface& surface, const BorderLoop& loop,
                             const RbfOptions& options, RbfReport& report, const Run& run);
+
+/// Lists the constants that decide the result and are not options.
+std::vector<NamedConstant> rbf_constants();
 
 } // namespace terrane

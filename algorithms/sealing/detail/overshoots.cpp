@@ -12,12 +12,13 @@
 #include <terrane/algorithms/mesh/triangle_tree.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/regions/regions_over.hpp>
+#include <terrane/algorithms/sealing/detail/constants.hpp>
 
 namespace terrane::sealing::detail {
 namespace {
 
 constexpr std::uint32_t none = UINT32_MAX;
-constexpr int samples = 8; ///< per edge of a triangle
+constexpr int samples = static_cast<int>(constants.overshoot_samples);
 
 class Finder {
 public:

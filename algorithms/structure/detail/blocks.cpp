@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include <terrane/algorithms/structure/detail/constants.hpp>
 #include <terrane/algorithms/structure/detail/parts.hpp>
 
 namespace terrane {
@@ -13,9 +14,6 @@ namespace terrane {
 using namespace structure::detail;
 
 namespace {
-
-constexpr double least_share = 0.1; ///< least share of a surface's area at a block to be named
-                                    ///< above, below or beside
 
 /// Area of a surface at a block: above, below, beside.
 using Shares = std::array<double, 3>;
@@ -48,7 +46,8 @@ void describe(const std::map<std::uint32_t, Shares>& shares, ModelBlock& block) 
         const double all = share[0] + share[1] + share[2];
         const auto most = std::max_element(share.begin(), share.end()) - share.begin();
         for (std::size_t p = 0; p < 3; ++p)
-            if (static_cast<std::ptrdiff_t>(p) == most || share[p] >= least_share * all)
+            if (static_cast<std::ptrdiff_t>(p) == most ||
+                share[p] >= block_name_constants.least_share * all)
                 positions[p]->push_back(surface);
     }
 }
@@ -101,6 +100,10 @@ void add_blocks(const Mesh& mesh, const Volumes& volumes, Structure& structure) 
         if (b > 0) describe(shares[b], blocks[b]);
     }
     name_blocks(mesh, blocks);
+}
+
+std::vector<NamedConstant> structure_constants() {
+    return {{"least_share", block_name_constants.least_share}};
 }
 
 } // namespace terrane

@@ -6,15 +6,10 @@
 #include <optional>
 
 #include <terrane/algorithms/mesh/vectors.hpp>
+#include <terrane/algorithms/reconstruction/holes/detail/constants.hpp>
 
 namespace terrane::holes::detail {
 namespace {
-
-constexpr std::size_t most_probes =
-    256;                          ///< edges of a hole from which the opposite side is searched
-constexpr double agreement = 0.8; ///< share of a gap along which the same side must be up
-constexpr double roughness_factor = 3;
-constexpr double steepest = 10; ///< steeper slopes are not extrapolated
 
 double length_of(const Point3& v) {
     return std::sqrt(dot(v, v));
@@ -135,7 +130,7 @@ private:
         const auto n = loop_.vertices.size();
         for (const auto k : {(i + n - 1) % n, i, next(i)}) sum = plus(sum, normals_[k], 1);
         const double rise = terrane::dot(sum, up_);
-        if (rise * steepest <= length_of(sum)) return {};
+        if (rise * constants.steepest <= length_of(sum)) return {};
         return {-terrane::dot(sum, u_) / rise, -terrane::dot(sum, v_) / rise};
     }
 
@@ -200,7 +195,7 @@ bool is_fault_gap(const Soup& soup, const TracedLoop& traced, const GapRule& rul
     if (!hole.valid()) return false;
     std::vector<FlatHole::Facing> pairs;
     const auto n = traced.vertices.size();
-    const auto probes = std::min(n, most_probes);
+    const auto probes = std::min(n, constants.most_probes);
     for (std::size_t k = 0; k < probes; ++k)
         if (const auto facing = hole.find_facing(k * n / probes)) pairs.push_back(*facing);
 
@@ -219,9 +214,9 @@ bool is_fault_gap(const Soup& soup, const TracedLoop& traced, const GapRule& rul
     }
     loop.fault_throw = weighted_median(std::move(jumps));
     loop.width = weighted_median(std::move(widths));
-    return total > 0 && agreed >= agreement * total &&
+    return total > 0 && agreed >= constants.agreement * total &&
            loop.fault_throw >= rule.slope * loop.width && loop.fault_throw > 0 &&
-           loop.fault_throw >= roughness_factor * hole.roughness();
+           loop.fault_throw >= constants.roughness_factor * hole.roughness();
 }
 
 } // namespace terrane::holes::detail

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/algorithms/reconstruction/kriging/detail/choice.hpp>
+#include <terrane/algorithms/reconstruction/kriging/detail/constants.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -9,23 +10,12 @@
 namespace terrane::kriging::detail {
 namespace {
 
-constexpr std::size_t most_validated = 150;
-constexpr std::size_t patches = 5;
-// A model that can be wrong far from data is preferred only if its validated error is less than
-// this share of the best one's: one without nugget, one with a steeper trend, an infinitely smooth
-// one.
-constexpr double worth_no_nugget = 0.8;
-constexpr double worth_degree_2 = 0.8;
-constexpr double worth_gaussian = 0.5;
-constexpr double worth_noisy_gaussian = 0.9; ///< the same if most of the error is noise
-constexpr double mostly_noise = 0.3;         ///< share of the mean square error
-constexpr std::size_t least_data = 20;       ///< with fewer data, errors do not decide
 constexpr std::array all_models{VariogramModel::spherical, VariogramModel::exponential,
                                 VariogramModel::power, VariogramModel::gaussian};
 
-/// Selects at most `most_validated` data, evenly spaced.
+/// Selects the data that take part in validation, evenly spaced.
 std::vector<Point3> thinned(std::span<const Point3> data) {
-    const auto count = std::min(data.size(), most_validated);
+    const auto count = std::min(data.size(), constants.most_block_data);
     std::vector<Point3> result;
     for (std::size_t k = 0; k < count; ++k) result.push_back(data[k * data.size() / count]);
     return result;
@@ -35,8 +25,8 @@ std::vector<Point3> thinned(std::span<const Point3> data) {
 class Patches {
 public:
     explicit Patches(std::span<const Point3> all) : data_(thinned(all)) {
-        for (std::size_t b = 0; b < patches; ++b) {
-            const Point3 middle = data_[(2 * b + 1) * data_.size() / (2 * patches)];
+        for (std::size_t b = 0; b < constants.blocks; ++b) {
+            const Point3 middle = data_[(2 * b + 1) * data_.size() / (2 * constants.blocks)];
             const auto off = [&](const Point3& p) {
                 return std::hypot(p.x - middle.x, p.y - middle.y);
             };
@@ -48,7 +38,7 @@ public:
 
     [[nodiscard]] BlockValidation validate(const Variogram& variogram, unsigned degree) const {
         BlockValidation result;
-        const auto left_out = std::max<std::size_t>(data_.size() / 10, 1);
+        const auto left_out = std::max<std::size_t>(data_.size() / constants.block_part, 1);
         double errors = 0, expected = 0;
         for (const auto& order : sorted_) {
             const std::span<const Point3> all(order);
@@ -106,18 +96,20 @@ public:
         attempt(best_.degree, options);
     }
 
-    [[nodiscard]] bool few() const { return patches_.size() < least_data; }
+    [[nodiscard]] bool few() const { return patches_.size() < constants.least_data; }
     [[nodiscard]] const ModelChoice& best() const { return best_; }
 
 private:
     [[nodiscard]] double share_for(unsigned degree, const VariogramFitOptions& options) const {
         double share = 1;
-        if (options.most_nugget == 0 && best_.variogram.nugget > 0) share *= worth_no_nugget;
-        if (degree > best_.degree) share *= worth_degree_2;
+        if (options.most_nugget == 0 && best_.variogram.nugget > 0)
+            share *= constants.worth_no_nugget;
+        if (degree > best_.degree) share *= constants.worth_degree_2;
         if (options.model == VariogramModel::gaussian &&
             best_.variogram.model != VariogramModel::gaussian) {
-            const double noise = mostly_noise * best_.blocks.error * best_.blocks.error;
-            share *= options.most_nugget > noise ? worth_noisy_gaussian : worth_gaussian;
+            const double noise = constants.mostly_noise * best_.blocks.error * best_.blocks.error;
+            share *= options.most_nugget > noise ? constants.worth_noisy_gaussian
+                                                 : constants.worth_gaussian;
         }
         return share;
     }

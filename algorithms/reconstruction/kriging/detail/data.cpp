@@ -12,6 +12,7 @@
 #include <terrane/algorithms/arrangement/soup.hpp>
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/index_lists.hpp>
+#include <terrane/algorithms/reconstruction/kriging/detail/constants.hpp>
 #include <terrane/algorithms/reconstruction/kriging/detail/flat_cloud.hpp>
 #include <terrane/kernel/predicates.hpp>
 
@@ -136,7 +137,6 @@ std::optional<double> squared_noise(const Point3& p, const std::vector<const Poi
 /// Averages the squared noise over points that have neighbours on all sides, in two rings.
 double noise_of(const std::vector<Point3>& points,
                 const std::vector<std::array<std::uint32_t, 2>>& edges, std::size_t border) {
-    constexpr std::size_t most = 2000; // points examined
     std::vector<std::vector<std::uint32_t>> beside(points.size());
     for (const auto& [a, b] : edges) {
         beside[a].push_back(b);
@@ -144,7 +144,7 @@ double noise_of(const std::vector<Point3>& points,
     }
     double sum = 0;
     std::size_t count = 0;
-    const auto step = std::max<std::size_t>(points.size() / most, 1);
+    const auto step = std::max<std::size_t>(points.size() / constants.most_noise_points, 1);
     for (std::size_t i = border; i < points.size(); i += step) {
         std::vector<std::uint32_t> near;
         for (const auto v : beside[i]) near.insert(near.end(), beside[v].begin(), beside[v].end());
@@ -229,7 +229,8 @@ public:
     [[nodiscard]] std::vector<Point3> place(double growth, std::size_t most) const {
         std::vector<Point3> places;
         for (double scale = 1; places.size() <= most; scale *= 2) {
-            const double low = scale == 1 ? 0.7 * size_ : scale * growth * size_;
+            const double low =
+                scale == 1 ? constants.border_distance * size_ : scale * growth * size_;
             const double high = 2 * scale * growth * size_;
             if (!add_level(scale * size_, low, high, most, places)) break;
         }

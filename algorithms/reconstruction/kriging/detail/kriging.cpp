@@ -13,6 +13,7 @@
 #include <tbb/parallel_for.h>
 
 #include <terrane/algorithms/core/parallel.hpp>
+#include <terrane/algorithms/reconstruction/kriging/detail/constants.hpp>
 #include <terrane/algorithms/reconstruction/kriging/detail/flat_cloud.hpp>
 
 namespace terrane::kriging::detail {
@@ -20,12 +21,6 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-constexpr double least_addition = 1e-12; ///< to the diagonal, in sills
-constexpr double most_addition = 1e-6;
-constexpr double most_operations = 4e9;
-constexpr double spacing_per_distance = 0.25; ///< spacing of thinned data per distance from the
-                                              ///< nearest datum
 
 /// Least-squares polynomial in x and y, which are shifted and scaled to [-1, 1].
 class Trend {
@@ -123,11 +118,11 @@ public:
         const bool bounded = model_.model != VariogramModel::power;
         constant_ = bounded ? model_.sill : 2 * farthest;
         const double scale = constant_ > 0 ? constant_ : 1;
-        for (double addition = least_addition;; addition *= 100) {
+        for (double addition = constants.least_addition;; addition *= 100) {
             MatrixXd covariance = (constant_ - gamma.array()).matrix();
             covariance.diagonal().array() += model_.nugget + addition * scale;
             factor_.compute(covariance);
-            if (factor_.info() == Eigen::Success || addition >= most_addition) break;
+            if (factor_.info() == Eigen::Success || addition >= constants.most_addition) break;
             if (!bounded) constant_ *= 2;
         }
         solved_ones_ = factor_.solve(VectorXd::Ones(n));
@@ -235,7 +230,8 @@ struct Kriging::State {
         const double distance = variogram.distance(data[closest].x - x, data[closest].y - y);
         std::size_t level = 0;
         for (double cell = 2 * spacing;
-             level + 1 < levels.size() && cell <= spacing_per_distance * distance; cell *= 2)
+             level + 1 < levels.size() && cell <= constants.spacing_per_distance * distance;
+             cell *= 2)
             ++level;
         return levels[level]->nearest(p, count);
     }
@@ -273,7 +269,8 @@ Estimate Kriging::at(double x, double y) const {
 std::vector<Estimate> Kriging::at(std::span<const Point3> places, const Run& run) const {
     const State& s = *state_;
     const double n = static_cast<double>(s.data.size());
-    const bool quick = s.system && n * n * static_cast<double>(places.size()) > most_operations;
+    const bool quick =
+        s.system && n * n * static_cast<double>(places.size()) > constants.most_operations;
     std::vector<Estimate> result(places.size());
     const auto one = [&](std::size_t i) {
         const Point3& p = places[i];

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <terrane/algorithms/core/run.hpp>
+#include <terrane/algorithms/reconstruction/kriging/detail/constants.hpp>
 #include <terrane/algorithms/reconstruction/kriging/variogram.hpp>
 #include <terrane/kernel/point.hpp>
 
@@ -38,8 +39,8 @@ struct Estimate {
 /// otherwise neighbours^3 / 3 each. Memory: n^2 doubles, or n.
 class Kriging {
 public:
-    static constexpr std::size_t most_at_once = 700;
-    static constexpr std::size_t neighbours = 40;
+    static constexpr std::size_t most_at_once = kriging::detail::constants.most_at_once;
+    static constexpr std::size_t neighbours = kriging::detail::constants.neighbours;
 
     /// `data`: at least one; `variogram`: of the residuals of the trend.
     Kriging(std::span<const Point3> data, const Variogram& variogram, unsigned degree = 1);

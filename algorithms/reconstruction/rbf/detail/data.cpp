@@ -12,6 +12,7 @@
 #include <terrane/algorithms/mesh/edges.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
+#include <terrane/algorithms/reconstruction/rbf/detail/constants.hpp>
 #include <terrane/algorithms/reconstruction/rbf/detail/long_edges.hpp>
 
 namespace terrane::rbf::detail {
@@ -228,8 +229,9 @@ Result<RbfData> collect_data(const Surface& surface, const BorderLoop& loop,
             data.triangles.push_back({name[t[0]], name[t[1]], name[t[2]]});
     orient_by_loops(data);
     data.edge = median_edge(data);
-    constexpr double is_long = 1.5; // in median border edges
-    if (range.long_edges) divide_long_edges(data, is_long * data.edge, 3 * data.edge);
+    if (range.long_edges)
+        divide_long_edges(data, constants.long_edge * data.edge,
+                          constants.long_edge_reach * data.edge);
     find_normals(data);
     return data;
 }

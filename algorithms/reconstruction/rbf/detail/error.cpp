@@ -8,12 +8,11 @@
 
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
+#include <terrane/algorithms/reconstruction/rbf/detail/constants.hpp>
 #include <terrane/algorithms/reconstruction/rbf/detail/fit.hpp>
 
 namespace terrane::rbf::detail {
 namespace {
-
-constexpr std::size_t most_points = 160;
 
 double cubed_distance(const Point3& a, const Point3& b) {
     const Point3 d = minus(a, b);
@@ -25,10 +24,10 @@ double cubed_distance(const Point3& a, const Point3& b) {
 std::vector<std::uint32_t> chosen(const RbfData& data, double margin) {
     std::vector<bool> near, far;
     for (const double d : data.distances) near.push_back(d <= margin + data.radius / 4);
-    auto points = well_spread(data.points, most_points / 2, near);
+    auto points = well_spread(data.points, constants.most_error_points / 2, near);
     far.assign(data.points.size(), true);
     for (const std::uint32_t i : points) far[i] = false;
-    const auto others = well_spread(data.points, most_points - points.size(), far);
+    const auto others = well_spread(data.points, constants.most_error_points - points.size(), far);
     points.insert(points.end(), others.begin(), others.end());
     return points;
 }

@@ -9,12 +9,12 @@
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/mesh/triangle_tree.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
+#include <terrane/algorithms/reconstruction/rbf/detail/constants.hpp>
 #include <terrane/algorithms/reconstruction/rbf/detail/error.hpp>
 
 namespace terrane::rbf::detail {
 namespace {
 
-constexpr double graph = 0.5; ///< least cosine of the slope of a surface that counts as a graph
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
 Point3 along(const Point3& p, double d, const Point3& direction) {
@@ -123,12 +123,10 @@ private:
     void add_offset(std::uint32_t i, double d) {
         const Point3& normal = data_.normals[i];
         if (normal == Point3{}) return;
-        constexpr double enough = 0.95; // the surface may curve towards the point a little
-        constexpr int halvings = 3;
         const Point3 direction = form_.along_axis ? form_.polynomial.axes[2] : normal;
-        if (dot(direction, normal) < graph) return;
-        const double share = enough * dot(direction, normal);
-        for (int k = 0; k < halvings; ++k, d /= 2) {
+        if (dot(direction, normal) < constants.graph_cosine) return;
+        const double share = constants.least_distance * dot(direction, normal);
+        for (unsigned k = 0; k < constants.offset_halvings; ++k, d /= 2) {
             const Point3 p = along(data_.points[i], d, direction);
             if (start_.surface.distance(p, std::fabs(d)) < share * std::fabs(d)) continue;
             points_.push_back(p);
@@ -141,10 +139,9 @@ private:
     /// Steps (3) and (4) with smoothing: all data, or a sufficient sample, determine the weights of
     /// the centres of step (2).
     Result<Implicit> smoothed(bool whole) {
-        constexpr std::size_t most_data = 6000;
         std::vector<Point3> points(points_.begin(), points_.end());
         std::vector<double> values(values_.begin(), values_.end());
-        const std::size_t count = std::min(most_data, data_.points.size());
+        const std::size_t count = std::min(constants.most_smoothed_data, data_.points.size());
         for (std::size_t k = 0; k < count; ++k) {
             const std::size_t i = k * data_.points.size() / count;
             if (is_centre_[i]) continue; // already contained
@@ -180,8 +177,7 @@ private:
 
     /// Returns the step at which a sample of data suffices for a trial or for more centres.
     [[nodiscard]] std::size_t some() const {
-        constexpr std::size_t enough = 20'000;
-        return std::max<std::size_t>(1, data_.points.size() / enough);
+        return std::max<std::size_t>(1, data_.points.size() / constants.enough_data);
     }
 
     [[nodiscard]] double tolerance() const {
@@ -254,7 +250,8 @@ private:
 LeftOut leave_out(const RbfData& data) {
     const double most = *std::max_element(data.distances.begin(), data.distances.end());
     LeftOut result;
-    result.width = std::max(std::min(data.radius / 4, most / 3), 1.5 * data.edge);
+    result.width =
+        std::max(std::min(constants.left_out_width * data.radius, most / 3), 1.5 * data.edge);
     RbfData& kept = result.kept;
     std::vector<std::uint32_t> name(data.points.size(), UINT32_MAX);
     for (std::uint32_t i = 0; i < data.points.size(); ++i) {
@@ -272,11 +269,10 @@ LeftOut leave_out(const RbfData& data) {
             kept.triangles.push_back({name[t[0]], name[t[1]], name[t[2]]});
     kept.edge = data.edge;
     kept.radius = data.radius;
-    constexpr std::size_t most_judged = 1000; // as significant as all of them
     const std::size_t count = result.points.size();
-    for (std::size_t k = 0; k < std::min(count, most_judged); ++k)
-        result.points[k] = result.points[k * count / std::min(count, most_judged)];
-    result.points.resize(std::min(count, most_judged));
+    for (std::size_t k = 0; k < std::min(count, constants.most_judged); ++k)
+        result.points[k] = result.points[k * count / std::min(count, constants.most_judged)];
+    result.points.resize(std::min(count, constants.most_judged));
     return result;
 }
 
@@ -360,19 +356,18 @@ std::vector<RbfForm> forms_for(const RbfData& data, const RbfOptions& options) {
     RbfForm form;
     form.polynomial.axes = axes_of(data);
     const double steepest = steepest_slope(data, form.polynomial.axes[2]);
-    constexpr double steep = 0.7;
     const std::size_t centres = std::min(data.points.size(), start_size(options));
     std::vector<RbfForm> forms;
     for (const unsigned degree : {1U, 2U, 3U, 4U, 6U, 8U}) {
         form.polynomial.degree = options.degree > 0 ? options.degree : degree;
         if (degree > 1 && 3 * form.polynomial.terms() > centres) break;
         form.along_axis = true;
-        if (steepest > graph) forms.push_back(form);
+        if (steepest > constants.graph_cosine) forms.push_back(form);
         form.along_axis = false;
-        if (steepest < steep) forms.push_back(form);
+        if (steepest < constants.steep_cosine) forms.push_back(form);
         if (options.degree > 0) break;
     }
-    if (!(steepest < steep) || options.degree > 0) return forms;
+    if (!(steepest < constants.steep_cosine) || options.degree > 0) return forms;
     form.along_axis = false;
     form.polynomial.in_space = true;
     for (const unsigned degree : {2U, 3U, 4U, 5U, 6U}) {
@@ -385,8 +380,8 @@ std::vector<RbfForm> forms_for(const RbfData& data, const RbfOptions& options) {
 /// Returns the share of the other form's error below which a form is preferred: the less simple
 /// form must be better.
 double needed(const RbfPolynomial& form, const RbfPolynomial& other) {
-    if (form.in_space && !other.in_space) return 0.75;
-    return form.degree == other.degree ? 1 : 0.9;
+    if (form.in_space && !other.in_space) return constants.worth_in_space;
+    return form.degree == other.degree ? 1 : constants.worth_degree;
 }
 
 } // namespace
@@ -429,24 +424,23 @@ Result<RbfChoice> choose_form(const RbfData& data, const RbfOptions& options, co
         best.form = form;
         least = trial;
     };
-    constexpr double much = 0.75;   // smoothing takes roughness for noise; see needed()
-    constexpr double exact = 1e-12; // in radii: no further improvement is worthwhile
     for (const RbfForm& form : forms) {
-        if (least.missed < exact * data.radius) break;
+        if (least.missed < constants.exact * data.radius) break;
         const auto trial = try_form(trials, form, true, run);
         if (!trial) return trial.error();
         consider(form, trial.value(), needed(form.polynomial, best.form.polynomial));
     }
     if (!options.smoothing &&
-        !(least.missed < exact * data.radius)) { // with step (3), and with noise kept out of the
-                                                 // hole
+        !(least.missed <
+          constants.exact * data.radius)) { // with step (3), and with noise kept out of the
+                                            // hole
         for (const bool smoothed : {false, true}) {
             RbfForm form = best.form;
             form.smoothed = smoothed;
             const auto trial = try_form(trials, form, false, run);
             if (!trial) return trial.error();
             if (!smoothed) least = trial.value();
-            consider(form, trial.value(), much);
+            consider(form, trial.value(), constants.worth_smoothing);
         }
     }
     best.validated = least.missed;

@@ -11,6 +11,7 @@
 #include <mpfr.h>
 
 #include <terrane/algorithms/mesh/vectors.hpp>
+#include <terrane/algorithms/reconstruction/rbf/detail/constants.hpp>
 #include <terrane/kernel/double_double.hpp>
 
 namespace terrane::rbf::detail {
@@ -122,8 +123,7 @@ public:
     }
     [[nodiscard]] bool ok() const {
         const Vector r = qr_.matrixQR().diagonal().head(m_).cwiseAbs();
-        constexpr double flat = 1e-10; // in a unit box: some polynomial vanishes at all points
-        return r.minCoeff() > flat * r.maxCoeff() && factor_.info() == Eigen::Success;
+        return r.minCoeff() > constants.singular * r.maxCoeff() && factor_.info() == Eigen::Success;
     }
     [[nodiscard]] double condition() const { return 1 / factor_.rcond(); }
 

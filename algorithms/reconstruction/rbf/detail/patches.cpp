@@ -10,12 +10,10 @@
 
 #include <terrane/algorithms/mesh/triangle_tree.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
+#include <terrane/algorithms/reconstruction/rbf/detail/constants.hpp>
 
 namespace terrane::rbf::detail {
 namespace {
-
-constexpr std::uint32_t most_in_cell = 48;
-constexpr double widening = 1.5; ///< radius of a ball, in radii of its cell
 
 /// Wendland's function (1 - r)^4 (4 r + 1): 1 at 0, 0 from 1 on, twice differentiable.
 double weight(double r) {
@@ -58,11 +56,11 @@ std::uint32_t RbfPatches::build(Values& data, std::uint32_t first, std::uint32_t
     }
     nodes_.push_back(node);
     const Point3 extent = minus(node.high, node.low);
-    if (last - first <= most_in_cell) {
+    if (last - first <= constants.most_in_cell) {
         Patch patch;
         patch.centre = {node.low.x + extent.x / 2, node.low.y + extent.y / 2,
                         node.low.z + extent.z / 2};
-        patch.radius = widening * length(extent) / 2;
+        patch.radius = constants.ball_ratio * length(extent) / 2;
         nodes_[index].patch = static_cast<std::uint32_t>(patches_.size());
         patches_.push_back(std::move(patch));
         return index;
@@ -168,7 +166,7 @@ double RbfPatches::operator()(const Point3& p) const {
         sum += w * value;
         weights += w;
     }
-    return sum / std::max(weights, weight(1 / widening));
+    return sum / std::max(weights, weight(1 / constants.ball_ratio));
 }
 
 } // namespace terrane::rbf::detail

@@ -14,6 +14,8 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 
+#include <terrane/algorithms/reconstruction/rbf/detail/constants.hpp>
+
 namespace terrane::rbf::detail {
 namespace {
 
@@ -56,10 +58,9 @@ std::vector<double> degrees_of(const Spectrum& s) {
 /// Chooses lambda by generalised cross-validation. Each degree of freedom counts 1.4 times, so that
 /// noise is hardly ever taken for shape (Kim and Gu 2004).
 double cross_validated(const Spectrum& s) {
-    constexpr double weight = 1.4;
     double best = degrees_of(s).back(), least = HUGE_VAL;
     for (const double lambda : degrees_of(s)) {
-        const double left = s.count - weight * s.freedom(lambda);
+        const double left = s.count - constants.freedom_weight * s.freedom(lambda);
         if (!(left > 0)) continue;
         if (const double score = s.squares(lambda) / (left * left); score < least) {
             least = score;

@@ -13,13 +13,10 @@
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/reconstruction/joining/disk_mesh.hpp>
+#include <terrane/algorithms/reconstruction/rbf/detail/constants.hpp>
 
 namespace terrane::rbf::detail {
 namespace {
-
-// With cubes of `step_share` sizes and vertices thinned to a distance of `shortest` sizes, edges
-// have the target size, or a little less, on average.
-constexpr double step_share = 0.72, shortest = 0.7;
 
 constexpr std::int64_t most_steps = (1 << 20) - 4; ///< of the lattice along an axis: 20 bits
 
@@ -120,7 +117,7 @@ private:
     /// Lays the lattice around the seeds, with room on all sides of half the longest side of their
     /// box.
     Status lay_lattice() {
-        step_ = step_share * options_.size;
+        step_ = constants.lattice_step * options_.size;
         if (!(step_ > 0) || options_.seeds.empty())
             return Error{ErrorCode::bad_option, "the zero level needs an edge length and seeds",
                          ""};
@@ -238,8 +235,7 @@ private:
                 known.try_emplace(key, static_cast<std::uint32_t>(s.vertices.size()));
             if (!added) return at->second;
             const double a = values_.at(from.key()), b = values_.at(to.key());
-            constexpr double least = 0.02; // keeps triangles from being degenerate
-            const double t = std::clamp(a / (a - b), least, 1 - least);
+            const double t = std::clamp(a / (a - b), constants.least_cut, 1 - constants.least_cut);
             const Point3 p = place(from), q = place(to);
             s.vertices.push_back(
                 {p.x + t * (q.x - p.x), p.y + t * (q.y - p.y), p.z + t * (q.z - p.z)});
@@ -378,7 +374,7 @@ Result<Surface> zero_level(const SpaceFunction& function, const ZeroLevelOptions
     auto marched = Marcher(function, options, run)();
     if (!marched) return marched;
     DiskMesh mesh(std::move(marched.value().vertices), std::move(marched.value().triangles));
-    Thinning(mesh, shortest * options.size)();
+    Thinning(mesh, constants.thinning * options.size)();
     std::vector<std::uint32_t> all;
     for (std::uint32_t v = 0; v < mesh.points().size(); ++v)
         if (mesh.is_alive(v)) all.push_back(v);

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Constants of a stage by name, for reports.
+#pragma once
+
+#include <string_view>
+
+namespace terrane {
+
+/// A constant that decides the result of a stage and is not an option.
+struct NamedConstant {
+    std::string_view name;
+    double value = 0;
+};
+
+} // namespace terrane

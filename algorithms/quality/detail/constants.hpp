@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// The constants of remeshing that decide its result and are not options of improve().
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <terrane/algorithms/core/named_constant.hpp>
+
+namespace terrane::improving {
+
+/// Shapes are q of quality.hpp, from 0 (degenerate) to 1 (equilateral). None of these constants
+/// affects the guarantees of improve(): each change is proven whatever they are.
+struct RemeshConstants {
+    /// Edges longer than this multiple of their target length are split. 4/3 and 4/5
+    /// (Botsch and Kobbelt 2004) keep a split edge from being collapsed again. Larger:
+    /// edges vary more in length.
+    double split_ratio = 4.0 / 3;
+    /// Edges shorter than this multiple of their target length are collapsed. Larger: fewer
+    /// short edges, more work.
+    double collapse_ratio = 4.0 / 5;
+    /// Least q that a collapse may leave where triangles were better. Larger: fewer
+    /// collapses, better triangles at first.
+    double least_shape = 0.3;
+    /// Triangles of smaller q are improved one by one at the end. Larger: more time there.
+    double bad_shape = 0.5;
+    /// Tolerance of curves, as a share of that of their sheets, so that triangles at a
+    /// curve have room for their own deviation. Larger: fewer vertices on curves.
+    double curve_tolerance = 1.0 / 3;
+    /// Share of the sum of 1 / q by which a move must reduce it, so that the passes
+    /// converge. Larger: fewer moves.
+    double least_gain = 1e-2;
+    /// Pseudo-random displacement of vertices in regular grids, in target lengths. Larger:
+    /// more disorder than smoothing removes.
+    double jitter = 0.2;
+    /// Vertices are displaced where all triangles have a smaller q; just above 0.83, that
+    /// of half a square.
+    double jitter_below_shape = 0.86;
+    /// Cosine of the angle between an added triangle and the mean of those it replaces.
+    /// Larger: changes are rejected more often at creases.
+    double least_normal_cosine = 0.2;
+    /// Least cosine of the angles that swaps for valences may create: 110 degrees. Larger:
+    /// fewer such swaps.
+    double least_valence_cosine = -0.35;
+    /// Gain in the cosine of the largest angle for which an edge is swapped; prevents
+    /// endless swaps of equal angles.
+    double least_cosine_gain = 1e-6;
+    /// Least displacement of a vertex along its curve, as a share of the distance of its
+    /// neighbours.
+    double least_slide = 0.05;
+    /// Least target length where a surface is curved, as a share of the target length
+    /// elsewhere. Smaller: more triangles at sharp bends.
+    double curvature_floor = 0.125;
+    /// Default of max_deviation, in target lengths. Larger: coarser representation of
+    /// curved surfaces.
+    double default_tolerance = 0.05;
+    /// Least height of a triangle, in longest edges, for which its normal is used: rounding
+    /// may take that of thinner ones. Omitting thin triangles can only enlarge a proven
+    /// bound.
+    double thinnest = 1e-6;
+    /// Least tolerance that is accepted, in rounding errors of a distance.
+    double least_bound = 1e3;
+    /// Patches are found anew when more than one in so many triangles has left them. Larger:
+    /// cheaper checks, more regrouping.
+    unsigned regroup_part = 20;
+    /// Another pass is made if the last one changed more than one in so many triangles. Larger:
+    /// more passes.
+    unsigned pass_part = 10;
+    /// Another sweep of swaps is made if the last one swapped at least one edge per so many
+    /// triangles. Larger: more sweeps.
+    unsigned sweep_part = 100;
+    /// Swaps and collapses follow a round of splits if it split at least one edge per so many
+    /// triangles. Larger: fewer slivers are halved, more work.
+    unsigned cleanup_part = 20;
+    /// Number of passes with displacements.
+    unsigned jitter_passes = 2;
+    /// Rounds that improve single triangles.
+    unsigned finish_rounds = 2;
+    /// Rounds of splitting in a pass; a round halves an edge at most once.
+    unsigned split_rounds = 32;
+    /// Rounds of swapping in a pass.
+    unsigned swap_rounds = 6;
+    /// Largest number of changes that are checked at once. Larger: better use of threads,
+    /// more repeated checks.
+    std::size_t window_size = 256;
+    /// Triangles that a walk on the original surface may pass.
+    unsigned most_steps = 256;
+    /// Triangles that may cover one part of a triangle. Larger: proofs for much coarser
+    /// meshes.
+    unsigned most_covered = 2048;
+    /// Parts into which a triangle may be divided in a proof of its deviation.
+    unsigned most_parts = 48;
+    /// The same in bounds_back(), which has to prove every triangle.
+    unsigned most_parts_back = 16384;
+    /// Largest multiple of the bound that bounds_back() tries.
+    double most_factor_back = 8;
+};
+
+inline constexpr RemeshConstants constants;
+
+/// Lists all constants by name, in the order of their declaration.
+inline std::vector<NamedConstant> named_constants() {
+    return {
+        {"split_ratio", constants.split_ratio},
+        {"collapse_ratio", constants.collapse_ratio},
+        {"least_shape", constants.least_shape},
+        {"bad_shape", constants.bad_shape},
+        {"curve_tolerance", constants.curve_tolerance},
+        {"least_gain", constants.least_gain},
+        {"jitter", constants.jitter},
+        {"jitter_below_shape", constants.jitter_below_shape},
+        {"least_normal_cosine", constants.least_normal_cosine},
+        {"least_valence_cosine", constants.least_valence_cosine},
+        {"least_cosine_gain", constants.least_cosine_gain},
+        {"least_slide", constants.least_slide},
+        {"curvature_floor", constants.curvature_floor},
+        {"default_tolerance", constants.default_tolerance},
+        {"thinnest", constants.thinnest},
+        {"least_bound", constants.least_bound},
+        {"regroup_part", static_cast<double>(constants.regroup_part)},
+        {"pass_part", static_cast<double>(constants.pass_part)},
+        {"sweep_part", static_cast<double>(constants.sweep_part)},
+        {"cleanup_part", static_cast<double>(constants.cleanup_part)},
+        {"jitter_passes", static_cast<double>(constants.jitter_passes)},
+        {"finish_rounds", static_cast<double>(constants.finish_rounds)},
+        {"split_rounds", static_cast<double>(constants.split_rounds)},
+        {"swap_rounds", static_cast<double>(constants.swap_rounds)},
+        {"window_size", static_cast<double>(constants.window_size)},
+        {"most_steps", static_cast<double>(constants.most_steps)},
+        {"most_covered", static_cast<double>(constants.most_covered)},
+        {"most_parts", static_cast<double>(constants.most_parts)},
+        {"most_parts_back", static_cast<double>(constants.most_parts_back)},
+        {"most_factor_back", constants.most_factor_back},
+    };
+}
+
+} // namespace terrane::improving

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// The constants of the extension to a boundary; those of its strips are StripConstants.
+#pragma once
+
+namespace terrane {
+
+/// They decide the direction of strips at rough borders.
+struct ExtensionConstants {
+    /// Length of border along which directions are averaged, in limits. Larger: smoother strips
+    /// that follow bends of the border less.
+    double window = 0.5;
+    /// Largest such length, as a share of the length of the border.
+    double border_share = 0.125;
+    /// How often the length is doubled where a strip would fold.
+    unsigned most_doublings = 3;
+};
+inline constexpr ExtensionConstants extension_tuning;
+
+} // namespace terrane

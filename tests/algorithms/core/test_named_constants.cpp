@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Checks that the constants of the stages can be listed for reports.
+#include <terrane/algorithms/core/named_constant.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include <terrane/algorithms/quality/improve.hpp>
+#include <terrane/algorithms/reconstruction/holes/holes.hpp>
+#include <terrane/algorithms/reconstruction/joining/join.hpp>
+#include <terrane/algorithms/reconstruction/kriging/fill_kriging.hpp>
+#include <terrane/algorithms/reconstruction/rbf/rbf.hpp>
+#include <terrane/algorithms/sealing/sealing.hpp>
+#include <terrane/algorithms/structure/structure.hpp>
+#include <terrane/algorithms/volume_of_interest/extension.hpp>
+
+using namespace terrane;
+
+TEST_CASE("constants: each stage lists its constants once, by name", "[constants]") {
+    for (const auto& list :
+         {improve_constants(), hole_constants(), join_constants(), kriging_constants(),
+          rbf_constants(), seal_constants(), extension_constants(), structure_constants()}) {
+        CHECK_FALSE(list.empty());
+        std::set<std::string> names;
+        for (const NamedConstant& c : list) {
+            INFO(c.name);
+            CHECK(names.insert(std::string(c.name)).second);
+            CHECK(std::isfinite(c.value));
+            CHECK(c.value != 0);
+        }
+    }
+}
+
+TEST_CASE("constants: the lists have the values that documents state", "[constants]") {
+    const auto value = [](const std::vector<NamedConstant>& list, std::string_view name) {
+        const auto at = std::find_if(list.begin(), list.end(),
+                                     [&](const NamedConstant& c) { return c.name == name; });
+        REQUIRE(at != list.end());
+        return at->value;
+    };
+    CHECK(value(improve_constants(), "split_ratio") == 4.0 / 3);
+    CHECK(value(improve_constants(), "window_size") == 256);
+    CHECK(value(kriging_constants(), "most_places") == 20'000);
+    CHECK(value(rbf_constants(), "left_out_width") == 0.25);
+    CHECK(value(structure_constants(), "least_share") == 0.1);
+}
