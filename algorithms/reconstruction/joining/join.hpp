@@ -4,16 +4,16 @@
 //
 // Steps (numbers as in the paper):
 //   (1) S_bound: two points at each border vertex, at a distance d up and down the normal; a strip
-//   of two triangles per border edge (detail/curve.hpp);
+//       of two triangles per border edge (detail/curve.hpp);
 //   (2) the exact arrangement of S_bound and the filling; the edges that both share are the curve.
-//   It must contain one closed line that passes all walls of the strip once, in order;
+//       It must contain one closed line that passes all walls of the strip once, in order;
 //   (3) the triangles of the filling in the arrangement, which have that line as edges;
 //   (4) the inner part: the triangles connected to the inner side of the line without crossing it.
-//   It must be a disk, or a disk with one hole per island;
+//       It must be a disk, or a disk with one hole per island;
 //   (5) conforming rows: the points where the line crosses the normals become the border vertices.
-//   The other points of the line are removed one after the other, and so are vertices of the
-//   filling that are nearer to the border than `clearance` allows. The star of each is
-//   retriangulated with the best shapes (disk_mesh.hpp), so no border edge is divided.
+//       The other points of the line are removed one after the other, and so are vertices of the
+//       filling that are nearer to the border than `clearance` allows. The star of each is
+//       retriangulated with the best shapes (disk_mesh.hpp), so no border edge is divided.
 // Guarantees: the triangles of the surface come first and do not change; border vertices and
 // interpolated vertices keep their coordinates, bit by bit; each border edge of the hole gets one
 // new triangle, oriented like the surface. An exact check ensures that no new triangle meets

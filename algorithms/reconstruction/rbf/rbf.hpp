@@ -4,19 +4,19 @@
 //
 // Steps:
 //   (1) data: the vertices within `reach` times the hole's radius of its border, measured along the
-//   surface, and at least the first `rings` rings, with normals (detail/data.hpp);
+//       surface, and at least the first `rings` rings, with normals (detail/data.hpp);
 //   (2) constraints: f = 0 at centres; at some of them, well spread, also f = +-d at a distance d
-//   off the surface, where no other part of it is as near. The offset is along the axis of the hole
-//   if the surface is a graph over its plane, so that f is a height and the polynomial part can
-//   take much of it; otherwise along normals;
+//       off the surface, where no other part of it is as near. The offset is along the axis of the
+//       hole if the surface is a graph over its plane, so that f is a height and the polynomial
+//       part can take much of it; otherwise along normals;
 //   (3) centres: well-spread ones first; then, repeatedly, the data at which |f| is largest, until
-//   none exceeds `tolerance` or there are `most_centres` (detail/function.hpp). With smoothing, and
-//   where it is better by a quarter: only the well-spread ones, with weights from all data by
-//   penalised least squares (detail/smooth.cpp);
+//       none exceeds `tolerance` or there are `most_centres` (detail/function.hpp). With smoothing,
+//       and where it is better by a quarter: only the well-spread ones, with weights from all data
+//       by penalised least squares (detail/smooth.cpp);
 //   (4) a partition of unity interpolates the remaining errors at the data, even millions of them:
-//   small patches with functions |p - q| of their own, blended, and fading into the hole
-//   (detail/patches.hpp). So every datum is interpolated, whatever the number of centres; not with
-//   options.smoothing;
+//       small patches with functions |p - q| of their own, blended, and fading into the hole
+//       (detail/patches.hpp). So every datum is interpolated, whatever the number of centres; not
+//       with options.smoothing;
 //   (5) the zero level over the hole and a margin beyond it as triangles (detail/zero_level.hpp).
 // The polynomial part (along the hole's plane, or in space if the surface turns away from any
 // plane), its degree, the direction of (2) and the variant of (3) are chosen by validation: data
