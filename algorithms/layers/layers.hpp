@@ -51,15 +51,15 @@ struct LayerOptions {
 
 /// Describes the changes of one horizon. Areas are true areas, squared unit, in floating point.
 struct LayerReport {
-    std::uint32_t surface = 0; ///< of the input
-    std::size_t dropped = 0;   ///< triangles of the arrangement that were its own
-    std::size_t taken = 0;     ///< triangles of harder ones that it has instead
-    std::size_t parts = 0;     ///< connected parts of what was dropped: regions
+    std::uint32_t surface = 0; ///< index in the input
+    std::size_t dropped = 0;   ///< triangles of the arrangement that it lost
+    std::size_t taken = 0;     ///< triangles of harder horizons that it got instead
+    std::size_t parts = 0;     ///< connected parts of the dropped triangles
     double dropped_area = 0;   ///< of `dropped`
     double taken_area = 0;     ///< of `taken`
-    double largest_move = 0; ///< along z, of a corner of what was dropped, to the harder one there
-    double step_length = 0; ///< of borders between what stays and what was dropped where the harder
-                            ///< one ends
+    double largest_move = 0;   ///< along z, of a corner of a dropped triangle, to the harder one
+    double step_length = 0; ///< length of the borders between kept and dropped triangles where the
+                            ///< harder horizon ends
 };
 
 /// A stack of layers.

@@ -74,7 +74,7 @@ enum class WorstCause : std::uint8_t {
 /// Names the cause as reports print it: "fixed corner angle", "short curve", ...
 std::string_view name_of(WorstCause cause);
 
-/// Describes what was done to a mesh.
+/// Describes the improvement of a mesh.
 struct ImproveReport {
     QualityReport before;            ///< of the given mesh
     QualityReport after;             ///< of the improved mesh
@@ -107,7 +107,7 @@ struct Improved {
                                               ///< is; empty unless report.sides_kept
     std::vector<std::uint32_t> near_of; ///< per triangle: an input triangle of the same sheet, near
                                         ///< its centroid
-    ImproveReport report;               ///< what was done
+    ImproveReport report;               ///< quality, changes and bounds
 };
 
 /// Improves the mesh. Errors: bad_option; bad_number, bad_index; improper_contact if the mesh is

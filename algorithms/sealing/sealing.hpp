@@ -37,25 +37,25 @@ struct SealOptions {
     ArrangeOptions arrange{}; ///< for the arrangements that are made
 };
 
-/// What was done to a border: a strip was added, or what reached beyond was removed.
+/// The way in which a border changed: a strip was added, or the part beyond a surface was removed.
 enum class SealKind : std::uint8_t { extended, trimmed };
 
 /// The change of one connected part of a border.
 struct SealChange {
-    SealKind kind = SealKind::extended; ///< what was done
+    SealKind kind = SealKind::extended; ///< extension or trimming
     std::uint32_t surface = 0;          ///< of the input
-    double length = 0;                  ///< of the free border there, before
-    double largest = 0; ///< distance: of the border from the nearest other surface, or of what
-                        ///< is trimmed from the curve
-    Point3 place{};     ///< where it is largest
+    double length = 0;                  ///< of the free border there, before the change
+    double largest = 0; ///< largest distance: of the border from the nearest other surface, or of
+                        ///< the trimmed part from the curve
+    Point3 place{};     ///< where that is
     std::size_t triangles = 0; ///< of the arrangement: added, or removed
 };
 
-/// Surfaces whose gaps are closed, arranged.
+/// The arrangement of surfaces whose gaps are closed.
 struct Sealed {
     std::vector<Surface> surfaces;   ///< those of the input; triangles of strips come last in each
                                      ///< and count as input triangles of the arrangement
-    Arrangement arrangement;         ///< restricted to what is kept
+    Arrangement arrangement;         ///< restricted to the kept triangles
     std::vector<SealChange> changes; ///< by kind, surface, place
     unsigned passes = 0;             ///< passes in which strips were built
     double left = 0; ///< length of the input's free borders that remain this near to another

@@ -17,12 +17,12 @@ namespace terrane {
 /// of magnitude, so that borders that stop a little short are separated from those that end far
 /// away.
 struct BorderGap {
-    std::uint32_t surface = 0; ///< the nearest one that the border does not belong to
+    std::uint32_t surface = 0; ///< the nearest surface that the border does not belong to
     int decade = 0;     ///< distances are in [10^decade, 10^(decade + 1)); INT_MIN: they are 0
-    double length = 0;  ///< of the border there
+    double length = 0;  ///< of this part of the border
     double least = 0;   ///< smallest distance of an edge, at its farther end
     double largest = 0; ///< largest distance of an edge, at its farther end
-    Point3 place{};     ///< the vertex with the largest
+    Point3 place{};     ///< the vertex or midpoint with the largest distance
 };
 
 /// A free border, from corner to corner or closed.
@@ -31,7 +31,7 @@ struct FreeBorder {
     std::vector<std::uint32_t> surfaces{}; ///< that end here, ascending
     double length = 0;                     ///< unit of the mesh
     bool closed = false;                   ///< whether it is a loop without corner
-    std::vector<BorderGap> gaps{}; ///< by decade, then surface; empty without other surfaces
+    std::vector<BorderGap> gaps{}; ///< by decade, then surface; empty if there is no other surface
 };
 
 /// Two surfaces, one of which ends near the other without meeting it, at distances of one order of
@@ -41,7 +41,7 @@ struct Leak {
     std::uint32_t to = 0;    ///< the surface nearest to it
     int decade = 0;          ///< as in BorderGap
     std::size_t borders = 0; ///< parts of borders
-    double length = 0;       ///< of them
+    double length = 0;       ///< of these parts
     double least = 0;        ///< smallest distance
     double largest = 0;      ///< largest distance
     Point3 place{};          ///< where it is largest

@@ -65,7 +65,7 @@ struct ModelPatch {
     double area = 0;                        ///< squared unit
 };
 
-/// What lies between the same two volumes and in the same surfaces.
+/// The triangles between the same two volumes that belong to the same surfaces.
 struct ModelInterface {
     std::array<std::uint32_t, 2> volumes{}; ///< on its sides, the lower first; equal: it dangles
     std::vector<std::uint32_t> surfaces{};  ///< of all its triangles, ascending, >= 1
@@ -73,7 +73,7 @@ struct ModelInterface {
     std::vector<std::uint32_t> triangles{}; ///< of the mesh, ascending
     double area = 0;                        ///< squared unit
 
-    /// Whether the same volume is on both sides.
+    /// Tells whether the same volume is on both sides.
     [[nodiscard]] bool dangles() const { return volumes[0] == volumes[1]; }
 };
 
@@ -83,14 +83,14 @@ struct ModelInterface {
 /// area at the block is, and where most of it is.
 struct ModelBlock {
     std::string name{}; ///< "top/base|fault": above/below|beside, "-" for none, "+" between two;
-                        ///< unique: one met again gets " 2", " 3", ...
+                        ///< made unique by " 2", " 3", ...
     std::vector<std::uint32_t> above{};            ///< surfaces above it, ascending
     std::vector<std::uint32_t> below{};            ///< surfaces below it, ascending
     std::vector<std::uint32_t> beside{};           ///< surfaces beside it, ascending
-    std::vector<std::uint32_t> interfaces{};       ///< around it; none that dangles
+    std::vector<std::uint32_t> interfaces{};       ///< around it; without dangling ones
     std::vector<std::uint32_t> inner_interfaces{}; ///< that dangle in it
-    std::vector<std::uint32_t> neighbours{};       ///< volumes beyond the former, ascending
-    double volume = 0; ///< cubic unit: the double nearest to the exact volume of the mesh
+    std::vector<std::uint32_t> neighbours{};       ///< volumes across its interfaces, ascending
+    double volume = 0; ///< cubic unit: the exact volume of the mesh, rounded to a double
     double area = 0;   ///< of the boundary
 };
 

@@ -26,14 +26,14 @@ namespace terrane {
 
 /// Options of extend_to_boundary().
 struct ExtendOptions {
-    double limit = 0;         ///< > 0, unit of the input: no strip is wider, but at corners
+    double limit = 0; ///< > 0, unit of the input: largest width of strips, except at corners
     ArrangeOptions arrange{}; ///< for the arrangements that are made
 };
 
 /// A connected part of a border inside the volume.
 struct ExtendedBorder {
     std::uint32_t surface = 0; ///< of the input
-    bool reached = false;      ///< the boundary: it was extended
+    bool reached = false;      ///< whether it reached the boundary and was extended
     double length = 0;         ///< of the free border; unit of the input
     Point3 place{};            ///< its lexicographically least vertex
     std::size_t edges = 0;     ///< border edges of the input

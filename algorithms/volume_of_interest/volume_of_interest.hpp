@@ -22,7 +22,7 @@
 
 namespace terrane {
 
-/// Where a triangle lies with respect to a boundary.
+/// The location of a triangle with respect to a boundary.
 enum class Where : std::uint8_t { outside, inside, boundary };
 
 /// Locates each triangle of the arrangement. `boundary`: indices of the surfaces that bound the
@@ -37,7 +37,7 @@ struct SurfaceCut {
     double area_inside = 0;       ///< squared unit
     double area_outside = 0;      ///< squared unit
     double area_on_boundary = 0;  ///< of the boundary's own faces, all of it
-    std::size_t pieces = 0;       ///< connected over edges, of what is kept
+    std::size_t pieces = 0;       ///< parts of the kept surface, connected across edges
     double open_length = 0;       ///< of its borders that are free inside the volume
     std::size_t open_borders = 0; ///< connected ones of these
 };
@@ -49,16 +49,16 @@ struct OpenBorder {
     Point3 place{};            ///< its lexicographically least vertex, rounded to doubles
 };
 
-/// What the cut did to each surface.
+/// The effects of a cut.
 struct VolumeReport {
     std::vector<SurfaceCut> surfaces; ///< of the arrangement
     std::vector<OpenBorder> borders;  ///< by surface, then place; without the boundary's
 };
 
-/// The inside of a boundary.
+/// The result of a cut.
 struct VolumeOfInterest {
-    Arrangement arrangement; ///< restricted to what is inside and to the boundary
-    VolumeReport report;     ///< what was cut
+    Arrangement arrangement; ///< restricted to the inside and the boundary
+    VolumeReport report;     ///< effects on surfaces and borders
 };
 
 /// Restricts the arrangement to the inside and the boundary. Errors: as locate().

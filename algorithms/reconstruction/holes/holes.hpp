@@ -17,7 +17,7 @@
 
 namespace terrane {
 
-/// What a loop of border edges is to its surface.
+/// The kind of a loop of border edges.
 enum class LoopKind : std::uint8_t {
     outer, ///< in each part connected across edges, the loop whose bounding box has the longest
            ///< diagonal, if that is at least half of the diagonal of the part (otherwise the part
