@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Keeps the borders of proven patches while curves change. Private to improve.
+// Keeps the borders of injective patches while curves change.
 //
-// Guarantee of keeps(): a patch that was injective in its projection is injective after the change, if
-// all triangles that it gets are oriented there as all of it: statement (6) of
+// Guarantee of keeps(): a patch that is injective in its projection is injective after the change
+// if all triangles that it gets have its orientation there: statement (6) of
 // docs/explanation/injective-patches.md. The border changes along one chain, and no other border
-// touches what lies between the old chain and the new one but in their ends.
-// Cost: a look at each edge of the patch's border.
+// touches the region between the old chain and the new one except at their ends. Cost: linear in
+// the border of the patch.
 #pragma once
 
 #include <array>
@@ -22,33 +22,35 @@ namespace terrane::improving {
 class Borders {
 private:
     struct Corner {
-        std::uint32_t name = none; ///< the vertex, or `old_place`: where the moved one was
+        std::uint32_t name = none; ///< the vertex, or `old_place`: the former position of the moved
+                                   ///< one
         Point3 point{};
     };
     using Swept = std::array<Corner, 3>;
     static constexpr std::uint32_t old_place = none - 1;
 
 public:
-    /// What is named must outlive it.
+    /// The mesh must outlive the object.
     explicit Borders(const WorkMesh& mesh) : mesh_(mesh) {}
 
-    /// patch_of: per triangle, or no_group.
+    /// Finds the borders of all patches. patch_of is given per triangle; no_group: none.
     void find(std::span<const std::uint32_t> patch_of, std::size_t patches);
 
-    /// What a thread that asks has to itself; its contents mean nothing to it.
+    /// Working memory of one thread; callers do not use its contents.
     class Search {
         friend class Borders;
-        std::vector<Edge> chain_;  ///< what comes to a border; what goes, turned round
-        std::vector<Swept> swept_; ///< what lies between
+        std::vector<Edge> chain_;  ///< new edges of a border, and removed ones in the opposite
+                                   ///< direction
+        std::vector<Swept> swept_; ///< the region between the old chain and the new one
     };
-    /// Whether the patch is shown to be one-to-one along the axis after the change, which gives it
-    /// the triangles added for those it loses; they are wound as it is. What is asked for depends
-    /// on edges of the border only that are in the change's box in the projection.
+    /// Tells whether the patch is proven to be injective along the axis after the change, which
+    /// replaces some of its triangles by added ones of the same orientation. The answer depends
+    /// only on those edges of the border that are in the change's box in the projection.
     [[nodiscard]] bool keeps(const Change& change, std::span<const std::uint32_t> patch_of,
                              std::uint32_t patch, Axis axis, Search& search) const;
 
-    /// To be called before the mesh is changed: the patch loses its removed triangles, and gets
-    /// what is added for them where it is kept.
+    /// Must be called before the mesh changes. The patch loses its removed triangles, and gets the
+    /// added ones if it is kept.
     void update(const Change& change, std::span<const std::uint32_t> patch_of, std::uint32_t patch,
                 bool is_kept);
 
@@ -60,8 +62,9 @@ private:
     [[nodiscard]] bool stays_apart(const Edge& e, Axis axis, const Search& search) const;
 
     const WorkMesh& mesh_;
-    std::vector<std::vector<Edge>> edges_; ///< per patch: of its border, as its triangles run
-    std::vector<Edge> chain_;              ///< of the change at hand
+    std::vector<std::vector<Edge>> edges_; ///< per patch: its border edges, oriented like its
+                                           ///< triangles
+    std::vector<Edge> chain_;              ///< of the current change
 };
 
 } // namespace terrane::improving
