@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What may be done to the mesh. Private to improve.
+// Checks whether changes are allowed, and carries them out.
 //
-// Guarantee: where the mesh was conforming, it is so after a change that was allowed, and the added
-// triangles are within the bound of their sheet as it was. Improper contacts are excluded
-// (1) among triangles of one proven patch by statements (5) and (6) of
-//     docs/explanation/injective-patches.md, where all added triangles are oriented as the patch is,
-//     by exact predicates;
-// (2) between triangles that follow what is alone in the input and other sheets;
-// (3) else by exact tests against all triangles whose boxes overlap.
-// A change sweeps the tetrahedra from the corner that all added triangles have to the removed ones.
-// Where a vertex of another triangle is in one of them, by exact predicates, the change is not
-// allowed: no piece comes to lie on the other side of a sheet by it.
-// Triangles that are not added under (1) belong to no patch until they are grouped again: what is
-// left of a patch that was one-to-one is so. A sheet that is one patch as a whole stays so: changes
-// of its curves by which that is not shown are not made. Cost: a look at the cells of a grid that
-// the change meets, and a pair test per pair of boxes; nothing where (1) and (2) hold and the sheet
-// is one patch: such triangles are not in the grid.
+// Guarantee: after an allowed change a conforming mesh is still conforming, and the added triangles
+// are within the tolerance of their original sheet. Improper contacts are excluded
+// (1) among triangles of one injective patch, by statements (5) and (6) of
+//     docs/explanation/injective-patches.md: exact predicates show that all added triangles have
+//     the orientation of the patch;
+// (2) between triangles that follow isolated input triangles and other sheets;
+// (3) otherwise by exact tests against all triangles whose boxes overlap.
+// A change sweeps the tetrahedra between the removed triangles and the corner that all added ones
+// share. It is rejected if exact predicates find a vertex of another triangle in one of them; so no
+// piece changes to the other side of a sheet.
+// Triangles that are not added under (1) belong to no patch until the mesh is grouped again; an
+// injective patch stays injective without them. A sheet that is one patch remains so: changes of
+// its curves are rejected unless that is proven. Cost: the cells of a grid that the change
+// overlaps, and a test per pair of overlapping boxes; nothing where (1) and (2) hold and the sheet
+// is one patch, as such triangles are not in the grid.
 #pragma once
 
 #include <array>
