@@ -3,7 +3,8 @@
 // README.md shows the lines between the marks; a test compares them.
 #include <cstdio>
 
-#include <terrane/terrane.hpp>
+#include <terrane/algorithms/rounding/rounding.hpp>
+#include <terrane/io/files.hpp>
 
 namespace {
 

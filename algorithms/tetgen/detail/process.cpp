@@ -11,12 +11,13 @@
 #include <terrane/algorithms/tetgen/detail/helper_process.hpp>
 #include <terrane/algorithms/tetgen/detail/protocol.hpp>
 
-namespace terrane::tetgen::detail {
+namespace terrane {
 namespace {
 
+using namespace tetgen::detail;
+
 static_assert(sizeof(Point3) == sizeof(Coordinates) && std::is_trivially_copyable_v<Point3>);
-static_assert(sizeof(RegionBound) == sizeof(RegionRecord) &&
-              std::is_trivially_copyable_v<RegionBound>);
+static_assert(sizeof(RegionBound) == sizeof(Region) && std::is_trivially_copyable_v<RegionBound>);
 
 // ---- The request ------------------------------------------------------------------------------
 
@@ -120,4 +121,4 @@ Result<TetgenOutput> run_tetgen(const TetgenInput& input, const std::stop_token&
     return receive(process);
 }
 
-} // namespace terrane::tetgen::detail
+} // namespace terrane

@@ -28,7 +28,6 @@
 #include <terrane/kernel/predicates.hpp>
 
 using namespace terrane;
-using namespace terrane::tetgen::detail;
 
 namespace {
 
