@@ -8,5 +8,5 @@ preset=${1:-release}
 
 scripts/setup.sh
 cmake --preset "$preset"
-cmake --build --preset "$preset"
+cmake --build --preset "$preset" --target all all_verify_interface_header_sets # each public header alone
 ctest --preset "$preset"

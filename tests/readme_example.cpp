@@ -3,8 +3,7 @@
 // README.md shows the lines between the marks; a test compares them.
 #include <cstdio>
 
-#include <terrane/algorithms/rounding/rounding.hpp>
-#include <terrane/io/files.hpp>
+#include <terrane/terrane.hpp>
 
 namespace {
 

@@ -25,6 +25,9 @@
 #include <terrane/kernel/predicates.hpp>
 
 namespace terrane {
+
+using namespace tetgen::detail;
+
 namespace {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();

@@ -85,7 +85,7 @@ void check_rounded(const terrane::RoundedMesh& rounded) {
 
 #ifdef WITH_TETGEN
 void check_tetrahedra(const terrane::Mesh& mesh) {
-    const auto tetrahedra = terrane::tetrahedralize(mesh, {.helper = TERRANE_TETGEN_HELPER});
+    const auto tetrahedra = terrane::tetrahedralize(mesh, {.helper = TERRANE_TETGEN_HELPER}, {});
     require(tetrahedra && !tetrahedra->tetrahedra.empty(), "TetGen fills the mesh");
 }
 #endif

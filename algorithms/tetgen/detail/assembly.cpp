@@ -16,7 +16,7 @@
 #include <terrane/kernel/numbers.hpp>
 #include <terrane/kernel/predicates.hpp>
 
-namespace terrane {
+namespace terrane::tetgen::detail {
 namespace {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
@@ -355,4 +355,4 @@ Result<TetrahedralMesh> assemble(const Mesh& mesh, const TetgenDomain& domain,
     return Assembly(mesh, domain, std::move(output)).run();
 }
 
-} // namespace terrane
+} // namespace terrane::tetgen::detail

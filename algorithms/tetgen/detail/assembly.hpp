@@ -10,7 +10,7 @@
 #include <terrane/algorithms/tetgen/detail/process.hpp>
 #include <terrane/algorithms/tetgen/tetrahedra.hpp>
 
-namespace terrane {
+namespace terrane::tetgen::detail {
 
 /// The mesh without unused vertices, and the box around it.
 struct TetgenDomain {
@@ -24,4 +24,4 @@ struct TetgenDomain {
 /// Errors: internal, when a promise of tetrahedralize (see there) would not be kept.
 Result<TetrahedralMesh> assemble(const Mesh& mesh, const TetgenDomain& domain, TetgenOutput output);
 
-} // namespace terrane
+} // namespace terrane::tetgen::detail

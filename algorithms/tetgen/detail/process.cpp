@@ -11,13 +11,12 @@
 #include <terrane/algorithms/tetgen/detail/helper_process.hpp>
 #include <terrane/algorithms/tetgen/detail/protocol.hpp>
 
-namespace terrane {
+namespace terrane::tetgen::detail {
 namespace {
 
-using namespace tetgen::detail;
-
 static_assert(sizeof(Point3) == sizeof(Coordinates) && std::is_trivially_copyable_v<Point3>);
-static_assert(sizeof(RegionBound) == sizeof(Region) && std::is_trivially_copyable_v<RegionBound>);
+static_assert(sizeof(RegionBound) == sizeof(RegionRecord) &&
+              std::is_trivially_copyable_v<RegionBound>);
 
 // ---- The request ------------------------------------------------------------------------------
 
@@ -121,4 +120,4 @@ Result<TetgenOutput> run_tetgen(const TetgenInput& input, const std::stop_token&
     return receive(process);
 }
 
-} // namespace terrane
+} // namespace terrane::tetgen::detail

@@ -16,7 +16,7 @@
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
 
-namespace terrane {
+namespace terrane::tetgen::detail {
 
 /// A bound on the tetrahedra of a region that facets enclose.
 struct RegionBound {
@@ -57,4 +57,4 @@ struct TetgenOutput {
 /// The same input gives the same output: each process starts from the same state.
 Result<TetgenOutput> run_tetgen(const TetgenInput& input, const std::stop_token& stop);
 
-} // namespace terrane
+} // namespace terrane::tetgen::detail

@@ -69,10 +69,10 @@ inline constexpr std::int32_t bad_request = 101;
 inline constexpr std::int32_t other_version = 102;
 
 using Coordinates = std::array<double, 3>;
-using Region = std::array<double, 4>; ///< x, y, z, largest volume of a tetrahedron
+using RegionRecord = std::array<double, 4>; ///< x, y, z, largest volume of a tetrahedron
 
 static_assert(sizeof(RequestHeader) == 72 && sizeof(ReplyHeader) == 40); // no padding
-static_assert(sizeof(Coordinates) == 24 && sizeof(Region) == 32);
+static_assert(sizeof(Coordinates) == 24 && sizeof(RegionRecord) == 32);
 static_assert(sizeof(int) == sizeof(std::uint32_t) && std::numeric_limits<double>::is_iec559);
 
 } // namespace terrane::tetgen::detail

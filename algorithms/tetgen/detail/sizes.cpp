@@ -11,7 +11,7 @@
 
 #include <terrane/algorithms/volumes/region_points.hpp>
 
-namespace terrane {
+namespace terrane::tetgen::detail {
 namespace {
 
 constexpr double no_bound = std::numeric_limits<double>::infinity();
@@ -125,4 +125,4 @@ Result<std::vector<RegionPoint>> points_of_bounded(const Mesh& mesh, const Volum
     return points;
 }
 
-} // namespace terrane
+} // namespace terrane::tetgen::detail

@@ -21,7 +21,7 @@
 #include <terrane/algorithms/tetgen/tetrahedra.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 
-namespace terrane {
+namespace terrane::tetgen::detail {
 
 /// What holds in one volume; infinite: no bound. Unit of the mesh.
 struct SizeInVolume {
@@ -57,4 +57,4 @@ Result<std::vector<RegionPoint>> points_of_bounded(const Mesh& mesh, const Volum
                                                    const Box3& box, const Sizes& sizes,
                                                    const Run& run);
 
-} // namespace terrane
+} // namespace terrane::tetgen::detail

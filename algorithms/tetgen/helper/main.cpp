@@ -78,7 +78,7 @@ struct Request {
     std::vector<Coordinates> points;
     std::vector<std::uint32_t> offsets, corners;
     std::vector<double> area_bounds;
-    std::vector<Region> regions;
+    std::vector<RegionRecord> regions;
 
     [[nodiscard]] bool has(RequestFlag flag) const { return (header.flags & flag) != 0; }
 };

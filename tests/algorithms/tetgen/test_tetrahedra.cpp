@@ -28,6 +28,7 @@
 #include <terrane/kernel/predicates.hpp>
 
 using namespace terrane;
+using namespace terrane::tetgen::detail;
 
 namespace {
 
