@@ -7,16 +7,18 @@ namespace terrane {
 
 /// Which stage decided how many predicates.
 struct PredicateCounts {
-    std::uint64_t static_filter = 0;
-    std::uint64_t interval = 0;
-    std::uint64_t exact = 0;
+    std::uint64_t static_filter = 0; ///< by doubles with an error bound
+    std::uint64_t interval = 0;      ///< by intervals of doubles
+    std::uint64_t exact = 0;         ///< by exact numbers
 
+    /// Adds the counts of each stage.
     PredicateCounts& operator+=(const PredicateCounts& o) {
         static_filter += o.static_filter;
         interval += o.interval;
         exact += o.exact;
         return *this;
     }
+    /// The counts since `b`, of each stage.
     friend PredicateCounts operator-(PredicateCounts a, const PredicateCounts& b) {
         a.static_filter -= b.static_filter;
         a.interval -= b.interval;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <regex>
 #include <set>
 #include <string>
@@ -102,6 +103,15 @@ TEST_CASE("includes: terrane.hpp includes each public header of its library") {
         if (header == "terrane.hpp" || is_verifier(header)) continue;
         INFO(header);
         CHECK(std::count(included.begin(), included.end(), "terrane/" + header) == 1);
+    }
+}
+
+TEST_CASE("includes: the reference of declarations is made from the public headers") {
+    std::ifstream in(root / "scripts/Doxyfile");
+    const std::string doxyfile(std::istreambuf_iterator<char>(in), {});
+    for (const std::string& header : public_headers()) {
+        INFO(header);
+        CHECK(doxyfile.find(" " + header) != std::string::npos);
     }
 }
 

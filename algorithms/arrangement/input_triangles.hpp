@@ -14,6 +14,7 @@ struct InputTriangles {
     std::vector<std::array<std::uint32_t, 2>> duplicates; ///< {input triangle, the first with the
                                                           ///< same three points}, ascending
 
+    /// The surface that an input triangle is of.
     [[nodiscard]] std::uint32_t surface_of(std::uint32_t triangle) const;
     /// The first triangle with the same three points: itself where it is no duplicate.
     [[nodiscard]] std::uint32_t first_same(std::uint32_t triangle) const;

@@ -27,10 +27,11 @@ enum class ContactKind : std::uint8_t {
 /// "vertex on edge", ...
 std::string_view name_of(ContactKind kind);
 
+/// Two triangles that meet other than in a shared vertex or edge.
 struct ImproperContact {
     std::array<std::uint32_t, 2> triangles{}; ///< input triangles, counted through all surfaces
-    ContactKind kind{};
-    Point3 place; ///< a point that both share, to the nearest double
+    ContactKind kind{};                       ///< how they meet
+    Point3 place;                             ///< a point that both share, to the nearest double
 };
 
 /// The kind of a contact, from its points' places alone.

@@ -18,6 +18,7 @@
 
 namespace terrane {
 
+/// The shapes of variograms; the formulas are at Variogram.
 enum class VariogramModel : std::uint8_t { spherical, exponential, gaussian, power };
 
 /// Names the model: "spherical", ...
@@ -31,14 +32,15 @@ std::string_view name_of(VariogramModel model);
 /// h is measured with geometric anisotropy: distances across the main direction are divided by the
 /// ratio.
 struct Variogram {
-    VariogramModel model = VariogramModel::spherical;
-    double nugget = 0;   ///< unit of z, squared; >= 0
+    VariogramModel model = VariogramModel::spherical; ///< the shape
+    double nugget = 0;                                ///< unit of z, squared; >= 0
     double sill = 0;     ///< without the nugget; unit of z, squared; >= 0
     double range = 1;    ///< unit of x and y, along the main direction; > 0
     double exponent = 1; ///< power model: in (0, 2)
     double angle = 0;    ///< main direction: degrees from x, counterclockwise
     double ratio = 1;    ///< range across it / range, in (0, 1]
 
+    /// The length of a difference in x and y, with anisotropy.
     [[nodiscard]] double distance(double dx, double dy) const;
     /// Evaluates the variogram at a distance > 0 that was computed by distance().
     [[nodiscard]] double at(double distance) const;
@@ -50,7 +52,8 @@ std::string description(const Variogram& variogram);
 
 /// A class of pairs of points.
 struct VariogramBin {
-    double dx = 0, dy = 0; ///< mean difference, in the half plane dx >= 0
+    double dx = 0;         ///< mean difference in x, >= 0
+    double dy = 0;         ///< mean difference in y
     double distance = 0;   ///< mean distance
     double gamma = 0;      ///< half the mean squared difference of heights
     std::size_t pairs = 0; ///< > 0
@@ -64,6 +67,7 @@ std::vector<VariogramBin>
 experimental_variogram(std::span<const Point3> points,
                        std::span<const std::array<std::uint32_t, 2>> close, double longest);
 
+/// Options of fit_variogram().
 struct VariogramFitOptions {
     std::optional<VariogramModel> model{}; ///< none: the model that fits best
     double most_nugget =

@@ -71,7 +71,7 @@ struct RbfOptions {
 
 /// Quality of the solution of the system of step (3); see detail/function.hpp.
 struct RbfSolution {
-    std::size_t centres = 0;
+    std::size_t centres = 0;   ///< of the function
     double condition = 0;      ///< estimate for the positive definite part, in the 1-norm
     unsigned refinements = 0;  ///< steps that reduced the residual
     double first_residual = 0; ///< largest, before refinement; unit of the values
