@@ -50,11 +50,13 @@ struct ProjectFill {
     std::string surface{};             ///< name of a surface, or "horizon" for all with that role
     std::string method = "kriging";    ///< or "rbf"
     std::string model = "auto";        ///< model of the variogram
-    std::optional<double> max_area{};  ///< larger holes stay open
-    std::optional<double> mesh_size{}; ///< edge length; none: that of the edges of the border
-    std::optional<double> gap_slope{}; ///< none: the default of GapRule
+    std::optional<double> max_area{};  ///< squared unit; larger holes stay open
+    std::optional<double> mesh_size{}; ///< edge length, unit of the surface; none: that of the
+                                       ///< edges of the border
+    std::optional<double> gap_slope{}; ///< no unit; none: the default of GapRule
     bool bridge_faults = false;        ///< whether gaps torn by faults are filled as well
-    std::optional<double> smoothing{}; ///< root mean square misfit of rbf to the data; 0: "auto"
+    std::optional<double> smoothing{}; ///< root mean square misfit of rbf to the data, unit of
+                                       ///< the surface; 0: "auto"
 };
 
 /// A horizon of a stack, and its hardness.
@@ -66,7 +68,7 @@ struct ProjectLayer {
 /// A stack of horizons, whose vertical order is restored after holes are filled (layers.hpp).
 struct ProjectLayers {
     std::vector<ProjectLayer> order{}; ///< from the top down; >= 1
-    double min_thickness = 0;          ///< of each layer, along z
+    double min_thickness = 0;          ///< of each layer, along z, unit of the surfaces
 };
 
 /// The edge length for a surface or block with this name.
@@ -74,7 +76,8 @@ using ProjectSize = std::pair<std::string, double>;
 
 /// Remeshing of the surfaces (improve.hpp).
 struct ProjectImprove {
-    std::optional<double> edge_length{};       ///< none: keeps about the number of triangles
+    std::optional<double> edge_length{};       ///< unit of the surfaces; none: keeps about the
+                                               ///< number of triangles
     std::optional<double> max_deviation{};     ///< none: a twentieth of the edge length
     std::vector<ProjectSize> edge_length_of{}; ///< by surface
 };
@@ -82,7 +85,7 @@ struct ProjectImprove {
 /// Tetrahedra of the blocks (tetrahedra.hpp).
 struct ProjectTetrahedra {
     std::optional<double> edge_length{}; ///< wanted, unit of the surfaces
-    std::optional<double> quality{};     ///< bound of circumradius to shortest edge
+    std::optional<double> quality{};     ///< bound of circumradius / shortest edge, no unit
     std::optional<double> max_volume{};  ///< of a tetrahedron, cubic unit
     double time_limit = 600;             ///< seconds, > 0
     std::vector<ProjectSize> size_of{};  ///< by surface
@@ -109,8 +112,9 @@ struct Project {
         volume{};                          ///< the volume of interest
     std::vector<ProjectFill> fill{};       ///< no surface is in two of them
     std::optional<ProjectLayers> layers{}; ///< none: horizons are not put in order
-    std::optional<double> extend{}; ///< limit of the extension of horizons that end in the volume
-    std::optional<double> seal{};   ///< largest width of gaps to close
+    std::optional<double> extend{}; ///< limit of the extension of horizons that end in the volume,
+                                    ///< unit of the surfaces
+    std::optional<double> seal{};   ///< largest width of gaps to close, unit of the surfaces
     std::optional<ProjectImprove> improve{}; ///< none: triangles stay as they are
     ProjectTetrahedra tetrahedra{};          ///< made where outputs.tetrahedra asks for them
     ProjectOutputs outputs{};                ///< what is written

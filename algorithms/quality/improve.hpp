@@ -54,7 +54,7 @@ struct ImproveOptions {
     double turn = 0; ///< normals may turn by this angle along an edge: edges become shorter where
                      ///< the surface is curved, down to an eighth; 0: no adaptation
     double growth = 0.3;      ///< target lengths at two points differ by at most this multiple of
-                              ///< their distance
+                              ///< their distance; no unit
     double crease_angle = 50; ///< edges at which a surface turns by more are curves
     double curve_angle = 45;  ///< vertices at which a curve turns by more are corners
     unsigned passes = 6;      ///< rounds of the four operations, 1 to 100

@@ -30,7 +30,7 @@ struct Grid {
 /// What the user knows about a file beyond its contents.
 struct ReadOptions {
     bool depth = false;  ///< grids and points: values are depths, positive down; z becomes -value
-    double max_edge = 0; ///< points: longest edge, see ConnectOptions
+    double max_edge = 0; ///< points: longest edge, in their unit; 0: twice the median edge
 };
 
 /// Returns the surface through the nodes that have a height, with its front up. No heights are
