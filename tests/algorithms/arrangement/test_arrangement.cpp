@@ -174,12 +174,12 @@ TEST_CASE("arrange: an arrangement of doubles is its own arrangement") {
     REQUIRE(once);
     Surface flat;
     for (const PointIndex p : once.value().vertices)
-        flat.vertices.push_back(once.value().points.nearest(p));
+        flat.vertices.push_back(once.value().state->points.nearest(p));
     flat.triangles = once.value().triangles;
     const auto twice = arrange(std::vector{flat});
     REQUIRE(twice);
     CHECK(twice.value().triangles == flat.triangles);
-    CHECK(twice.value().points.size() == flat.vertices.size());
+    CHECK(twice.value().state->points.size() == flat.vertices.size());
 }
 
 TEST_CASE("arrange: bad input is named by place") {
