@@ -66,7 +66,8 @@ void TriangleGrid::leave(std::uint32_t t, const GridBox& box) {
     --level.count;
 }
 
-void TriangleGrid::move(std::uint32_t t, const GridBox& before, const GridBox& box, std::uint32_t patch) {
+void TriangleGrid::move(std::uint32_t t, const GridBox& before, const GridBox& box,
+                        std::uint32_t patch) {
     const std::size_t here = level_of(box);
     Level& level = levels_[here];
     const std::size_t b = level.bucket_of(place_of(level, before.low));
