@@ -133,26 +133,27 @@ private:
         line.patches.assign(patches.begin(), patches.end());
         line.patches.erase(std::unique(line.patches.begin(), line.patches.end()),
                            line.patches.end());
-        std::map<std::uint32_t, std::size_t> sheets; // number of triangles here, by surface
+        std::map<std::uint32_t, std::size_t> counts; // number of triangles here, by surface
         const auto triangles = triangles_[edges_[e].at];
         for (const std::uint32_t t : triangles)
-            for (const std::uint32_t s : mesh_.surfaces_of[t]) ++sheets[s];
-        for (const auto& [surface, count] : sheets) line.surfaces.push_back(surface);
-        line.kind = triangles.size() == 1 ? LineKind::free_border : kind_of(sheets);
+            for (const std::uint32_t s : mesh_.surfaces_of[t]) ++counts[s];
+        for (const auto& [surface, count] : counts) line.surfaces.push_back(surface);
+        line.kind = triangles.size() == 1 ? LineKind::free_border : kind_of(counts);
     }
 
-    [[nodiscard]] LineKind kind_of(const std::map<std::uint32_t, std::size_t>& sheets) const {
+    [[nodiscard]] LineKind kind_of(const std::map<std::uint32_t, std::size_t>& counts) const {
         const auto has = [&](Role role) {
-            return std::any_of(sheets.begin(), sheets.end(), [&](const auto& sheet) {
-                return mesh_.surfaces[sheet.first].role == role;
+            return std::any_of(counts.begin(), counts.end(), [&](const auto& of_surface) {
+                return mesh_.surfaces[of_surface.first].role == role;
             });
         };
         if (has(Role::boundary)) return LineKind::boundary;
         if (has(Role::horizon) && has(Role::fault)) return LineKind::cutoff;
         const bool faults = !has(Role::horizon) && !has(Role::unknown);
-        const bool one_ends = std::any_of(sheets.begin(), sheets.end(),
-                                          [](const auto& sheet) { return sheet.second == 1; });
-        return faults && one_ends && sheets.size() > 1 ? LineKind::branch : LineKind::intersection;
+        const bool one_ends = std::any_of(counts.begin(), counts.end(), [](const auto& of_surface) {
+            return of_surface.second == 1;
+        });
+        return faults && one_ends && counts.size() > 1 ? LineKind::branch : LineKind::intersection;
     }
 
     void sort_lines() {
