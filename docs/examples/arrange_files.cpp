@@ -38,9 +38,10 @@ int main(int argc, char** argv) {
         return 1;
     }
 
-    const auto written = terrane::write_mesh(rounded->mesh, argv[1]);
+    const terrane::Mesh& mesh = rounded->mesh;
+    const auto written = terrane::write_mesh(mesh, argv[1]);
     if (!written) return fail(written.error());
-    std::printf("%zu triangles, moved by %.3g at most\n", rounded->mesh.triangles.size(),
+    std::printf("%zu triangles, moved by %.3g at most\n", mesh.triangles.size(),
                 rounded->report.max_move);
     for (const terrane::Region& r : rounded->regions)
         std::printf("region of %s: %zu triangles, area %.4g\n", surfaces[r.surface].name.c_str(),
