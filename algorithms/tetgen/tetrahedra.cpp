@@ -64,10 +64,6 @@ Status check_options(const TetrahedraOptions& options) {
     return check_length("max_volume", options.max_volume);
 }
 
-std::string place_of(std::size_t triangle) {
-    return fmt::format("triangle {}", triangle);
-}
-
 // ---- 2. The box -------------------------------------------------------------------------------
 
 bool strictly_inside(const Point3& p, const Box3& box) {

@@ -19,6 +19,9 @@
 #include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
 
 namespace terrane {
+
+using namespace volume_of_interest::detail;
+
 namespace {
 
 constexpr std::uint32_t none = UINT32_MAX;

@@ -7,11 +7,14 @@ set(terrane_headers
     kernel/point.hpp
     kernel/predicate_counts.hpp
     algorithms/core/index_lists.hpp
+    algorithms/core/named_constant.hpp
     algorithms/core/process_memory.hpp
     algorithms/core/result.hpp
     algorithms/core/run.hpp
+    algorithms/mesh/labels.hpp
     algorithms/mesh/mesh.hpp
     algorithms/mesh/region_point.hpp
+    algorithms/mesh/shared_mesh.hpp
     algorithms/mesh/surface.hpp
     algorithms/search/method.hpp
     algorithms/intersection/contact_kind.hpp
@@ -19,6 +22,7 @@ set(terrane_headers
     algorithms/arrangement/digest.hpp
     algorithms/arrangement/input_triangles.hpp
     algorithms/check/check.hpp
+    algorithms/check/conforming.hpp
     algorithms/regions/regions.hpp
     algorithms/rounding/rounding.hpp
     algorithms/volumes/region_points.hpp
@@ -38,14 +42,17 @@ set(terrane_headers
     algorithms/reconstruction/kriging/variogram.hpp
     algorithms/reconstruction/rbf/rbf.hpp
     algorithms/reconstruction/rbf/rbf_join.hpp
+    algorithms/reconstruction/fill.hpp
     algorithms/sealing/sealing.hpp
     algorithms/volume_of_interest/boundary_surfaces.hpp
     algorithms/volume_of_interest/extension.hpp
     algorithms/volume_of_interest/volume_of_interest.hpp
+    algorithms/model/model.hpp
     algorithms/tetrahedra/check_tetrahedra.hpp
     algorithms/tetrahedra/split_nodes.hpp
     algorithms/tetrahedra/tetrahedra_shape.hpp
     algorithms/tetrahedra/without_outside.hpp
+    algorithms/tetgen/fill_blocks.hpp
     algorithms/tetgen/tetgen_helper.hpp
     algorithms/tetgen/tetrahedra.hpp
     io/certificate.hpp

@@ -31,8 +31,8 @@ Status LayerResolver::prepare() {
         const auto surfaces = a_.surfaces_of[t];
         if (surfaces[0] == input_.copies.size()) continue; // only a wall
         const Triangle& c = a_.triangles[t];
-        const auto seen =
-            seen_along_z(a_.state->points, {a_.vertices[c[0]], a_.vertices[c[1]], a_.vertices[c[2]]});
+        const auto seen = seen_along_z(a_.state->points,
+                                       {a_.vertices[c[0]], a_.vertices[c[1]], a_.vertices[c[2]]});
         if (!seen)
             return Error{ErrorCode::unsupported, "a layer has an upright triangle: it is no graph",
                          place(t)};
@@ -76,7 +76,8 @@ Result<std::vector<LayerResolver::Relation>> LayerResolver::relate(const Set& so
                 const std::uint32_t s = of(pairs[i].first), t = of(pairs[i].second);
                 if (s != t && !overlap_along_z(a_.state->points, seen_[s], seen_[t])) continue;
                 found.push_back(
-                    {s, t, s == t ? Sign::Zero : above_along_z(a_.state->points, seen_[s], seen_[t])});
+                    {s, t,
+                     s == t ? Sign::Zero : above_along_z(a_.state->points, seen_[s], seen_[t])});
             }
             return found;
         });
@@ -167,8 +168,8 @@ void LayerResolver::add_steps(const Replacement& change, const Set& soft,
             if (!stays)
                 for (const auto& s : sides) parts.join(sides[0].triangle, s.triangle);
             if (!stays || !goes || (is_taken(a) && is_taken(b))) return;
-            const Point3 d =
-                minus(a_.state->points.nearest(a_.vertices[b]), a_.state->points.nearest(a_.vertices[a]));
+            const Point3 d = minus(a_.state->points.nearest(a_.vertices[b]),
+                                   a_.state->points.nearest(a_.vertices[a]));
             report.step_length += std::hypot(d.x, d.y, d.z);
         });
     for (std::uint32_t i = 0; i < soft.size(); ++i)
@@ -188,8 +189,8 @@ void LayerResolver::add_moves(const Replacement& change, const std::vector<Relat
             const PointIndex v = a_.vertices[a_.triangles[r.first][k]];
             bool over = true;
             for (unsigned e = 0; e < 3 && over; ++e)
-                over = a_.state->points.orient2d(Axis::z, seen_[r.second][e], seen_[r.second][(e + 1) % 3],
-                                          v) != Sign::Negative;
+                over = a_.state->points.orient2d(Axis::z, seen_[r.second][e],
+                                                 seen_[r.second][(e + 1) % 3], v) != Sign::Negative;
             if (!over) continue;
             const double height = dot(minus(corner(r.first, k), p), n) / n.z;
             report.largest_move = std::max(report.largest_move, std::fabs(height));

@@ -3,7 +3,7 @@
 // The constant of the names of blocks.
 #pragma once
 
-namespace terrane {
+namespace terrane::structure::detail {
 
 struct BlockNameConstants {
     /// Least share of a surface's area at a block to be named above, below or beside it. Larger:
@@ -12,4 +12,4 @@ struct BlockNameConstants {
 };
 inline constexpr BlockNameConstants block_name_constants;
 
-} // namespace terrane
+} // namespace terrane::structure::detail

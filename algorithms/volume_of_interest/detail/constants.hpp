@@ -3,7 +3,7 @@
 // The constants of the extension to a boundary; those of its strips are StripConstants.
 #pragma once
 
-namespace terrane {
+namespace terrane::volume_of_interest::detail {
 
 /// They decide the direction of strips at rough borders.
 struct ExtensionConstants {
@@ -17,4 +17,4 @@ struct ExtensionConstants {
 };
 inline constexpr ExtensionConstants extension_tuning;
 
-} // namespace terrane
+} // namespace terrane::volume_of_interest::detail
