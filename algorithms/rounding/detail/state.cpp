@@ -16,8 +16,6 @@
 namespace terrane::rounding::detail {
 namespace {
 
-constexpr std::uint32_t none = UINT32_MAX;
-
 // The few roundings of a distance, in any mode, are covered by the last factor.
 double length_bound(double x, double y, double z) {
     const double most = std::max({x, y, z});
