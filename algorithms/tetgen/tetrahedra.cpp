@@ -30,7 +30,6 @@ using namespace tetgen::detail;
 
 namespace {
 
-constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 constexpr double smallest_ratio = 1.1;
 constexpr double most_tetrahedra = 5e8; // TetGen counts in int
 
