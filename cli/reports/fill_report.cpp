@@ -35,12 +35,12 @@ std::string error_text(const FillReport& r) {
 std::string borders_text(const FillWork& work) {
     std::string text;
     for (const HoledSurface& s : work.surfaces) {
-        std::map<LoopKind, std::size_t> kinds;
-        for (const BorderLoop& loop : s.loops) ++kinds[loop.kind];
+        std::map<LoopKind, std::size_t> count_of;
+        for (const BorderLoop& loop : s.loops) ++count_of[loop.kind];
         text += fmt::format("{}: {}, {}, {}\n", s.label,
-                            counted(kinds[LoopKind::outer], "outer border"),
-                            counted(kinds[LoopKind::hole], "hole"),
-                            counted(kinds[LoopKind::fault_gap], "fault gap"));
+                            counted(count_of[LoopKind::outer], "outer border"),
+                            counted(count_of[LoopKind::hole], "hole"),
+                            counted(count_of[LoopKind::fault_gap], "fault gap"));
     }
     return text;
 }

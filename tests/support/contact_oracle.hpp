@@ -166,7 +166,7 @@ inline bool places_are_right(const Corners& corners, const Triangle& s, const Tr
     return true;
 }
 
-inline bool on_closed_edge(Simplex p, unsigned e) {
+inline bool lies_on_edge(Simplex p, unsigned e) {
     if (is_edge(p)) return edge_of(p) == e;
     return is_corner(p) && (corner_of(p) == e || corner_of(p) == (e + 1) % 3);
 }
@@ -181,7 +181,7 @@ inline bool pieces_are_right(const Contact& c, unsigned k) {
     for (unsigned e = 0; e < 3; ++e) {
         std::set<unsigned> points;
         for (unsigned i = 0; i < c.point_count; ++i)
-            if (on_closed_edge(c.points[i].place[1 - k], e)) points.insert(i);
+            if (lies_on_edge(c.points[i].place[1 - k], e)) points.insert(i);
         if (points.empty()) continue;
         if (pieces == c.piece_count[k]) return false;
         const ContactPiece& piece = c.pieces[k][pieces++];

@@ -43,23 +43,6 @@ int status_of_child(const std::function<int()>& work) {
     return status;
 }
 
-/// 2 to the power of 2^35: 4 GiB, where the process may have 3.
-int ask_for_too_much() {
-    const rlimit limit{std::size_t{3} << 30U, std::size_t{3} << 30U};
-    setrlimit(RLIMIT_AS, &limit);
-    mpz_t power;
-    mpz_init(power);
-    try {
-        mpz_ui_pow_ui(power, 2, 1UL << 35U);
-    } catch (const std::bad_alloc&) {
-        mpz_set_ui(power, 7); // still a number
-        const bool sound = mpz_cmp_ui(power, 7) == 0;
-        mpz_clear(power);
-        return sound ? 3 : 4;
-    }
-    return 0;
-}
-
 // ---- Functions that fail when they are told to
 
 long countdown = -1; ///< allocations until one fails; negative: none does
@@ -120,6 +103,28 @@ Mesh box_with_tied_volume() {
 } // namespace
 
 #ifndef TERRANE_SANITIZED // AddressSanitizer itself needs more address space than any limit
+
+namespace {
+
+/// 2 to the power of 2^35: 4 GiB, where the process may have 3.
+int ask_for_too_much() {
+    const rlimit limit{std::size_t{3} << 30U, std::size_t{3} << 30U};
+    setrlimit(RLIMIT_AS, &limit);
+    mpz_t power;
+    mpz_init(power);
+    try {
+        mpz_ui_pow_ui(power, 2, 1UL << 35U);
+    } catch (const std::bad_alloc&) {
+        mpz_set_ui(power, 7); // still a number
+        const bool sound = mpz_cmp_ui(power, 7) == 0;
+        mpz_clear(power);
+        return sound ? 3 : 4;
+    }
+    return 0;
+}
+
+} // namespace
+
 TEST_CASE("memory: GMP ends the process where it gets none, unless it was told to throw",
           "[core]") {
     const int untold = status_of_child(ask_for_too_much);
