@@ -12,7 +12,9 @@
 
 #include <terrane/kernel/predicates.hpp>
 
+#include <CGAL/assertions.h>
 #include <CGAL/assertions_behaviour.h>
+#include <CGAL/exceptions.h>
 
 #include <cstdio>
 #include <map>

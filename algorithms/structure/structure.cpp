@@ -145,6 +145,8 @@ private:
 
 } // namespace
 
+namespace structure::detail {
+
 std::vector<std::uint32_t> ranks_of(const std::vector<Point3>& vertices) {
     std::vector<std::uint32_t> order(vertices.size()), ranks(vertices.size());
     std::iota(order.begin(), order.end(), 0U);
@@ -161,6 +163,8 @@ Point3 area_vector(const Mesh& mesh, std::uint32_t triangle) {
     const Point3 u{b.x - a.x, b.y - a.y, b.z - a.z}, v{c.x - a.x, c.y - a.y, c.z - a.z};
     return {u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
 }
+
+} // namespace structure::detail
 
 Structure build_structure(const Mesh& mesh, const Volumes& volumes) {
     return Builder(mesh, volumes)();

@@ -74,6 +74,8 @@ void name_blocks(const Mesh& mesh, std::vector<ModelBlock>& blocks) {
 
 } // namespace
 
+namespace structure::detail {
+
 void add_blocks(const Mesh& mesh, const Volumes& volumes, Structure& structure) {
     auto& blocks = structure.blocks;
     blocks.resize(volumes.measures.size());
@@ -101,6 +103,8 @@ void add_blocks(const Mesh& mesh, const Volumes& volumes, Structure& structure) 
     }
     name_blocks(mesh, blocks);
 }
+
+} // namespace structure::detail
 
 std::vector<NamedConstant> structure_constants() {
     return {{"least_share", block_name_constants.least_share}};

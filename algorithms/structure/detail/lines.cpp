@@ -217,9 +217,12 @@ std::string_view name_of(LineKind kind) {
     }
 }
 
+namespace structure::detail {
+
 void add_lines(const Mesh& mesh, const EdgeSides& edges, const std::vector<std::uint32_t>& ranks,
                Structure& structure) {
     LineMaker(mesh, ranks, structure)(edges);
 }
 
+} // namespace structure::detail
 } // namespace terrane
