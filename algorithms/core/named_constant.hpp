@@ -9,8 +9,8 @@ namespace terrane {
 
 /// A constant that decides the result of a stage and is not an option.
 struct NamedConstant {
-    std::string_view name;
-    double value = 0;
+    std::string_view name; ///< as its stage declares it
+    double value = 0;      ///< in the unit that its stage states
 };
 
 } // namespace terrane
