@@ -32,7 +32,7 @@ std::vector<terrane::Surface> surfaces() {
              .triangles = {{0, 1, 2}, {0, 2, 3}}},
             {.name = "fault",
              .role = terrane::Role::fault,
-             .vertices = {{1, -1, -1}, {1, 5, -1}, {1, 2, 3}},
+             .vertices = {{1, 0, -2}, {1, 5, -1}, {1, 2, 3}},
              .triangles = {{0, 1, 2}}},
             {.name = "block",
              .role = terrane::Role::boundary,
@@ -63,7 +63,7 @@ terrane::ArrangementClaim claim_of(const terrane::Arrangement& a) {
 void check_exact(const std::vector<terrane::Surface>& input, const terrane::Arrangement& a) {
     require(a.surfaces.size() == input.size(), "surfaces are those of the input");
     require(!a.intersection_edges.empty(), "the fault cuts the horizon");
-    require(has_vertex(a, {"1", "5/4", "0"}), "the fault's side meets the horizon at (1, 5/4, 0)");
+    require(has_vertex(a, {"1", "4/5", "0"}), "the fault's side meets the horizon at (1, 4/5, 0)");
     require(a.nearest(0) == a.input_vertices()[0], "an input vertex is its own nearest double");
     require(terrane::verify_arrangement(input, claim_of(a)).empty(),
             "the verifier has no objection");
