@@ -13,6 +13,7 @@
 #include <vector>
 
 #include <terrane/algorithms/check/check.hpp>
+#include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/io/files.hpp>
 #include <terrane/io/surfaces/obj.hpp>
 #include <terrane/io/surfaces/off.hpp>

@@ -9,10 +9,10 @@
 
 #include <terrane/algorithms/arrangement/retriangulation.hpp>
 #include <terrane/algorithms/arrangement/soup.hpp>
-#include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/algorithms/intersection/injective_patches.hpp>
+#include <terrane/algorithms/mesh/validation.hpp>
 
 namespace terrane {
 namespace {

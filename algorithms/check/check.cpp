@@ -2,7 +2,6 @@
 #include <terrane/algorithms/check/check.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <new>
 #include <numeric>
 
@@ -10,18 +9,11 @@
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/mesh/edges.hpp>
+#include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/kernel/point_store.hpp>
 
 namespace terrane {
 namespace {
-
-std::string place_in(const Surface& s, const char* what, std::size_t k) {
-    return "surface " + s.name + ", " + what + " " + std::to_string(k);
-}
-
-bool is_finite(const Point3& p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
 
 /// Contacts of one block of pairs.
 std::vector<ImproperContact> contacts_of(const Soup& soup, std::span<const CandidatePair> pairs) {
@@ -114,17 +106,6 @@ ContactKind kind_of_point(const ContactPoint& p) {
     return face ? ContactKind::vertex_on_face : ContactKind::vertex_on_edge;
 }
 
-/// The first of [0, count) for which it does not hold, or count.
-template <class Holds>
-std::size_t first_without(const Holds& holds, std::size_t count, const Run& run) {
-    const auto firsts =
-        parts_of_ranges<std::size_t>(count, run, [&](std::size_t begin, std::size_t end) {
-            while (begin < end && holds(begin)) ++begin;
-            return begin < end ? begin : count;
-        });
-    return *std::min_element(firsts.begin(), firsts.end());
-}
-
 } // namespace
 
 std::string_view name_of(ContactKind kind) {
@@ -155,29 +136,6 @@ ContactKind kind_of(const Contact& contact) {
     const bool along1 = along_an_edge(first.place[1], last.place[1]);
     if (along0 && along1) return ContactKind::edges_overlap;
     return along0 || along1 ? ContactKind::edge_on_face : ContactKind::crossing;
-}
-
-Status validate(std::span<const Surface> surfaces, const Run& run) {
-    std::size_t vertices = 0, triangles = 0;
-    for (const Surface& s : surfaces) {
-        vertices += s.vertices.size();
-        triangles += s.triangles.size();
-        const auto is_valid = [&](std::size_t v) { return is_finite(s.vertices[v]); };
-        if (const auto v = first_without(is_valid, s.vertices.size(), run); v < s.vertices.size())
-            return Error{ErrorCode::bad_number, "a coordinate is not finite",
-                         place_in(s, "vertex", v)};
-        const auto has_corners = [&](std::size_t t) {
-            const Triangle& c = s.triangles[t];
-            return std::max({c[0], c[1], c[2]}) < s.vertices.size();
-        };
-        if (const auto t = first_without(has_corners, s.triangles.size(), run);
-            t < s.triangles.size())
-            return Error{ErrorCode::bad_index, "a corner names no vertex",
-                         place_in(s, "triangle", t)};
-    }
-    if (vertices >= UINT32_MAX / 2 || triangles >= UINT32_MAX / 4)
-        return Error{ErrorCode::unsupported, "more than 2^30 triangles or 2^31 vertices", ""};
-    return Done{};
 }
 
 Result<CheckReport> check(std::span<const Surface> surfaces, const Run& run) {

@@ -67,7 +67,4 @@ struct CheckReport {
 /// Errors: bad_number, bad_index, interrupted, out_of_memory.
 Result<CheckReport> check(std::span<const Surface> surfaces, const Run& run = {});
 
-/// bad_number or bad_index with the place, for surfaces that no stage may be given.
-Status validate(std::span<const Surface> surfaces, const Run& run = {});
-
 } // namespace terrane

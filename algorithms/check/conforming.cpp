@@ -2,7 +2,6 @@
 #include <terrane/algorithms/check/conforming.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -13,7 +12,7 @@
 #include <terrane/algorithms/intersection/injective_patches.hpp>
 #include <terrane/algorithms/intersection/intersection.hpp>
 #include <terrane/algorithms/mesh/edges.hpp>
-#include <terrane/kernel/predicates.hpp>
+#include <terrane/algorithms/mesh/validation.hpp>
 
 namespace terrane {
 namespace {
@@ -75,26 +74,9 @@ std::optional<CandidatePair> first_contact(std::span<const Point3> points,
 
 } // namespace
 
-Status sound_triangles(std::span<const Point3> points, std::span<const Triangle> triangles) {
-    for (std::size_t v = 0; v < points.size(); ++v) {
-        const Point3& p = points[v];
-        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-            return Error{ErrorCode::bad_number, "a coordinate is not finite",
-                         "vertex " + std::to_string(v)};
-    }
-    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-        const auto& [a, b, c] = triangles[t];
-        if (std::max({a, b, c}) >= points.size())
-            return Error{ErrorCode::bad_index, "a corner names no vertex",
-                         "triangle " + std::to_string(t)};
-        if (collinear(points[a], points[b], points[c])) return contact("it has no area", t);
-    }
-    return Done{};
-}
-
 Status conforming(std::span<const Point3> points, std::span<const Triangle> triangles,
                   std::span<const std::uint32_t> label_of, const Run& run) {
-    if (auto sound = sound_triangles(points, triangles); !sound) return sound;
+    if (auto valid = validate_areas(points, triangles, run); !valid) return valid;
     if (auto distinct = distinct_points(points, triangles); !distinct) return distinct;
     if (auto distinct = distinct_triangles(triangles); !distinct) return distinct;
     const auto pair = first_contact(points, triangles, label_of, run);

@@ -10,10 +10,6 @@
 
 namespace terrane {
 
-/// Done where each triangle by itself is sound: numbers finite, corners there, an area.
-/// Errors: bad_number, bad_index, improper_contact.
-Status sound_triangles(std::span<const Point3> points, std::span<const Triangle> triangles);
-
 /// Done where the triangles are a conforming mesh, by exact predicates on the doubles: every two
 /// share a vertex, an edge, or nothing; none is degenerate or repeated; no two vertices in use are
 /// at one place. label_of: per triangle, any; triangles that hang together and have the same one

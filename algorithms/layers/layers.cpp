@@ -13,10 +13,10 @@
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>
 #include <terrane/algorithms/arrangement/soup.hpp>
-#include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/layers/detail/resolver.hpp>
 #include <terrane/algorithms/layers/detail/whole_triangles.hpp>
+#include <terrane/algorithms/mesh/validation.hpp>
 
 namespace terrane {
 namespace {

@@ -10,6 +10,7 @@
 
 #include <terrane/algorithms/check/conforming.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
+#include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/algorithms/quality/detail/operations.hpp>
 #include <terrane/algorithms/quality/detail/sizes.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
@@ -45,25 +46,6 @@ Status check_options(const Mesh& mesh, const ImproveOptions& o) {
         return wrong("angles of creases and curves must be in (0, 180] degrees");
     if (o.passes < 1 || o.passes > 100) return wrong("passes must be 1 to 100");
     return Done{};
-}
-
-/// Checks that all indices are in range and that each triangle is sound, so that the mesh can be
-/// processed.
-Status check_lists(const Mesh& mesh) {
-    if (mesh.triangles.empty()) return Error{ErrorCode::nothing_to_do, "no triangle", ""};
-    const bool lists_fit =
-        mesh.surfaces_of.size() == mesh.triangles.size() &&
-        (mesh.regions_of.size() == 0 || mesh.regions_of.size() == mesh.triangles.size());
-    if (!lists_fit) return Error{ErrorCode::bad_index, "surfaces or regions per triangle", ""};
-    const auto wrong_at = [](std::size_t t, std::string sentence) {
-        return Error{ErrorCode::bad_index, std::move(sentence), "triangle " + std::to_string(t)};
-    };
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        for (const std::uint32_t s : mesh.surfaces_of[t])
-            if (s >= mesh.surfaces.size()) return wrong_at(t, "there is no such surface");
-        if (mesh.surfaces_of[t].empty()) return wrong_at(t, "it has no surface");
-    }
-    return sound_triangles(mesh.vertices, mesh.triangles);
 }
 
 Status check_conforming(const Mesh& mesh, const Run& run) {
@@ -359,7 +341,8 @@ Result<Improved> Improver::assembled() {
 
 Result<Improved> improve_checked(const Mesh& mesh, const ImproveOptions& options, const Run& run) {
     if (auto good = check_options(mesh, options); !good) return good.error();
-    if (auto good = check_lists(mesh); !good) return good.error();
+    if (mesh.triangles.empty()) return Error{ErrorCode::nothing_to_do, "no triangle", ""};
+    if (auto valid = validate_mesh(mesh, run); !valid) return valid.error();
     std::optional<Status> good;
     std::optional<Improver> improver;
     both(

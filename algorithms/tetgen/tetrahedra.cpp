@@ -16,6 +16,7 @@
 
 #include <terrane/algorithms/arrangement/soup.hpp>
 #include <terrane/algorithms/intersection/intersection.hpp>
+#include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/algorithms/search/search.hpp>
 #include <terrane/algorithms/tetgen/detail/assembly.hpp>
 #include <terrane/algorithms/tetgen/detail/process.hpp>
@@ -35,10 +36,6 @@ constexpr double most_tetrahedra = 5e8; // TetGen counts in int
 
 // ---- 1. Options and mesh are sound ------------------------------------------------------------
 
-bool finite(const Point3& p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
-
 Error bad_option(std::string sentence) {
     return {ErrorCode::bad_option, std::move(sentence), ""};
 }
@@ -54,7 +51,8 @@ Status check_options(const TetrahedraOptions& options) {
         if (Status margin = check_length("margin", options.margin); !margin) return margin;
     if (options.box) {
         const auto& [low, high] = *options.box;
-        if (!finite(low) || !finite(high) || low.x >= high.x || low.y >= high.y || low.z >= high.z)
+        if (!is_finite(low) || !is_finite(high) || low.x >= high.x || low.y >= high.y ||
+            low.z >= high.z)
             return bad_option("box must have finite corners, low < high in each coordinate");
     }
     const auto& ratio = options.radius_edge_ratio;
@@ -68,29 +66,6 @@ Status check_options(const TetrahedraOptions& options) {
 
 std::string place_of(std::size_t triangle) {
     return fmt::format("triangle {}", triangle);
-}
-
-Status check_mesh(const Mesh& mesh) {
-    if (mesh.surfaces_of.size() != mesh.triangles.size())
-        return Error{ErrorCode::bad_index, "surfaces_of must have one list per triangle", ""};
-    for (const std::uint32_t surface : mesh.surfaces_of.values)
-        if (surface >= mesh.surfaces.size())
-            return Error{ErrorCode::bad_index, fmt::format("there is no surface {}", surface), ""};
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        for (const std::uint32_t v : mesh.triangles[t]) {
-            if (v >= mesh.vertices.size())
-                return Error{ErrorCode::bad_index, fmt::format("there is no vertex {}", v),
-                             place_of(t)};
-            if (!finite(mesh.vertices[v]))
-                return Error{ErrorCode::bad_number, fmt::format("vertex {} is not finite", v),
-                             place_of(t)};
-        }
-        const auto [a, b, c] = mesh.triangles[t];
-        if (collinear(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]))
-            return Error{ErrorCode::improper_contact,
-                         fmt::format("has no area (vertices {}, {}, {})", a, b, c), place_of(t)};
-    }
-    return Done{};
 }
 
 // ---- 2. The box -------------------------------------------------------------------------------
@@ -126,7 +101,7 @@ Result<Box3> box_around(std::span<const Point3> points, const TetrahedraOptions&
     if (!options.box && points.empty())
         return Error{ErrorCode::nothing_to_do, "no triangle and no box", ""};
     const Box3 box = options.box ? *options.box : enlarged_bounds(points, options.margin);
-    if (!finite(box.low) || !finite(box.high))
+    if (!is_finite(box.low) || !is_finite(box.high))
         return bad_option("margin makes the box larger than numbers can be");
     for (const Point3& p : points)
         if (!strictly_inside(p, box))
@@ -381,7 +356,7 @@ Status proceed(const Run& run, double share) {
 
 Result<TetrahedralMesh> fill(const Mesh& mesh, const TetrahedraOptions& options, const Run& run) {
     if (Status good = check_options(options); !good) return good.error();
-    if (Status good = check_mesh(mesh); !good) return good.error();
+    if (Status valid = validate_mesh(mesh, run); !valid) return valid.error();
     const auto helper = find_tetgen_helper(options.helper);
     if (!helper) return helper.error();
     if (Status go = proceed(run, 0); !go) return go.error();

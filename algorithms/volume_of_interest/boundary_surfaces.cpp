@@ -13,6 +13,7 @@
 #include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/mesh/edges.hpp>
+#include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/algorithms/search/search.hpp>
 #include <terrane/algorithms/triangulation/triangulation.hpp>
 #include <terrane/kernel/predicates.hpp>
@@ -24,10 +25,6 @@ constexpr std::size_t most_named_sides = 12;
 
 std::string text_of(const Point3& p) {
     return fmt::format("({}, {}, {})", p.x, p.y, p.z);
-}
-
-bool is_finite(const Point3& p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
 /// Builds a closed body from two rings of corners, counterclockwise seen from above, and the

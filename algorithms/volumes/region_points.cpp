@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/kernel/numbers.hpp>
 #include <terrane/kernel/polynomials.hpp>
 #include <terrane/kernel/predicates.hpp>
@@ -167,7 +168,7 @@ std::optional<Point3> point_near(const BlockSide& side, std::uint32_t block, con
     const double share = clear_share(mesh, side.triangle, middle, inward);
     for (const double part : {0.5, 0.3, 0.7}) {
         const Point3 place = moved(middle, inward, part * share);
-        if (!std::isfinite(place.x) || !std::isfinite(place.y) || !std::isfinite(place.z)) continue;
+        if (!is_finite(place)) continue;
         if (volume_around(place, mesh, volumes) == block) return place;
     }
     return std::nullopt;

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include <terrane/algorithms/core/stopwatch.hpp>
+#include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/algorithms/volumes/detail/exact_volumes.hpp>
 #include <terrane/algorithms/volumes/detail/radial_sort.hpp>
 #include <terrane/algorithms/volumes/detail/shell_nesting.hpp>
@@ -211,21 +212,6 @@ private:
     EdgeSides edges_;
 };
 
-std::optional<Error> flaw_of(const Mesh& mesh) {
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-        for (const std::uint32_t v : mesh.triangles[t]) {
-            const auto place = "triangle " + std::to_string(t);
-            if (v >= mesh.vertices.size())
-                return Error{ErrorCode::bad_index, "there is no vertex " + std::to_string(v),
-                             place};
-            const Point3& p = mesh.vertices[v];
-            if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-                return Error{ErrorCode::bad_number,
-                             "vertex " + std::to_string(v) + " is not finite", place};
-        }
-    return std::nullopt;
-}
-
 } // namespace
 
 Result<Volumes> find_volumes(const Arrangement& a, const Run& run) {
@@ -238,7 +224,7 @@ Result<Volumes> find_volumes(const Arrangement& a, const Run& run) {
 
 Result<Volumes> find_volumes(const Mesh& mesh, const Run& run) {
     return guarded([&]() -> Result<Volumes> {
-        if (const auto flaw = flaw_of(mesh)) return *flaw;
+        if (auto valid = validate(mesh.vertices, mesh.triangles, run); !valid) return valid.error();
         return find(MeshSheets(mesh).view(), run);
     });
 }

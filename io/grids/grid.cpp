@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include <terrane/algorithms/mesh/validation.hpp>
+
 namespace terrane {
 namespace {
 
@@ -62,7 +64,7 @@ private:
             const Point3 p{grid_.x + u * turn_.cosine - v * turn_.sine,
                            grid_.y + u * turn_.sine + v * turn_.cosine,
                            depth_ && value != 0 ? -value : value};
-            if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+            if (!is_finite(p))
                 return Error{ErrorCode::bad_number, "a node of the grid is beyond all doubles", ""};
             vertex_of_[k] = static_cast<std::uint32_t>(surface_.vertices.size());
             surface_.vertices.push_back(p);

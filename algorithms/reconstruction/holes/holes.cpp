@@ -7,8 +7,8 @@
 #include <tuple>
 
 #include <terrane/algorithms/arrangement/soup.hpp>
-#include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/core/disjoint_sets.hpp>
+#include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/algorithms/reconstruction/holes/detail/shape.hpp>
 
 namespace terrane {

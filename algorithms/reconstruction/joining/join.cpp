@@ -10,11 +10,11 @@
 #include <string>
 
 #include <terrane/algorithms/arrangement/soup.hpp>
-#include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/intersection/intersection.hpp>
 #include <terrane/algorithms/mesh/triangle_tree.hpp>
+#include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/reconstruction/joining/detail/curve.hpp>
 #include <terrane/algorithms/reconstruction/joining/disk_mesh.hpp>

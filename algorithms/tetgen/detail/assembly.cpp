@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/kernel/numbers.hpp>
 #include <terrane/kernel/predicates.hpp>
 
@@ -19,10 +20,6 @@ namespace terrane {
 namespace {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-
-bool finite(const Point3& p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
 
 // --------------------------------
 
@@ -110,7 +107,7 @@ private:
         if (in_.points.size() < domain_.points.size() ||
             !std::equal(domain_.points.begin(), domain_.points.end(), in_.points.begin()))
             return broken("TetGen moved a vertex");
-        if (!std::all_of(in_.points.begin(), in_.points.end(), finite))
+        if (!std::all_of(in_.points.begin(), in_.points.end(), is_finite))
             return broken("TetGen added a vertex that is not finite");
         return Done{};
     }

@@ -8,9 +8,9 @@
 #include <utility>
 
 #include <terrane/algorithms/arrangement/soup.hpp>
-#include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/core/index_lists.hpp>
 #include <terrane/algorithms/mesh/edges.hpp>
+#include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/reconstruction/rbf/detail/long_edges.hpp>
 

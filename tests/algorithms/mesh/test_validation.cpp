@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <catch2/catch.hpp>
+
+#include <limits>
+#include <vector>
+
+#include <terrane/algorithms/mesh/validation.hpp>
+
+using namespace terrane;
+
+namespace {
+
+Mesh two_triangles() {
+    Mesh mesh;
+    mesh.surfaces = {{"top", Role::horizon}};
+    mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 1}};
+    mesh.triangles = {{0, 1, 2}, {1, 3, 2}};
+    for (int t = 0; t < 2; ++t) mesh.surfaces_of.push_back(std::vector<std::uint32_t>{0});
+    return mesh;
+}
+
+void check_refused(const Status& status, ErrorCode code, const std::string& place) {
+    REQUIRE_FALSE(status.ok());
+    CHECK(status.error().code == code);
+    CHECK(status.error().place == place);
+}
+
+} // namespace
+
+TEST_CASE("validation: a sound mesh passes, with one thread or with several") {
+    const Mesh mesh = two_triangles();
+    for (const unsigned threads : {1U, 2U}) {
+        Run run;
+        run.threads = threads;
+        CHECK(validate(mesh.vertices, mesh.triangles, run).ok());
+        CHECK(validate_areas(mesh.vertices, mesh.triangles, run).ok());
+        CHECK(validate_mesh(mesh, run).ok());
+    }
+    CHECK(validate_mesh(Mesh{}).ok());
+}
+
+TEST_CASE("validation: the first flaw is named, whatever the number of threads") {
+    Mesh mesh;
+    mesh.vertices.assign(40000, Point3{0, 0, 0});
+    for (std::uint32_t v = 0; v < 40000; ++v) mesh.vertices[v] = {v * 1.0, v * 1.0 * v, 0};
+    for (std::uint32_t v = 0; v + 2 < 40000; ++v) mesh.triangles.push_back({v, v + 1, v + 2});
+    mesh.triangles[30000] = {5, 6, 5};
+    mesh.triangles[20000] = {7, 8, 7};
+    Run run;
+    run.threads = 2;
+    CHECK(validate(mesh.vertices, mesh.triangles, run).ok()); // areas are not asked for
+    check_refused(validate_areas(mesh.vertices, mesh.triangles, run), ErrorCode::improper_contact,
+                  "triangle 20000");
+    mesh.triangles[25000][1] = 40000;
+    check_refused(validate_areas(mesh.vertices, mesh.triangles, run), ErrorCode::bad_index,
+                  "triangle 25000");
+    mesh.vertices[33333].z = std::numeric_limits<double>::infinity();
+    mesh.vertices[39999].x = std::numeric_limits<double>::quiet_NaN();
+    check_refused(validate(mesh.vertices, mesh.triangles, run), ErrorCode::bad_number,
+                  "vertex 33333");
+}
+
+TEST_CASE("validation: the place names the surface") {
+    Surface sound{"top", Role::unknown, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
+    Surface broken = sound;
+    broken.name = "base";
+    broken.triangles.push_back({0, 1, 3});
+    CHECK(validate(std::vector{sound}).ok());
+    check_refused(validate(std::vector{sound, broken}), ErrorCode::bad_index,
+                  "surface base, triangle 1");
+    broken.vertices[2].y = std::numeric_limits<double>::quiet_NaN();
+    check_refused(validate(std::vector{sound, broken}), ErrorCode::bad_number,
+                  "surface base, vertex 2");
+}
+
+TEST_CASE("validation: lists of a mesh") {
+    Mesh mesh = two_triangles();
+    mesh.surfaces_of.push_back(std::vector<std::uint32_t>{0});
+    check_refused(validate_mesh(mesh), ErrorCode::bad_index, "");
+    mesh = two_triangles();
+    mesh.surfaces_of.values[1] = 1;
+    check_refused(validate_mesh(mesh), ErrorCode::bad_index, "triangle 1");
+    mesh = two_triangles();
+    mesh.surfaces_of = {};
+    mesh.surfaces_of.push_back(std::vector<std::uint32_t>{0});
+    mesh.surfaces_of.close();
+    check_refused(validate_mesh(mesh), ErrorCode::bad_index, "triangle 1");
+    mesh = two_triangles();
+    mesh.regions_of.push_back(std::vector<std::uint32_t>{0});
+    check_refused(validate_mesh(mesh), ErrorCode::bad_index, "");
+}
