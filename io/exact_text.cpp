@@ -6,8 +6,8 @@
 #include <iterator>
 #include <utility>
 
+#include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
-#include <terrane/io/text/memory.hpp>
 #include <terrane/io/text/names.hpp>
 #include <terrane/io/text/text.hpp>
 #include <terrane/kernel/fraction.hpp>

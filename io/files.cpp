@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/grids/cps3.hpp>
 #include <terrane/io/grids/esri.hpp>
@@ -21,7 +22,6 @@
 #include <terrane/io/surfaces/off.hpp>
 #include <terrane/io/surfaces/ply.hpp>
 #include <terrane/io/surfaces/stl.hpp>
-#include <terrane/io/text/memory.hpp>
 #include <terrane/io/text/text.hpp>
 
 namespace terrane {

@@ -11,8 +11,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
-#include <terrane/io/text/memory.hpp>
 #include <terrane/io/text/names.hpp>
 
 namespace terrane {
@@ -535,15 +535,16 @@ Result<Json> parsed(std::string_view text, std::string_view source) {
 
 Result<Project> parse_project(std::string_view text, const fs::path& base,
                               std::string_view source) {
-    return detail::guard_memory(std::string(source), [&]() -> Result<Project> {
-        const auto json = parsed(text, source);
-        if (!json) return json.error();
-        return ProjectParser(base, source)(json.value());
-    });
+    return guard_memory(std::string(source),
+                        [&]() -> Result<Project> {
+                            const auto json = parsed(text, source);
+                            if (!json) return json.error();
+                            return ProjectParser(base, source)(json.value());
+                        });
 }
 
 Result<Project> read_project(const fs::path& path) {
-    return detail::guard_memory(path.string(), [&]() -> Result<Project> {
+    return guard_memory(path.string(), [&]() -> Result<Project> {
         const auto text = read_file(path);
         if (!text) return text.error();
         return parse_project(text.value(), path.parent_path(), path.string());

@@ -3,12 +3,11 @@
 
 #include <algorithm>
 #include <atomic>
-#include <new>
-#include <stdexcept>
 #include <utility>
 
 #include <terrane/algorithms/arrangement/retriangulation.hpp>
 #include <terrane/algorithms/arrangement/soup.hpp>
+#include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/algorithms/intersection/injective_patches.hpp>
@@ -204,16 +203,12 @@ Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
 Result<Arrangement> arrange(std::span<const Surface> surfaces, const ArrangeOptions& options,
                             const Run& run) {
     if (const auto valid = validate(surfaces, run); !valid) return valid.error();
-    try {
+    return guarded("for the arrangement", "arrange", [&]() -> Result<Arrangement> {
         // In one arena all stages find the threads awake.
         Result<Arrangement> arranged = Error{};
         with_threads(run, [&] { arranged = arrange_checked(surfaces, options, run); });
         return arranged;
-    } catch (const std::bad_alloc&) {
-        return Error{ErrorCode::out_of_memory, "not enough memory for the arrangement", ""};
-    } catch (const std::logic_error& broken) {
-        return Error{ErrorCode::internal, broken.what(), "arrange"};
-    }
+    });
 }
 
 } // namespace terrane

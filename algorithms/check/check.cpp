@@ -2,11 +2,11 @@
 #include <terrane/algorithms/check/check.hpp>
 
 #include <algorithm>
-#include <new>
 #include <numeric>
 
 #include <terrane/algorithms/arrangement/soup.hpp>
 #include <terrane/algorithms/core/disjoint_sets.hpp>
+#include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/mesh/edges.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
@@ -93,11 +93,9 @@ Result<CheckReport> check_valid(std::span<const Surface> surfaces, const Run& ru
 }
 
 bool along_an_edge(Simplex p, Simplex q) {
-    const auto on = [](Simplex x, unsigned e) {
-        return is_edge(x) ? edge_of(x) == e
-                          : is_corner(x) && (corner_of(x) == e || corner_of(x) == (e + 1) % 3);
-    };
-    return (on(p, 0) && on(q, 0)) || (on(p, 1) && on(q, 1)) || (on(p, 2) && on(q, 2));
+    for (unsigned e = 0; e < 3; ++e)
+        if (on_closed_edge(p, e) && on_closed_edge(q, e)) return true;
+    return false;
 }
 
 ContactKind kind_of_point(const ContactPoint& p) {
@@ -140,11 +138,7 @@ ContactKind kind_of(const Contact& contact) {
 
 Result<CheckReport> check(std::span<const Surface> surfaces, const Run& run) {
     if (const auto valid = validate(surfaces); !valid) return valid.error();
-    try {
-        return check_valid(surfaces, run);
-    } catch (const std::bad_alloc&) {
-        return Error{ErrorCode::out_of_memory, "not enough memory for the check", ""};
-    }
+    return guarded("for the check", "check", [&] { return check_valid(surfaces, run); });
 }
 
 } // namespace terrane

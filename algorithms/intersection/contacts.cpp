@@ -123,11 +123,6 @@ private:
     std::vector<PointIndex> index_;                     ///< of the points of a block
 };
 
-bool on_closed_edge(Simplex p, unsigned e) {
-    if (is_edge(p)) return edge_of(p) == e;
-    return is_corner(p) && (corner_of(p) == e || corner_of(p) == (e + 1) % 3);
-}
-
 } // namespace
 
 bool FaceConstraint::is_inner_segment() const {

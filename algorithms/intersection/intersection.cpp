@@ -220,10 +220,6 @@ void TrianglePair::overlap_in_plane() {
                 add_edge_point(0, i, edge(j));
 }
 
-bool on_closed_edge(Simplex p, unsigned j) {
-    return p == edge(j) || p == corner(j) || p == corner(next(j));
-}
-
 /// Coplanar: the parts of the other triangle's edges that lie in triangle k.
 void TrianglePair::collect_pieces(unsigned k) {
     for (std::uint8_t j = 0; j < 3; ++j) {

@@ -33,6 +33,11 @@ constexpr unsigned corner_of(Simplex p) {
 constexpr unsigned edge_of(Simplex p) {
     return static_cast<unsigned>(p) - 3;
 }
+/// Whether p is edge e or one of its two ends, corner e and corner e + 1.
+constexpr bool on_closed_edge(Simplex p, unsigned e) {
+    if (is_edge(p)) return edge_of(p) == e;
+    return is_corner(p) && (corner_of(p) == e || corner_of(p) == (e + 1) % 3);
+}
 
 /// A point that two triangles share.
 struct ContactPoint {

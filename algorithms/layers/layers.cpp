@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <new>
 #include <optional>
 #include <string>
 #include <utility>
@@ -14,6 +13,7 @@
 #include <terrane/algorithms/arrangement/arrangement.hpp>
 #include <terrane/algorithms/arrangement/soup.hpp>
 #include <terrane/algorithms/core/disjoint_sets.hpp>
+#include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/layers/detail/resolver.hpp>
 #include <terrane/algorithms/layers/detail/whole_triangles.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
@@ -191,11 +191,8 @@ Result<Layered> stack_valid(std::span<const Surface> surfaces, std::span<const L
 Result<Layered> stack_layers(std::span<const Surface> surfaces, std::span<const Layer> order,
                              const LayerOptions& options, const Run& run) {
     if (const auto good = validate_order(surfaces, order, options); !good) return good.error();
-    try {
-        return stack_valid(surfaces, order, options, run);
-    } catch (const std::bad_alloc&) {
-        return Error{ErrorCode::out_of_memory, "not enough memory", ""};
-    }
+    return guarded("for the layers", "layers",
+                   [&] { return stack_valid(surfaces, order, options, run); });
 }
 
 Result<Layered> harden(const Surface& hard, const Surface& soft, Keep keep,

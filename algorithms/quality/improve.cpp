@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <new>
 #include <optional>
 #include <string>
 
 #include <terrane/algorithms/check/conforming.hpp>
+#include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/algorithms/quality/detail/operations.hpp>
@@ -375,11 +375,8 @@ std::string_view name_of(WorstCause cause) {
 }
 
 Result<Improved> improve(const Mesh& mesh, const ImproveOptions& options, const Run& run) {
-    try {
-        return improve_checked(mesh, options, run);
-    } catch (const std::bad_alloc&) {
-        return Error{ErrorCode::out_of_memory, "not enough memory to improve the mesh", ""};
-    }
+    return guarded("to improve the mesh", "improve",
+                   [&] { return improve_checked(mesh, options, run); });
 }
 
 } // namespace terrane

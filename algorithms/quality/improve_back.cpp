@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <new>
 #include <optional>
 
+#include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/mesh/edges.hpp>
 #include <terrane/algorithms/mesh/triangle_tree.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
@@ -210,11 +210,8 @@ Result<std::vector<double>> shown(const Mesh& before, const Improved& after,
 
 Result<std::vector<double>> bounds_back(const Mesh& before, const Improved& after,
                                         const ImproveOptions& options, const Run& run) {
-    try {
-        return shown(before, after, options, run);
-    } catch (const std::bad_alloc&) {
-        return Error{ErrorCode::out_of_memory, "not enough memory to measure the mesh", ""};
-    }
+    return guarded("to measure the mesh", "improve",
+                   [&] { return shown(before, after, options, run); });
 }
 
 } // namespace terrane

@@ -4,14 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <new>
 #include <optional>
-#include <stdexcept>
 #include <utility>
 
 #include <terrane/algorithms/arrangement/retriangulation.hpp>
 #include <terrane/algorithms/arrangement/soup.hpp>
 #include <terrane/algorithms/core/disjoint_sets.hpp>
+#include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/algorithms/rounding/detail/separation.hpp>
@@ -440,15 +439,11 @@ Result<RoundedMesh> round_all(const Arrangement& a, const RoundingOptions& optio
 
 Result<RoundedMesh> round_to_doubles(const Arrangement& arrangement, const RoundingOptions& options,
                                      const Run& run) {
-    try {
+    return guarded("for the rounding", "rounding", [&]() -> Result<RoundedMesh> {
         Result<RoundedMesh> rounded = Error{};
         with_threads(run, [&] { rounded = round_all(arrangement, options, run); });
         return rounded;
-    } catch (const std::bad_alloc&) {
-        return Error{ErrorCode::out_of_memory, "not enough memory for the rounding", ""};
-    } catch (const std::logic_error& broken) {
-        return Error{ErrorCode::internal, broken.what(), "rounding"};
-    }
+    });
 }
 
 } // namespace terrane

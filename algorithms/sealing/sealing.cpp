@@ -6,16 +6,15 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <new>
 #include <optional>
 #include <set>
-#include <stdexcept>
 #include <string>
 #include <tuple>
 #include <utility>
 
 #include <terrane/algorithms/arrangement/restricted.hpp>
 #include <terrane/algorithms/core/disjoint_sets.hpp>
+#include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/mesh/triangle_tree.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/sealing/border_extension.hpp>
@@ -341,13 +340,8 @@ private:
 Result<Sealed> seal(std::vector<Surface> surfaces, const SealOptions& options, const Run& run) {
     if (!(options.distance > 0) || !std::isfinite(options.distance))
         return Error{ErrorCode::bad_option, "the distance must be positive", "seal"};
-    try {
-        return Sealing(std::move(surfaces), options, run)();
-    } catch (const std::bad_alloc&) {
-        return Error{ErrorCode::out_of_memory, "not enough memory for sealing", ""};
-    } catch (const std::logic_error& broken) {
-        return Error{ErrorCode::internal, broken.what(), "sealing"};
-    }
+    return guarded("for sealing", "sealing",
+                   [&] { return Sealing(std::move(surfaces), options, run)(); });
 }
 
 } // namespace terrane

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <new>
 #include <numeric>
 #include <span>
 #include <vector>
@@ -15,6 +14,7 @@
 #include <fmt/format.h>
 
 #include <terrane/algorithms/arrangement/soup.hpp>
+#include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/intersection/intersection.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/algorithms/search/search.hpp>
@@ -383,11 +383,8 @@ Result<TetrahedralMesh> fill(const Mesh& mesh, const TetrahedraOptions& options,
 
 Result<TetrahedralMesh> tetrahedralize(const Mesh& mesh, const TetrahedraOptions& options,
                                        const Run& run) {
-    try {
-        return fill(mesh, options, run);
-    } catch (const std::bad_alloc&) {
-        return Error{ErrorCode::out_of_memory, "not enough memory for the tetrahedra", ""};
-    }
+    return guarded("for the tetrahedra", "tetrahedralize",
+                   [&] { return fill(mesh, options, run); });
 }
 
 } // namespace terrane

@@ -5,13 +5,12 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <new>
 #include <set>
-#include <stdexcept>
 #include <tuple>
 #include <utility>
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
+#include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/sealing/border_extension.hpp>
 #include <terrane/algorithms/sealing/extension_faces.hpp>
@@ -254,13 +253,8 @@ Result<Extended> extend_to_boundary(std::vector<Surface> surfaces,
                                     const ExtendOptions& options, const Run& run) {
     if (!(options.limit > 0) || !std::isfinite(options.limit))
         return Error{ErrorCode::bad_option, "the limit must be positive", "extend"};
-    try {
-        return extend(std::move(surfaces), boundary, options, run);
-    } catch (const std::bad_alloc&) {
-        return Error{ErrorCode::out_of_memory, "not enough memory to extend surfaces", ""};
-    } catch (const std::logic_error& broken) {
-        return Error{ErrorCode::internal, broken.what(), "extend"};
-    }
+    return guarded("to extend surfaces", "extend",
+                   [&] { return extend(std::move(surfaces), boundary, options, run); });
 }
 
 } // namespace terrane

@@ -11,6 +11,7 @@
 
 #include <terrane/algorithms/arrangement/restricted.hpp>
 #include <terrane/algorithms/core/disjoint_sets.hpp>
+#include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 
@@ -206,34 +207,38 @@ Result<std::vector<Where>> locate(const Arrangement& a, std::span<const std::uin
     return where;
 }
 
-Result<VolumeOfInterest> cut_to_volume(Arrangement a, std::span<const std::uint32_t> boundary,
-                                       const Run& run) {
+Result<VolumeOfInterest> cut(Arrangement a, std::span<const std::uint32_t> boundary,
+                             const Run& run) {
     const auto where = locate(a, boundary, run);
     if (!where) return where.error();
     if (run.progress) run.progress("volume of interest", 0);
     if (run.stop.stop_requested()) return interrupted();
-    try {
-        VolumeOfInterest cut;
-        cut.report.surfaces = areas(a, where.value());
-        std::vector<bool> keep(a.triangles.size());
-        for (std::size_t t = 0; t < keep.size(); ++t) keep[t] = where.value()[t] != Where::outside;
-        auto before = std::move(a.restrict_again);
-        cut.arrangement = restricted(std::move(a), keep, run);
-        if (!cut.arrangement.whole)
-            cut.arrangement.restrict_again =
-                again(std::move(before), {boundary.begin(), boundary.end()});
-        count_pieces(cut.arrangement, cut.report.surfaces);
-        cut.report.borders = open_borders(cut.arrangement, boundary);
-        for (const OpenBorder& b : cut.report.borders) {
-            cut.report.surfaces[b.surface].open_length += b.length;
-            ++cut.report.surfaces[b.surface].open_borders;
-        }
-        if (run.stop.stop_requested()) return interrupted();
-        if (run.progress) run.progress("volume of interest", 1);
-        return cut;
-    } catch (const std::bad_alloc&) {
-        return Error{ErrorCode::out_of_memory, "not enough memory for the volume of interest", ""};
+    VolumeOfInterest result;
+    result.report.surfaces = areas(a, where.value());
+    std::vector<bool> keep(a.triangles.size());
+    for (std::size_t t = 0; t < keep.size(); ++t) keep[t] = where.value()[t] != Where::outside;
+    auto before = std::move(a.restrict_again);
+    result.arrangement = restricted(std::move(a), keep, run);
+    if (!result.arrangement.whole)
+        result.arrangement.restrict_again =
+            again(std::move(before), {boundary.begin(), boundary.end()});
+    count_pieces(result.arrangement, result.report.surfaces);
+    result.report.borders = open_borders(result.arrangement, boundary);
+    for (const OpenBorder& b : result.report.borders) {
+        result.report.surfaces[b.surface].open_length += b.length;
+        ++result.report.surfaces[b.surface].open_borders;
     }
+    if (run.stop.stop_requested()) return interrupted();
+    if (run.progress) run.progress("volume of interest", 1);
+    return result;
+}
+
+} // namespace
+
+Result<VolumeOfInterest> cut_to_volume(Arrangement a, std::span<const std::uint32_t> boundary,
+                                       const Run& run) {
+    return guarded("for the volume of interest", "volume of interest",
+                   [&] { return cut(std::move(a), boundary, run); });
 }
 
 } // namespace terrane

@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <new>
 #include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
 
+#include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/algorithms/volumes/detail/exact_volumes.hpp>
@@ -172,17 +172,6 @@ Result<Volumes> find(const TriangleComplex& sheets, const Run& run) {
     return volumes;
 }
 
-template <class Work>
-auto guarded(const Work& work) -> decltype(work()) {
-    try {
-        return work();
-    } catch (const std::bad_alloc&) {
-        return Error{ErrorCode::out_of_memory, "not enough memory for the volumes", ""};
-    } catch (const std::logic_error& broken) {
-        return Error{ErrorCode::internal, broken.what(), "volumes"};
-    }
-}
-
 /// Returns the planes of the triangles of an arrangement: those of their first parents, which are
 /// wound like them.
 std::vector<Triangle> planes_of(const Arrangement& a) {
@@ -215,7 +204,7 @@ private:
 } // namespace
 
 Result<Volumes> find_volumes(const Arrangement& a, const Run& run) {
-    return guarded([&]() -> Result<Volumes> {
+    return guarded("for the volumes", "volumes", [&]() -> Result<Volumes> {
         const auto planes = planes_of(a);
         const auto edges = group_edges(a.triangles, a.vertices.size(), run);
         return find({a.points, a.vertices, a.triangles, edges, planes, &a.parents_of}, run);
@@ -223,7 +212,7 @@ Result<Volumes> find_volumes(const Arrangement& a, const Run& run) {
 }
 
 Result<Volumes> find_volumes(const Mesh& mesh, const Run& run) {
-    return guarded([&]() -> Result<Volumes> {
+    return guarded("for the volumes", "volumes", [&]() -> Result<Volumes> {
         if (auto valid = validate(mesh.vertices, mesh.triangles, run); !valid) return valid.error();
         return find(MeshSheets(mesh).view(), run);
     });

@@ -11,9 +11,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/files.hpp>
-#include <terrane/io/text/memory.hpp>
 
 #include "support/samples.hpp"
 
@@ -229,9 +229,10 @@ TEST_CASE("files: any size is read whole", "[io][files]") {
 }
 
 TEST_CASE("files: running out of memory is an error, not an exception", "[io][files]") {
-    const auto bad = detail::guard_memory("a.ts", []() -> Status { throw std::bad_alloc(); });
-    const auto length =
-        detail::guard_memory("a.ts", []() -> Status { throw std::length_error("x"); });
+    const auto bad = guard_memory("a.ts",
+                                  []() -> Status { throw std::bad_alloc(); });
+    const auto length = guard_memory("a.ts",
+                                     []() -> Status { throw std::length_error("x"); });
     for (const auto& status : {bad, length}) {
         CHECK(message_of(status) == "a.ts: there is not enough memory");
         CHECK(code_of(status) == ErrorCode::out_of_memory);

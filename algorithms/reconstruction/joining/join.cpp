@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <new>
 #include <numeric>
 #include <optional>
 #include <string>
 
 #include <terrane/algorithms/arrangement/soup.hpp>
 #include <terrane/algorithms/core/disjoint_sets.hpp>
+#include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/intersection/intersection.hpp>
 #include <terrane/algorithms/mesh/triangle_tree.hpp>
@@ -421,11 +421,8 @@ Result<Joined> join_filling(const Surface& surface, const BorderLoop& loop, cons
         return Error{ErrorCode::bad_option, "the width of the strip is no length", ""};
     if (!(options.clearance >= 0 && options.clearance < 1))
         return Error{ErrorCode::bad_option, "clearance is a share, from 0 to less than 1", ""};
-    try {
-        return join_valid(surface, loop, filling, options, run);
-    } catch (const std::bad_alloc&) {
-        return Error{ErrorCode::out_of_memory, "not enough memory", ""};
-    }
+    return guarded("to join the filling", "join",
+                   [&] { return join_valid(surface, loop, filling, options, run); });
 }
 
 } // namespace terrane

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <new>
 #include <span>
 #include <string>
 #include <utility>
@@ -14,6 +13,7 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/mesh/edges.hpp>
 #include <terrane/algorithms/mesh/triangle_tree.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
@@ -283,11 +283,8 @@ Result<Filling> fill_by_rbf(const Surface& surface, const BorderLoop& loop,
                             const RbfOptions& options, RbfReport& report, const Run& run) {
     report = {};
     if (const auto good = validate_options(options); !good) return good.error();
-    try {
-        return fill_valid(surface, loop, options, report, run);
-    } catch (const std::bad_alloc&) {
-        return Error{ErrorCode::out_of_memory, "not enough memory", ""};
-    }
+    return guarded("for the filling", "fill",
+                   [&] { return fill_valid(surface, loop, options, report, run); });
 }
 
 Result<Filling> fill_by_rbf(const Surface& surface, const BorderLoop& loop,

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include <terrane/algorithms/core/result.hpp>
+
+namespace terrane {
+
+/// Returns what `work` returns, a Result. Lack of memory becomes out_of_memory at `place`; so does an
+/// array longer than any can be.
+template <class Work>
+auto guard_memory(std::string place, const Work& work,
+                  std::string sentence = "there is not enough memory") -> decltype(work()) {
+    try {
+        return work();
+    } catch (const std::bad_alloc&) {
+    } catch (const std::length_error&) {
+    }
+    return Error{ErrorCode::out_of_memory, std::move(sentence), std::move(place)};
+}
+
+/// Runs a stage and returns its Result. Lack of memory becomes out_of_memory, "not enough memory
+/// for the volumes" where `purpose` is "for the volumes"; a broken promise of ours, thrown as
+/// std::logic_error, becomes `internal` at `place`.
+template <class Work>
+auto guarded(std::string_view purpose, std::string_view place, const Work& work)
+    -> decltype(work()) {
+    try {
+        return guard_memory("", work, "not enough memory " + std::string(purpose));
+    } catch (const std::logic_error& broken) {
+        return Error{ErrorCode::internal, broken.what(), std::string(place)};
+    }
+}
+
+} // namespace terrane
