@@ -535,12 +535,11 @@ Result<Json> parsed(std::string_view text, std::string_view source) {
 
 Result<Project> parse_project(std::string_view text, const fs::path& base,
                               std::string_view source) {
-    return guard_memory(std::string(source),
-                        [&]() -> Result<Project> {
-                            const auto json = parsed(text, source);
-                            if (!json) return json.error();
-                            return ProjectParser(base, source)(json.value());
-                        });
+    return guard_memory(std::string(source), [&]() -> Result<Project> {
+        const auto json = parsed(text, source);
+        if (!json) return json.error();
+        return ProjectParser(base, source)(json.value());
+    });
 }
 
 Result<Project> read_project(const fs::path& path) {

@@ -5,11 +5,10 @@
 #include <utility>
 
 #include <terrane/algorithms/mesh/edges.hpp>
+#include <terrane/algorithms/mesh/submesh.hpp>
 
 namespace terrane {
 namespace {
-
-constexpr std::uint32_t unused = UINT32_MAX;
 
 IndexLists<std::uint32_t> kept_lists(const IndexLists<std::uint32_t>& lists,
                                      const std::vector<bool>& keep) {
@@ -27,20 +26,10 @@ std::vector<T> kept_values(const std::vector<T>& values, const std::vector<bool>
     return kept;
 }
 
-/// Takes out vertices that no triangle has; the others keep their order.
 void drop_unused_vertices(Arrangement& a) {
-    std::vector<std::uint32_t> name(a.vertices.size(), unused);
-    for (const Triangle& t : a.triangles)
-        for (const std::uint32_t v : t) name[v] = 0;
-    std::vector<PointIndex> vertices;
-    for (std::size_t v = 0; v < name.size(); ++v) {
-        if (name[v] == unused) continue;
-        name[v] = static_cast<std::uint32_t>(vertices.size());
-        vertices.push_back(a.vertices[v]);
-    }
-    a.vertices = std::move(vertices);
-    for (Triangle& t : a.triangles)
-        for (std::uint32_t& v : t) v = name[v];
+    const VertexRenumbering numbers(used_vertices(a.vertices.size(), a.triangles));
+    numbers.compact(a.vertices);
+    numbers.rename(a.triangles);
 }
 
 /// By patch, and by surface where there is none; triangles with several parents have no label.

@@ -9,6 +9,7 @@
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/mesh/edges.hpp>
+#include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/kernel/point_store.hpp>
 
@@ -66,9 +67,7 @@ void sort_out_duplicates(const Soup& soup, CheckReport& report) {
 }
 
 std::size_t count_used(const Soup& soup) {
-    std::vector<bool> used(soup.points.size(), false);
-    for (const Triangle& t : soup.triangles)
-        for (const std::uint32_t v : t) used[v] = true;
+    const auto used = used_vertices(soup.points.size(), soup.triangles);
     return static_cast<std::size_t>(std::count(used.begin(), used.end(), true));
 }
 

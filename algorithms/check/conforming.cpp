@@ -12,6 +12,7 @@
 #include <terrane/algorithms/intersection/injective_patches.hpp>
 #include <terrane/algorithms/intersection/intersection.hpp>
 #include <terrane/algorithms/mesh/edges.hpp>
+#include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
 
 namespace terrane {
@@ -39,9 +40,7 @@ Status distinct_triangles(std::span<const Triangle> triangles) {
 }
 
 Status distinct_points(std::span<const Point3> points, std::span<const Triangle> triangles) {
-    std::vector<bool> used(points.size(), false);
-    for (const Triangle& t : triangles)
-        for (const std::uint32_t v : t) used[v] = true;
+    const auto used = used_vertices(points.size(), triangles);
     std::vector<std::uint32_t> order;
     for (std::uint32_t v = 0; v < points.size(); ++v)
         if (used[v]) order.push_back(v);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <terrane/algorithms/core/parallel.hpp>
+#include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/algorithms/mesh/triangle_tree.hpp>
 
 namespace terrane {
@@ -99,27 +100,6 @@ double distance_bound(const Surface& from, const Surface& to, double tolerance, 
     }
     // Every part that was dropped had a smaller bound.
     return std::max(least + tolerance, front.empty() ? 0 : front.top().most);
-}
-
-Surface surface_of_mesh(const Mesh& mesh, std::uint32_t surface) {
-    Surface out;
-    out.name = mesh.surfaces[surface].name;
-    out.role = mesh.surfaces[surface].role;
-    std::vector<std::uint32_t> name_of(mesh.vertices.size(), UINT32_MAX);
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        const auto list = mesh.surfaces_of[t];
-        if (!std::binary_search(list.begin(), list.end(), surface)) continue;
-        Triangle corners = mesh.triangles[t];
-        for (std::uint32_t& v : corners) {
-            if (name_of[v] == UINT32_MAX) {
-                name_of[v] = static_cast<std::uint32_t>(out.vertices.size());
-                out.vertices.push_back(mesh.vertices[v]);
-            }
-            v = name_of[v];
-        }
-        out.triangles.push_back(corners);
-    }
-    return out;
 }
 
 std::vector<Deviation> deviations_of(const Mesh& before, const Mesh& after, const Run& run) {

@@ -23,9 +23,6 @@ double sampled_distance(const Surface& from, const Surface& to, const Run& run =
 double distance_bound(const Surface& from, const Surface& to, double tolerance,
                       const Run& run = {});
 
-/// Extracts one surface of a mesh; vertices are numbered anew.
-Surface surface_of_mesh(const Mesh& mesh, std::uint32_t surface);
-
 /// Sampled distances between the two states of one surface: `out` from the second mesh to the
 /// first, `back` from the first to the second.
 struct Deviation {

@@ -8,6 +8,7 @@
 
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/mesh/edges.hpp>
+#include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/algorithms/mesh/triangle_tree.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/quality/detail/features.hpp>

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include <terrane/algorithms/mesh/submesh.hpp>
+
 namespace terrane {
 namespace {
 
@@ -13,24 +15,15 @@ MeshPart part_of(const Mesh& mesh, std::vector<std::uint32_t> triangles, const I
     MeshPart part;
     Mesh& out = part.mesh;
     out.surfaces = mesh.surfaces;
-    std::vector<std::uint32_t> used;
-    for (const std::uint32_t t : triangles)
-        used.insert(used.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
-    std::sort(used.begin(), used.end());
-    used.erase(std::unique(used.begin(), used.end()), used.end());
-    for (const std::uint32_t v : used) out.vertices.push_back(mesh.vertices[v]);
-    const auto name = [&](std::uint32_t v) {
-        return static_cast<std::uint32_t>(std::lower_bound(used.begin(), used.end(), v) -
-                                          used.begin());
-    };
     for (const std::uint32_t t : triangles) {
         Triangle corners = mesh.triangles[t];
         if (!in_front(t)) std::swap(corners[1], corners[2]);
-        out.triangles.push_back({name(corners[0]), name(corners[1]), name(corners[2])});
+        out.triangles.push_back(corners);
         out.surfaces_of.push_back(mesh.surfaces_of[t]);
         if (mesh.regions_of.size() != 0) out.regions_of.push_back(mesh.regions_of[t]);
         if (mesh.parents_of.size() != 0) out.parents_of.push_back(mesh.parents_of[t]);
     }
+    out.vertices = Submesh(mesh.vertices).cut(out.triangles);
     part.triangles = std::move(triangles);
     return part;
 }

@@ -16,6 +16,7 @@
 #include <terrane/algorithms/arrangement/soup.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/intersection/intersection.hpp>
+#include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/algorithms/search/search.hpp>
 #include <terrane/algorithms/tetgen/detail/assembly.hpp>
@@ -113,16 +114,8 @@ Result<Box3> box_around(std::span<const Point3> points, const TetrahedraOptions&
 // ---- 3. The domain: used vertices, box corners, facets ------------------------------------------
 
 void keep_used_vertices(const Mesh& mesh, TetgenDomain& domain) {
-    std::vector<std::uint32_t> new_index(mesh.vertices.size(), none);
-    for (const Triangle& triangle : mesh.triangles)
-        for (const std::uint32_t v : triangle) new_index[v] = 0;
-    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-        if (new_index[v] == none) continue;
-        new_index[v] = static_cast<std::uint32_t>(domain.points.size());
-        domain.points.push_back(mesh.vertices[v]);
-    }
-    for (const auto& [a, b, c] : mesh.triangles)
-        domain.triangles.push_back({new_index[a], new_index[b], new_index[c]});
+    domain.triangles = mesh.triangles;
+    domain.points = Submesh(mesh.vertices).cut(domain.triangles);
 }
 
 /// Corner i is high in x, y, z where bit 0, 1, 2 of i is set.

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include <terrane/algorithms/mesh/submesh.hpp>
+
 namespace terrane {
 namespace {
 
@@ -63,20 +65,10 @@ void drop_faces(TetrahedralMesh& m) {
 }
 
 void drop_vertices(TetrahedralMesh& m) {
-    std::vector<std::uint32_t> name(m.vertices.size(), none);
-    for (const auto& t : m.tetrahedra)
-        for (const std::uint32_t v : t) name[v] = 0;
-    std::uint32_t kept = 0;
-    for (std::size_t v = 0; v < name.size(); ++v) {
-        if (name[v] == none) continue;
-        m.vertices[kept] = m.vertices[v];
-        name[v] = kept++;
-    }
-    m.vertices.resize(kept);
-    for (auto& t : m.tetrahedra)
-        for (std::uint32_t& v : t) v = name[v];
-    for (Triangle& f : m.faces)
-        for (std::uint32_t& v : f) v = name[v];
+    const VertexRenumbering numbers(used_vertices(m.vertices.size(), m.tetrahedra));
+    numbers.compact(m.vertices);
+    numbers.rename(m.tetrahedra);
+    numbers.rename(m.faces);
 }
 
 } // namespace

@@ -207,6 +207,8 @@ Result<std::vector<Where>> locate(const Arrangement& a, std::span<const std::uin
     return where;
 }
 
+namespace {
+
 Result<VolumeOfInterest> cut(Arrangement a, std::span<const std::uint32_t> boundary,
                              const Run& run) {
     const auto where = locate(a, boundary, run);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <memory>
 
+#include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/options/files.hpp>
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <terrane/algorithms/core/stopwatch.hpp>
+#include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/options/files.hpp>
 #include <terrane/cli/options/statistics.hpp>

@@ -208,21 +208,6 @@ void append(Inputs& inputs, std::vector<Surface> surfaces, const std::string& or
     inputs.labels = labels_of(inputs.surfaces);
 }
 
-Mesh concatenate(const std::vector<Surface>& surfaces) {
-    Mesh mesh;
-    for (const Surface& s : surfaces) {
-        const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-        const auto number = static_cast<std::uint32_t>(mesh.surfaces.size());
-        mesh.surfaces.push_back({s.name, s.role});
-        mesh.vertices.insert(mesh.vertices.end(), s.vertices.begin(), s.vertices.end());
-        for (const Triangle& t : s.triangles) {
-            mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-            mesh.surfaces_of.push_back(std::array{number});
-        }
-    }
-    return mesh;
-}
-
 std::string name_of_inputs(const FileOptions& options) {
     const auto& first = options.inputs.front();
     const std::string name = first == "-" ? "standard input" : first;

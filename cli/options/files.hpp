@@ -73,9 +73,6 @@ Result<Inputs> read_inputs(const FileOptions& options, Session& session);
 /// the input stay.
 void append(Inputs& inputs, std::vector<Surface> surfaces, const std::string& origin);
 
-/// The surfaces one after the other: each triangle in one surface, no vertex shared between two.
-Mesh concatenate(const std::vector<Surface>& surfaces);
-
 /// "basin.ts", "basin.ts and 3 more files"
 std::string name_of_inputs(const FileOptions& options);
 

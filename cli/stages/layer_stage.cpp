@@ -69,28 +69,4 @@ std::string contacts_text(const Layered& layered) {
                        text_of(report.contacts.at(0).place));
 }
 
-std::vector<Surface> surfaces_of(const Mesh& mesh) {
-    std::vector<Surface> all;
-    std::vector<std::vector<std::uint32_t>> members(mesh.surfaces.size()); // triangles of each
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
-        for (const std::uint32_t s : mesh.surfaces_of[t]) members[s].push_back(t);
-    std::vector<std::uint32_t> number(mesh.vertices.size());
-    for (std::size_t s = 0; s < members.size(); ++s) {
-        all.push_back({mesh.surfaces[s].name, mesh.surfaces[s].role, {}, {}});
-        std::vector<bool> used(mesh.vertices.size());
-        for (const std::uint32_t t : members[s])
-            for (const std::uint32_t v : mesh.triangles[t]) used[v] = true;
-        for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
-            if (!used[v]) continue;
-            number[v] = static_cast<std::uint32_t>(all.back().vertices.size());
-            all.back().vertices.push_back(mesh.vertices[v]);
-        }
-        for (const std::uint32_t t : members[s]) {
-            const Triangle& c = mesh.triangles[t];
-            all.back().triangles.push_back({number[c[0]], number[c[1]], number[c[2]]});
-        }
-    }
-    return all;
-}
-
 } // namespace terrane::cli

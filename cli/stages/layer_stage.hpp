@@ -23,9 +23,4 @@ std::string text_of(const Inputs& inputs, const Layered& layered);
 /// Where the doubles are not conforming: how many pairs, and the first place; empty else.
 std::string contacts_text(const Layered& layered);
 
-/// The surfaces of a mesh, each with its own vertices and all its triangles: a triangle of several
-/// surfaces is in each of them. In the order of mesh.surfaces; vertices and triangles in that of
-/// the mesh.
-std::vector<Surface> surfaces_of(const Mesh& mesh);
-
 } // namespace terrane::cli

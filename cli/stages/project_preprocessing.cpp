@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <terrane/algorithms/core/stopwatch.hpp>
+#include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/cli/options/roles.hpp>
 #include <terrane/cli/reports/fill_report.hpp>
 #include <terrane/cli/stages/layer_stage.hpp>
@@ -106,7 +107,7 @@ Status stack(const std::vector<Layer>& order, double min_thickness, Inputs& inpu
     if (!layered) return layered.error();
     mended.said += text_of(inputs, layered.value());
     mended.refused = contacts_text(layered.value());
-    auto surfaces = surfaces_of(layered.value().rounded.mesh);
+    auto surfaces = surfaces_of_mesh(layered.value().rounded.mesh);
     for (std::size_t i = 0; i < order.size(); ++i)
         inputs.surfaces[order[i].surface] = std::move(surfaces[i]);
     return Done{};

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include <terrane/io/surfaces/subset.hpp>
+#include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/io/text/names.hpp>
 #include <terrane/io/text/text.hpp>
 
@@ -164,7 +164,7 @@ MaybeError ObjReader::check_ahead() const {
 
 std::vector<Surface> ObjReader::surfaces() {
     std::vector<Surface> result;
-    Subset subset(vertices_);
+    Submesh subset(vertices_);
     for (const auto index : with_faces_) {
         auto& group = groups_[index];
         auto& surface = result.emplace_back();

@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include <terrane/io/surfaces/subset.hpp>
+#include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/io/text/bytes.hpp>
 #include <terrane/io/text/names.hpp>
 #include <terrane/io/text/text.hpp>
@@ -374,7 +374,7 @@ private:
                               std::move(triangles_of_[0])});
             return result;
         }
-        Subset subset(vertices_);
+        Submesh subset(vertices_);
         for (std::size_t s = 0; s < triangles_of_.size(); ++s) {
             auto& triangles = triangles_of_[s];
             auto part = subset.cut(triangles);

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include <terrane/algorithms/core/parallel.hpp>
+#include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/algorithms/rounding/detail/collapsed_triangles.hpp>
 #include <terrane/kernel/predicates.hpp>
 
@@ -254,19 +255,10 @@ void RoundingState::replace_triangles(std::vector<Triangle> fresh,
 }
 
 void RoundingState::drop_unused_points() {
-    std::vector<std::uint32_t> name(points.size(), none);
-    for (const Triangle& t : triangles)
-        for (const std::uint32_t v : t) name[v] = 0;
-    std::uint32_t kept = 0;
-    for (std::size_t v = 0; v < points.size(); ++v) {
-        if (name[v] == none) continue;
-        name[v] = kept;
-        points[kept++] = points[v];
-    }
-    merged += points.size() - kept;
-    points.resize(kept);
-    for (Triangle& t : triangles)
-        for (std::uint32_t& v : t) v = name[v];
+    const VertexRenumbering numbers(used_vertices(points.size(), triangles));
+    merged += points.size() - numbers.kept();
+    numbers.compact(points);
+    numbers.rename(triangles);
 }
 
 } // namespace terrane

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/io/gocad/gocad.hpp>
 
-#include <terrane/io/surfaces/subset.hpp>
+#include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/io/text/names.hpp>
 #include <terrane/io/text/text.hpp>
 
@@ -69,7 +69,7 @@ std::string to_gocad(const Mesh& mesh) {
         for (const auto surface : mesh.surfaces_of[i])
             triangles_of[surface].push_back(mesh.triangles[i]);
     std::string out;
-    Subset subset(mesh.vertices);
+    Submesh subset(mesh.vertices);
     for (std::size_t s = 0; s < mesh.surfaces.size(); ++s) {
         const auto vertices = subset.cut(triangles_of[s]);
         append_header(out, mesh.surfaces[s]);

@@ -12,6 +12,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/algorithms/quality/deviation.hpp>
 #include <terrane/algorithms/quality/improve_back.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // Improves random models after arranging and rounding them; other stages check the invariants.
+#include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/algorithms/quality/improve.hpp>
 #include <terrane/algorithms/quality/improve_back.hpp>
 
