@@ -6,6 +6,7 @@
 
 #include <terrane/algorithms/mesh/edges.hpp>
 #include <terrane/algorithms/mesh/submesh.hpp>
+#include <terrane/kernel/assertion.hpp>
 
 namespace terrane {
 namespace {
@@ -57,6 +58,7 @@ void drop_neighbours_without_parts(Arrangement& a) {
 } // namespace
 
 Arrangement restricted(Arrangement a, const std::vector<bool>& keep, const Run& run) {
+    TERRANE_ASSERT(keep.size() == a.triangles.size());
     if (std::find(keep.begin(), keep.end(), false) == keep.end()) return a;
     a.whole = false;
     a.triangles = kept_values(a.triangles, keep);
