@@ -229,10 +229,8 @@ TEST_CASE("files: any size is read whole", "[io][files]") {
 }
 
 TEST_CASE("files: running out of memory is an error, not an exception", "[io][files]") {
-    const auto bad = guard_memory("a.ts",
-                                  []() -> Status { throw std::bad_alloc(); });
-    const auto length = guard_memory("a.ts",
-                                     []() -> Status { throw std::length_error("x"); });
+    const auto bad = guard_memory("a.ts", []() -> Status { throw std::bad_alloc(); });
+    const auto length = guard_memory("a.ts", []() -> Status { throw std::length_error("x"); });
     for (const auto& status : {bad, length}) {
         CHECK(message_of(status) == "a.ts: there is not enough memory");
         CHECK(code_of(status) == ErrorCode::out_of_memory);
