@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Property: any bytes give surfaces or an error that says something and where; what is accepted
-// can be arranged, and survives writing and reading to the last bit.
-// One program per format: format_name is linked in.
+// Property: any bytes give surfaces, or an error with a sentence and a place; accepted surfaces can
+// be arranged, and are equal to the last bit after writing and reading.
+// There is one program per format, into which format_name is linked.
 #include <algorithm>
 #include <bit>
 #include <cctype>
@@ -14,10 +14,6 @@
 
 #include <terrane/algorithms/check/check.hpp>
 #include <terrane/io/files.hpp>
-#include <terrane/io/surfaces/obj.hpp>
-#include <terrane/io/surfaces/off.hpp>
-#include <terrane/io/surfaces/ply.hpp>
-#include <terrane/io/surfaces/stl.hpp>
 
 #include "report.hpp"
 
@@ -37,28 +33,20 @@ Result<std::vector<Surface>> read(std::string_view contents) {
     return parse_surfaces(contents, "fuzz", *format_named(format_name));
 }
 
-/// Formats that are only read are written as PLY.
+/// Returns the format to write: PLY for formats that are only read.
 Format written_format() {
     const Format format = *format_named(format_name);
     return holds_surfaces(format) ? format : Format::ply;
 }
 
 std::string written(const Mesh& mesh) {
-    switch (written_format()) {
-    case Format::gocad:
-        return to_gocad(mesh);
-    case Format::obj:
-        return to_obj(mesh);
-    case Format::off:
-        return to_off(mesh);
-    case Format::stl:
-        return to_stl_ascii(mesh);
-    default:
-        return to_ply(mesh);
-    }
+    // Only text STL keeps doubles.
+    const auto text = format_mesh(mesh, written_format(), {.ascii = true});
+    if (!text) fuzz::fail("what was read can't be written: " + text.error().message());
+    return text.value();
 }
 
-/// Without the vertices that no triangle uses: not all formats have a place for them.
+/// Removes the vertices that no triangle uses, which not all formats can store.
 Surface in_use(const Surface& s) {
     std::vector<bool> used(s.vertices.size());
     for (const Triangle& t : s.triangles)
@@ -101,7 +89,8 @@ bool same_points(const std::vector<Point3>& a, const std::vector<Point3>& b) {
     return true;
 }
 
-/// Names that every format keeps; others are changed in writing so that they read back.
+/// Tells whether every format keeps the names; others are changed in writing so that they read
+/// back.
 bool plain_names(const std::vector<Surface>& surfaces) {
     std::set<std::string> names;
     for (const Surface& s : surfaces) {
@@ -113,7 +102,7 @@ bool plain_names(const std::vector<Surface>& surfaces) {
     return true;
 }
 
-/// What keeps two lists of surfaces from being the same.
+/// Names a difference between two lists of surfaces; empty if there is none.
 std::string difference(const std::vector<Surface>& a, const std::vector<Surface>& b) {
     if (a.size() != b.size()) return "number of surfaces";
     for (std::size_t s = 0; s < a.size(); ++s) {
@@ -126,7 +115,7 @@ std::string difference(const std::vector<Surface>& a, const std::vector<Surface>
     return "";
 }
 
-/// The second text must be the first: names that had to be changed are changed once.
+/// Writes, reads and writes again. The two texts must be equal: names are changed only once.
 void check_round_trip(const std::vector<Surface>& surfaces) {
     std::vector<Surface> first;
     for (const Surface& s : surfaces)

@@ -232,6 +232,10 @@ Result<GocadModel> read_model(const fs::path& path) {
     });
 }
 
+Result<std::string> format_mesh(const Mesh& mesh, Format format, const WriteOptions& options) {
+    return guard_memory("", [&] { return contents_of(mesh, format, options); });
+}
+
 Status write_mesh(const Mesh& mesh, const fs::path& path, const WriteOptions& options) {
     return write(mesh, path, options);
 }

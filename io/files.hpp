@@ -86,6 +86,10 @@ struct WriteOptions {
     std::span<const std::string> region_names{};
 };
 
+/// Returns the contents of a file with the mesh in `format`; `options.format` has no effect.
+/// Errors: those of write_mesh that do not concern files, with an empty place.
+Result<std::string> format_mesh(const Mesh& mesh, Format format, const WriteOptions& options = {});
+
 /// Writes a mesh to a file; if this fails, no file is written. "-" is standard output.
 /// Errors: cannot_open, write_failed, unknown_format, unsupported (tetrahedra only), bad_number (a
 /// coordinate beyond float32 in STL), bad_option (a cell array of the wrong length), out_of_memory.

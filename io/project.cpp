@@ -2,229 +2,24 @@
 #include <terrane/io/project.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numeric>
-#include <set>
-#include <span>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <terrane/io/atomic/atomic_file.hpp>
+#include <terrane/io/detail/json_reader.hpp>
+#include <terrane/io/detail/project_keys.hpp>
 #include <terrane/io/text/memory.hpp>
 #include <terrane/io/text/names.hpp>
 
 namespace terrane {
 
 namespace fs = std::filesystem;
+using namespace detail;
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-using Keys = std::span<const std::string_view>;
-
-// ---- The keys of each object. project.schema.json says the same.
-
-constexpr std::array<std::string_view, 12> project_level{
-    "format", "folder", "threads", "surfaces",   "fill",   "layers", "volume_of_interest",
-    "extend", "seal",   "improve", "tetrahedra", "outputs"};
-constexpr std::array<std::string_view, 5> surfaces_level{"file", "objects", "name", "role",
-                                                         "depth"};
-constexpr std::array<std::string_view, 8> fill_level{"surface",       "method",    "model",
-                                                     "max_area",      "mesh_size", "gap_slope",
-                                                     "bridge_faults", "smoothing"};
-constexpr std::array<std::string_view, 2> layers_level{"order", "min_thickness"};
-constexpr std::array<std::string_view, 2> layer_level{"surface", "hardness"};
-constexpr std::array<std::string_view, 4> volume_level{"box", "rotated_box", "polygon", "within"};
-constexpr std::array<std::string_view, 2> box_level{"low", "high"};
-constexpr std::array<std::string_view, 6> rotated_level{"centre",  "corner", "lengths",
-                                                        "azimuth", "plunge", "roll"};
-constexpr std::array<std::string_view, 2> polygon_level{"corners", "between"};
-constexpr std::array<std::string_view, 3> improve_level{"edge_length", "max_deviation",
-                                                        "edge_length_of"};
-constexpr std::array<std::string_view, 8> tetrahedra_level{
-    "edge_length", "max_volume", "quality", "size_of", "size_in", "split", "outside", "time_limit"};
-constexpr std::array<std::string_view, 4> outputs_level{"surfaces", "tetrahedra", "blocks",
-                                                        "certificate"};
-
-constexpr std::array<std::string_view, 3> roles{"horizon", "fault", "boundary"};
-constexpr std::array<std::string_view, 2> fill_methods{"kriging", "rbf"};
-constexpr std::array<std::string_view, 5> variogram_models{"auto", "spherical", "exponential",
-                                                           "gaussian", "power"};
-constexpr std::array<std::string_view, 12> surface_formats{
-    "vtp", "obj", "ts", "ply", "off", "stl", "msh", "msh22", "inp", "mesh", "poly", "smesh"};
-constexpr std::array<std::string_view, 5> tetrahedra_formats{"vtu", "msh", "msh22", "inp", "mesh"};
-constexpr std::array<std::string_view, 2> block_formats{"vtp", "obj"};
-constexpr std::array<std::string_view, 1> formats{"terrane-project 1"};
-
-constexpr double smallest_quality = 1.1;
-constexpr double most_threads = 1024;
-
-// ---- What is said
-
-/// How many characters must be changed, added or removed.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i;
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t changed = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-            diagonal = row[j];
-            row[j] = std::min({changed, row[j] + 1, row[j - 1] + 1});
-        }
-    }
-    return row[b.size()];
-}
-
-/// "a, b or c"
-std::string listed(Keys words) {
-    std::string text;
-    for (std::size_t i = 0; i < words.size(); ++i)
-        text += fmt::format("{}{}", i == 0 ? "" : i + 1 == words.size() ? " or " : ", ", words[i]);
-    return text;
-}
-
-/// The key that was meant, most likely; else all that there are.
-std::string advice(std::string_view unknown, Keys keys) {
-    const auto nearest =
-        std::min_element(keys.begin(), keys.end(), [&](std::string_view a, std::string_view b) {
-            return edit_distance(unknown, a) < edit_distance(unknown, b);
-        });
-    if (edit_distance(unknown, *nearest) <= std::max<std::size_t>(2, nearest->size() / 3))
-        return fmt::format("unknown key; did you mean {}?", *nearest);
-    return "unknown key; there are " + listed(keys);
-}
-
-// ---- Reading
-
-/// Reads values and keeps the first thing that is wrong; after that all values are empty.
-class Parser {
-public:
-    explicit Parser(std::string_view source) : source_(source) {}
-
-    [[nodiscard]] const std::optional<Error>& error() const { return error_; }
-
-    void fail(const std::string& path, std::string sentence) {
-        if (!error_)
-            error_ = Error{ErrorCode::bad_option, std::move(sentence),
-                           path.empty() ? source_ : source_ + ": " + path};
-    }
-
-    /// Whether it is an object of these keys.
-    bool object(const Json& value, const std::string& path, Keys keys) {
-        if (!value.is_object()) {
-            fail(path, "must be an object");
-            return false;
-        }
-        for (const auto& [key, unused] : value.items())
-            if (std::find(keys.begin(), keys.end(), key) == keys.end())
-                fail(join(path, key), advice(key, keys));
-        return !error_;
-    }
-
-    /// The value of a key, or nothing.
-    const Json* find(const Json& object, std::string_view key) const {
-        const auto at = object.find(key);
-        return at == object.end() || error_ ? nullptr : &*at;
-    }
-
-    const Json* need(const Json& object, std::string_view key, const std::string& path) {
-        const Json* value = find(object, key);
-        if (value == nullptr) fail(path, fmt::format("the key {} is missing", key));
-        return value;
-    }
-
-    std::string text(const Json& value, const std::string& path) {
-        if (value.is_string() && !value.get_ref<const std::string&>().empty())
-            return value.get<std::string>();
-        fail(path, "must be a string, not empty");
-        return {};
-    }
-
-    std::string one_of(const Json& value, const std::string& path, Keys words) {
-        if (value.is_string() &&
-            std::find(words.begin(), words.end(), value.get<std::string>()) != words.end())
-            return value.get<std::string>();
-        fail(path, "must be " + listed(words));
-        return {};
-    }
-
-    double number(const Json& value, const std::string& path) {
-        if (value.is_number() && std::isfinite(value.get<double>())) return value.get<double>();
-        fail(path, "must be a number");
-        return 0;
-    }
-
-    double positive(const Json& value, const std::string& path) {
-        if (value.is_number() && std::isfinite(value.get<double>()) && value.get<double>() > 0)
-            return value.get<double>();
-        fail(path, "must be a number larger than 0");
-        return 0;
-    }
-
-    bool truth(const Json& value, const std::string& path) {
-        if (value.is_boolean()) return value.get<bool>();
-        fail(path, "must be true or false");
-        return false;
-    }
-
-    /// Calls read(entry, path) for each of at least `least` entries, at most `most`.
-    template <class Read>
-    void array(const Json& value, const std::string& path, std::size_t least, std::size_t most,
-               const Read& read) {
-        if (!value.is_array() || value.size() < least || value.size() > most) {
-            const auto count = least == most ? fmt::format(" of {}", least)
-                               : least > 0   ? fmt::format(" of at least {}", least)
-                                             : std::string();
-            fail(path, "must be a list" + count);
-            return;
-        }
-        for (std::size_t i = 0; i < value.size() && !error_; ++i)
-            read(value[i], fmt::format("{}[{}]", path, i));
-    }
-
-    std::vector<std::string> texts(const Json& value, const std::string& path, std::size_t least) {
-        std::vector<std::string> all;
-        array(value, path, least, SIZE_MAX,
-              [&](const Json& entry, const std::string& at) { all.push_back(text(entry, at)); });
-        return all;
-    }
-
-    std::vector<std::string> words(const Json& value, const std::string& path, Keys choice) {
-        std::vector<std::string> all;
-        array(value, path, 1, SIZE_MAX, [&](const Json& entry, const std::string& at) {
-            all.push_back(one_of(entry, at, choice));
-        });
-        return all;
-    }
-
-    template <std::size_t N>
-    std::array<double, N> numbers(const Json& value, const std::string& path) {
-        std::array<double, N> all{};
-        std::size_t next = 0;
-        array(value, path, N, N,
-              [&](const Json& entry, const std::string& at) { all[next++] = number(entry, at); });
-        return all;
-    }
-
-    Point3 point(const Json& value, const std::string& path) {
-        const auto [x, y, z] = numbers<3>(value, path);
-        return {x, y, z};
-    }
-
-    static std::string join(const std::string& path, std::string_view key) {
-        return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key);
-    }
-
-private:
-    std::string source_;
-    std::optional<Error> error_;
-};
-
-/// The parts of a project, each by the keys of its object.
+/// Reads a project; each function reads the object of one kind by its keys.
 class ProjectParser {
 public:
     ProjectParser(const fs::path& base, std::string_view source) : base_(base), in_(source) {}
@@ -425,7 +220,7 @@ private:
             return all;
         }
         for (const auto& [name, length] : json.items())
-            all.emplace_back(name, in_.positive(length, Parser::join(path, name)));
+            all.emplace_back(name, in_.positive(length, JsonReader::join(path, name)));
         return all;
     }
 
@@ -485,65 +280,22 @@ private:
     }
 
     const fs::path& base_;
-    Parser in_;
+    JsonReader in_;
 };
-
-// ---- The text
-
-std::size_t line_of(std::string_view text, std::size_t byte) {
-    const auto before = text.substr(0, std::min(byte, text.size()));
-    return 1 + static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n'));
-}
-
-/// JSON lets a key be there twice, and the last one count: hardly ever what was meant.
-class RepeatedKeys {
-public:
-    bool operator()(int, Json::parse_event_t event, const Json& value) {
-        if (event == Json::parse_event_t::object_start) met_.emplace_back();
-        if (event == Json::parse_event_t::object_end) met_.pop_back();
-        if (event == Json::parse_event_t::key) {
-            const auto key = value.get<std::string>();
-            if (!met_.back().insert(key).second && repeated.empty()) repeated = key;
-        }
-        return true;
-    }
-
-    std::string repeated{};
-
-private:
-    std::vector<std::set<std::string>> met_{};
-};
-
-Result<Json> parsed(std::string_view text, std::string_view source) {
-    try {
-        RepeatedKeys keys;
-        Json json = Json::parse(
-            text, [&](int depth, auto event, Json& value) { return keys(depth, event, value); });
-        if (keys.repeated.empty()) return json;
-        return Error{ErrorCode::bad_option,
-                     "the key " + detail::one_line(keys.repeated) + " is there twice",
-                     std::string(source)};
-    } catch (const Json::parse_error& broken) {
-        return Error{ErrorCode::bad_syntax, "this is not JSON",
-                     fmt::format("{}:{}", source, line_of(text, broken.byte))};
-    } catch (const Json::exception&) { // a number that no double can hold
-        return Error{ErrorCode::bad_syntax, "a number is too large", std::string(source)};
-    }
-}
 
 } // namespace
 
 Result<Project> parse_project(std::string_view text, const fs::path& base,
                               std::string_view source) {
-    return detail::guard_memory(std::string(source), [&]() -> Result<Project> {
-        const auto json = parsed(text, source);
+    return guard_memory(std::string(source), [&]() -> Result<Project> {
+        const auto json = parse_json(text, source);
         if (!json) return json.error();
         return ProjectParser(base, source)(json.value());
     });
 }
 
 Result<Project> read_project(const fs::path& path) {
-    return detail::guard_memory(path.string(), [&]() -> Result<Project> {
+    return guard_memory(path.string(), [&]() -> Result<Project> {
         const auto text = read_file(path);
         if (!text) return text.error();
         return parse_project(text.value(), path.parent_path(), path.string());

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// The keys of each object of a project file, and the values to choose from. project.schema.json
+// states the same.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+namespace terrane::detail {
+
+inline constexpr std::array<std::string_view, 12> project_level{
+    "format", "folder", "threads", "surfaces",   "fill",   "layers", "volume_of_interest",
+    "extend", "seal",   "improve", "tetrahedra", "outputs"};
+inline constexpr std::array<std::string_view, 5> surfaces_level{"file", "objects", "name", "role",
+                                                                "depth"};
+inline constexpr std::array<std::string_view, 8> fill_level{
+    "surface",   "method",    "model",         "max_area",
+    "mesh_size", "gap_slope", "bridge_faults", "smoothing"};
+inline constexpr std::array<std::string_view, 2> layers_level{"order", "min_thickness"};
+inline constexpr std::array<std::string_view, 2> layer_level{"surface", "hardness"};
+inline constexpr std::array<std::string_view, 4> volume_level{"box", "rotated_box", "polygon",
+                                                              "within"};
+inline constexpr std::array<std::string_view, 2> box_level{"low", "high"};
+inline constexpr std::array<std::string_view, 6> rotated_level{"centre",  "corner", "lengths",
+                                                               "azimuth", "plunge", "roll"};
+inline constexpr std::array<std::string_view, 2> polygon_level{"corners", "between"};
+inline constexpr std::array<std::string_view, 3> improve_level{"edge_length", "max_deviation",
+                                                               "edge_length_of"};
+inline constexpr std::array<std::string_view, 8> tetrahedra_level{
+    "edge_length", "max_volume", "quality", "size_of", "size_in", "split", "outside", "time_limit"};
+inline constexpr std::array<std::string_view, 4> outputs_level{"surfaces", "tetrahedra", "blocks",
+                                                               "certificate"};
+
+inline constexpr std::array<std::string_view, 3> roles{"horizon", "fault", "boundary"};
+inline constexpr std::array<std::string_view, 2> fill_methods{"kriging", "rbf"};
+inline constexpr std::array<std::string_view, 5> variogram_models{
+    "auto", "spherical", "exponential", "gaussian", "power"};
+inline constexpr std::array<std::string_view, 12> surface_formats{
+    "vtp", "obj", "ts", "ply", "off", "stl", "msh", "msh22", "inp", "mesh", "poly", "smesh"};
+inline constexpr std::array<std::string_view, 5> tetrahedra_formats{"vtu", "msh", "msh22", "inp",
+                                                                    "mesh"};
+inline constexpr std::array<std::string_view, 2> block_formats{"vtp", "obj"};
+inline constexpr std::array<std::string_view, 1> formats{"terrane-project 1"};
+
+inline constexpr double smallest_quality = 1.1;
+inline constexpr double most_threads = 1024;
+
+} // namespace terrane::detail
