@@ -2,11 +2,11 @@
 
 #include "support/corefine_oracle.hpp"
 
+#include "support/corefine_booleans.hpp"
 #include "support/oracle.hpp"
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Exact_rational.h>
 #include <CGAL/Polygon_mesh_processing/corefinement.h>
 #include <CGAL/Polygon_mesh_processing/manifoldness.h>
 #include <CGAL/Polygon_mesh_processing/orientation.h>
@@ -33,13 +33,11 @@ using terrane::Surface;
 using terrane::Triangle;
 using Epick = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Epeck = CGAL::Exact_predicates_exact_constructions_kernel;
-using Rational = CGAL::Exact_rational;
-using Spot = std::array<Rational, 3>;
 using ExactMesh = CGAL::Surface_mesh<Epeck::Point_3>;
 
-// --- what CGAL asks for
+// --- the conditions of CGAL
 
-/// With the vertices in use; none where it is no manifold.
+/// Converts a surface, without unused vertices; none if it is not a manifold.
 template <class Mesh>
 std::optional<Mesh> to_cgal(const Surface& s) {
     using Point = typename Mesh::Point;
@@ -58,7 +56,8 @@ std::optional<Mesh> to_cgal(const Surface& s) {
     return mesh;
 }
 
-/// The first condition that a surface breaks; empty if none. Exact: Epick's predicates.
+/// Names the first condition of CGAL that a surface violates; empty if none. The predicates of
+/// Epick make this exact.
 std::string broken_condition(const Surface& s) {
     if (s.triangles.empty()) return "no triangle";
     const auto mesh = to_cgal<CGAL::Surface_mesh<Epick::Point_3>>(s);
@@ -71,7 +70,8 @@ std::string broken_condition(const Surface& s) {
     return "";
 }
 
-/// Whether CGAL takes it for the border of a volume. Precondition: no condition is broken.
+/// Tells whether a surface is the border of a volume for CGAL. Precondition: no condition is
+/// violated.
 bool bounds_volume(const Surface& s) {
     const auto mesh = to_cgal<CGAL::Surface_mesh<Epick::Point_3>>(s);
     return CGAL::is_closed(*mesh) && pmp::does_bound_a_volume(*mesh) &&
@@ -80,14 +80,6 @@ bool bounds_volume(const Surface& s) {
 
 // --- exact meshes
 
-/// Points and triangles, each with the input triangle that it is part of.
-struct Parts {
-    std::vector<Spot> points;
-    std::vector<Triangle> triangles;
-    std::vector<std::uint32_t> parent; ///< counted within the surface
-    std::set<std::array<Spot, 2>> intersection_edges;
-};
-
 Rational rational(const terrane::Exact& e) {
     mpq_t q;
     mpq_init(q);
@@ -95,10 +87,6 @@ Rational rational(const terrane::Exact& e) {
     const Rational r(q);
     mpq_clear(q);
     return r;
-}
-
-std::array<Spot, 2> ordered(const Spot& a, const Spot& b) {
-    return a < b ? std::array{a, b} : std::array{b, a};
 }
 
 using Constrained = ExactMesh::Property_map<ExactMesh::Edge_index, bool>;
@@ -150,8 +138,8 @@ std::vector<Spot> spots_of(const Arrangement& a) {
     return spots;
 }
 
-/// Sign of the area projected along the first axis along which the second triangle has one, times
-/// the sign of that one: whether two coplanar triangles are oriented alike.
+/// Tells whether two coplanar triangles are oriented alike: whether their areas have equal signs
+/// when projected along the first axis along which the second one has an area.
 bool alike(const std::array<Spot, 3>& p, const std::array<Spot, 3>& q) {
     for (unsigned k = 0; k < 3; ++k) {
         const unsigned u = (k + 1) % 3, v = (k + 2) % 3;
@@ -174,7 +162,7 @@ std::array<Spot, 3> corners_of(const Arrangement& a, std::uint32_t input_triangl
     return corners;
 }
 
-/// What the arrangement makes of one surface, oriented as its parents in that surface.
+/// Returns the parts of one surface in the arrangement, oriented like their parents in the surface.
 Parts parts_of(const Arrangement& a, const std::vector<Spot>& spots, std::uint32_t surface) {
     Parts parts;
     parts.points = spots;
@@ -199,9 +187,9 @@ Parts parts_of(const Arrangement& a, const std::vector<Spot>& spots, std::uint32
     return parts;
 }
 
-// --- the same?
+// --- comparison of parts
 
-/// Twice the areas projected along each axis, whatever the orientation.
+/// The parts of one input triangle; `area` is twice their unsigned areas projected along each axis.
 struct Share {
     std::set<Spot> points;
     std::size_t triangles = 0;
@@ -240,15 +228,12 @@ std::string difference(const Parts& ours, const Parts& theirs, bool with_edges) 
     return "";
 }
 
-// --- volumes
+// --- the comparison
 
-/// Six times the volume that triangles bound, seen from the origin.
-Rational volume(const Spot& a, const Spot& b, const Spot& c) {
-    return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
-           a[2] * (b[0] * c[1] - b[1] * c[0]);
-}
+static_assert(pmp::Corefinement::UNION == 0 && pmp::Corefinement::INTERSECTION == 1 &&
+              pmp::Corefinement::TM1_MINUS_TM2 == 2 && pmp::Corefinement::TM2_MINUS_TM1 == 3);
 
-Rational volume(const ExactMesh& mesh) {
+Rational mesh_volume(const ExactMesh& mesh) {
     Rational sum = 0;
     for (const auto f : mesh.faces()) {
         std::array<Spot, 3> corners;
@@ -262,164 +247,11 @@ Rational volume(const ExactMesh& mesh) {
     return sum;
 }
 
-int side(const Spot& a, const Spot& b, const Spot& c, const Spot& p) {
-    Spot u, v, w;
-    for (unsigned k = 0; k < 3; ++k) u[k] = a[k] - p[k], v[k] = b[k] - p[k], w[k] = c[k] - p[k];
-    const Rational d = volume(u, v, w);
-    return (d > 0) - (d < 0);
-}
-
-/// By a ray from p; none where it meets an edge. p is not on the surface.
-std::optional<bool> is_inside(const Spot& p, const Surface& s, const Spot& towards) {
-    bool inside = false;
-    for (const Triangle& t : s.triangles) {
-        std::array<Spot, 3> c;
-        for (unsigned i = 0; i < 3; ++i) {
-            const auto& v = s.vertices[t[i]];
-            c[i] = {Rational(v.x), Rational(v.y), Rational(v.z)};
-        }
-        const int here = side(c[0], c[1], c[2], p), there = side(c[0], c[1], c[2], towards);
-        if (here == 0 && there == 0) continue; // in its plane, and so past it: edges tell
-        bool left = false, right = false, on = false;
-        for (unsigned i = 0; i < 3; ++i) {
-            const int turn = side(p, towards, c[i], c[(i + 1) % 3]);
-            left = left || turn > 0;
-            right = right || turn < 0;
-            on = on || turn == 0;
-        }
-        if (left && right) continue; // the line passes it by
-        if (on) return std::nullopt;
-        // `towards` is beyond everything, so the triangle is crossed iff it lies between.
-        if (here * there < 0) inside = !inside;
-    }
-    return inside;
-}
-
-bool is_inside(const Spot& p, const Surface& s) {
-    Rational size = 1;
-    for (const auto& v : s.vertices)
-        for (const double d : {v.x, v.y, v.z}) size += d < 0 ? Rational(-d) : Rational(d);
-    for (unsigned k = 0; k < 3; ++k) size += p[k] < 0 ? Rational(-p[k]) : p[k];
-    for (int i = 1;; ++i) {
-        const Spot towards{p[0] + size * 4 * (97 + i * i), p[1] + size * (13 + 7 * i),
-                           p[2] + size * (5 + i * i * i)};
-        if (const auto answer = is_inside(p, s, towards)) return *answer;
-    }
-}
-
-/// Per triangle, a number for all that can be reached over edges that are no intersections.
-std::vector<std::size_t> patches_of(const Parts& parts) {
-    std::vector<std::size_t> patch(parts.triangles.size());
-    for (std::size_t t = 0; t < patch.size(); ++t) patch[t] = t;
-    std::map<std::array<std::uint32_t, 2>, std::vector<std::size_t>> at;
-    for (std::size_t t = 0; t < patch.size(); ++t)
-        for (unsigned i = 0; i < 3; ++i) {
-            const auto ends = std::minmax(parts.triangles[t][i], parts.triangles[t][(i + 1) % 3]);
-            const auto edge = ordered(parts.points[ends.first], parts.points[ends.second]);
-            if (parts.intersection_edges.count(edge) == 0)
-                at[{ends.first, ends.second}].push_back(t);
-        }
-    for (const auto& [edge, sides] : at)
-        for (const std::size_t t : sides)
-            if (patch[t] != patch[sides[0]])
-                std::replace(patch.begin(), patch.end(), std::size_t{patch[t]},
-                             std::size_t{patch[sides[0]]});
-    return patch;
-}
-
-enum class Side { inside, outside, same, opposite }; ///< of the other one, or parts of both
-
-Triangle turned(Triangle t) {
-    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-    return t;
-}
-
-Triangle reversed(const Triangle& t) {
-    return turned({t[0], t[2], t[1]});
-}
-
-/// Where the parts of one closed surface lie with respect to the other.
-std::vector<Side> sides_of(const Parts& parts, const Surface& other, const Parts& others) {
-    std::set<Triangle> shared;
-    for (const Triangle& t : others.triangles) shared.insert(turned(t));
-    std::map<std::size_t, Side> known; // by patch
-    const auto patch = patches_of(parts);
-    std::vector<Side> sides;
-    for (std::size_t i = 0; i < parts.triangles.size(); ++i) {
-        const Triangle& t = parts.triangles[i];
-        if (shared.count(turned(t)) != 0) {
-            sides.push_back(Side::same);
-        } else if (shared.count(reversed(t)) != 0) {
-            sides.push_back(Side::opposite);
-        } else {
-            if (known.count(patch[i]) == 0) {
-                Spot centre;
-                for (unsigned k = 0; k < 3; ++k)
-                    centre[k] =
-                        (parts.points[t[0]][k] + parts.points[t[1]][k] + parts.points[t[2]][k]) / 3;
-                known[patch[i]] = is_inside(centre, other) ? Side::inside : Side::outside;
-            }
-            sides.push_back(known[patch[i]]);
-        }
-    }
-    return sides;
-}
-
-/// The border of a Boolean of two closed surfaces, put together from their parts.
-struct Border {
-    std::vector<Triangle> triangles;
-
-    void add(const Parts& parts, const std::vector<Side>& sides, Side wanted, bool reverse) {
-        for (std::size_t i = 0; i < sides.size(); ++i)
-            if (sides[i] == wanted)
-                triangles.push_back(reverse ? reversed(parts.triangles[i])
-                                            : turned(parts.triangles[i]));
-    }
-    /// Two triangles at each edge. Vertices in which it touches itself are not looked for.
-    [[nodiscard]] bool is_manifold() const {
-        std::map<Edge, int> at;
-        for (const Triangle& t : triangles)
-            for (unsigned i = 0; i < 3; ++i) {
-                const auto ends = std::minmax(t[i], t[(i + 1) % 3]);
-                ++at[{ends.first, ends.second}];
-            }
-        return std::all_of(at.begin(), at.end(), [](const auto& edge) { return edge.second == 2; });
-    }
-    [[nodiscard]] Rational six_volumes(const std::vector<Spot>& points) const {
-        Rational sum = 0;
-        for (const Triangle& t : triangles) sum += volume(points[t[0]], points[t[1]], points[t[2]]);
-        return sum;
-    }
-};
-
-using Borders = std::array<Border, 4>; ///< by pmp::Corefinement::Boolean_operation_type
-
-/// Union, intersection, and the two differences.
-Borders booleans(std::span<const Surface> pair, const std::array<Parts, 2>& ours) {
-    static_assert(pmp::Corefinement::UNION == 0 && pmp::Corefinement::INTERSECTION == 1 &&
-                  pmp::Corefinement::TM1_MINUS_TM2 == 2 && pmp::Corefinement::TM2_MINUS_TM1 == 3);
-    const std::array sides{sides_of(ours[0], pair[1], ours[1]),
-                           sides_of(ours[1], pair[0], ours[0])};
-    Borders all;
-    for (unsigned k = 0; k < 2; ++k) {
-        all[0].add(ours[k], sides[k], Side::outside, false);
-        all[1].add(ours[k], sides[k], Side::inside, false);
-        all[2 + k].add(ours[k], sides[k], Side::outside, false);
-        all[2 + k].add(ours[1 - k], sides[1 - k], Side::inside, true);
-        all[2 + k].add(ours[k], sides[k], Side::opposite, false);
-    }
-    all[0].add(ours[0], sides[0], Side::same, false);
-    all[1].add(ours[0], sides[0], Side::same, false);
-    return all;
-}
-
-// --- the comparison
-
-/// CGAL's side of it.
+/// The result of CGAL.
 struct Refined {
     std::array<Parts, 2> parts;
-    std::array<std::optional<Rational>, 4> six; ///< volumes times six of the Booleans asked for;
-                                                ///< none where CGAL says it is no manifold
+    std::array<std::optional<Rational>, 4> six; ///< six times the volumes of the wanted Booleans;
+                                                ///< none if CGAL finds them not manifold
 };
 
 class Corefinement {
@@ -441,7 +273,7 @@ public:
     Corefinement(const Corefinement&) = delete;
     Corefinement& operator=(const Corefinement&) = delete;
 
-    /// Corefinement, and the Booleans that are wanted. Throws what CGAL throws.
+    /// Computes the corefinement and the wanted Booleans. Throws the exceptions of CGAL.
     Refined run(const std::array<bool, 4>& wanted) {
         Refined result;
         if (std::count(wanted.begin(), wanted.end(), true) != 0)
@@ -464,7 +296,7 @@ private:
             mesh_[0], mesh_[1], asked, parameters().edge_is_constrained_map(is_[0]),
             CGAL::parameters::edge_is_constrained_map(is_[1]));
         for (unsigned i = 0; i < 4; ++i)
-            if (wanted[i] && possible[i]) result.six[i] = volume(made[i]);
+            if (wanted[i] && possible[i]) result.six[i] = mesh_volume(made[i]);
     }
 
     std::array<ExactMesh, 2> mesh_;
@@ -481,7 +313,7 @@ std::string volume_flaw(const Borders& ours, const std::vector<Spot>& points,
     return "";
 }
 
-/// Parts of both surfaces: they overlap in their planes.
+/// Tells whether some part belongs to both surfaces, so that they overlap in their planes.
 bool overlap(const Arrangement& a) {
     return a.surfaces_of.values.size() != a.surfaces_of.size();
 }
