@@ -89,7 +89,7 @@ std::string flaw(std::span<const Surface> surfaces) {
     const auto arranged = arrange(surfaces);
     if (!arranged) return arranged.error().message();
     const auto rounded = round_to_doubles(arranged.value());
-    if (!rounded || rounded.value().mesh.triangles.empty()) return "";
+    if (!rounded || rounded.value().mesh->triangles.empty()) return "";
     const Mesh& mesh = rounded.value().mesh;
     const auto made = tetrahedralize(mesh, {.time_limit = 1}, {}); // TetGen may loop for ever
     if (!rounded.value().report.clean)

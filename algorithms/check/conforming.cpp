@@ -13,6 +13,7 @@
 #include <terrane/algorithms/intersection/injective_patches.hpp>
 #include <terrane/algorithms/intersection/intersection.hpp>
 #include <terrane/algorithms/mesh/edges.hpp>
+#include <terrane/algorithms/mesh/work_hook.hpp>
 #include <terrane/kernel/predicates.hpp>
 
 namespace terrane {
@@ -97,6 +98,7 @@ Status conforming(std::span<const Point3> points, std::span<const Triangle> tria
     if (auto sound = sound_triangles(points, triangles); !sound) return sound;
     if (auto distinct = distinct_points(points, triangles); !distinct) return distinct;
     if (auto distinct = distinct_triangles(triangles); !distinct) return distinct;
+    detail::announce_work("prove conforming", points, triangles);
     const auto pair = first_contact(points, triangles, label_of, run);
     if (run.stop.stop_requested()) return Error{ErrorCode::interrupted, "stopped on request", ""};
     if (!pair) return Done{};
@@ -104,6 +106,20 @@ Status conforming(std::span<const Point3> points, std::span<const Triangle> tria
     return contact("it meets triangle " + std::to_string(pair->second) +
                        " improperly: " + std::string(name_of(kind_of(*how))),
                    pair->first);
+}
+
+Result<ConformingMesh> prove_conforming(Mesh mesh, std::span<const std::uint32_t> label_of,
+                                        const Run& run) {
+    const auto proof = conforming(mesh.vertices, mesh.triangles, label_of, run);
+    if (!proof) return proof.error();
+    return ConformingMesh(std::move(mesh));
+}
+
+Result<ConformingMesh> prove_conforming(Mesh mesh, const Run& run) {
+    std::vector<std::uint32_t> labels(mesh.triangles.size());
+    for (std::size_t t = 0; t < std::min(labels.size(), mesh.surfaces_of.size()); ++t)
+        if (!mesh.surfaces_of[t].empty()) labels[t] = mesh.surfaces_of[t][0];
+    return prove_conforming(std::move(mesh), labels, run);
 }
 
 } // namespace terrane

@@ -189,9 +189,9 @@ private:
     }
 
     Result<Improved> assembled();
-    [[nodiscard]] Status check(const Mesh& after, std::span<const std::uint32_t> sheets);
-    [[nodiscard]] Result<bool> sides_kept(const Mesh& after,
-                                          std::span<const std::uint32_t> sheets) const;
+    Status check(Mesh after, std::span<const std::uint32_t> sheets, Improved& improved);
+    [[nodiscard]] Result<bool> sides_kept(std::span<const std::uint32_t> sheets,
+                                          Improved& improved) const;
     [[nodiscard]] Mesh output(std::span<const std::uint32_t> used) const;
     void add_intersection_edges(std::span<const std::uint32_t> used,
                                 std::span<const std::uint32_t> name_of, Mesh& out) const;
@@ -277,26 +277,27 @@ WorstCause Improver::cause_of_worst(Triangle t) {
     return deviation >= contact ? WorstCause::deviation : WorstCause::contact;
 }
 
-/// Tells whether a renaming of volumes exists by which each sheet has the same volumes on its sides
-/// as before.
-Result<bool> Improver::sides_kept(const Mesh& after, std::span<const std::uint32_t> sheets) const {
+/// Finds the volumes of the improved mesh. Tells whether a renaming of volumes exists by which each
+/// sheet has the same volumes on its sides as before.
+Result<bool> Improver::sides_kept(std::span<const std::uint32_t> sheets, Improved& improved) const {
     std::optional<Result<Volumes>> found_old, found_now;
     Run quiet = run_; // progress may only be reported by the calling thread
     quiet.progress = nullptr;
     both(
         run_, [&] { found_old = find_volumes(input_, quiet); },
-        [&] { found_now = find_volumes(after, quiet); });
-    const Result<Volumes>&old = *found_old, &now = *found_now;
+        [&] { found_now = find_volumes(improved.mesh, quiet); });
+    const Result<Volumes>& old = *found_old;
     if (!old) return old.error();
-    if (!now) return now.error();
+    if (!*found_now) return found_now->error();
+    improved.volumes = std::move(*found_now).value();
     std::vector<std::uint32_t> to(old.value().measures.size(), none);
-    std::vector<std::uint32_t> back(now.value().measures.size(), none);
+    std::vector<std::uint32_t> back(improved.volumes.measures.size(), none);
     if (to.size() != back.size()) return false;
     to[0] = back[0] = 0;
     for (std::size_t t = 0; t < sheets.size(); ++t)
         for (std::size_t side = 0; side < 2; ++side) {
             const std::uint32_t a = old.value().of_sides[features_.first_of[sheets[t]]][side];
-            const std::uint32_t b = now.value().of_sides[t][side];
+            const std::uint32_t b = improved.volumes.of_sides[t][side];
             if (to[a] == none && back[b] == none) {
                 to[a] = b;
                 back[b] = a;
@@ -306,25 +307,24 @@ Result<bool> Improver::sides_kept(const Mesh& after, std::span<const std::uint32
     return true;
 }
 
-/// Measures the quality before and after, and checks that the result is conforming and that volumes
-/// are unchanged.
-Status Improver::check(const Mesh& after, std::span<const std::uint32_t> sheets) {
-    std::optional<Status> holds;
+/// Proves that the improved mesh is conforming, finds its volumes, and measures the quality before
+/// and after.
+Status Improver::check(Mesh after, std::span<const std::uint32_t> sheets, Improved& improved) {
+    std::optional<Result<ConformingMesh>> proof;
     std::optional<Result<bool>> kept;
     both(
-        run_,
-        [&] {
-            report_.before = measure_quality(input_.vertices, input_.triangles, run_);
-            report_.after = measure_quality(after.vertices, after.triangles, run_);
-        },
-        [&] {
-            holds = conforming(after.vertices, after.triangles, sheets, run_);
-            if (*holds) kept = sides_kept(after, sheets);
-        });
-    if (!*holds && holds->error().code == ErrorCode::interrupted) return holds->error();
-    if (!*holds)
+        run_, [&] { report_.before = measure_quality(input_.vertices, input_.triangles, run_); },
+        [&] { proof = prove_conforming(std::move(after), sheets, run_); });
+    if (!*proof && proof->error().code == ErrorCode::interrupted) return proof->error();
+    if (!*proof)
         return Error{ErrorCode::internal,
-                     "the improved mesh is not conforming: " + holds->error().message(), ""};
+                     "the improved mesh is not conforming: " + proof->error().message(), ""};
+    improved.conforming = std::move(*proof).value();
+    improved.mesh = improved.conforming->mesh();
+    const Mesh& mesh = improved.mesh;
+    both(
+        run_, [&] { report_.after = measure_quality(mesh.vertices, mesh.triangles, run_); },
+        [&] { kept = sides_kept(sheets, improved); });
     if (!*kept) return kept->error();
     report_.sides_kept = kept->value();
     return Done{};
@@ -346,8 +346,7 @@ Result<Improved> Improver::assembled() {
     report_.refused_contact = validator_.refusals().contact;
     report_.refused_deviation = validator_.refusals().deviation;
     report_.refused_shape = validator_.refusals().shape;
-    improved.mesh = output(used);
-    if (auto good = check(improved.mesh, sheets); !good) return good.error();
+    if (auto good = check(output(used), sheets, improved); !good) return good.error();
     report_.worst_cause = cause_of_worst(mesh_.triangles[used[report_.after.worst]]);
     report_.sheets = features_.first_of.size();
     report_.curves = features_.curves.size();
@@ -357,9 +356,13 @@ Result<Improved> Improver::assembled() {
     return improved;
 }
 
-Result<Improved> improve_checked(const Mesh& mesh, const ImproveOptions& options, const Run& run) {
-    if (auto good = check_options(mesh, options); !good) return good.error();
-    if (auto good = check_lists(mesh); !good) return good.error();
+Status check_input(const Mesh& mesh, const ImproveOptions& options) {
+    if (auto good = check_options(mesh, options); !good) return good;
+    return check_lists(mesh);
+}
+
+Result<Improved> improve_unproven(const Mesh& mesh, const ImproveOptions& options, const Run& run) {
+    if (auto good = check_input(mesh, options); !good) return good.error();
     std::optional<Status> good;
     std::optional<Improver> improver;
     both(
@@ -367,6 +370,22 @@ Result<Improved> improve_checked(const Mesh& mesh, const ImproveOptions& options
         [&] { improver.emplace(mesh, options, run); });
     if (!*good) return good->error();
     return (*improver)();
+}
+
+Result<Improved> improve_proven(const ConformingMesh& mesh, const ImproveOptions& options,
+                                const Run& run) {
+    if (auto good = check_input(mesh, options); !good) return good.error();
+    return Improver(mesh, options, run)();
+}
+
+/// Running out of memory is an error like others.
+template <class Work>
+Result<Improved> guarded(const Work& work) {
+    try {
+        return work();
+    } catch (const std::bad_alloc&) {
+        return Error{ErrorCode::out_of_memory, "not enough memory to improve the mesh", ""};
+    }
 }
 
 } // namespace
@@ -392,11 +411,12 @@ std::string_view name_of(WorstCause cause) {
 }
 
 Result<Improved> improve(const Mesh& mesh, const ImproveOptions& options, const Run& run) {
-    try {
-        return improve_checked(mesh, options, run);
-    } catch (const std::bad_alloc&) {
-        return Error{ErrorCode::out_of_memory, "not enough memory to improve the mesh", ""};
-    }
+    return guarded([&] { return improve_unproven(mesh, options, run); });
+}
+
+Result<Improved> improve(const ConformingMesh& mesh, const ImproveOptions& options,
+                         const Run& run) {
+    return guarded([&] { return improve_proven(mesh, options, run); });
 }
 
 } // namespace terrane

@@ -29,13 +29,17 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <vector>
 
+#include <terrane/algorithms/check/conforming.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
+#include <terrane/algorithms/mesh/shared_mesh.hpp>
 #include <terrane/algorithms/quality/quality.hpp>
+#include <terrane/algorithms/volumes/volumes.hpp>
 
 namespace terrane {
 
@@ -84,7 +88,9 @@ struct Improved {
     /// The improved mesh: vertices and triangles in a new order; surfaces, regions and intersection
     /// edges as before. parents_of is empty, as triangles no longer lie in input triangles. All
     /// triangles of a sheet have the orientation of its first input triangle.
-    Mesh mesh;
+    SharedMesh mesh;
+    std::optional<ConformingMesh> conforming{}; ///< the same mesh with its proof; always there
+    Volumes volumes{};                          ///< of the mesh, found for report.sides_kept
     std::vector<std::uint32_t> near_of; ///< per triangle: an input triangle of the same sheet, near
                                         ///< its centroid
     ImproveReport report;
@@ -93,5 +99,9 @@ struct Improved {
 /// Improves the mesh. Errors: bad_option; bad_number, bad_index; improper_contact if the mesh is
 /// not conforming; nothing_to_do if it has no triangles; interrupted, out_of_memory.
 Result<Improved> improve(const Mesh& mesh, const ImproveOptions& options = {}, const Run& run = {});
+
+/// Improves a mesh that is proven conforming already, without another proof.
+Result<Improved> improve(const ConformingMesh& mesh, const ImproveOptions& options = {},
+                         const Run& run = {});
 
 } // namespace terrane

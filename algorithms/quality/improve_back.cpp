@@ -27,7 +27,7 @@ constexpr double most_factor = 8;      ///< the largest multiple of the bound th
 /// with.
 Features features_of(const Features& before, const Improved& after, const Run& run) {
     Features now;
-    now.triangles = after.mesh.triangles;
+    now.triangles = after.mesh->triangles;
     for (const std::uint32_t t : after.near_of) now.sheet_of.push_back(before.sheet_of[t]);
     now.across.assign(now.triangles.size(), {none, none, none});
     const auto side_of = [&](std::uint32_t t, std::uint32_t from, std::uint32_t to) {
@@ -36,7 +36,7 @@ Features features_of(const Features& before, const Improved& after, const Run& r
             if (c[i] == from && c[(i + 1) % 3] == to) return i;
         return std::size_t{3};
     };
-    const EdgeSides edges = group_edges(now.triangles, after.mesh.vertices.size(), run);
+    const EdgeSides edges = group_edges(now.triangles, after.mesh->vertices.size(), run);
     edges.for_each([&](std::uint32_t low, std::uint32_t high, auto sides) {
         if (sides.size() != 2) return;
         const std::uint32_t t = sides[0].triangle, u = sides[1].triangle;
@@ -164,7 +164,7 @@ Result<std::vector<double>> shown(const Mesh& before, const Improved& after,
     const Features now = features_of(features, after, run);
     const auto hints = hints_of(features, after);
     std::vector<double> bounds = bounds_of_sheets(before, features, after.report);
-    const ReferenceSurface reference(after.mesh.vertices, now, bounds);
+    const ReferenceSurface reference(after.mesh->vertices, now, bounds);
     ReferenceSurface::Search search;
     std::vector<double> of_surfaces(before.surfaces.size(), 0);
     std::vector<std::uint32_t> open(features.triangles.size());

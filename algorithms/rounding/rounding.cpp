@@ -14,6 +14,7 @@
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/core/stopwatch.hpp>
+#include <terrane/algorithms/mesh/work_hook.hpp>
 #include <terrane/algorithms/rounding/detail/separation.hpp>
 #include <terrane/algorithms/rounding/detail/snapped_input.hpp>
 #include <terrane/algorithms/rounding/detail/state.hpp>
@@ -21,6 +22,21 @@
 #include <terrane/kernel/predicates.hpp>
 
 namespace terrane {
+
+namespace rounding::detail {
+
+/// The proof that the rounds below make: they know all pairs that meet improperly, and end without
+/// one.
+class RoundingProof {
+public:
+    static ConformingMesh of(const SharedMesh& mesh) {
+        terrane::detail::announce_work("prove conforming", mesh->vertices, mesh->triangles);
+        return ConformingMesh(mesh);
+    }
+};
+
+} // namespace rounding::detail
+
 namespace {
 
 using rounding::detail::grid_of_digits;
@@ -295,10 +311,11 @@ void Rounding::find_first_regions() {
 
 void Rounding::finish(std::span<const CandidatePair> pairs) {
     out_.report.clean = pairs.empty();
+    Mesh mesh;
     both(
         run_, [&] { report_moves(); },
         [&] {
-            if (!changed_) out_.mesh.surfaces_of = arrangement_.surfaces_of;
+            if (!changed_) mesh.surfaces_of = arrangement_.surfaces_of;
         });
     report_vanished();
     if (changed_) state_.drop_unused_points();
@@ -310,7 +327,6 @@ void Rounding::finish(std::span<const CandidatePair> pairs) {
              kind_of(*contact),
              nearest(state_.points, contact->points[contact->point_count - 1u].how)});
     }
-    Mesh& mesh = out_.mesh;
     mesh.surfaces = arrangement_.surfaces;
     mesh.vertices = std::move(state_.points);
     mesh.triangles = std::move(state_.triangles);
@@ -331,6 +347,8 @@ void Rounding::finish(std::span<const CandidatePair> pairs) {
     }
     mesh.regions_of = std::move(regions_->regions_of);
     out_.regions = std::move(regions_->regions);
+    out_.mesh = std::move(mesh);
+    if (out_.report.clean) out_.conforming = rounding::detail::RoundingProof::of(out_.mesh);
 }
 
 /// The largest distance between exact vertices and those of a mesh with the same triangles; 0 for
@@ -355,7 +373,7 @@ void add_to_report(const SnappedInput& snapped, const Arrangement& a, const Roun
     report.deviation =
         std::max((report.deviation + snapped.largest_move()) * (1 + 0x1p-52), report.max_move);
     report.moved_input_vertices += snapped.moved();
-    report.vanished = vanished(a, rounded.mesh.parents_of);
+    report.vanished = vanished(a, rounded.mesh->parents_of);
 }
 
 std::vector<std::size_t> regions_per_surface(std::size_t surfaces,

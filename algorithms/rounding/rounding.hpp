@@ -14,13 +14,16 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>
 #include <terrane/algorithms/check/check.hpp>
+#include <terrane/algorithms/check/conforming.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
+#include <terrane/algorithms/mesh/shared_mesh.hpp>
 #include <terrane/algorithms/regions/regions.hpp>
 
 namespace terrane {
@@ -56,8 +59,9 @@ struct RoundingReport {
 
 /// The mesh of doubles, with regions, parents and intersection edges, and how it came about.
 struct RoundedMesh {
-    Mesh mesh;
-    std::vector<Region> regions; ///< of the mesh; regions_of counts them
+    SharedMesh mesh;
+    std::optional<ConformingMesh> conforming{}; ///< the same mesh, where report.clean
+    std::vector<Region> regions;                ///< of the mesh; regions_of counts them
     RoundingReport report;
 };
 

@@ -8,15 +8,11 @@
 #include <cmath>
 #include <limits>
 #include <new>
-#include <numeric>
 #include <span>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include <terrane/algorithms/arrangement/soup.hpp>
-#include <terrane/algorithms/intersection/intersection.hpp>
-#include <terrane/algorithms/search/search.hpp>
 #include <terrane/algorithms/tetgen/detail/assembly.hpp>
 #include <terrane/algorithms/tetgen/detail/process.hpp>
 #include <terrane/algorithms/tetgen/detail/sizes.hpp>
@@ -158,43 +154,12 @@ void add_box_corners(TetgenDomain& domain) {
                                  (i & 4U) != 0 ? high.z : low.z});
 }
 
-/// No two vertices at one place, no triangle twice, no two triangles that cross or touch otherwise
-/// than in common vertices.
-Status check_contacts(const TetgenDomain& domain) {
-    std::vector<std::uint32_t> order(domain.points.size());
-    std::iota(order.begin(), order.end(), 0U);
-    const auto at = [&](std::uint32_t v) { return domain.points[v]; };
-    std::sort(order.begin(), order.end(),
-              [&](std::uint32_t v, std::uint32_t w) { return at(v) < at(w); });
-    const auto twin =
-        std::adjacent_find(order.begin(), order.end(),
-                           [&](std::uint32_t v, std::uint32_t w) { return at(v) == at(w); });
-    if (twin != order.end())
-        return Error{ErrorCode::improper_contact,
-                     fmt::format("two vertices of the mesh lie at ({}, {}, {})", at(*twin).x,
-                                 at(*twin).y, at(*twin).z),
-                     ""};
-    const BoxSource boxes(domain.points, domain.triangles);
-    for (const auto& [i, j] : candidate_pairs(boxes, {}, Search::automatic)) {
-        const Triangle &t = domain.triangles[i], &u = domain.triangles[j];
-        if (std::is_permutation(t.begin(), t.end(), u.begin()))
-            return Error{ErrorCode::improper_contact,
-                         fmt::format("has the same vertices as triangle {}", j), place_of(i)};
-        if (improper_contact(domain.points, t, u))
-            return Error{ErrorCode::improper_contact,
-                         fmt::format("meets triangle {} other than in a shared vertex or edge", j),
-                         place_of(i)};
-    }
-    return Done{};
-}
-
 Result<TetgenDomain> make_domain(const Mesh& mesh, const TetrahedraOptions& options) {
     TetgenDomain domain;
     keep_used_vertices(mesh, domain);
     Result<Box3> box = box_around(domain.points, options);
     if (!box) return box.error();
     domain.box = box.value();
-    if (Status proper = check_contacts(domain); !proper) return proper.error();
     add_box_corners(domain);
     return domain;
 }
@@ -379,9 +344,12 @@ Status proceed(const Run& run, double share) {
     return Done{};
 }
 
-Result<TetrahedralMesh> fill(const Mesh& mesh, const TetrahedraOptions& options, const Run& run) {
+Result<TetrahedralMesh> fill(const ConformingMesh& mesh, const Volumes& volumes,
+                             const TetrahedraOptions& options, const Run& run) {
     if (Status good = check_options(options); !good) return good.error();
     if (Status good = check_mesh(mesh); !good) return good.error();
+    if (volumes.of_sides.size() != mesh->triangles.size())
+        return Error{ErrorCode::bad_index, "the volumes are not those of the mesh", ""};
     const auto helper = find_tetgen_helper(options.helper);
     if (!helper) return helper.error();
     if (Status go = proceed(run, 0); !go) return go.error();
@@ -391,28 +359,48 @@ Result<TetrahedralMesh> fill(const Mesh& mesh, const TetrahedraOptions& options,
     if (Status go = proceed(run, 0.1); !go) return go.error();
 
     const Scale scale(domain.value().points);
-    const Result<Volumes> volumes = find_volumes(mesh, {.stop = run.stop});
-    if (!volumes) return volumes.error();
-    Result<TetgenInput> input =
-        tetgen_input(mesh, volumes.value(), domain.value(), options, scale, run);
+    Result<TetgenInput> input = tetgen_input(mesh, volumes, domain.value(), options, scale, run);
     if (!input) return input.error();
     input.value().helper = helper.value();
     Result<TetrahedralMesh> result =
-        try_in_turn(mesh, volumes.value(), domain.value(), input.value(), scale, run);
+        try_in_turn(mesh, volumes, domain.value(), input.value(), scale, run);
     if (!result) return result;
     if (Status go = proceed(run, 1); !go) return go.error();
     return result;
 }
 
-} // namespace
-
-Result<TetrahedralMesh> tetrahedralize(const Mesh& mesh, const TetrahedraOptions& options,
+Result<TetrahedralMesh> prove_and_fill(const Mesh& mesh, const TetrahedraOptions& options,
                                        const Run& run) {
+    if (Status good = check_options(options); !good) return good.error();
+    if (Status good = check_mesh(mesh); !good) return good.error();
+    const Run quiet{.threads = run.threads, .stop = run.stop};
+    const auto proven = prove_conforming(mesh, quiet);
+    if (!proven) return proven.error();
+    const auto volumes = find_volumes(proven.value(), quiet);
+    if (!volumes) return volumes.error();
+    return fill(proven.value(), volumes.value(), options, run);
+}
+
+/// Running out of memory is an error like others.
+template <class Work>
+Result<TetrahedralMesh> guarded(const Work& work) {
     try {
-        return fill(mesh, options, run);
+        return work();
     } catch (const std::bad_alloc&) {
         return Error{ErrorCode::out_of_memory, "not enough memory for the tetrahedra", ""};
     }
+}
+
+} // namespace
+
+Result<TetrahedralMesh> tetrahedralize(const ConformingMesh& mesh, const Volumes& volumes,
+                                       const TetrahedraOptions& options, const Run& run) {
+    return guarded([&] { return fill(mesh, volumes, options, run); });
+}
+
+Result<TetrahedralMesh> tetrahedralize(const Mesh& mesh, const TetrahedraOptions& options,
+                                       const Run& run) {
+    return guarded([&] { return prove_and_fill(mesh, options, run); });
 }
 
 } // namespace terrane

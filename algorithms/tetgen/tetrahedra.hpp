@@ -7,9 +7,11 @@
 #include <filesystem>
 #include <optional>
 
+#include <terrane/algorithms/check/conforming.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
+#include <terrane/algorithms/volumes/volumes.hpp>
 
 namespace terrane {
 
@@ -64,10 +66,10 @@ struct TetrahedraOptions {
 ///     that each is one of its volumes, and the other way round, is checked at every face.
 /// (6) The same arguments give the same result, unless one of TetGen's ways runs out of time.
 ///
-/// The mesh must be conforming (see check.hpp); that is tested, exactly, since TetGen may crash or
-/// run forever on another. TetGen runs in a process of its own: nothing is printed, a crash is an
-/// error like others, a stop request ends it at once, and calls from several threads do not disturb
-/// each other. Where it fails, or (3) does not hold, it is asked again in other ways.
+/// The mesh must be conforming: TetGen may crash or run forever on another. TetGen runs in a process
+/// of its own: nothing is printed, a crash is an error like others, a stop request ends it at once,
+/// and calls from several threads do not disturb each other. Where it fails, or (3) does not hold,
+/// it is asked again in other ways.
 ///
 /// Errors: improper_contact with the place, bad_index, bad_number, bad_option, nothing_to_do (no
 /// triangle and no box), interrupted, timed_out (in all ways), out_of_memory, unsupported (too
@@ -75,6 +77,12 @@ struct TetrahedraOptions {
 /// helper program can't be found or run. An error about the helper has its path as the place.
 ///
 /// Source: TetGen 1.5 (H. Si).
+///
+/// `volumes` are those of the mesh.
+Result<TetrahedralMesh> tetrahedralize(const ConformingMesh& mesh, const Volumes& volumes,
+                                       const TetrahedraOptions& options, const Run& run);
+
+/// Proves that the mesh is conforming, finds its volumes and fills it as above.
 Result<TetrahedralMesh> tetrahedralize(const Mesh& mesh, const TetrahedraOptions& options,
                                        const Run& run);
 

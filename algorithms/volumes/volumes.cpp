@@ -11,6 +11,7 @@
 #include <utility>
 
 #include <terrane/algorithms/core/stopwatch.hpp>
+#include <terrane/algorithms/mesh/work_hook.hpp>
 #include <terrane/algorithms/volumes/detail/exact_volumes.hpp>
 #include <terrane/algorithms/volumes/detail/radial_sort.hpp>
 #include <terrane/algorithms/volumes/detail/shell_nesting.hpp>
@@ -230,6 +231,7 @@ std::optional<Error> flaw_of(const Mesh& mesh) {
 
 Result<Volumes> find_volumes(const Arrangement& a, const Run& run) {
     return guarded([&]() -> Result<Volumes> {
+        detail::announce_work("find exact volumes", {}, a.triangles);
         const auto planes = planes_of(a);
         const auto edges = group_edges(a.triangles, a.vertices.size(), run);
         return find({a.points, a.vertices, a.triangles, edges, planes, &a.parents_of}, run);
@@ -239,6 +241,7 @@ Result<Volumes> find_volumes(const Arrangement& a, const Run& run) {
 Result<Volumes> find_volumes(const Mesh& mesh, const Run& run) {
     return guarded([&]() -> Result<Volumes> {
         if (const auto flaw = flaw_of(mesh)) return *flaw;
+        detail::announce_work("find volumes", mesh.vertices, mesh.triangles);
         return find(MeshSheets(mesh).view(), run);
     });
 }

@@ -94,9 +94,9 @@ std::string improve_text(const Measured& measured, const Inputs& inputs) {
 void add_statistics(Json& json, const Measured& measured) {
     const Improved& improved = measured.improved;
     const ImproveReport& r = improved.report;
-    json["output"]["triangles"] = improved.mesh.triangles.size();
-    json["output"]["vertices"] = improved.mesh.vertices.size();
-    json["output"]["intersection_edges"] = improved.mesh.intersection_edges.size();
+    json["output"]["triangles"] = improved.mesh->triangles.size();
+    json["output"]["vertices"] = improved.mesh->vertices.size();
+    json["output"]["intersection_edges"] = improved.mesh->intersection_edges.size();
     json["improve"] = {{"passes", r.passes},
                        {"splits", r.splits},
                        {"collapses", r.collapses},

@@ -28,7 +28,7 @@ struct SurfaceTally {
 
 std::vector<SurfaceTally> tally(const Inputs& inputs, const RoundedMesh& rounded) {
     std::vector<SurfaceTally> tallies(inputs.surfaces.size());
-    for (const auto s : rounded.mesh.surfaces_of.values) ++tallies[s].triangles;
+    for (const auto s : rounded.mesh->surfaces_of.values) ++tallies[s].triangles;
     for (const Region& r : rounded.regions) tallies[r.surface].areas.push_back(r.area);
     for (auto& t : tallies) std::sort(t.areas.rbegin(), t.areas.rend());
     return tallies;
@@ -226,7 +226,7 @@ std::string offending_pairs(const Inputs& inputs, const Arranged& arranged) {
     const auto& first = arranged.exact.inputs.first;
     const auto& contacts = arranged.rounded.report.contacts;
     const auto name = [&](std::uint32_t t) {
-        const auto parents = arranged.rounded.mesh.parents_of[t];
+        const auto parents = arranged.rounded.mesh->parents_of[t];
         return fmt::format("output triangle {} (part of {})", t,
                            triangle_name(parents.front(), first, inputs.labels));
     };

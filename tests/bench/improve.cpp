@@ -254,8 +254,8 @@ int run_one(const std::string& name, const std::vector<Surface>& surfaces,
                 std::string(name_of(report.worst_cause)).c_str());
     print_row("before", report.before, 0, 0, 0, 0);
     const auto ours = split_by_surface(improved.value().mesh);
-    const Surface all_ours{"", Role::unknown, improved.value().mesh.vertices,
-                           improved.value().mesh.triangles};
+    const Surface all_ours{"", Role::unknown, improved.value().mesh->vertices,
+                           improved.value().mesh->triangles};
     print_row("terrane", report.after, seconds.clock, flaws_of(ours),
               sampled_distance(all_ours, before), sampled_distance(before, all_ours));
     const Surface all_theirs = joined(theirs.surfaces);

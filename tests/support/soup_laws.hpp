@@ -115,7 +115,7 @@ inline std::string rounding_flaw(const Surfaces& surfaces, const Arrangement& a,
     if (!made) return made.error().code == ErrorCode::bad_number ? "" : made.error().message();
     const RoundedMesh& rounded = made.value();
     const bool conforming =
-        verify_conforming(rounded.mesh.vertices, rounded.mesh.triangles).empty();
+        verify_conforming(rounded.mesh->vertices, rounded.mesh->triangles).empty();
     if (conforming != rounded.report.clean)
         return conforming ? "conforming doubles are refused" : "the doubles are not conforming";
     if (rounded.report.clean != rounded.report.contacts.empty())

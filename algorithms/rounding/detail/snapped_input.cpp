@@ -31,7 +31,7 @@ bool SnappedInput::choose(const RoundedMesh& rounded) {
     bool any = false;
     for (const ImproperContact& c : rounded.report.contacts)
         for (const std::uint32_t t : c.triangles)
-            for (const std::uint32_t parent : rounded.mesh.parents_of[t])
+            for (const std::uint32_t parent : rounded.mesh->parents_of[t])
                 for (const std::uint32_t v : arrangement_.inputs.corners[parent]) {
                     any = any || !chosen_[v];
                     chosen_[v] = true;

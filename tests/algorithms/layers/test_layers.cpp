@@ -247,7 +247,7 @@ TEST_CASE("stacks: nothing changes where nothing crosses, nor a second time", "[
         sheet(graph([](double x, double) { return -0.1 * x; }), 0, 0, 10, 10, 5, 5);
     const auto apart = stack_layers(std::array{top, base}, std::array{Layer{0, 0}, Layer{1, 1}});
     REQUIRE(apart);
-    CHECK(apart.value().rounded.mesh.triangles.size() ==
+    CHECK(apart.value().rounded.mesh->triangles.size() ==
           top.triangles.size() + base.triangles.size());
     for (const LayerReport& r : apart.value().reports) CHECK(r.dropped + r.taken == 0);
 
@@ -266,7 +266,7 @@ TEST_CASE("stacks: nothing changes where nothing crosses, nor a second time", "[
     const auto twice = stack_layers(again, order);
     REQUIRE(twice);
     CHECK(twice.value().reports[0].dropped == 0);
-    CHECK(twice.value().rounded.mesh.triangles.size() == mesh.triangles.size());
+    CHECK(twice.value().rounded.mesh->triangles.size() == mesh.triangles.size());
 }
 
 TEST_CASE("stacks: where the hard one ends there is a step, and its length is told", "[layers]") {
@@ -288,8 +288,8 @@ TEST_CASE("stacks: the same for any number of threads", "[layers]") {
                three = stack_layers(surfaces, order, {}, {.threads = 3});
     REQUIRE(one);
     REQUIRE(three);
-    CHECK(one.value().rounded.mesh.triangles == three.value().rounded.mesh.triangles);
-    CHECK(one.value().rounded.mesh.vertices == three.value().rounded.mesh.vertices);
+    CHECK(one.value().rounded.mesh->triangles == three.value().rounded.mesh->triangles);
+    CHECK(one.value().rounded.mesh->vertices == three.value().rounded.mesh->vertices);
 }
 
 TEST_CASE("stacks: what can't be stacked is refused", "[layers]") {

@@ -129,7 +129,7 @@ TEST_CASE("improve: another method confirms the bound for all points", "[improve
     options.edge_length = 1.2;
     options.max_deviation = 0.2;
     const Improved better = improved(mesh, options);
-    CHECK(better.mesh.triangles.size() < mesh.triangles.size());
+    CHECK(better.mesh->triangles.size() < mesh.triangles.size());
     for (std::uint32_t s = 0; s < mesh.surfaces.size(); ++s) {
         const double most =
             distance_bound(surface_of_mesh(better.mesh, s), surface_of_mesh(mesh, s), 0.02);
@@ -150,17 +150,19 @@ TEST_CASE("improve: the original is near the result, and a hole is detected", "[
         CHECK(back.value()[s] >= sampled_distance(before, after));
     }
     // Without a triangle it is far: the inscribed circle is larger than the bound.
-    for (const std::size_t gone : {std::size_t{0}, better.mesh.triangles.size() / 2}) {
+    for (const std::size_t gone : {std::size_t{0}, better.mesh->triangles.size() / 2}) {
         Improved holed = better;
-        const std::uint32_t surface = better.mesh.surfaces_of[gone][0];
+        const std::uint32_t surface = better.mesh->surfaces_of[gone][0];
         const auto keep = [&](auto& list) {
             list.erase(list.begin() + static_cast<std::ptrdiff_t>(gone));
         };
-        keep(holed.mesh.triangles);
+        Mesh rest = better.mesh;
+        keep(rest.triangles);
         keep(holed.near_of);
-        holed.mesh.surfaces_of = {};
-        for (std::size_t t = 0; t < better.mesh.triangles.size(); ++t)
-            if (t != gone) holed.mesh.surfaces_of.push_back(better.mesh.surfaces_of[t]);
+        rest.surfaces_of = {};
+        for (std::size_t t = 0; t < better.mesh->triangles.size(); ++t)
+            if (t != gone) rest.surfaces_of.push_back(better.mesh->surfaces_of[t]);
+        holed.mesh = rest;
         const auto far = bounds_back(mesh, holed, options);
         REQUIRE(far);
         CHECK(far.value()[surface] > better.report.bound_of[surface]);
@@ -174,7 +176,7 @@ TEST_CASE("improve: vertices of curves stay on them", "[improve]") {
     ImproveOptions options;
     options.edge_length = 0.3;
     const Improved better = improved(mesh, options);
-    REQUIRE_FALSE(better.mesh.intersection_edges.empty());
+    REQUIRE_FALSE(better.mesh->intersection_edges.empty());
     // The old curve is given as degenerate triangles to the tree that measures distances.
     Surface curve;
     for (const Edge& e : mesh.intersection_edges) {
@@ -183,10 +185,10 @@ TEST_CASE("improve: vertices of curves stay on them", "[improve]") {
         curve.triangles.push_back({first, first + 1, first + 2});
     }
     Surface ends;
-    for (const Edge& e : better.mesh.intersection_edges)
+    for (const Edge& e : better.mesh->intersection_edges)
         for (const std::uint32_t v : e) {
             const auto first = static_cast<std::uint32_t>(ends.vertices.size());
-            ends.vertices.push_back(better.mesh.vertices[v]);
+            ends.vertices.push_back(better.mesh->vertices[v]);
             ends.triangles.push_back({first, first, first});
         }
     CHECK(sampled_distance(ends, curve) < 1e-13);
@@ -229,7 +231,7 @@ TEST_CASE("improve: no sheet sweeps over a piece that is smaller than the bound"
                 options.max_deviation = 0.8;
                 const Improved better = improved(mesh, options);
                 INFO(size << ' ' << narrow << ' ' << length);
-                CHECK(better.mesh.triangles.size() < mesh.triangles.size() / 4);
+                CHECK(better.mesh->triangles.size() < mesh.triangles.size() / 4);
                 CHECK(better.report.refused_contact > 0);
                 CHECK(better.report.sides_kept);
             }
@@ -238,10 +240,10 @@ TEST_CASE("improve: no sheet sweeps over a piece that is smaller than the bound"
 TEST_CASE("improve: the result does not depend on the number of threads", "[improve]") {
     const Mesh mesh = rounded(nine_regions());
     const Improved one = improved(mesh), four = improved(mesh, {}, {.threads = 4});
-    CHECK(one.mesh.vertices == four.mesh.vertices);
-    CHECK(one.mesh.triangles == four.mesh.triangles);
-    CHECK(one.mesh.surfaces_of == four.mesh.surfaces_of);
-    CHECK(one.mesh.intersection_edges == four.mesh.intersection_edges);
+    CHECK(one.mesh->vertices == four.mesh->vertices);
+    CHECK(one.mesh->triangles == four.mesh->triangles);
+    CHECK(one.mesh->surfaces_of == four.mesh->surfaces_of);
+    CHECK(one.mesh->intersection_edges == four.mesh->intersection_edges);
 }
 
 TEST_CASE("improve: target lengths hold by surface, along curves, and where a surface is curved",
@@ -258,8 +260,8 @@ TEST_CASE("improve: target lengths hold by surface, along curves, and where a su
     ImproveOptions near_curves;
     near_curves.edge_length = 2;
     near_curves.curve_length = 0.25;
-    CHECK(improved(mesh, near_curves).mesh.triangles.size() >
-          2 * improved(mesh, {.edge_length = 2}).mesh.triangles.size());
+    CHECK(improved(mesh, near_curves).mesh->triangles.size() >
+          2 * improved(mesh, {.edge_length = 2}).mesh->triangles.size());
     const Mesh bump = rounded({grid(
         30, 30,
         [](double u, double v) {
@@ -270,9 +272,9 @@ TEST_CASE("improve: target lengths hold by surface, along curves, and where a su
     ImproveOptions turning;
     turning.edge_length = 1;
     turning.max_deviation = 0.2;
-    const std::size_t plain = improved(bump, turning).mesh.triangles.size();
+    const std::size_t plain = improved(bump, turning).mesh->triangles.size();
     turning.turn = 15;
-    CHECK(improved(bump, turning).mesh.triangles.size() > plain * 3 / 2);
+    CHECK(improved(bump, turning).mesh->triangles.size() > plain * 3 / 2);
 }
 
 TEST_CASE("improve: closed, one-sided and folded surfaces stay near their originals", "[improve]") {

@@ -110,8 +110,8 @@ TEST_CASE("rounding: what is exact in doubles stays as it is") {
     CHECK(r.report.rounds == 0);
     CHECK(r.report.max_move == 0);
     CHECK(r.report.deviation == 0);
-    CHECK(r.mesh.triangles == a.triangles);
-    CHECK(r.mesh.intersection_edges == a.intersection_edges);
+    CHECK(r.mesh->triangles == a.triangles);
+    CHECK(r.mesh->intersection_edges == a.intersection_edges);
     CHECK(is_conforming(r.mesh));
     check_lists(r);
 }
@@ -122,13 +122,13 @@ TEST_CASE("rounding: nothing is farther from its exact place than reported") {
                   surface({{0.3, 0.2, -1}, {0.31, 0.3, 1}, {0.7, 0.3, 1}}, {{0, 1, 2}})});
     const auto r = rounded(a);
     REQUIRE(r.report.clean);
-    REQUIRE(r.mesh.vertices.size() == a.vertices.size());
+    REQUIRE(r.mesh->vertices.size() == a.vertices.size());
     CHECK(r.report.max_move > 0);
     CHECK(r.report.max_move < 1e-15);
     for (std::size_t v = 0; v < a.vertices.size(); ++v) {
         const Enclosure e = a.points.enclosure(a.vertices[v]);
-        CHECK(r.mesh.vertices[v].x >= e.low[0] - r.report.max_move);
-        CHECK(r.mesh.vertices[v].x <= e.high[0] + r.report.max_move);
+        CHECK(r.mesh->vertices[v].x >= e.low[0] - r.report.max_move);
+        CHECK(r.mesh->vertices[v].x <= e.high[0] + r.report.max_move);
     }
 }
 
@@ -156,9 +156,9 @@ TEST_CASE("rounding: what is left is named when no round is allowed") {
     REQUIRE_FALSE(r.report.contacts.empty());
     for (const ImproperContact& c : r.report.contacts) {
         REQUIRE(c.triangles[0] < c.triangles[1]);
-        REQUIRE(c.triangles[1] < r.mesh.triangles.size());
-        CHECK(improper_contact(r.mesh.vertices, r.mesh.triangles[c.triangles[0]],
-                               r.mesh.triangles[c.triangles[1]]));
+        REQUIRE(c.triangles[1] < r.mesh->triangles.size());
+        CHECK(improper_contact(r.mesh->vertices, r.mesh->triangles[c.triangles[0]],
+                               r.mesh->triangles[c.triangles[1]]));
     }
 }
 
@@ -172,7 +172,7 @@ TEST_CASE("rounding: a triangle too thin for doubles is reported as vanished, or
     REQUIRE(r.report.clean);
     CHECK(is_conforming(r.mesh));
     std::vector<bool> present(34, false);
-    for (const std::uint32_t p : r.mesh.parents_of.values) present[p] = true;
+    for (const std::uint32_t p : r.mesh->parents_of.values) present[p] = true;
     for (std::uint32_t t = 0; t < present.size(); ++t) {
         const auto& gone = r.report.vanished;
         CHECK(present[t] != (std::find(gone.begin(), gone.end(), t) != gone.end()));
@@ -210,9 +210,9 @@ TEST_CASE("rounding: the same for any number of threads, and stopped on request"
     const auto one = rounded(a);
     const auto other = round_to_doubles(a, {}, two);
     REQUIRE(other.ok());
-    CHECK(one.mesh.vertices == other.value().mesh.vertices);
-    CHECK(one.mesh.triangles == other.value().mesh.triangles);
-    CHECK(one.mesh.parents_of == other.value().mesh.parents_of);
+    CHECK(one.mesh->vertices == other.value().mesh->vertices);
+    CHECK(one.mesh->triangles == other.value().mesh->triangles);
+    CHECK(one.mesh->parents_of == other.value().mesh->parents_of);
     std::stop_source stop;
     stop.request_stop();
     Run run;
@@ -339,10 +339,10 @@ Arrangement check_threads_change_nothing(const std::vector<Surface>& surfaces) {
         CHECK(a.inputs.corners == b.inputs.corners);
         CHECK(a.patches.turn == b.patches.turn);
         const RoundedMesh n = round_to_doubles(b, {}, run).value();
-        CHECK(m.mesh.vertices == n.mesh.vertices);
-        CHECK(m.mesh.triangles == n.mesh.triangles);
-        CHECK(m.mesh.regions_of == n.mesh.regions_of);
-        CHECK(m.mesh.surfaces_of == n.mesh.surfaces_of);
+        CHECK(m.mesh->vertices == n.mesh->vertices);
+        CHECK(m.mesh->triangles == n.mesh->triangles);
+        CHECK(m.mesh->regions_of == n.mesh->regions_of);
+        CHECK(m.mesh->surfaces_of == n.mesh->surfaces_of);
         CHECK(m.report.max_move == n.report.max_move);
         REQUIRE(m.regions.size() == n.regions.size());
         for (std::size_t r = 0; r < m.regions.size(); ++r) {
