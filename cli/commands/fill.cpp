@@ -12,7 +12,6 @@
 #include <terrane/cli/options/files.hpp>
 #include <terrane/cli/options/statistics.hpp>
 #include <terrane/cli/reports/fill_report.hpp>
-#include <terrane/cli/stages/fill_stage.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 
 namespace terrane::cli {
@@ -23,7 +22,9 @@ constexpr const char* no_smoothing = "none";
 
 struct FillCommand {
     FileOptions files;
-    FillSettings settings;
+    FillOptions settings;
+    std::string method = "kriging";       ///< or rbf
+    std::string model = "auto";           ///< of the variogram
     std::string smoothing = no_smoothing; ///< as it was said
     std::string holes = default_holes;
     bool list = false;
@@ -116,9 +117,11 @@ Result<std::vector<Output>> plan(const FillCommand& command) {
 
 /// All holes of all surfaces.
 std::vector<FillTask> tasks_of(const FillCommand& command, const Inputs& inputs) {
+    FillOptions options = command.settings;
+    if (command.method == "rbf") options.method = FillMethod::rbf;
+    options.model = variogram_model_named(command.model);
     std::vector<FillTask> tasks;
-    for (std::uint32_t s = 0; s < inputs.surfaces.size(); ++s)
-        tasks.push_back({s, command.settings});
+    for (std::uint32_t s = 0; s < inputs.surfaces.size(); ++s) tasks.push_back({s, options});
     return tasks;
 }
 
@@ -127,16 +130,20 @@ Result<bool> fill_and_write(const FillCommand& command, const std::vector<Output
                             const Inputs& inputs, FillWork& work, Session& session) {
     const auto chosen = chosen_holes(command, work);
     if (!chosen) return chosen.error();
-    if (const auto done = fill_holes(inputs, chosen.value(), work, session); !done)
+    session.begin("fill", Phase::computing);
+    if (const auto done = fill_holes(inputs.surfaces, chosen.value(), work, session.run()); !done)
         return done.error();
+    session.end_stage();
     print(summary_stream(command.files), filled_text(work));
     const auto refused = refusals_text(work);
     print(stderr, refused);
-    const auto contacts = contacts_of_new(work, session);
+    session.begin("check", Phase::computing);
+    const auto contacts = contacts_of_new(work, session.run());
+    session.end_stage();
     if (!contacts) return contacts.error();
     if (!contacts.value().empty()) {
         print(stderr, "terrane: nothing written: what was invented meets other triangles\n" +
-                          contacts.value());
+                          contacts_text(work, contacts.value()));
         return false;
     }
     if (const auto done = write_all(command, outputs, work, session); !done) return done.error();
@@ -146,7 +153,7 @@ Result<bool> fill_and_write(const FillCommand& command, const std::vector<Output
 Status read_smoothing(FillCommand& command) {
     const std::string& text = command.smoothing;
     if (text == no_smoothing) return Done{};
-    if (command.settings.method != "rbf")
+    if (command.method != "rbf")
         return Error{ErrorCode::bad_option, "is of --method rbf", "--smoothing"};
     double length = 0;
     if (text != "auto") {
@@ -166,7 +173,10 @@ Result<ExitStatus> fill_files(const FillCommand& command, Session& session) {
     if (!outputs) return outputs.error();
     const auto inputs = read_inputs(command.files, session);
     if (!inputs) return inputs.error();
-    auto work = find_holes(inputs.value(), tasks_of(command, inputs.value()), session);
+    session.begin("holes", Phase::computing);
+    auto work =
+        find_holes(inputs.value().surfaces, tasks_of(command, inputs.value()), session.run());
+    session.end_stage();
     if (!work) return work.error();
     print(summary_stream(command.files),
           borders_text(work.value()) + (command.list ? holes_table(work.value()) : ""));
@@ -201,12 +211,12 @@ void add_choice(CLI::App& app, FillCommand& command) {
 }
 
 void add_method(CLI::App& app, FillCommand& command) {
-    app.add_option("--method", command.settings.method,
+    app.add_option("--method", command.method,
                    "kriging, for z = f(x, y), or rbf, for any surface (default: kriging)")
         ->check(CLI::IsMember({"kriging", "rbf"}).description(""))
         ->type_name("METHOD");
     app.add_option(
-           "--model", command.settings.model,
+           "--model", command.model,
            "Of the variogram: auto, spherical, exponential, gaussian, power (default: auto, "
            "what fits best)")
         ->check(CLI::IsMember({"auto", "spherical", "exponential", "gaussian", "power"})

@@ -82,6 +82,26 @@ std::string filled_text(const FillWork& work) {
     return text;
 }
 
+std::string refusals_text(const FillWork& work) {
+    std::string text;
+    for (const NumberedHole& hole : work.holes)
+        if (!hole.refused.empty())
+            text += fmt::format("terrane: hole {} of {} is left open: {}\n", hole.number,
+                                work.surfaces[hole.task].label, hole.refused);
+    return text;
+}
+
+std::string contacts_text(const FillWork& work, std::span<const NewContact> contacts) {
+    constexpr std::size_t most_contacts = 10;
+    std::string text;
+    for (const NewContact& c : contacts.first(std::min(most_contacts, contacts.size())))
+        text += fmt::format("  {}, hole {}: {} at {}\n", work.surfaces[c.task].label, c.hole,
+                            name_of(c.kind), text_of(c.place));
+    if (contacts.size() > most_contacts)
+        text += fmt::format("  and {} more\n", contacts.size() - most_contacts);
+    return text;
+}
+
 Json json_of(const FillWork& work) {
     Json list = Json::array();
     const auto known = [](double value) { return std::isfinite(value) ? Json(value) : Json(); };

@@ -3,10 +3,11 @@
 // What is said of holes and of what was invented in them.
 #pragma once
 
+#include <span>
 #include <string>
 
+#include <terrane/algorithms/reconstruction/fill.hpp>
 #include <terrane/cli/options/statistics.hpp>
-#include <terrane/cli/stages/fill_stage.hpp>
 
 namespace terrane::cli {
 
@@ -18,6 +19,12 @@ std::string holes_table(const FillWork& work);
 
 /// What was invented: points, area, expected error and model of each hole, and of all.
 std::string filled_text(const FillWork& work);
+
+/// "hole 2 of top is left open: ...", one line for each that was refused; empty: none.
+std::string refusals_text(const FillWork& work);
+
+/// Says where fillings meet other triangles, a line for each of the first ten places; empty: nowhere.
+std::string contacts_text(const FillWork& work, std::span<const NewContact> contacts);
 
 /// The same for --stats: one entry per hole.
 Json json_of(const FillWork& work);

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <terrane/algorithms/core/stopwatch.hpp>
+#include <terrane/algorithms/reconstruction/fill.hpp>
 #include <terrane/cli/options/roles.hpp>
 #include <terrane/cli/reports/fill_report.hpp>
 #include <terrane/cli/stages/layer_stage.hpp>
@@ -23,16 +24,16 @@ std::vector<std::uint32_t> called(const std::string& name, const Inputs& inputs)
     return surfaces_called(name, infos, inputs.labels);
 }
 
-FillSettings settings_of(const ProjectFill& entry) {
-    FillSettings s;
-    s.method = entry.method;
-    s.model = entry.model;
-    s.max_area = entry.max_area.value_or(s.max_area);
-    s.mesh_size = entry.mesh_size.value_or(s.mesh_size);
-    s.gap_slope = entry.gap_slope.value_or(s.gap_slope);
-    s.bridge = entry.bridge_faults;
-    s.smoothing = entry.smoothing;
-    return s;
+FillOptions options_of(const ProjectFill& entry) {
+    FillOptions o;
+    if (entry.method == "rbf") o.method = FillMethod::rbf;
+    o.model = variogram_model_named(entry.model);
+    o.max_area = entry.max_area.value_or(o.max_area);
+    o.mesh_size = entry.mesh_size.value_or(o.mesh_size);
+    o.gap_slope = entry.gap_slope.value_or(o.gap_slope);
+    o.bridge = entry.bridge_faults;
+    o.smoothing = entry.smoothing;
+    return o;
 }
 
 Result<std::vector<FillTask>> tasks_of(const Project& project, const std::string& source,
@@ -53,7 +54,7 @@ Result<std::vector<FillTask>> tasks_of(const Project& project, const std::string
             if (std::any_of(tasks.begin(), tasks.end(),
                             [&](const FillTask& t) { return t.surface == s; }))
                 return at_key(source, key, inputs.labels[s] + " is in an entry before this one");
-            tasks.push_back({s, settings_of(entry)});
+            tasks.push_back({s, options_of(entry)});
         }
     }
     return tasks;
@@ -82,16 +83,19 @@ Result<std::vector<Layer>> order_of(const ProjectLayers& layers, const std::stri
 Status fill(const std::vector<FillTask>& tasks, Inputs& inputs, Preprocessed& mended,
             Session& session, Json& statistics) {
     Stopwatch watch;
-    auto work = find_holes(inputs, tasks, session);
+    session.begin("holes", Phase::computing);
+    auto work = find_holes(inputs.surfaces, tasks, session.run());
     if (!work) return work.error();
-    if (auto done = fill_holes(inputs, wanted_holes(work.value()), work.value(), session); !done)
+    if (auto done = fill_holes(inputs.surfaces, wanted_holes(*work), *work, session.run()); !done)
         return done;
-    mended.said += borders_text(work.value()) + filled_text(work.value());
-    mended.refused = refusals_text(work.value());
-    const auto contacts = contacts_of_new(work.value(), session);
+    mended.said += borders_text(*work) + filled_text(*work);
+    mended.refused = refusals_text(*work);
+    const auto contacts = contacts_of_new(*work, session.run());
+    session.end_stage();
     if (!contacts) return contacts.error();
-    if (!contacts.value().empty())
-        mended.refused += "terrane: what was invented meets other triangles\n" + contacts.value();
+    if (!contacts->empty())
+        mended.refused +=
+            "terrane: what was invented meets other triangles\n" + contacts_text(*work, *contacts);
     for (const HoledSurface& s : work.value().surfaces) inputs.surfaces[s.task.surface] = s.filled;
     statistics["holes"] = json_of(work.value());
     statistics["seconds"]["fill"] = watch.lap();

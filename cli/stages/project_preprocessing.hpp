@@ -7,9 +7,9 @@
 #include <optional>
 #include <string>
 
+#include <terrane/algorithms/reconstruction/fill.hpp>
 #include <terrane/cli/options/statistics.hpp>
 #include <terrane/cli/session/session.hpp>
-#include <terrane/cli/stages/fill_stage.hpp>
 #include <terrane/io/project.hpp>
 
 namespace terrane::cli {

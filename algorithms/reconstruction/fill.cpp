@@ -1,21 +1,20 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/cli/stages/fill_stage.hpp>
+#include <terrane/algorithms/reconstruction/fill.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <string_view>
 #include <utility>
 
-#include <fmt/format.h>
-
-#include <terrane/algorithms/check/check.hpp>
+#include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/reconstruction/rbf/rbf_join.hpp>
-#include <terrane/cli/session/console.hpp>
 
-namespace terrane::cli {
+namespace terrane {
 namespace {
 
-constexpr std::size_t most_contacts = 10; ///< in words
+void announce(const Run& run, std::string_view stage) {
+    if (run.progress) run.progress(stage, 0);
+}
 
 /// A surface with one hole filled, and the expected errors of its new vertices.
 struct OneFilled {
@@ -24,19 +23,12 @@ struct OneFilled {
     FillReport report;
 };
 
-Result<OneFilled> by_kriging(const FillSettings& settings, const Surface& surface,
+Result<OneFilled> by_kriging(const FillOptions& wanted, const Surface& surface,
                              const BorderLoop& loop, std::span<const BorderLoop> loops,
                              const Run& run) {
-    static const std::map<std::string, VariogramModel> models{
-        {"spherical", VariogramModel::spherical},
-        {"exponential", VariogramModel::exponential},
-        {"gaussian", VariogramModel::gaussian},
-        {"power", VariogramModel::power}};
-    KrigingOptions options{
-        .mesh_size = settings.mesh_size, .rings = settings.rings, .loops = loops};
-    if (const auto model = models.find(settings.model); model != models.end())
-        options.variogram.model = model->second;
-    options.variogram.anisotropy = !settings.isotropic;
+    KrigingOptions options{.mesh_size = wanted.mesh_size, .rings = wanted.rings, .loops = loops};
+    if (wanted.model) options.variogram.model = *wanted.model;
+    options.variogram.anisotropy = !wanted.isotropic;
     auto filling = fill_by_kriging(surface, loop, options, run);
     if (!filling) return filling.error();
     OneFilled filled;
@@ -49,14 +41,13 @@ Result<OneFilled> by_kriging(const FillSettings& settings, const Surface& surfac
     return filled;
 }
 
-/// The surface that RBF gives goes beyond the border and is joined.
-Result<OneFilled> by_rbf(const FillSettings& settings, const Surface& surface,
-                         const BorderLoop& loop, std::span<const BorderLoop> loops,
-                         const Run& run) {
+/// Joins the surface that RBF gives, which goes beyond the border.
+Result<OneFilled> by_rbf(const FillOptions& wanted, const Surface& surface, const BorderLoop& loop,
+                         std::span<const BorderLoop> loops, const Run& run) {
     RbfOptions options;
-    options.size = settings.mesh_size;
+    options.size = wanted.mesh_size;
     options.loops = loops;
-    options.smoothing = settings.smoothing;
+    options.smoothing = wanted.smoothing;
     auto made = fill_and_join_by_rbf(surface, loop, options, {.loops = loops}, run);
     if (!made) return made.error();
     auto& [filling, joined, report] = made.value();
@@ -69,7 +60,7 @@ Result<OneFilled> by_rbf(const FillSettings& settings, const Surface& surface,
         filled.deviation.push_back(filling.expected_error[v]);
         squares += filled.deviation.back() * filled.deviation.back();
     }
-    // Of what was joined, without the margin beyond the border.
+    // The mean is that of what was joined, without the margin beyond the border.
     filled.report.expected_error =
         std::sqrt(squares / std::max(1.0, static_cast<double>(filled.deviation.size())));
     filled.surface = std::move(joined.surface);
@@ -92,7 +83,7 @@ void take_over(const OneFilled& filled, std::size_t number, HoledSurface& to) {
     }
 }
 
-/// A hole that can't be filled is no reason to leave the others.
+/// Whether an error concerns one hole, so that the others can still be filled.
 bool only_this_hole(ErrorCode code) {
     return code != ErrorCode::interrupted && code != ErrorCode::out_of_memory &&
            code != ErrorCode::bad_option && code != ErrorCode::internal;
@@ -100,21 +91,29 @@ bool only_this_hole(ErrorCode code) {
 
 } // namespace
 
-Result<FillWork> find_holes(const Inputs& inputs, std::span<const FillTask> tasks,
-                            Session& session) {
+std::optional<VariogramModel> variogram_model_named(std::string_view name) {
+    for (const auto model : {VariogramModel::spherical, VariogramModel::exponential,
+                             VariogramModel::gaussian, VariogramModel::power})
+        if (name_of(model) == name) return model;
+    return std::nullopt;
+}
+
+Result<FillWork> find_holes(std::span<const Surface> surfaces, std::span<const FillTask> tasks,
+                            const Run& run) {
     FillWork work;
-    session.begin("holes", Phase::computing);
+    announce(run, "holes");
+    const auto labels = unique_labels(infos_of(surfaces));
     for (const FillTask& task : tasks) {
-        const Surface& s = inputs.surfaces[task.surface];
-        auto loops = find_border_loops(s, session.run(), {.slope = task.settings.gap_slope});
+        const Surface& s = surfaces[task.surface];
+        auto loops = find_border_loops(s, run, {.slope = task.options.gap_slope});
         if (!loops) return loops.error();
-        for (std::size_t l = 0; l < loops.value().size(); ++l)
-            if (loops.value()[l].kind != LoopKind::outer)
+        for (std::size_t l = 0; l < loops->size(); ++l)
+            if ((*loops)[l].kind != LoopKind::outer)
                 work.holes.push_back({work.holes.size() + 1, work.surfaces.size(), l});
         HoledSurface holed;
         holed.task = task;
-        holed.label = inputs.labels[task.surface];
-        holed.loops = std::move(loops).value();
+        holed.label = labels[task.surface];
+        holed.loops = std::move(*loops);
         holed.filled = s;
         holed.given_vertices = s.vertices.size();
         holed.given_triangles = s.triangles.size();
@@ -122,35 +121,33 @@ Result<FillWork> find_holes(const Inputs& inputs, std::span<const FillTask> task
         holed.invented.resize(s.triangles.size());
         work.surfaces.push_back(std::move(holed));
     }
-    session.end_stage();
     return work;
 }
 
 std::vector<bool> wanted_holes(const FillWork& work) {
     std::vector<bool> wanted;
     for (const NumberedHole& hole : work.holes) {
-        const FillSettings& settings = work.surfaces[hole.task].task.settings;
+        const FillOptions& options = work.surfaces[hole.task].task.options;
         const BorderLoop& loop = loop_of(work, hole);
-        wanted.push_back(loop.area <= settings.max_area &&
-                         (loop.kind != LoopKind::fault_gap || settings.bridge));
+        wanted.push_back(loop.area <= options.max_area &&
+                         (loop.kind != LoopKind::fault_gap || options.bridge));
     }
     return wanted;
 }
 
-Status fill_holes(const Inputs& inputs, const std::vector<bool>& chosen, FillWork& work,
-                  Session& session) {
+Status fill_holes(std::span<const Surface> surfaces, const std::vector<bool>& chosen,
+                  FillWork& work, const Run& run) {
     for (std::size_t i = 0; i < work.holes.size(); ++i) {
         if (!chosen[i]) continue;
         NumberedHole& hole = work.holes[i];
         HoledSurface& to = work.surfaces[hole.task];
-        const auto fill = to.task.settings.method == "rbf" ? by_rbf : by_kriging;
-        session.begin(fmt::format("fill hole {}", hole.number), Phase::computing);
-        const auto filled = fill(to.task.settings, inputs.surfaces[to.task.surface],
-                                 loop_of(work, hole), to.loops, session.run());
-        session.end_stage();
+        const auto fill = to.task.options.method == FillMethod::rbf ? by_rbf : by_kriging;
+        announce(run, "fill hole " + std::to_string(hole.number));
+        const auto filled =
+            fill(to.task.options, surfaces[to.task.surface], loop_of(work, hole), to.loops, run);
         if (filled) {
-            hole.report = filled.value().report;
-            take_over(filled.value(), hole.number, to);
+            hole.report = filled->report;
+            take_over(*filled, hole.number, to);
         } else if (only_this_hole(filled.error().code)) {
             hole.refused = filled.error().message();
         } else {
@@ -160,33 +157,37 @@ Status fill_holes(const Inputs& inputs, const std::vector<bool>& chosen, FillWor
     return Done{};
 }
 
-Result<std::string> contacts_of_new(const FillWork& work, Session& session) {
-    std::string text;
-    std::size_t count = 0;
-    for (const HoledSurface& s : work.surfaces) {
+Result<std::vector<NewContact>> contacts_of_new(const FillWork& work, const Run& run) {
+    std::vector<NewContact> found;
+    for (std::size_t task = 0; task < work.surfaces.size(); ++task) {
+        const HoledSurface& s = work.surfaces[task];
         if (s.filled.triangles.size() == s.given_triangles) continue;
-        session.begin("check", Phase::computing);
-        const auto report = check(std::span(&s.filled, 1), session.run());
-        session.end_stage();
+        announce(run, "check");
+        const auto report = check(std::span(&s.filled, 1), run);
         if (!report) return report.error();
-        for (const ImproperContact& c : report.value().contacts) {
+        for (const ImproperContact& c : report->contacts) {
             const auto newer = std::max(c.triangles[0], c.triangles[1]);
-            if (newer < s.given_triangles || count++ >= most_contacts) continue;
-            text += fmt::format("  {}, hole {}: {} at {}\n", s.label, s.invented[newer],
-                                name_of(c.kind), text_of(c.place));
+            if (newer >= s.given_triangles)
+                found.push_back({task, s.invented[newer], c.kind, c.place});
         }
     }
-    if (count > most_contacts) text += fmt::format("  and {} more\n", count - most_contacts);
-    return text;
+    return found;
 }
 
-std::string refusals_text(const FillWork& work) {
-    std::string text;
-    for (const NumberedHole& hole : work.holes)
-        if (!hole.refused.empty())
-            text += fmt::format("terrane: hole {} of {} is left open: {}\n", hole.number,
-                                work.surfaces[hole.task].label, hole.refused);
-    return text;
+Result<FillWork> fill_surfaces(std::span<const Surface> surfaces, std::span<const FillTask> tasks,
+                               const Run& run) {
+    auto work = find_holes(surfaces, tasks, run);
+    if (!work) return work;
+    if (auto done = fill_holes(surfaces, wanted_holes(*work), *work, run); !done)
+        return done.error();
+    const auto contacts = contacts_of_new(*work, run);
+    if (!contacts) return contacts.error();
+    if (contacts->empty()) return work;
+    const NewContact& first = contacts->front();
+    return Error{ErrorCode::improper_contact,
+                 "the filling of hole " + std::to_string(first.hole) +
+                     " meets other triangles improperly: " + std::string(name_of(first.kind)),
+                 "surface " + work->surfaces[first.task].label};
 }
 
-} // namespace terrane::cli
+} // namespace terrane

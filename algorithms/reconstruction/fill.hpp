@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Filling several holes of several surfaces. Each hole is filled from the surface as it was given;
+// the fillings are then joined to it one after the other, so that the order does not matter.
+//
+// A hole that can't be filled stays open, with the reason: that is no error. New triangles may meet
+// others of their surface improperly; contacts_of_new finds where, by exact check.
+// Source: the paper, 4.1.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <terrane/algorithms/check/check.hpp>
+#include <terrane/algorithms/core/result.hpp>
+#include <terrane/algorithms/core/run.hpp>
+#include <terrane/algorithms/reconstruction/holes/filling.hpp>
+#include <terrane/algorithms/reconstruction/holes/holes.hpp>
+#include <terrane/algorithms/reconstruction/kriging/fill_kriging.hpp>
+#include <terrane/algorithms/reconstruction/rbf/rbf.hpp>
+
+namespace terrane {
+
+enum class FillMethod : std::uint8_t { kriging, rbf };
+
+/// The variogram model of this name ("spherical", ...); none for any other word, such as "auto".
+std::optional<VariogramModel> variogram_model_named(std::string_view name);
+
+/// How the holes of a surface are filled. Lengths in the unit of the surface.
+struct FillOptions {
+    FillMethod method = FillMethod::kriging;
+    std::optional<VariogramModel> model{};      ///< of kriging; none: the one that fits best
+    double max_area = HUGE_VAL;                 ///< larger holes stay open; squared unit
+    double mesh_size = 0;                       ///< 0: the median edge of the hole's border
+    std::size_t rings = KrigingOptions{}.rings; ///< of triangles round the hole, data of kriging
+    double gap_slope = GapRule{}.slope;
+    bool isotropic = false;            ///< the variogram is the same in all directions
+    bool bridge = false;               ///< whether fault gaps are filled, too
+    std::optional<double> smoothing{}; ///< RbfOptions::smoothing
+};
+
+/// A surface whose holes are to be filled.
+struct FillTask {
+    std::uint32_t surface = 0; ///< index into the list of surfaces
+    FillOptions options{};
+};
+
+/// A hole and where it is.
+struct NumberedHole {
+    std::size_t number = 0;             ///< from 1, through all tasks
+    std::size_t task = 0;               ///< and surface of FillWork
+    std::size_t loop = 0;               ///< of that surface
+    std::optional<FillReport> report{}; ///< where it was filled
+    std::string refused{};              ///< why it was not
+};
+
+/// A surface as it becomes: what was given, then what was interpolated.
+struct HoledSurface {
+    FillTask task;
+    std::string label;             ///< its name, made unique among all surfaces
+    std::vector<BorderLoop> loops; ///< all of the surface as it was given
+    Surface filled;
+    std::size_t given_vertices = 0, given_triangles = 0;
+    std::vector<double> deviation;      ///< per vertex of `filled`: 0 for what was given, NaN where
+                                        ///< the method foresees none
+    std::vector<std::int32_t> invented; ///< per triangle of `filled`: number of the hole, or 0
+};
+
+struct FillWork {
+    std::vector<HoledSurface> surfaces; ///< one per task
+    std::vector<NumberedHole> holes;    ///< by number
+};
+
+inline const BorderLoop& loop_of(const FillWork& work, const NumberedHole& hole) {
+    return work.surfaces[hole.task].loops[hole.loop];
+}
+
+/// Finds the holes and fills none. Precondition: no two tasks are about one surface. Errors: those
+/// of find_border_loops.
+Result<FillWork> find_holes(std::span<const Surface> surfaces, std::span<const FillTask> tasks,
+                            const Run& run = {});
+
+/// Per hole, whether its task wants it filled: it is not too large, and no gap unless asked for.
+std::vector<bool> wanted_holes(const FillWork& work);
+
+/// Fills the chosen holes of the same surfaces. Errors: interrupted, out_of_memory, bad_option,
+/// internal.
+Status fill_holes(std::span<const Surface> surfaces, const std::vector<bool>& chosen,
+                  FillWork& work, const Run& run = {});
+
+/// A new triangle that meets another one of its surface improperly.
+struct NewContact {
+    std::size_t task = 0;
+    std::int32_t hole = 0; ///< its number
+    ContactKind kind{};
+    Point3 place{};
+};
+
+/// Finds where new triangles meet others of their surface improperly, by exact check.
+Result<std::vector<NewContact>> contacts_of_new(const FillWork& work, const Run& run = {});
+
+/// Finds, fills and checks all holes that the tasks want filled. Errors: those of find_holes and
+/// fill_holes; improper_contact where new triangles meet others improperly.
+Result<FillWork> fill_surfaces(std::span<const Surface> surfaces, std::span<const FillTask> tasks,
+                               const Run& run = {});
+
+} // namespace terrane
