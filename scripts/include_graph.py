@@ -23,10 +23,11 @@ ORDER = (
     "algorithms/triangulation algorithms/arrangement algorithms/check algorithms/regions "
     "algorithms/rounding algorithms/volumes algorithms/structure algorithms/layers "
     "algorithms/quality algorithms/reconstruction/holes algorithms/reconstruction/joining "
-    "algorithms/reconstruction/kriging algorithms/reconstruction/rbf algorithms/sealing "
-    "algorithms/volume_of_interest algorithms/tetrahedra algorithms/tetgen algorithms/verify "
+    "algorithms/reconstruction/kriging algorithms/reconstruction/rbf algorithms/reconstruction "
+    "algorithms/sealing algorithms/volume_of_interest algorithms/model algorithms/tetrahedra "
+    "algorithms/tetgen algorithms/verify "
     "io/text io/atomic io/surfaces io/gocad io/grids io/points io/meshes io "
-    "cli/session cli/options cli/paper cli/stages cli/reports cli/commands cli"
+    "cli/session cli/options cli/paper cli/reports cli/stages cli/commands cli"
 ).split()
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]terrane/([^>"]+)[>"]', re.M)

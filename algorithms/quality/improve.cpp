@@ -286,24 +286,25 @@ Result<bool> Improver::sides_kept(std::span<const std::uint32_t> sheets, Improve
     both(
         run_, [&] { found_old = find_volumes(input_, quiet); },
         [&] { found_now = find_volumes(improved.mesh, quiet); });
-    const Result<Volumes>& old = *found_old;
-    if (!old) return old.error();
+    if (!*found_old) return found_old->error();
     if (!*found_now) return found_now->error();
+    improved.volumes_before = std::move(*found_old).value();
     improved.volumes = std::move(*found_now).value();
-    std::vector<std::uint32_t> to(old.value().measures.size(), none);
-    std::vector<std::uint32_t> back(improved.volumes.measures.size(), none);
+    const Volumes &old = improved.volumes_before, &now = improved.volumes;
+    std::vector<std::uint32_t> to(old.measures.size(), none), back(now.measures.size(), none);
     if (to.size() != back.size()) return false;
     to[0] = back[0] = 0;
     for (std::size_t t = 0; t < sheets.size(); ++t)
         for (std::size_t side = 0; side < 2; ++side) {
-            const std::uint32_t a = old.value().of_sides[features_.first_of[sheets[t]]][side];
-            const std::uint32_t b = improved.volumes.of_sides[t][side];
+            const std::uint32_t a = old.of_sides[features_.first_of[sheets[t]]][side];
+            const std::uint32_t b = now.of_sides[t][side];
             if (to[a] == none && back[b] == none) {
                 to[a] = b;
                 back[b] = a;
             }
             if (to[a] != b || back[b] != a) return false;
         }
+    improved.volume_before = std::move(back);
     return true;
 }
 

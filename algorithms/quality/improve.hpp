@@ -91,6 +91,9 @@ struct Improved {
     SharedMesh mesh;
     std::optional<ConformingMesh> conforming{}; ///< the same mesh with its proof; always there
     Volumes volumes{};                          ///< of the mesh, found for report.sides_kept
+    Volumes volumes_before{};                   ///< of the mesh before
+    std::vector<std::uint32_t> volume_before; ///< per volume of the mesh: the volume before that it
+                                              ///< is; empty unless report.sides_kept
     std::vector<std::uint32_t> near_of; ///< per triangle: an input triangle of the same sheet, near
                                         ///< its centroid
     ImproveReport report;

@@ -19,7 +19,6 @@
 #include <terrane/cli/stages/certificate_output.hpp>
 #include <terrane/cli/stages/project_inputs.hpp>
 #include <terrane/cli/stages/project_preprocessing.hpp>
-#include <terrane/cli/stages/tetrahedra_stage.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/atomic/atomic_folder.hpp>
 #include <terrane/io/project.hpp>
@@ -197,7 +196,8 @@ private:
                              source_ + ": improve.edge_length_of." + name};
             for (const std::uint32_t s : found) options.edge_length_of[s] = length;
         }
-        auto measured = improve_and_measure(mesh(), options, session_, statistics_);
+        auto measured =
+            improve_and_measure(*arranged_->rounded.conforming, options, session_, statistics_);
         if (!measured) return measured.error();
         add_statistics(statistics_, measured.value());
         journal_.say(improve_text(measured.value(), inputs_));
@@ -207,8 +207,8 @@ private:
 
     Status find_blocks() {
         journal_.note("blocks");
-        auto model = better_ ? make_model(mesh(), session_, statistics_)
-                             : make_model(*arranged_, session_, statistics_);
+        auto model = better_ ? find_model(*arranged_, *better_, session_, statistics_)
+                             : find_model(*arranged_, session_, statistics_);
         if (!model) return model.error();
         model_ = std::move(model).value();
         journal_.say(model_text(inputs_, *model_));
@@ -236,10 +236,12 @@ private:
     Status fill_blocks() {
         if (project_.outputs.tetrahedra.empty()) return Done{};
         journal_.note("tetrahedra");
-        auto filled = fill_and_check({mesh(), inputs_.labels, model_->volumes, model_->structure},
-                                     wishes(), session_, statistics_);
+        session_.begin("tetrahedralize", Phase::computing);
+        auto filled = terrane::fill_blocks(*model_, wishes(), session_.run());
+        session_.end_stage();
         if (!filled) return filled.error();
         filled_ = std::move(filled).value();
+        add_statistics(statistics_, *filled_);
         journal_.say(filled_text(*filled_));
         return Done{};
     }
@@ -319,8 +321,8 @@ private:
             return Error{ErrorCode::cannot_open, "cannot be made: " + failed.message(),
                          (to / "model").string()};
         written_.emplace_back("model/");
-        return write_model(mesh(), *model_, arranged_->sealed, project_.outputs.blocks,
-                           to / "model", session_);
+        return write_model(*model_, arranged_->sealed, project_.outputs.blocks, to / "model",
+                           session_);
     }
 
     Status write_invented(const fs::path& to) {
@@ -359,7 +361,7 @@ private:
     std::optional<Arranged> arranged_;
     std::optional<Improved> better_; ///< where the project asks for it
     std::optional<Model> model_;
-    std::optional<Filled> filled_;
+    std::optional<FilledBlocks> filled_;
     std::vector<std::string> written_; ///< names in the folder
 };
 

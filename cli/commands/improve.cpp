@@ -126,7 +126,7 @@ Result<ExitStatus> improve_files(const ImproveCommand& command, Session& session
         print(stderr, "terrane: only a conforming mesh can be improved; nothing written\n");
     } else {
         const auto measured =
-            improve_and_measure(arranged.value().rounded.mesh, options, session, statistics);
+            improve_and_measure(*arranged.value().rounded.conforming, options, session, statistics);
         if (!measured) return measured.error();
         add_statistics(statistics, measured.value());
         print(summary_stream(files), improve_text(measured.value(), inputs.value()));

@@ -11,12 +11,13 @@
 #include <fmt/format.h>
 
 #include <terrane/algorithms/core/stopwatch.hpp>
+#include <terrane/algorithms/model/model.hpp>
+#include <terrane/algorithms/tetgen/fill_blocks.hpp>
 #include <terrane/algorithms/tetgen/tetgen_helper.hpp>
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/options/roles.hpp>
 #include <terrane/cli/reports/tetrahedra_report.hpp>
 #include <terrane/cli/stages/pipeline.hpp>
-#include <terrane/cli/stages/tetrahedra_stage.hpp>
 
 namespace terrane::cli {
 namespace {
@@ -104,19 +105,19 @@ Result<TetrahedraRequest> wishes_of(const TetrahedralizeCommand& command) {
     return wishes;
 }
 
-Result<Filled> fill(const Mesh& mesh, const Inputs& inputs, const TetrahedraRequest& wishes,
-                    Session& session, Json& statistics) {
+Result<FilledBlocks> fill(const Arranged& arranged, const TetrahedraRequest& wishes,
+                          Session& session, Json& statistics) {
     session.begin("volumes", Phase::computing);
-    const auto volumes = find_volumes(mesh, session.run());
-    if (!volumes) return volumes.error();
-    const auto structure = build_structure(mesh, volumes.value());
+    const auto model = make_model(arranged.exact, *arranged.rounded.conforming, session.run());
+    if (!model) return model.error();
+    auto filled = fill_blocks(*model, wishes, session.run());
     session.end_stage();
-    return fill_and_check({mesh, inputs.labels, volumes.value(), structure}, wishes, session,
-                          statistics);
+    if (filled) add_statistics(statistics, *filled);
+    return filled;
 }
 
-Status write_all(const Filled& filled, const std::vector<Output>& outputs, const FileOptions& files,
-                 Session& session) {
+Status write_all(const FilledBlocks& filled, const std::vector<Output>& outputs,
+                 const FileOptions& files, Session& session) {
     WriteOptions options;
     options.region_names = filled.block_names;
     for (const Output& output : outputs) {
@@ -153,8 +154,7 @@ Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Se
         return ExitStatus::negative;
     }
 
-    const auto filled =
-        fill(arranged.value().rounded.mesh, inputs.value(), wishes.value(), session, statistics);
+    const auto filled = fill(arranged.value(), wishes.value(), session, statistics);
     if (!filled) return filled.error();
     print(summary_stream(files), filled_text(filled.value()));
     const TetrahedraReport& report = filled.value().report;

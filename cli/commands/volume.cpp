@@ -50,7 +50,7 @@ Status write_folder(const VolumeCommand& command, const Arranged& arranged, cons
     session.begin("write", Phase::computing);
     auto folder = NewFolder::create(command.folder);
     if (!folder) return folder.error();
-    if (auto done = write_model(arranged.rounded.mesh, model, arranged.sealed, command.part_format,
+    if (auto done = write_model(model, arranged.sealed, command.part_format,
                                 folder.value().temporary(), session);
         !done)
         return done;
@@ -80,7 +80,7 @@ Result<ExitStatus> find_blocks(const VolumeCommand& command, Session& session) {
         print(stderr, offending_pairs(inputs.value(), arranged.value()));
         print(stderr, "terrane: no blocks without a conforming mesh; nothing written\n");
     } else {
-        const auto model = make_model(arranged.value(), session, statistics);
+        const auto model = find_model(arranged.value(), session, statistics);
         if (!model) return model.error();
         print(summary_stream(files), model_text(inputs.value(), model.value()));
         Stopwatch writing;

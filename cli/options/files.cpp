@@ -9,8 +9,8 @@
 #include <unistd.h>
 
 #include <terrane/algorithms/core/stopwatch.hpp>
+#include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/cli/session/console.hpp>
-#include <terrane/io/text/names.hpp>
 
 namespace terrane::cli {
 
@@ -56,12 +56,6 @@ Status check_streams(const FileOptions& options) {
     if (!options.input_format.empty() && !format_named(options.input_format))
         return Error{ErrorCode::unknown_format, "unknown format " + options.input_format, ""};
     return Done{};
-}
-
-std::vector<std::string> labels_of(const std::vector<Surface>& surfaces) {
-    std::vector<SurfaceInfo> infos;
-    for (const Surface& s : surfaces) infos.push_back({s.name, s.role});
-    return detail::quotable_names(infos);
 }
 
 template <class AnyMesh>
@@ -195,7 +189,7 @@ Result<Inputs> read_inputs(const FileOptions& options, Session& session) {
     session.end_stage();
     if (std::max(all.vertices, all.triangles) >= UINT32_MAX)
         return Error{ErrorCode::unsupported, "more than 4294967294 vertices or triangles", ""};
-    all.labels = labels_of(all.surfaces);
+    all.labels = unique_labels(infos_of(all.surfaces));
     all.seconds = watch.lap();
     return all;
 }
@@ -205,7 +199,7 @@ void append(Inputs& inputs, std::vector<Surface> surfaces, const std::string& or
         inputs.surfaces.push_back(std::move(s));
         inputs.files.push_back(origin);
     }
-    inputs.labels = labels_of(inputs.surfaces);
+    inputs.labels = unique_labels(infos_of(inputs.surfaces));
 }
 
 Mesh concatenate(const std::vector<Surface>& surfaces) {

@@ -42,16 +42,6 @@ Status set_roles(const std::vector<std::string>& roles, Inputs& inputs) {
     return Done{};
 }
 
-std::vector<std::uint32_t> surfaces_called(std::string_view name,
-                                           std::span<const SurfaceInfo> surfaces,
-                                           std::span<const std::string> labels) {
-    std::vector<std::uint32_t> found;
-    for (std::uint32_t s = 0; s < surfaces.size(); ++s)
-        if (surfaces[s].name == name || (s < labels.size() && labels[s] == name))
-            found.push_back(s);
-    return found;
-}
-
 std::optional<NamedLength> parse_named_length(std::string_view text) {
     const auto at = text.rfind('=');
     if (at == std::string_view::npos || at == 0) return std::nullopt;

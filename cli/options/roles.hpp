@@ -11,7 +11,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include <terrane/algorithms/mesh/mesh.hpp>
+#include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/cli/options/files.hpp>
 
 namespace terrane::cli {
@@ -20,11 +20,6 @@ void add_roles(CLI::App& command, std::vector<std::string>& roles);
 
 /// Sets the roles NAME=ROLE. Errors: bad_option.
 Status set_roles(const std::vector<std::string>& roles, Inputs& inputs);
-
-/// The surfaces with this name; `labels`: per surface its name, made unique, which will do as well.
-std::vector<std::uint32_t> surfaces_called(std::string_view name,
-                                           std::span<const SurfaceInfo> surfaces,
-                                           std::span<const std::string> labels);
 
 /// NAME=L, cut at the last '='; none where that fails.
 struct NamedLength {

@@ -135,7 +135,7 @@ std::string histogram_of(const ImproveReport& report) {
     return histogram_svg(histograms);
 }
 
-Result<Measured> improve_and_measure(const Mesh& mesh, const ImproveOptions& options,
+Result<Measured> improve_and_measure(const ConformingMesh& mesh, const ImproveOptions& options,
                                      Session& session, Json& statistics) {
     Stopwatch watch;
     session.begin("improve", Phase::computing);
@@ -153,7 +153,7 @@ Result<Measured> improve_and_measure(const Mesh& mesh, const ImproveOptions& opt
     for (std::size_t s = 0; s < deviations.size(); ++s)
         if (deviations[s].out > improved.value().report.bound_of[s])
             return Error{ErrorCode::internal, "the surface is farther away than was shown",
-                         mesh.surfaces[s].name};
+                         mesh->surfaces[s].name};
     return Measured{std::move(improved).value(), std::move(deviations), std::move(back).value()};
 }
 

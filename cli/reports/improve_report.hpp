@@ -35,7 +35,7 @@ std::string histogram_of(const ImproveReport& report);
 
 /// Improves, and measures what was promised with other code. Adds the times to `statistics`.
 /// Errors: those of improve; interrupted; internal where the promise is broken.
-Result<Measured> improve_and_measure(const Mesh& mesh, const ImproveOptions& options,
+Result<Measured> improve_and_measure(const ConformingMesh& mesh, const ImproveOptions& options,
                                      Session& session, Json& statistics);
 
 } // namespace terrane::cli

@@ -13,6 +13,7 @@ namespace terrane::cli {
 namespace {
 
 constexpr std::size_t most_defects = 20;
+constexpr std::size_t most_regions = 50; ///< listed on the terminal
 
 struct Comparison {
     std::size_t blocks = 0;
@@ -76,6 +77,13 @@ Json spread_json(const ShapeSpread& spread) {
             {"max", number_or_null(spread.largest)}};
 }
 
+/// How many tetrahedra each region has.
+std::vector<std::size_t> counts_of_regions(const TetrahedralMesh& mesh) {
+    std::vector<std::size_t> counts(mesh.region_count);
+    for (const std::uint32_t region : mesh.region_of) ++counts[region];
+    return counts;
+}
+
 } // namespace
 
 std::string report_text(const TetrahedraReport& report) {
@@ -109,6 +117,43 @@ Json report_json(const TetrahedraReport& report) {
     json["radius_edge"]["bounds"] = radius_edge_bounds;
     json["radius_edge"]["histogram"] = shape.radius_edge_histogram;
     return json;
+}
+
+std::string filled_text(const FilledBlocks& filled) {
+    const TetrahedralMesh& mesh = filled.tetrahedra;
+    const auto counts = counts_of_regions(mesh);
+    const std::size_t first = counts[0] == 0 ? 1 : 0;
+    auto text = fmt::format(
+        "{} tetrahedra, {}, {}{}\n", mesh.tetrahedra.size(), counted(mesh.faces.size(), "face"),
+        counted(counts.size() - first, "region"), first == 0 ? " with the outside" : "");
+    for (std::size_t r = first; r < std::min(counts.size(), most_regions); ++r)
+        text += fmt::format("  region {:<3} {:>9} tetrahedra  volume {:.6g}{}\n", r, counts[r],
+                            filled.report.volumes[r].tetrahedra, r == 0 ? "  (outside)" : "");
+    if (counts.size() > most_regions)
+        text += fmt::format("  and {} more\n", counts.size() - most_regions);
+    if (!mesh.twins.empty())
+        text += fmt::format("cut: {} more, {} of faces\n", counted(filled.added_nodes, "node"),
+                            counted(mesh.twins.size(), "pair"));
+    return text + report_text(filled.report);
+}
+
+void add_statistics(Json& json, const FilledBlocks& filled) {
+    json["seconds"]["tetrahedralize"] = filled.seconds_tetrahedralize;
+    json["seconds"]["check"] = filled.seconds_check;
+    json["seconds"]["split"] = filled.seconds_split;
+    const TetrahedralMesh& mesh = filled.tetrahedra;
+    json["output"]["volumes"] = mesh.region_count - 1;
+    Json volumes = Json::array();
+    for (const RegionVolume& region : filled.report.volumes) volumes.push_back(region.tetrahedra);
+    json["tetrahedra"] = {{"tetrahedra", mesh.tetrahedra.size()},
+                          {"vertices", mesh.vertices.size()},
+                          {"faces", mesh.faces.size()},
+                          {"regions", mesh.region_count},
+                          {"tetrahedra_of_region", counts_of_regions(mesh)},
+                          {"volume_of_region", volumes},
+                          {"added_nodes", filled.added_nodes},
+                          {"twin_faces", mesh.twins.size()},
+                          {"check", report_json(filled.report)}};
 }
 
 } // namespace terrane::cli

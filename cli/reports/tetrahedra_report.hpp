@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include <terrane/algorithms/tetgen/fill_blocks.hpp>
 #include <terrane/algorithms/tetrahedra/check_tetrahedra.hpp>
 #include <terrane/cli/options/statistics.hpp>
 
@@ -18,5 +19,11 @@ std::string violations_text(const TetrahedraReport& report);
 
 /// violations, exact_volumes, volume_difference, dihedral and radius_edge; see README.md.
 Json report_json(const TetrahedraReport& report);
+
+/// Counts, per region too, the checks and the shapes.
+std::string filled_text(const FilledBlocks& filled);
+
+/// Adds counts, volumes, checks and times of the tetrahedra.
+void add_statistics(Json& json, const FilledBlocks& filled);
 
 } // namespace terrane::cli

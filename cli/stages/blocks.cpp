@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/algorithms/structure/structure_meshes.hpp>
 #include <terrane/cli/session/console.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
@@ -26,12 +25,12 @@ constexpr std::size_t most_leaks = 20;
 
 std::string blocks_text(const Model& model) {
     const auto& blocks = model.structure.blocks;
-    const std::size_t count = model.exact.block_count();
+    const std::size_t count = model.block_count();
     auto text = fmt::format("{}, volume {:.9g} in all\n", counted(count, "closed block"),
-                            model.exact.measures[0]);
+                            model.exact_volumes[0]);
     for (std::size_t b = 1; b <= std::min(count, most_blocks); ++b)
         text +=
-            fmt::format("  block {:<4} volume {:<14.9g} {}\n", b, model.exact.measures[b],
+            fmt::format("  block {:<4} volume {:<14.9g} {}\n", b, model.exact_volumes[b],
                         blocks[b].interfaces.empty() ? "(too thin for doubles)" : blocks[b].name);
     if (count > most_blocks) text += fmt::format("  and {} more\n", count - most_blocks);
     if (model.lost > 0)
@@ -92,23 +91,6 @@ std::string leaks_text(const Inputs& inputs, const Model& model) {
     return text;
 }
 
-void add_statistics(Json& json, const Model& model) {
-    json["output"]["volumes"] = model.exact.block_count();
-    Json volumes = Json::array();
-    for (std::size_t b = 1; b < model.exact.measures.size(); ++b)
-        volumes.push_back(model.exact.measures[b]);
-    const Structure& s = model.structure;
-    json["volumes"] = {{"all", model.exact.measures[0]},
-                       {"blocks", volumes},
-                       {"too_thin", model.lost},
-                       {"made_by_rounding", model.made},
-                       {"interfaces", s.interfaces.size()},
-                       {"patches", s.patches.size()},
-                       {"lines", s.lines.size()},
-                       {"corners", s.corners.size()},
-                       {"free_borders", model.borders.size()}};
-}
-
 // ---- What is written
 // -----------------------------------------------------------------------------
 
@@ -126,10 +108,10 @@ std::vector<std::int32_t> side_cells(const Volumes& volumes, std::size_t side) {
 
 class FolderWriter {
 public:
-    FolderWriter(const Mesh& mesh, const Model& model, const std::optional<SealReport>& sealed,
+    FolderWriter(const Model& model, const std::optional<SealReport>& sealed,
                  const std::string& part_format, const std::filesystem::path& folder) :
-        mesh_(mesh),
-        model_(model), part_format_(part_format), folder_(folder) {
+        model_(model),
+        part_format_(part_format), folder_(folder) {
         if (!sealed) return;
         extras_.seal_distance = sealed->distance;
         extras_.seal_changes = sealed->changes;
@@ -150,13 +132,13 @@ public:
             if (session.stopped()) return Error{ErrorCode::interrupted, "stopped on request", ""};
             if (s.blocks[b].interfaces.empty()) continue;
             extras_.block_files[b] = name("blocks/block_", b);
-            const auto part = block_part(mesh_, model_.volumes, s, b);
+            const auto part = block_part(model_.mesh, model_.volumes, s, b);
             if (auto done = write_part(part, extras_.block_files[b]); !done) return done;
         }
         for (std::uint32_t i = 0; i < s.interfaces.size(); ++i) {
             if (session.stopped()) return Error{ErrorCode::interrupted, "stopped on request", ""};
             extras_.interface_files.push_back(name("interfaces/interface_", i));
-            const auto part = interface_part(mesh_, model_.volumes, s, i);
+            const auto part = interface_part(model_.mesh, model_.volumes, s, i);
             if (auto done = write_part(part, extras_.interface_files[i]); !done) return done;
         }
         return write_json();
@@ -174,7 +156,7 @@ private:
                                            {"patch", as_cells(model_.structure.patch_of)}};
         WriteOptions options;
         options.cells = cells;
-        return write_mesh(mesh_, folder_ / "result.vtp", options);
+        return write_mesh(model_.mesh, folder_ / "result.vtp", options);
     }
 
     Status write_part(const MeshPart& part, const std::string& file) {
@@ -192,14 +174,13 @@ private:
     }
 
     Status write_json() {
-        extras_.exact_volumes = model_.exact.measures;
+        extras_.exact_volumes = model_.exact_volumes;
         extras_.exact_volumes.resize(model_.structure.blocks.size(),
                                      std::numeric_limits<double>::quiet_NaN());
         extras_.free_borders = model_.borders;
-        return write_file(folder_ / "model.json", to_json(mesh_, model_.structure, extras_));
+        return write_file(folder_ / "model.json", to_json(model_.mesh, model_.structure, extras_));
     }
 
-    const Mesh& mesh_;
     const Model& model_;
     const std::string& part_format_;
     const std::filesystem::path& folder_;
@@ -208,50 +189,49 @@ private:
 
 } // namespace
 
+void add_statistics(Json& json, const Model& model) {
+    json["output"]["volumes"] = model.block_count();
+    Json volumes = Json::array();
+    for (std::size_t b = 1; b < model.exact_volumes.size(); ++b)
+        volumes.push_back(model.exact_volumes[b]);
+    const Structure& s = model.structure;
+    json["volumes"] = {{"all", model.exact_volumes[0]},
+                       {"blocks", volumes},
+                       {"too_thin", model.lost},
+                       {"made_by_rounding", model.made},
+                       {"interfaces", s.interfaces.size()},
+                       {"patches", s.patches.size()},
+                       {"lines", s.lines.size()},
+                       {"corners", s.corners.size()},
+                       {"free_borders", model.borders.size()}};
+}
+
 namespace {
 
-/// What follows from the volumes.
-Result<Model> finished(Model model, const Mesh& mesh, Session& session, Json& statistics) {
-    Stopwatch watch;
-    model.structure = build_structure(mesh, model.volumes);
-    model.borders = find_free_borders(mesh, model.structure);
-    statistics["seconds"]["structure"] = watch.lap();
+Result<Model> with_statistics(Result<Model> model, Session& session, Json& statistics) {
     session.end_stage();
-    if (session.stopped()) return Error{ErrorCode::interrupted, "stopped on request", ""};
-    add_statistics(statistics, model);
+    if (!model) return model;
+    statistics["seconds"]["volumes"] = model->seconds_volumes;
+    statistics["seconds"]["structure"] = model->seconds_structure;
+    add_statistics(statistics, *model);
     return model;
 }
 
 } // namespace
 
-Result<Model> make_model(const Arranged& arranged, Session& session, Json& statistics) {
-    Stopwatch watch;
-    const Mesh& mesh = arranged.rounded.mesh;
+Result<Model> find_model(const Arranged& arranged, Session& session, Json& statistics) {
     session.begin("volumes", Phase::computing);
-    auto exact = find_volumes(arranged.exact, session.run());
-    if (!exact) return exact.error();
-    auto rounded = find_volumes(mesh, session.run());
-    if (!rounded) return rounded.error();
-    const auto match = match_volumes(arranged.exact, exact.value(), mesh, rounded.value());
-    Model model;
-    model.exact = std::move(exact).value();
-    model.made = static_cast<std::size_t>(std::count(match.begin(), match.end(), UINT32_MAX));
-    model.lost = model.exact.measures.size() - (match.size() - model.made);
-    model.volumes = renumbered(rounded.value(), match, model.exact.measures.size());
-    statistics["seconds"]["volumes"] = watch.lap();
-    return finished(std::move(model), mesh, session, statistics);
+    return with_statistics(
+        make_model(arranged.exact, arranged.rounded.conforming.value(), session.run()), session,
+        statistics);
 }
 
-Result<Model> make_model(const Mesh& mesh, Session& session, Json& statistics) {
-    Stopwatch watch;
+Result<Model> find_model(const Arranged& arranged, const Improved& improved, Session& session,
+                         Json& statistics) {
     session.begin("volumes", Phase::computing);
-    auto volumes = find_volumes(mesh, session.run());
-    if (!volumes) return volumes.error();
-    Model model;
-    model.exact = volumes.value();
-    model.volumes = std::move(volumes).value();
-    statistics["seconds"]["volumes"] = watch.lap();
-    return finished(std::move(model), mesh, session, statistics);
+    return with_statistics(
+        make_model(arranged.exact, arranged.rounded.conforming.value(), improved, session.run()),
+        session, statistics);
 }
 
 std::string model_text(const Inputs& inputs, const Model& model) {
@@ -259,10 +239,10 @@ std::string model_text(const Inputs& inputs, const Model& model) {
            leaks_text(inputs, model);
 }
 
-Status write_model(const Mesh& mesh, const Model& model, const std::optional<SealReport>& sealed,
+Status write_model(const Model& model, const std::optional<SealReport>& sealed,
                    const std::string& part_format, const std::filesystem::path& folder,
                    const Session& session) {
-    return FolderWriter(mesh, model, sealed, part_format, folder)(session);
+    return FolderWriter(model, sealed, part_format, folder)(session);
 }
 
 } // namespace terrane::cli

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/io/text/names.hpp>
 
-#include <algorithm>
-#include <map>
-#include <set>
+#include <terrane/algorithms/mesh/labels.hpp>
 
 namespace terrane::detail {
 
@@ -15,12 +13,6 @@ std::string plain(std::string_view name) {
         const auto code = static_cast<unsigned char>(c);
         result += code <= ' ' || code == 127 || c == '#' || c == '\\' ? '_' : c;
     }
-    return result;
-}
-
-std::string quotable(std::string_view name) {
-    auto result = one_line(name);
-    std::replace(result.begin(), result.end(), '"', '\'');
     return result;
 }
 
@@ -37,42 +29,22 @@ std::string label(std::string_view name) {
     return result.empty() ? "SURFACE" : result;
 }
 
-template <class Change>
-std::vector<std::string> different_names(const std::vector<SurfaceInfo>& surfaces, Change change) {
-    std::vector<std::string> names;
-    std::set<std::string> taken;
-    std::map<std::string, unsigned> next_number;
-    for (const auto& surface : surfaces) {
-        auto base = change(surface.name);
-        if (base.empty()) base = "surface";
-        auto name = base;
-        auto& number = next_number.try_emplace(base, 2).first->second;
-        while (!taken.insert(name).second) name = base + '_' + std::to_string(number++);
-        names.push_back(name);
-    }
-    return names;
-}
-
 } // namespace
 
 std::vector<std::string> plain_names(const std::vector<SurfaceInfo>& surfaces) {
-    return different_names(surfaces, plain);
+    return unique_names(surfaces, plain);
 }
 
 std::vector<std::string> quotable_names(const std::vector<SurfaceInfo>& surfaces) {
-    return different_names(surfaces, quotable);
+    return unique_labels(surfaces);
 }
 
 std::vector<std::string> label_names(const std::vector<SurfaceInfo>& surfaces) {
-    return different_names(surfaces, label);
+    return unique_names(surfaces, label);
 }
 
 std::string one_line(std::string_view name) {
-    std::string result(name);
-    std::replace_if(
-        result.begin(), result.end(),
-        [](char c) { return static_cast<unsigned char>(c) < ' ' || c == 127; }, ' ');
-    return result;
+    return terrane::one_line(name);
 }
 
 } // namespace terrane::detail

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/model/model.hpp>
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include <terrane/algorithms/core/stopwatch.hpp>
+
+namespace terrane {
+namespace {
+
+/// Adds what follows from the volumes.
+Result<Model> finished(Model model, const Run& run) {
+    Stopwatch watch;
+    model.structure = build_structure(model.mesh, model.volumes);
+    model.borders = find_free_borders(model.mesh, model.structure);
+    model.seconds_structure = watch.lap();
+    if (run.stop.stop_requested()) return Error{ErrorCode::interrupted, "stopped on request", ""};
+    return model;
+}
+
+/// Gives the volumes of the mesh the numbers of their matches; what has none comes last.
+void number(const Volumes& found, const std::vector<std::uint32_t>& match, Model& model) {
+    const std::size_t count = model.exact_volumes.size();
+    model.made = static_cast<std::size_t>(std::count(match.begin(), match.end(), UINT32_MAX));
+    model.lost = count - (match.size() - model.made);
+    model.volumes = renumbered(found, match, count);
+    model.number_of = match;
+    auto next = static_cast<std::uint32_t>(count);
+    for (std::uint32_t& n : model.number_of) // as renumbered() does
+        if (n == UINT32_MAX) n = next++;
+}
+
+/// Per volume its own number.
+std::vector<std::uint32_t> own_numbers(const Volumes& volumes) {
+    std::vector<std::uint32_t> numbers(volumes.measures.size());
+    std::iota(numbers.begin(), numbers.end(), 0U);
+    return numbers;
+}
+
+} // namespace
+
+Result<Model> make_model(const Arrangement& arrangement, const ConformingMesh& mesh,
+                         const Run& run) {
+    Stopwatch watch;
+    const auto exact = find_volumes(arrangement, run);
+    if (!exact) return exact.error();
+    const auto rounded = find_volumes(mesh, run);
+    if (!rounded) return rounded.error();
+    Model model{.mesh = mesh, .exact_volumes = exact->measures};
+    number(*rounded, match_volumes(arrangement, *exact, mesh, *rounded), model);
+    model.seconds_volumes = watch.lap();
+    return finished(std::move(model), run);
+}
+
+Result<Model> make_model(const Arrangement& arrangement, const ConformingMesh& rounded,
+                         const Improved& improved, const Run& run) {
+    Stopwatch watch;
+    Model model{.mesh = improved.conforming.value()};
+    if (!improved.report.sides_kept) {
+        model.exact_volumes = improved.volumes.measures;
+        number(improved.volumes, own_numbers(improved.volumes), model);
+        return finished(std::move(model), run);
+    }
+    const auto exact = find_volumes(arrangement, run);
+    if (!exact) return exact.error();
+    const auto of_rounded = match_volumes(arrangement, *exact, rounded, improved.volumes_before);
+    std::vector<std::uint32_t> match;
+    for (const std::uint32_t before : improved.volume_before) match.push_back(of_rounded[before]);
+    model.exact_volumes = exact->measures;
+    number(improved.volumes, match, model);
+    for (std::size_t v = 0; v < match.size(); ++v)
+        if (match[v] != UINT32_MAX) model.exact_volumes[match[v]] = improved.volumes.measures[v];
+    model.seconds_volumes = watch.lap();
+    return finished(std::move(model), run);
+}
+
+Volumes volumes_as_found(const Model& model) {
+    std::vector<std::uint32_t> found(model.volumes.measures.size());
+    Volumes out = model.volumes;
+    out.measures.clear();
+    for (std::uint32_t v = 0; v < model.number_of.size(); ++v) {
+        found[model.number_of[v]] = v;
+        out.measures.push_back(model.volumes.measures[model.number_of[v]]);
+    }
+    for (auto& sides : out.of_sides) sides = {found[sides[0]], found[sides[1]]};
+    return out;
+}
+
+} // namespace terrane

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// A model: a conforming mesh, its blocks, its structure. Blocks have the numbers of the exact
+// arrangement, so that what rounding does to thin blocks changes no number: every stage and every
+// file calls a block by the same one.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <terrane/algorithms/arrangement/arrangement.hpp>
+#include <terrane/algorithms/check/conforming.hpp>
+#include <terrane/algorithms/core/result.hpp>
+#include <terrane/algorithms/core/run.hpp>
+#include <terrane/algorithms/quality/improve.hpp>
+#include <terrane/algorithms/structure/free_borders.hpp>
+#include <terrane/algorithms/structure/structure.hpp>
+#include <terrane/algorithms/volumes/volumes.hpp>
+
+namespace terrane {
+
+struct Model {
+    ConformingMesh mesh;
+    std::vector<double> exact_volumes{}; ///< per block by number, [0]: of all; cubic unit: the
+                                         ///< doubles nearest to the volumes in the arrangement
+    Volumes volumes{}; ///< of the mesh, by the numbers of the exact blocks. A block too thin for
+                       ///< doubles has no triangle; blocks that rounding made come last
+    std::vector<std::uint32_t> number_of{}; ///< per volume as find_volumes(mesh) counts: its number
+    Structure structure{};                  ///< by the same numbers
+    std::vector<FreeBorder> borders{};
+    std::size_t lost = 0; ///< exact blocks that the mesh does not have
+    std::size_t made = 0; ///< blocks of the mesh that are no exact ones
+    double seconds_volumes = 0, seconds_structure = 0;
+
+    /// Number of exact blocks; the outside is not counted.
+    [[nodiscard]] std::size_t block_count() const { return exact_volumes.size() - 1; }
+};
+
+/// Finds the volumes of the arrangement and of its rounded mesh, matches them, and builds the
+/// structure. Precondition: `rounded` is `exact` rounded. Cost: that of find_volumes, twice; then
+/// linear, but for sorting. Errors: those of find_volumes, interrupted.
+Result<Model> make_model(const Arrangement& exact, const ConformingMesh& rounded,
+                         const Run& run = {});
+
+/// Makes the model of an improved mesh. Precondition: `exact` was rounded, then improved. Blocks keep
+/// the numbers of the exact ones; exact_volumes are those of the improved mesh, but for blocks that
+/// rounding lost. Where report.sides_kept is false, no block is known to be one
+/// of before: then blocks have the numbers of find_volumes(mesh). Cost: that of find_volumes, once.
+/// Errors: those of find_volumes, interrupted.
+Result<Model> make_model(const Arrangement& exact, const ConformingMesh& rounded,
+                         const Improved& improved, const Run& run = {});
+
+/// The volumes of the mesh with the numbers of find_volumes(mesh), without finding them again.
+Volumes volumes_as_found(const Model& model);
+
+} // namespace terrane

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/tetgen/fill_blocks.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdint>
+#include <span>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <terrane/algorithms/core/disjoint_sets.hpp>
+#include <terrane/algorithms/core/stopwatch.hpp>
+#include <terrane/algorithms/mesh/labels.hpp>
+#include <terrane/algorithms/tetrahedra/split_nodes.hpp>
+#include <terrane/algorithms/tetrahedra/without_outside.hpp>
+
+namespace terrane {
+namespace {
+
+// ---- Names --------------------------------------------------------------------------------------
+
+using SurfaceLabels = std::vector<std::string>; // per surface of the mesh
+
+Error nothing_called(const char* what, const GivenName& named) {
+    return {ErrorCode::bad_option, fmt::format("no {} is called {}", what, named.name),
+            named.place};
+}
+
+Result<std::vector<std::uint32_t>> surfaces_of(const Model& model, const SurfaceLabels& labels,
+                                               const GivenName& named) {
+    auto found = surfaces_called(named.name, model.mesh->surfaces, labels);
+    if (found.empty()) return nothing_called("surface", named);
+    return found;
+}
+
+/// Finds a block by its number, else by its name.
+Result<std::uint32_t> block_of(const Model& model, const GivenName& named) {
+    const auto& all = model.structure.blocks;
+    std::uint32_t number = 0;
+    const char* const end = named.name.data() + named.name.size();
+    const auto [after, failed] = std::from_chars(named.name.data(), end, number);
+    if (failed == std::errc() && after == end && number < all.size()) return number;
+    const auto at = std::find_if(all.begin(), all.end(),
+                                 [&](const ModelBlock& block) { return block.name == named.name; });
+    if (at == all.end()) return nothing_called("block", named);
+    return static_cast<std::uint32_t>(at - all.begin());
+}
+
+Result<TetrahedraOptions> options_of(const Model& model, const SurfaceLabels& labels,
+                                     const TetrahedraRequest& request) {
+    const auto& shown = model.number_of;
+    TetrahedraOptions options = request.options;
+    for (const NamedSize& size : request.size_of) {
+        const auto surfaces = surfaces_of(model, labels, size.of);
+        if (!surfaces) return surfaces.error();
+        for (const std::uint32_t s : surfaces.value())
+            options.surface_sizes.push_back({s, size.edge_length});
+    }
+    for (const NamedSize& size : request.size_in) {
+        const auto block = block_of(model, size.of);
+        if (!block) return block.error();
+        const auto own = std::find(shown.begin(), shown.end(), block.value());
+        if (own == shown.end())
+            return Error{ErrorCode::bad_option,
+                         fmt::format("block {} is too thin for doubles", block.value()),
+                         size.of.place};
+        options.block_sizes.push_back(
+            {static_cast<std::uint32_t>(own - shown.begin()), size.edge_length});
+    }
+    return options;
+}
+
+Result<std::vector<std::uint32_t>> surfaces_to_split(const Model& model,
+                                                     const SurfaceLabels& labels,
+                                                     const std::vector<GivenName>& split) {
+    std::vector<std::uint32_t> all;
+    const auto& surfaces = model.mesh->surfaces;
+    for (const GivenName& named : split) {
+        auto found = surfaces_called(named.name, surfaces, labels);
+        if (named.name == "fault")
+            for (std::uint32_t s = 0; s < surfaces.size(); ++s)
+                if (surfaces[s].role == Role::fault) found.push_back(s);
+        if (found.empty())
+            return named.name == "fault"
+                       ? Error{ErrorCode::bad_option, "no surface has the role fault", named.place}
+                       : nothing_called("surface", named);
+        all.insert(all.end(), found.begin(), found.end());
+    }
+    sort_unique(all);
+    return all;
+}
+
+// ---- Results ------------------------------------------------------------------------------------
+
+/// Gives regions the numbers of the model's blocks.
+void renumber(const Model& model, FilledBlocks& filled) {
+    const auto& shown = model.number_of;
+    const std::size_t count = model.volumes.measures.size();
+    for (std::uint32_t& region : filled.tetrahedra.region_of) region = shown[region];
+    filled.tetrahedra.region_count = static_cast<std::uint32_t>(count);
+    std::vector<RegionVolume> volumes(count);
+    for (std::size_t r = 0; r < filled.report.volumes.size(); ++r)
+        volumes[shown[r]] = filled.report.volumes[r];
+    for (std::size_t r = 0; r < count; ++r) // too thin for doubles: nothing to compare
+        if (std::find(shown.begin(), shown.end(), r) == shown.end()) volumes[r].equal = true;
+    filled.report.volumes = std::move(volumes);
+}
+
+/// Takes the outside away where it is not wanted, and splits nodes.
+Status finish(const TetrahedraRequest& request, std::span<const std::uint32_t> split,
+              TetrahedralMesh& mesh, std::size_t& added_nodes) {
+    if (!request.outside) mesh = without_outside(std::move(mesh));
+    if (mesh.tetrahedra.empty())
+        return Error{ErrorCode::nothing_to_do, "there is no closed block to fill", ""};
+    if (split.empty()) return Done{};
+    auto cut = split_nodes(mesh, split);
+    if (!cut) return cut.error();
+    added_nodes = cut.value().vertices.size() - mesh.vertices.size();
+    mesh = std::move(cut).value();
+    return Done{};
+}
+
+} // namespace
+
+Result<FilledBlocks> fill_blocks(const Model& model, const TetrahedraRequest& request,
+                                 const Run& run) {
+    Stopwatch watch;
+    if (run.progress) run.progress("tetrahedralize", 0);
+    const SurfaceLabels labels = unique_labels(model.mesh->surfaces);
+    const auto options = options_of(model, labels, request);
+    if (!options) return options.error();
+    const auto split = surfaces_to_split(model, labels, request.split);
+    if (!split) return split.error();
+    const Volumes volumes = volumes_as_found(model);
+    auto made = tetrahedralize(model.mesh, volumes, *options, run);
+    if (!made) return made.error();
+    FilledBlocks filled;
+    filled.tetrahedra = std::move(*made);
+    filled.seconds_tetrahedralize = watch.lap();
+
+    if (run.progress) run.progress("check tetrahedra", 0);
+    filled.report = check_tetrahedra(filled.tetrahedra, model.mesh, volumes);
+    filled.seconds_check = watch.lap();
+    renumber(model, filled);
+    if (filled.report.violations.empty())
+        if (auto done = finish(request, *split, filled.tetrahedra, filled.added_nodes); !done)
+            return done.error();
+    for (const ModelBlock& block : model.structure.blocks) filled.block_names.push_back(block.name);
+    filled.seconds_split = watch.lap();
+    if (run.stop.stop_requested()) return Error{ErrorCode::interrupted, "", ""};
+    return filled;
+}
+
+} // namespace terrane

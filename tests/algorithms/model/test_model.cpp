@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Models: the numbers of their blocks, and that nothing is proven or found twice on the way to one.
+#include <catch2/catch.hpp>
+
+#include <map>
+#include <mutex>
+#include <numeric>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "support/solids.hpp"
+#include <terrane/algorithms/mesh/work_hook.hpp>
+#include <terrane/algorithms/model/model.hpp>
+#include <terrane/algorithms/rounding/rounding.hpp>
+#ifdef TERRANE_HAS_TETGEN
+#include <terrane/algorithms/tetgen/fill_blocks.hpp>
+#endif
+
+using namespace terrane;
+using namespace test_support;
+
+namespace {
+
+/// A vertical wall between two points, from z = 0 to 8.
+Surface wall(const std::string& name, double x0, double y0, double x1, double y1) {
+    return {name,
+            Role::fault,
+            {{x0, y0, 0}, {x1, y1, 0}, {x1, y1, 8}, {x0, y0, 8}},
+            {{0, 1, 2}, {0, 2, 3}}};
+}
+
+/// A box in six sectors. The walls do not meet in one line exactly: the prism between them is
+/// thinner than the doubles there, so that rounding loses it. It is block 5.
+std::vector<Surface> sectors() {
+    constexpr double u = 0x1p-50; // from 4 to the next double
+    auto surfaces = std::vector<Surface>{box({0, 0, 0}, {8, 8, 8})};
+    surfaces.push_back(wall("first", 0, 0, 8, 8));
+    surfaces.push_back(wall("second", 0, 8, 8, 0));
+    surfaces.push_back(wall("third", 4 + u, -60, 4 - u, 72));
+    return surfaces;
+}
+
+struct Step {
+    std::string name;
+    std::vector<Point3> vertices;
+    std::vector<Triangle> triangles;
+
+    friend bool operator<(const Step& a, const Step& b) {
+        return std::tie(a.name, a.vertices, a.triangles) <
+               std::tie(b.name, b.vertices, b.triangles);
+    }
+};
+
+/// Counts the costly steps while it lives.
+class WorkCount {
+public:
+    WorkCount() {
+        steps().clear();
+        detail::work_hook = [](std::string_view name, std::span<const Point3> vertices,
+                               std::span<const Triangle> triangles) {
+            const std::lock_guard lock(mutex());
+            ++steps()[{std::string(name),
+                       {vertices.begin(), vertices.end()},
+                       {triangles.begin(), triangles.end()}}];
+        };
+    }
+    ~WorkCount() { detail::work_hook = nullptr; }
+    WorkCount(const WorkCount&) = delete;
+    WorkCount& operator=(const WorkCount&) = delete;
+
+    /// On how many meshes the step was done; 0 if it was done twice on one of them.
+    [[nodiscard]] static std::size_t meshes_of(const std::string& name) {
+        std::size_t meshes = 0;
+        for (const auto& [step, count] : steps()) {
+            if (step.name != name) continue;
+            if (count != 1) return 0;
+            ++meshes;
+        }
+        return meshes;
+    }
+
+private:
+    static std::map<Step, std::size_t>& steps() {
+        static std::map<Step, std::size_t> all;
+        return all;
+    }
+    static std::mutex& mutex() {
+        static std::mutex one;
+        return one;
+    }
+};
+
+} // namespace
+
+TEST_CASE("model: blocks have the numbers of the exact ones where rounding loses one", "[volumes]") {
+    const auto exact = arrange(sectors());
+    REQUIRE(exact);
+    const auto rounded = round_to_doubles(*exact);
+    REQUIRE(rounded);
+    REQUIRE(rounded->conforming);
+    const auto model = make_model(*exact, *rounded->conforming);
+    REQUIRE(model);
+    CHECK(model->block_count() == 7);
+    CHECK(model->lost == 1);
+    CHECK(model->made == 0);
+    CHECK(model->exact_volumes == find_volumes(*exact)->measures);
+    CHECK(model->volumes.measures == std::vector<double>{512, 128, 64, 64, 64, 0, 128, 64});
+    CHECK(model->structure.blocks.size() == 8);
+    CHECK(model->structure.blocks[5].interfaces.empty());
+    CHECK(model->number_of == std::vector<std::uint32_t>{0, 1, 2, 3, 4, 6, 7});
+    const auto found = find_volumes(rounded->mesh);
+    REQUIRE(found);
+    const Volumes again = volumes_as_found(*model);
+    CHECK(again.measures == found->measures);
+    CHECK(again.of_sides == found->of_sides);
+
+    const auto improved = improve(*rounded->conforming, {.edge_length = 2});
+    REQUIRE(improved);
+    REQUIRE(improved->report.sides_kept);
+    const auto better = make_model(*exact, *rounded->conforming, *improved);
+    REQUIRE(better);
+    CHECK(better->number_of == model->number_of);
+    CHECK(better->lost == 1);
+    CHECK(better->mesh->triangles.size() == improved->mesh->triangles.size());
+    for (std::size_t b = 1; b < 8; ++b) {
+        CHECK(better->volumes.measures[b] == Approx(model->volumes.measures[b]));
+        CHECK(better->structure.blocks[b].name == model->structure.blocks[b].name);
+    }
+}
+
+TEST_CASE("model: each mesh is proven once, and searched for volumes once", "[volumes]") {
+    const WorkCount count;
+    const auto exact = arrange(sectors());
+    REQUIRE(exact);
+    const auto rounded = round_to_doubles(*exact);
+    REQUIRE(rounded);
+    CHECK(WorkCount::meshes_of("prove conforming") == 1);
+    const auto improved = improve(*rounded->conforming, {.edge_length = 2});
+    REQUIRE(improved);
+    const auto model = make_model(*exact, *rounded->conforming, *improved);
+    REQUIRE(model);
+#ifdef TERRANE_HAS_TETGEN
+    const auto filled = fill_blocks(*model, {});
+    REQUIRE(filled);
+    CHECK(filled->report.violations.empty());
+    CHECK(filled->tetrahedra.region_count == 8);
+#endif
+    CHECK(WorkCount::meshes_of("prove conforming") == 2);
+    CHECK(WorkCount::meshes_of("find volumes") == 2);
+    CHECK(WorkCount::meshes_of("find exact volumes") == 1);
+    // A mesh without its proof is proven again: the count notices it.
+    REQUIRE(improve(rounded->mesh, {.edge_length = 2}));
+    CHECK(WorkCount::meshes_of("prove conforming") == 0);
+}
+
+TEST_CASE("conforming mesh: only what is conforming becomes one", "[check]") {
+    const auto one = [](std::vector<Surface> surfaces) {
+        Mesh mesh;
+        for (std::uint32_t s = 0; s < surfaces.size(); ++s) {
+            const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+            mesh.surfaces.push_back({surfaces[s].name, surfaces[s].role});
+            mesh.vertices.insert(mesh.vertices.end(), surfaces[s].vertices.begin(),
+                                 surfaces[s].vertices.end());
+            for (const Triangle& t : surfaces[s].triangles) {
+                mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+                mesh.surfaces_of.push_back(std::array{s});
+            }
+        }
+        return prove_conforming(std::move(mesh));
+    };
+    const auto alone = one({wall("first", 0, 0, 8, 8)});
+    REQUIRE(alone);
+    CHECK((*alone)->triangles.size() == 2);
+    const auto crossing = one({wall("first", 0, 0, 8, 8), wall("second", 0, 8, 8, 0)});
+    REQUIRE_FALSE(crossing);
+    CHECK(crossing.error().code == ErrorCode::improper_contact);
+}
