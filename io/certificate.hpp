@@ -54,10 +54,10 @@ namespace terrane {
 
 /// An input file: the hash of its bytes, and the number of surfaces that were read from it.
 struct InputRecord {
-    std::string name;   ///< its name in the certificate
-    std::string sha256; ///< 64 lower-case hexadecimal digits
-    std::uint64_t bytes = 0;
-    std::size_t surfaces = 0;
+    std::string name;         ///< its name in the certificate
+    std::string sha256;       ///< 64 lower-case hexadecimal digits
+    std::uint64_t bytes = 0;  ///< length of the file
+    std::size_t surfaces = 0; ///< number of surfaces read from it
 };
 
 /// Hashes the current contents of a file. Errors: cannot_open.
@@ -71,9 +71,9 @@ std::string certified_name(const std::filesystem::path& path,
 
 /// The contents of a certificate, by reference: the values must outlive it.
 struct Certified {
-    std::span<const InputRecord> files;
-    std::span<const Surface> surfaces; ///< of all files, in order
-    const Arrangement& exact;
+    std::span<const InputRecord> files;   ///< in the order in which they were read
+    std::span<const Surface> surfaces;    ///< of all files, in order
+    const Arrangement& exact;             ///< of these surfaces
     const RoundedMesh* rounded = nullptr; ///< nullptr: "rounded" is null
 };
 

@@ -50,6 +50,7 @@ struct ExactText {
 /// Returns the exact coordinates and the triangles of an arrangement. Cost: linear in the number of
 /// digits; the fractions of 100 000 vertices take a second.
 ExactText to_exact(const Arrangement& arrangement, const Run& run = {});
+/// Returns the text.
 std::string to_text(const ExactText& exact);
 
 /// Reads a text in the format above. Errors: bad_syntax, bad_number (a coordinate that is not a

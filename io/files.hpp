@@ -19,6 +19,7 @@
 
 namespace terrane {
 
+/// The file formats.
 enum class Format {
     gocad, ///< .ts .ml .gp .mx
     obj,   ///< .obj
@@ -46,6 +47,7 @@ bool is_read(Format format);
 
 /// Tells whether surfaces, or tetrahedra, can be written in this format.
 bool holds_surfaces(Format format);
+/// Whether tetrahedra can be written in the format.
 bool holds_tetrahedra(Format format);
 
 /// Returns the format for the extension of a file name, in any case; none if it is unknown.
@@ -73,6 +75,7 @@ Result<std::vector<Surface>> parse_surfaces(std::string_view contents, std::stri
 /// Reads a GOCAD model with its parts and regions. Errors: those of read_surfaces.
 Result<GocadModel> read_model(const std::filesystem::path& path);
 
+/// Options of write_mesh() and write_tetrahedra().
 struct WriteOptions {
     std::optional<Format> format{};     ///< none: by the extension; required for "-"
     bool ascii = false;                 ///< STL only: text instead of binary

@@ -50,9 +50,9 @@ struct StructureExtras {
     std::vector<double> exact_volumes{};        ///< per volume; NaN if it has none
     std::vector<std::string> block_files{};     ///< per volume; empty: none
     std::vector<std::string> interface_files{}; ///< per interface; empty: none
-    std::span<const FreeBorder> free_borders{};
-    double seal_distance = 0; ///< 0: not requested
-    std::span<const SealChange> seal_changes{};
+    std::span<const FreeBorder> free_borders{}; ///< all of the structure
+    double seal_distance = 0;                   ///< 0: not requested
+    std::span<const SealChange> seal_changes{}; ///< what sealing did
 };
 
 /// Returns the JSON text. Precondition: the lists of extras are empty or have the lengths stated.

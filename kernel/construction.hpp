@@ -24,9 +24,10 @@ enum class Axis : std::uint8_t { x, y, z };
 /// line comes first, and axis is the first of z, x, y in which the lines are not parallel): equal
 /// constructions are equal values. Unused entries are 0.
 struct Construction {
+    /// See (1) to (4).
     enum class Kind : std::uint8_t { input, line_plane, three_planes, line_line };
 
-    Kind kind = Kind::input;
+    Kind kind = Kind::input;          ///< how it is constructed
     Axis axis = Axis::x;              ///< line_line only
     std::array<std::uint32_t, 9> v{}; ///< input vertices
 

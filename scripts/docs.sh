@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: LGPL-3.0-or-later
 #
-# Builds the site of the documentation in out/site. It needs Debian's package mkdocs, which
-# scripts/setup.sh does not install: building and testing Terrane works without it.
+# Builds the site of the documentation in out/site, and with Doxygen the reference of declarations in
+# out/site/api. It needs Debian's packages mkdocs and doxygen, which scripts/setup.sh does not
+# install: building and testing Terrane works without them.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -11,4 +12,11 @@ command -v mkdocs >/dev/null || {
     exit 1
 }
 mkdocs build --strict --quiet
+if command -v doxygen >/dev/null; then
+    doxygen scripts/Doxyfile # warnings are errors
+    rm -rf out/site/api
+    mv out/api out/site/api
+else
+    echo "docs: without doxygen there is no reference of declarations" >&2
+fi
 echo "docs: open out/site/index.html"

@@ -27,19 +27,23 @@
 
 namespace terrane {
 
+/// Options of arrange().
 struct ArrangeOptions {
     Search search = Search::automatic; ///< how candidates are found; never changes the result
 };
 
 /// What was done, for people and benchmarks.
 struct ArrangeStatistics {
-    std::size_t candidates = 0;        ///< pairs of triangles whose boxes overlap
-    std::size_t improper_contacts = 0; ///< pairs of input triangles that meet improperly
-    std::size_t divided = 0;           ///< input triangles that were triangulated
-    std::size_t constructed_points = 0;
-    PredicateCounts predicates;
-    double seconds_prepare = 0, seconds_search = 0, seconds_intersect = 0, seconds_triangulate = 0,
-           seconds_stitch = 0;
+    std::size_t candidates = 0;         ///< pairs of triangles whose boxes overlap
+    std::size_t improper_contacts = 0;  ///< pairs of input triangles that meet improperly
+    std::size_t divided = 0;            ///< input triangles that were triangulated
+    std::size_t constructed_points = 0; ///< distinct points that are no input vertices
+    PredicateCounts predicates;         ///< signs decided by each stage
+    double seconds_prepare = 0;         ///< for the soup and the injective patches
+    double seconds_search = 0;          ///< for candidate pairs
+    double seconds_intersect = 0;       ///< for contacts and their points
+    double seconds_triangulate = 0;     ///< for the triangulation of faces
+    double seconds_stitch = 0;          ///< for vertices, parents and intersection edges
 };
 
 /// Input vertices and triangles are counted through all surfaces: vertex k of surface s is
@@ -71,7 +75,7 @@ struct Arrangement {
     /// Takes the same out of an arrangement of the same surfaces after a small move of their
     /// vertices: rounding needs it where it arranges anew. Empty where `whole`, or not known.
     std::function<Result<Arrangement>(Arrangement, const Run&)> restrict_again{};
-    ArrangeStatistics statistics;
+    ArrangeStatistics statistics; ///< what was done
 };
 
 /// Errors: bad_number (a coordinate is not finite), bad_index, interrupted, out_of_memory.

@@ -35,15 +35,17 @@ std::string_view name_of(ContactKind kind);
 /// The kind of a contact, from its points' places alone.
 ContactKind kind_of(const Contact& contact);
 
+/// Two triangles that meet other than in a shared vertex or edge.
 struct ImproperContact {
     std::array<std::uint32_t, 2> triangles{}; ///< input triangles, counted through all surfaces
-    ContactKind kind{};
-    Point3 place; ///< a point that both share, to the nearest double
+    ContactKind kind{};                       ///< how they meet
+    Point3 place;                             ///< a point that both share, to the nearest double
 };
 
 /// Triangles and vertices are counted through all surfaces, in order.
 struct CheckReport {
-    std::size_t surfaces = 0, triangles = 0;
+    std::size_t surfaces = 0;                           ///< number of surfaces
+    std::size_t triangles = 0;                          ///< of all surfaces
     std::size_t vertices = 0;                           ///< distinct points in use
     std::vector<std::uint32_t> first_triangle;          ///< per surface, and the total at the end
     std::vector<ImproperContact> contacts;              ///< of distinct triangles with area; sorted

@@ -23,9 +23,13 @@ class RoundingProof; // rounding.cpp defines it
 /// changed, so stages that need a conforming mesh take it without another proof. Copies share it.
 class ConformingMesh {
 public:
+    /// The mesh, without its proof.
     [[nodiscard]] const SharedMesh& mesh() const { return mesh_; }
+    /// The mesh.
     [[nodiscard]] const Mesh& operator*() const { return *mesh_; }
+    /// A member of the mesh.
     [[nodiscard]] const Mesh* operator->() const { return &*mesh_; }
+    /// The mesh.
     operator const Mesh&() const { return *mesh_; } // NOLINT: implicit on purpose
 
 private:

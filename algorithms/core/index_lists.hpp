@@ -14,12 +14,15 @@ struct IndexLists {
     std::vector<std::uint32_t> offsets{0}; ///< size() + 1, ascending from 0
     std::vector<T> values;                 ///< all lists, one after the other
 
+    /// Number of lists.
     [[nodiscard]] std::size_t size() const { return offsets.size() - 1; }
+    /// List i.
     [[nodiscard]] std::span<const T> operator[](std::size_t i) const {
         return {values.data() + offsets[i], values.data() + offsets[i + 1]};
     }
     /// Ends the list that was filled by values.push_back since the last call.
     void close() { offsets.push_back(static_cast<std::uint32_t>(values.size())); }
+    /// Adds a list.
     void push_back(std::span<const T> list) {
         values.insert(values.end(), list.begin(), list.end());
         close();

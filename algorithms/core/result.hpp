@@ -34,9 +34,9 @@ enum class ErrorCode {
 
 /// An error caused by data, as a value.
 struct Error {
-    ErrorCode code = ErrorCode::internal;
-    std::string sentence; ///< what is wrong, in a sentence without full stop
-    std::string place;    ///< "basin.ts:1204", "triangle 812", or empty
+    ErrorCode code = ErrorCode::internal; ///< what went wrong, by kind
+    std::string sentence;                 ///< what is wrong, in a sentence without full stop
+    std::string place;                    ///< "basin.ts:1204", "triangle 812", or empty
 
     /// "basin.ts:1204: VRTX needs 3 numbers"
     [[nodiscard]] std::string message() const {
@@ -83,16 +83,25 @@ using CallResult = std::remove_cvref_t<decltype(call_with(std::declval<F>(), std
 template <class T>
 class [[nodiscard]] Result {
 public:
+    /// The type of the value.
     // NOLINTNEXTLINE(readability-identifier-naming): the name is the standard's
     using value_type = T;
 
+    /// A value or an error becomes a Result without a cast.
+    /// @{
     constexpr Result(T value) : state_(std::in_place_index<0>, std::move(value)) {}     // NOLINT
     constexpr Result(Error error) : state_(std::in_place_index<1>, std::move(error)) {} // NOLINT
+    /// @}
 
+    /// Whether there is a value.
+    /// @{
     [[nodiscard]] constexpr bool ok() const noexcept { return state_.index() == 0; }
     [[nodiscard]] constexpr bool has_value() const noexcept { return ok(); }
     constexpr explicit operator bool() const noexcept { return ok(); }
+    /// @}
 
+    /// The value; see (1).
+    /// @{
     [[nodiscard]] constexpr const T& operator*() const& noexcept { return *held(); }
     [[nodiscard]] constexpr T& operator*() & noexcept { return *held(); }
     [[nodiscard]] constexpr T&& operator*() && noexcept { return std::move(*held()); }
@@ -102,6 +111,9 @@ public:
     [[nodiscard]] constexpr const T& value() const& { return assert(ok()), std::get<0>(state_); }
     [[nodiscard]] constexpr T& value() & { return assert(ok()), std::get<0>(state_); }
     [[nodiscard]] constexpr T&& value() && { return assert(ok()), std::get<0>(std::move(state_)); }
+    /// @}
+    /// The error; see (1).
+    /// @{
     [[nodiscard]] constexpr const Error& error() const& {
         return assert(!ok()), std::get<1>(state_);
     }
@@ -109,8 +121,10 @@ public:
     [[nodiscard]] constexpr Error&& error() && {
         return assert(!ok()), std::get<1>(std::move(state_));
     }
+    /// @}
 
     /// The value, or `other` where there is none.
+    /// @{
     template <class U>
     [[nodiscard]] constexpr T value_or(U&& other) const& {
         return ok() ? **this : static_cast<T>(std::forward<U>(other));
@@ -119,8 +133,10 @@ public:
     [[nodiscard]] constexpr T value_or(U&& other) && {
         return ok() ? *std::move(*this) : static_cast<T>(std::forward<U>(other));
     }
+    /// @}
 
     /// f(value), itself a Result; or the error.
+    /// @{
     template <class F>
     constexpr auto and_then(F&& f) const& {
         return then(*this, std::forward<F>(f));
@@ -129,8 +145,10 @@ public:
     constexpr auto and_then(F&& f) && {
         return then(std::move(*this), std::forward<F>(f));
     }
+    /// @}
 
     /// This value; or f(error), which is of the same type.
+    /// @{
     template <class F>
     constexpr Result or_else(F&& f) const& {
         return ok() ? *this : Result(std::invoke(std::forward<F>(f), error()));
@@ -140,8 +158,10 @@ public:
         return ok() ? std::move(*this)
                     : Result(std::invoke(std::forward<F>(f), std::move(*this).error()));
     }
+    /// @}
 
     /// A Result of f(value), a Status where f returns nothing; or the error.
+    /// @{
     template <class F>
     constexpr auto transform(F&& f) const& {
         return transformed(*this, std::forward<F>(f));
@@ -150,6 +170,7 @@ public:
     constexpr auto transform(F&& f) && {
         return transformed(std::move(*this), std::forward<F>(f));
     }
+    /// @}
 
 private:
     [[nodiscard]] constexpr const T* held() const noexcept {

@@ -14,9 +14,10 @@ namespace terrane {
 /// Two vertices, the lower index first.
 using Edge = std::array<std::uint32_t, 2>;
 
+/// What a mesh keeps of an input surface besides its triangles.
 struct SurfaceInfo {
-    std::string name;
-    Role role = Role::unknown;
+    std::string name;          ///< as in Surface; need not be unique
+    Role role = Role::unknown; ///< as in Surface
 
     friend bool operator==(const SurfaceInfo&, const SurfaceInfo&) = default;
 };

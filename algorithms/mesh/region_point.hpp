@@ -9,7 +9,7 @@ namespace terrane {
 
 /// A point inside a volume (see region_points.hpp).
 struct RegionPoint {
-    Point3 place;
+    Point3 place;             ///< strictly inside, in the unit of the mesh
     std::uint32_t region = 0; ///< number of the block
 };
 

@@ -12,16 +12,23 @@ namespace terrane {
 /// where a const Mesh& is wanted. It is never null.
 class SharedMesh {
 public:
+    /// An empty mesh.
     SharedMesh() : mesh_(std::make_shared<const Mesh>()) {}
+    /// Takes a mesh, which nobody can change from then on.
     SharedMesh(Mesh mesh) :
         // NOLINT: implicit on purpose
         mesh_(std::make_shared<const Mesh>(std::move(mesh))) {}
-    SharedMesh(const SharedMesh&) = default; // no move: it would leave a null pointer
+    /// Shares the mesh. There is no move, which would leave a null pointer.
+    SharedMesh(const SharedMesh&) = default;
+    /// Shares the mesh.
     SharedMesh& operator=(const SharedMesh&) = default;
     ~SharedMesh() = default;
 
+    /// The mesh.
     [[nodiscard]] const Mesh& operator*() const { return *mesh_; }
+    /// A member of the mesh.
     [[nodiscard]] const Mesh* operator->() const { return mesh_.get(); }
+    /// The mesh.
     operator const Mesh&() const { return *mesh_; } // NOLINT: implicit on purpose
 
 private:

@@ -19,8 +19,8 @@ enum class Role : std::uint8_t { unknown, horizon, fault, boundary };
 /// A triangulated surface as it is read. It may be open, cross itself, and have duplicate or
 /// degenerate triangles; only its coordinates must be finite.
 struct Surface {
-    std::string name; ///< from the file; need not be unique
-    Role role = Role::unknown;
+    std::string name;                ///< from the file; need not be unique
+    Role role = Role::unknown;       ///< what it is to the geologist
     std::vector<Point3> vertices;    ///< order and unit of the file; finite
     std::vector<Triangle> triangles; ///< order of the file; indices < vertices.size()
 };

@@ -20,18 +20,20 @@
 
 namespace terrane {
 
+/// A mesh with its blocks.
 struct Model {
-    ConformingMesh mesh;
+    ConformingMesh mesh;                 ///< rounded, and improved if that was asked for
     std::vector<double> exact_volumes{}; ///< per block by number, [0]: of all; cubic unit: the
                                          ///< doubles nearest to the volumes in the arrangement
     Volumes volumes{}; ///< of the mesh, by the numbers of the exact blocks. A block too thin for
                        ///< doubles has no triangle; blocks that rounding made come last
     std::vector<std::uint32_t> number_of{}; ///< per volume as find_volumes(mesh) counts: its number
     Structure structure{};                  ///< by the same numbers
-    std::vector<FreeBorder> borders{};
-    std::size_t lost = 0; ///< exact blocks that the mesh does not have
-    std::size_t made = 0; ///< blocks of the mesh that are no exact ones
-    double seconds_volumes = 0, seconds_structure = 0;
+    std::vector<FreeBorder> borders{};      ///< where surfaces end
+    std::size_t lost = 0;                   ///< exact blocks that the mesh does not have
+    std::size_t made = 0;                   ///< blocks of the mesh that are no exact ones
+    double seconds_volumes = 0;             ///< time of finding the volumes
+    double seconds_structure = 0;           ///< time of building the structure
 
     /// Number of exact blocks; the outside is not counted.
     [[nodiscard]] std::size_t block_count() const { return exact_volumes.size() - 1; }

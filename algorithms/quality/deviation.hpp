@@ -29,7 +29,8 @@ Surface surface_of_mesh(const Mesh& mesh, std::uint32_t surface);
 /// Sampled distances between the two states of one surface: `out` from the second mesh to the
 /// first, `back` from the first to the second.
 struct Deviation {
-    double out = 0, back = 0;
+    double out = 0;  ///< from the second mesh to the first, unit of the points
+    double back = 0; ///< from the first mesh to the second, unit of the points
 };
 
 /// Computes one Deviation per surface. Both meshes must have the same surfaces.

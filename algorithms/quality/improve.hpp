@@ -73,17 +73,27 @@ enum class WorstCause : std::uint8_t {
 /// Names the cause as reports print it: "fixed corner angle", "short curve", ...
 std::string_view name_of(WorstCause cause);
 
+/// Describes what was done to a mesh.
 struct ImproveReport {
-    QualityReport before, after;
-    std::vector<double> bound_of; ///< per surface: upper bound of its distance from the original
-    std::size_t corners = 0, curves = 0, sheets = 0;
-    std::size_t splits = 0, collapses = 0, swaps = 0, moves = 0;
-    std::size_t refused_contact = 0, refused_deviation = 0, refused_shape = 0; ///< rejected
-    unsigned passes = 0;
+    QualityReport before;            ///< of the given mesh
+    QualityReport after;             ///< of the improved mesh
+    std::vector<double> bound_of;    ///< per surface: upper bound of its distance from the original
+    std::size_t corners = 0;         ///< vertices that stay
+    std::size_t curves = 0;          ///< from corner to corner, or closed
+    std::size_t sheets = 0;          ///< parts of surfaces between curves
+    std::size_t splits = 0;          ///< edges divided
+    std::size_t collapses = 0;       ///< edges removed
+    std::size_t swaps = 0;           ///< edges exchanged for the other diagonal
+    std::size_t moves = 0;           ///< vertices moved, each time counted
+    std::size_t refused_contact = 0; ///< changes rejected since triangles would meet improperly
+    std::size_t refused_deviation = 0; ///< changes rejected since they are not proven to be near
+    std::size_t refused_shape = 0;     ///< changes rejected since they would fold or degenerate
+    unsigned passes = 0;               ///< rounds of the four operations
     bool sides_kept = false; ///< exact: each sheet has the same volumes on its sides as before
     WorstCause worst_cause = WorstCause::none; ///< of the triangle after.worst
 };
 
+/// An improved mesh.
 struct Improved {
     /// The improved mesh: vertices and triangles in a new order; surfaces, regions and intersection
     /// edges as before. parents_of is empty, as triangles no longer lie in input triangles. All
@@ -96,7 +106,7 @@ struct Improved {
                                               ///< is; empty unless report.sides_kept
     std::vector<std::uint32_t> near_of; ///< per triangle: an input triangle of the same sheet, near
                                         ///< its centroid
-    ImproveReport report;
+    ImproveReport report;               ///< what was done
 };
 
 /// Improves the mesh. Errors: bad_option; bad_number, bad_index; improper_contact if the mesh is

@@ -23,18 +23,21 @@ std::array<double, 3> angles_of(const Point3& a, const Point3& b, const Point3& 
 
 /// Distribution of a measure.
 struct Spread {
-    double min = 0, mean = 0, max = 0;
+    double min = 0;                      ///< the least value
+    double mean = 0;                     ///< the arithmetic mean
+    double max = 0;                      ///< the largest value
     std::array<double, 5> percentiles{}; ///< the 1st, 5th, 50th, 95th and 99th
 };
 
 /// Summarises values given in any order; all zero if there are none.
 Spread spread_of(std::vector<double> values);
 
+/// The quality of a set of triangles.
 struct QualityReport {
-    static constexpr std::size_t classes = 20;
+    static constexpr std::size_t classes = 20; ///< of the histogram
 
-    std::size_t triangles = 0;
-    Spread q;
+    std::size_t triangles = 0;                    ///< number of triangles
+    Spread q;                                     ///< per triangle, in [0, 1]
     Spread smallest_angle;                        ///< per triangle, in degrees
     Spread largest_angle;                         ///< per triangle, in degrees
     Spread edge_length;                           ///< each edge counted once; unit of the points

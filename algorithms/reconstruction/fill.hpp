@@ -28,28 +28,32 @@
 
 namespace terrane {
 
-enum class FillMethod : std::uint8_t { kriging, rbf };
+/// How a hole is filled.
+enum class FillMethod : std::uint8_t {
+    kriging, ///< z = f(x, y)
+    rbf,     ///< any surface
+};
 
 /// The variogram model of this name ("spherical", ...); none for any other word, such as "auto".
 std::optional<VariogramModel> variogram_model_named(std::string_view name);
 
 /// How the holes of a surface are filled. Lengths in the unit of the surface.
 struct FillOptions {
-    FillMethod method = FillMethod::kriging;
+    FillMethod method = FillMethod::kriging;    ///< of all holes of the surface
     std::optional<VariogramModel> model{};      ///< of kriging; none: the one that fits best
     double max_area = HUGE_VAL;                 ///< larger holes stay open; squared unit
     double mesh_size = 0;                       ///< 0: the median edge of the hole's border
     std::size_t rings = KrigingOptions{}.rings; ///< of triangles round the hole, data of kriging
-    double gap_slope = GapRule{}.slope;
-    bool isotropic = false;            ///< the variogram is the same in all directions
-    bool bridge = false;               ///< whether fault gaps are filled, too
-    std::optional<double> smoothing{}; ///< RbfOptions::smoothing
+    double gap_slope = GapRule{}.slope;         ///< GapRule::slope
+    bool isotropic = false;                     ///< the variogram is the same in all directions
+    bool bridge = false;                        ///< whether fault gaps are filled, too
+    std::optional<double> smoothing{};          ///< RbfOptions::smoothing
 };
 
 /// A surface whose holes are to be filled.
 struct FillTask {
     std::uint32_t surface = 0; ///< index into the list of surfaces
-    FillOptions options{};
+    FillOptions options{};     ///< for all its holes
 };
 
 /// A hole and where it is.
@@ -63,21 +67,24 @@ struct NumberedHole {
 
 /// A surface as it becomes: what was given, then what was interpolated.
 struct HoledSurface {
-    FillTask task;
-    std::string label;             ///< its name, made unique among all surfaces
-    std::vector<BorderLoop> loops; ///< all of the surface as it was given
-    Surface filled;
-    std::size_t given_vertices = 0, given_triangles = 0;
+    FillTask task;                      ///< what was asked for
+    std::string label;                  ///< its name, made unique among all surfaces
+    std::vector<BorderLoop> loops;      ///< all of the surface as it was given
+    Surface filled;                     ///< with the fillings
+    std::size_t given_vertices = 0;     ///< of `filled`, its first ones
+    std::size_t given_triangles = 0;    ///< of `filled`, its first ones
     std::vector<double> deviation;      ///< per vertex of `filled`: 0 for what was given, NaN where
                                         ///< the method foresees none
     std::vector<std::int32_t> invented; ///< per triangle of `filled`: number of the hole, or 0
 };
 
+/// Surfaces with holes, as far as they are filled.
 struct FillWork {
     std::vector<HoledSurface> surfaces; ///< one per task
     std::vector<NumberedHole> holes;    ///< by number
 };
 
+/// The border of a hole.
 inline const BorderLoop& loop_of(const FillWork& work, const NumberedHole& hole) {
     return work.surfaces[hole.task].loops[hole.loop];
 }
@@ -97,10 +104,10 @@ Status fill_holes(std::span<const Surface> surfaces, const std::vector<bool>& ch
 
 /// A new triangle that meets another one of its surface improperly.
 struct NewContact {
-    std::size_t task = 0;
+    std::size_t task = 0;  ///< and surface of FillWork
     std::int32_t hole = 0; ///< its number
-    ContactKind kind{};
-    Point3 place{};
+    ContactKind kind{};    ///< how the two meet
+    Point3 place{};        ///< a point that both share, to the nearest double
 };
 
 /// Finds where new triangles meet others of their surface improperly, by exact check.

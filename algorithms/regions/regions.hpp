@@ -19,18 +19,20 @@
 
 namespace terrane {
 
+/// A part of a surface that hangs together without crossing an intersection edge.
 struct Region {
-    std::uint32_t surface = 0;
-    std::uint32_t first_triangle = 0; ///< the lowest triangle of the region
-    std::size_t triangles = 0;
+    std::uint32_t surface = 0;             ///< the surface that it is part of
+    std::uint32_t first_triangle = 0;      ///< the lowest triangle of the region
+    std::size_t triangles = 0;             ///< number of triangles
     double area = 0;                       ///< in squared units of the input; floating point
     std::vector<std::uint32_t> neighbours; ///< regions of any surface that share an intersection
                                            ///< edge with it, ascending
 };
 
+/// The regions of all surfaces.
 struct Regions {
     IndexLists<std::uint32_t> regions_of; ///< per triangle, parallel to surfaces_of
-    std::vector<Region> regions;
+    std::vector<Region> regions;          ///< by surface, then by lowest triangle
 };
 
 /// Finds the regions of a mesh. `intersection_edges` are sorted; none of them is an inner edge of

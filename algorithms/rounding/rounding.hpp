@@ -28,16 +28,19 @@
 
 namespace terrane {
 
+/// Options of round_to_doubles().
 struct RoundingOptions {
     unsigned max_rounds = 8; ///< of snapping, at most 8; 0: to the nearest double and no further
 };
 
 /// A surface some of whose regions were too thin for doubles.
 struct LostRegions {
-    std::uint32_t surface = 0;
-    std::size_t exact = 0, rounded = 0; ///< how many regions it has before and after
+    std::uint32_t surface = 0; ///< which surface
+    std::size_t exact = 0;     ///< regions before rounding
+    std::size_t rounded = 0;   ///< regions after rounding
 };
 
+/// How rounding went.
 struct RoundingReport {
     bool clean = false;                    ///< conforming, by exact check of the doubles
     unsigned rounds = 0;                   ///< of snapping
@@ -59,10 +62,11 @@ struct RoundingReport {
 
 /// The mesh of doubles, with regions, parents and intersection edges, and how it came about.
 struct RoundedMesh {
-    SharedMesh mesh;
-    std::optional<ConformingMesh> conforming{}; ///< the same mesh, where report.clean
-    std::vector<Region> regions;                ///< of the mesh; regions_of counts them
-    RoundingReport report;
+    SharedMesh mesh; ///< conforming where report.clean
+    std::optional<ConformingMesh>
+        conforming{};            ///< the same mesh with its proof, where report.clean
+    std::vector<Region> regions; ///< of the mesh; regions_of counts them
+    RoundingReport report;       ///< how it came about
 };
 
 /// Errors: interrupted, out_of_memory, bad_number (a constructed point is beyond the largest

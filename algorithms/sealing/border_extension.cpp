@@ -21,7 +21,7 @@ Point3 times(double f, const Point3& a) {
     return {f * a.x, f * a.y, f * a.z};
 }
 
-/// Of length 1, or 0 where there is none.
+/// Scales a vector to length 1; zero if it has none.
 Point3 unit(const Point3& a) {
     const double size = std::hypot(a.x, a.y, a.z);
     return size > 0 && std::isfinite(size) ? times(1 / size, a) : Point3{};
@@ -39,7 +39,7 @@ EdgeKey key_of(std::uint32_t surface, std::uint32_t a, std::uint32_t b) {
     return {surface, std::min(a, b), std::max(a, b)};
 }
 
-/// Border edges of one surface, by its distinct triangles with area.
+/// Finds the border edges of one surface, from its distinct nondegenerate triangles.
 void add_borders(const Arrangement& a, std::uint32_t surface, const std::vector<bool>& unusable,
                  std::map<EdgeKey, BorderEdge>& borders) {
     const auto& inputs = a.inputs;
@@ -50,7 +50,7 @@ void add_borders(const Arrangement& a, std::uint32_t surface, const std::vector<
         triangles.push_back(inputs.corners[t]);
         number.push_back(t);
     }
-    // Vertices of this surface's range, and earlier ones that have the same coordinates.
+    // Vertices are in the range of this surface, or earlier ones with the same coordinates.
     group_edges(triangles, a.points.input_count())
         .for_each([&](std::uint32_t low, std::uint32_t high, auto sides) {
             if (sides.size() != 1) return;
@@ -61,11 +61,11 @@ void add_borders(const Arrangement& a, std::uint32_t surface, const std::vector<
         });
 }
 
-/// What strips know of a vertex of their border.
+/// A vertex of extended borders.
 struct Vertex {
     std::vector<std::uint32_t> edges{}; ///< strip edges at it
     double reach = 0;
-    Point3 beyond{}; ///< where the strip goes
+    Point3 beyond{}; ///< end of the strip
 };
 
 class Builder {
@@ -91,7 +91,8 @@ public:
 private:
     [[nodiscard]] const Point3& at(std::uint32_t v) const { return a_.points.input(v); }
 
-    /// In the plane of the edge's triangle, away from it, of length 1.
+    /// Returns the unit vector in the plane of the edge's triangle, perpendicular to the edge and
+    /// away from the triangle.
     [[nodiscard]] Point3 outward(const StripEdge& e) const {
         const Triangle& c = a_.inputs.corners[e.edge.triangle];
         const Point3 n = unit(cross(minus(at(c[1]), at(c[0])), minus(at(c[2]), at(c[0]))));
@@ -108,7 +109,7 @@ private:
             ++targets;
         }
         const Point3 mean = unit(sum);
-        // Mitred: as far from each edge as the reach, but no spikes.
+        // Mitred: as far from each edge as the reach, but without spikes.
         const double cosine = dot(mean, outward(edges_[vertex.edges[0]]));
         vertex.beyond = plus(at(v), times(vertex.reach / std::max(cosine, 0.4), mean));
         if (targets == 0) return;
@@ -132,7 +133,7 @@ private:
         add(e, e.piece, false, {b, a1, b1}, {true, false, false}, 2);
     }
 
-    /// At the end of a chain, sideways by as much as beyond.
+    /// Widens the end of a chain: sideways by as much as the strip reaches.
     void add_fan(std::uint32_t v, const Vertex& vertex, std::uint32_t piece) {
         const StripEdge& e = edges_[vertex.edges[0]];
         const bool starts = e.edge.from == v;

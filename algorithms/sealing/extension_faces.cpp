@@ -38,7 +38,7 @@ public:
     }
 
 private:
-    /// An edge with a strip at it.
+    /// An edge with a strip triangle at it.
     struct StripEdgeSides {
         Edge edge;
         std::vector<std::uint32_t> triangles;
@@ -72,7 +72,7 @@ private:
         }
     }
 
-    /// Keeps cells from the border on, as far as they are not open.
+    /// Keeps the cells connected to the border, as far as they are closed.
     void grow() {
         for (std::uint32_t t = 0; t < strip_of_.size(); ++t)
             if (is_strip(t)) keep_[t] = false;
@@ -89,7 +89,7 @@ private:
             if (is_strip(t)) keep_[t] = reached[sets_.find(t)];
     }
 
-    /// Whether t's cell is reached now, over the edge with `from`.
+    /// Reaches the cell of t across the edge with `from`. Returns whether it is new.
     bool reach(std::uint32_t t, std::uint32_t from, std::vector<bool>& reached) {
         if (!is_strip(t) || reached[sets_.find(t)] || is_open_[sets_.find(t)]) return false;
         const bool comes = is_strip(from)
@@ -99,13 +99,13 @@ private:
         return comes;
     }
 
-    /// The surface of a strip triangle is among the other one's.
+    /// Tells whether the other triangle belongs to the surface of the strip triangle.
     [[nodiscard]] bool shares(std::uint32_t t, std::uint32_t of) const {
         const auto list = a_.surfaces_of[of];
         return std::binary_search(list.begin(), list.end(), strips_[strip_of_[t]].surface);
     }
 
-    /// Marks kept cells that end free as open. True if there was one.
+    /// Marks kept cells with free edges as open. Returns whether there are any.
     bool close() {
         const UpwardRounding guard;
         bool any = false;
@@ -124,7 +124,7 @@ private:
         return any;
     }
 
-    /// Whether the edge lies on the side of a quadrilateral.
+    /// Tells whether the edge lies on the side of a quadrilateral.
     [[nodiscard]] bool is_side(std::uint32_t t, const Edge& edge) const {
         for (const std::uint32_t p : a_.parents_of[t]) {
             const ExtensionTriangle& strip = strips_[by_input_[p]];

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Which parts of strips close a gap, exactly. Private to sealing.
+// Decides exactly which parts of strips close a gap. Internal; shared by sealing and the extension
+// to the boundary of a volume.
 //
 // The cells of a strip are the parts into which the curves with other surfaces cut its pieces (one
-// for each edge of the border, and fans). A cell is kept if one can come to it from the border
-// within the strip, over kept cells, and it nowhere ends free beyond: its edges lie on the border,
-// on another triangle that is kept, or on the side of its piece. So a strip goes to the first
-// surfaces that close it off, and not beyond.
+// piece per border edge, and fans). A cell is kept if it is connected to the border within the
+// strip, across kept cells, and has no free edge: each of its edges lies on the border, on another
+// triangle that is kept, or on the side of its piece. So a strip extends to the first surfaces that
+// close it off, and not beyond.
 #pragma once
 
 #include <cstdint>
@@ -18,17 +19,17 @@
 
 namespace terrane {
 
-/// Which strip triangle each input triangle is, or UINT32_MAX. The strips were appended in order
-/// (append_strips), and stand last in each surface.
+/// Returns for each input triangle its strip triangle, or UINT32_MAX. The strips must have been
+/// appended in order by append_strips(), so that they come last in each surface.
 std::vector<std::uint32_t> strips_by_input(const Arrangement& arrangement,
                                            std::span<const ExtensionTriangle> strips);
 
-/// Triangles of the arrangement all whose parents are strips: that of the first one, else
-/// UINT32_MAX.
+/// Returns for each triangle of the arrangement all of whose parents are strips the first of these,
+/// otherwise UINT32_MAX.
 std::vector<std::uint32_t> strips_by_triangle(const Arrangement& arrangement,
                                               std::span<const std::uint32_t> by_input);
 
-/// Per triangle whether it is kept. `keep` says it for triangles that are no strips.
+/// Decides which triangles are kept. `keep` gives the decision for triangles that are not strips.
 std::vector<bool> kept_cells(const Arrangement& arrangement,
                              std::span<const ExtensionTriangle> strips, std::vector<bool> keep);
 

@@ -26,12 +26,13 @@ namespace terrane {
 namespace {
 
 constexpr std::uint32_t none = UINT32_MAX;
-constexpr double along_plane = 4; ///< how far strips go for each unit of gap: enough where surfaces
-                                  ///< meet at 15 degrees or more
-constexpr unsigned most_rounds = 4;  ///< of taking useless strips out: one is enough but where
-                                     ///< strips depend on each other
-constexpr double least_steps = 1024; ///< shortest strip, in steps of doubles at its coordinates:
-                                     ///< shorter ones have no direction
+constexpr double along_plane = 4;   ///< width of strips per unit of gap: enough where surfaces
+                                    ///< meet at 15 degrees or more
+constexpr unsigned most_rounds = 4; ///< of removing useless strips; more than one is needed only
+                                    ///< where strips depend on each other
+constexpr double least_steps =
+    1024; ///< least width, in units in the last place of the coordinates:
+          ///< narrower strips have no meaningful direction
 
 Point3 middle(const Point3& p, const Point3& q) {
     return {p.x + (q.x - p.x) / 2, p.y + (q.y - p.y) / 2, p.z + (q.z - p.z) / 2};
@@ -46,16 +47,15 @@ Error interrupted() {
 }
 
 // ---- Gaps
-// ----------------------------------------------------------------------------------------
 
-/// The free part of one border edge and how far it is from other surfaces.
+/// The free part of a border edge and its distance from other surfaces.
 struct Gap {
     BorderEdge edge{};
     double length = 0, largest = 0;
-    Point3 place{}; ///< where it is largest
+    Point3 place{}; ///< where the distance is largest
 };
 
-/// Distances to surfaces, up to a bound.
+/// Computes distances to surfaces, up to a bound.
 class Distances {
 public:
     Distances(const Arrangement& a, double bound) : bound_(std::nextafter(bound, HUGE_VAL)) {
@@ -69,17 +69,18 @@ public:
     Distances& operator=(const Distances&) = delete;
     Distances(Distances&&) = delete;
     Distances& operator=(Distances&&) = delete;
-    ~Distances() = default; /// Of the free parts of the edge that are nowhere farther than the
-                            /// bound from all surfaces but
-    /// the edge's own. Nothing where there is none.
+    ~Distances() = default;
+
+    /// Measures the free parts of the edge that are within the bound of a surface other than the
+    /// edge's own everywhere. Returns nothing if there are none.
     [[nodiscard]] std::optional<Gap> gap_at(const BorderEdge& edge) const {
         Gap gap{edge, 0, -1, {}};
         for (const Edge& part : edge.open) add_part(gap, places_[part[0]], places_[part[1]]);
         if (gap.largest < 0) return std::nullopt;
         return gap;
     }
-    /// The point nearest to p on a surface that does not contain the edge's triangle; the first
-    /// surface's among equals.
+    /// Finds the point nearest to p on a surface that does not contain the edge's triangle; that of
+    /// the first surface among equals.
     [[nodiscard]] std::optional<Point3> nearest(const Point3& p, const BorderEdge& edge) const {
         std::optional<Point3> best;
         double bound = bound_;
@@ -117,7 +118,6 @@ private:
 };
 
 // ---- What is kept
-// --------------------------------------------------------------------------------
 
 struct Judged {
     std::vector<bool> keep;            ///< per triangle of the arrangement
@@ -150,8 +150,7 @@ Result<Arrangement> judged_again(Arrangement a, const std::vector<ExtensionTrian
     return restricted(std::move(a), judged.keep, run);
 }
 
-// ---- The work
-// ------------------------------------------------------------------------------------
+// ---- The steps
 
 class Sealing {
 public:
@@ -184,7 +183,7 @@ private:
         return surfaces;
     }
 
-    /// Arranges the surfaces with their strips, and judges.
+    /// Arranges the surfaces with their strips and decides what is kept.
     Status update() {
         auto a = arrange(with(strips_), options_.arrange, run_);
         if (!a) return a.error();
@@ -195,7 +194,7 @@ private:
         return Done{};
     }
 
-    /// Free parts of borders of the surfaces as they were, without strips, that are near enough.
+    /// Finds the free parts of the original borders, not those of strips, that are near enough.
     [[nodiscard]] std::vector<Gap> gaps(const Distances& distances) const {
         const auto by_input = strips_by_input(kept_, strips_);
         std::vector<bool> is_strip;
@@ -206,7 +205,7 @@ private:
         return found;
     }
 
-    /// The ends of border edges, in order, that have a strip already.
+    /// Lists the ends, in order, of the border edges that already have a strip.
     [[nodiscard]] std::set<std::array<Point3, 2>> edges_with_strip() const {
         std::set<std::array<Point3, 2>> edges;
         for (const ExtensionTriangle& t : strips_)
@@ -236,11 +235,11 @@ private:
         }
         auto strips = make_strips(kept_, edges);
         for (const ExtensionTriangle& t : strips)
-            gaps_.resize(std::max(gaps_.size(), t.piece + std::size_t{1})); // fans have no gap
+            gaps_.resize(std::max(gaps_.size(), t.piece + std::size_t{1})); // fans have empty gaps
         return strips;
     }
 
-    /// Distance of neighbouring doubles at the largest coordinate.
+    /// Returns the distance of adjacent doubles at the largest coordinate.
     [[nodiscard]] static double step_at(const std::array<Point3, 2>& ends) {
         double largest = std::numeric_limits<double>::min();
         for (const Point3& p : ends)
@@ -248,7 +247,7 @@ private:
         return std::ldexp(1.0, std::ilogb(largest) - 52);
     }
 
-    /// Takes the fresh strips in, and those out of which no part closes a gap, until all do.
+    /// Adds the fresh strips and removes those of which no part closes a gap, until all do.
     Status add_useful(std::vector<ExtensionTriangle> fresh) {
         strips_.insert(strips_.end(), fresh.begin(), fresh.end());
         for (unsigned round = 0; round < most_rounds; ++round) {
@@ -258,7 +257,7 @@ private:
         return update();
     }
 
-    /// Whole pieces: halves would end at a diagonal. True if there was one.
+    /// Removes useless pieces (single triangles would end at a diagonal). Returns whether any was.
     bool drop_useless() {
         const auto by_input = strips_by_input(whole_, strips_);
         const auto of = strips_by_triangle(whole_, by_input);
@@ -289,7 +288,7 @@ private:
                 };
     }
 
-    /// Strips whose pieces share corners of the border are one change.
+    /// Lists strips; those whose pieces share corners of the border are one change.
     void list_extended() {
         DisjointSets sets(gaps_.size());
         std::map<std::pair<std::uint32_t, Point3>, std::uint32_t> at_corner;
@@ -326,12 +325,12 @@ private:
                                        shoot.largest, shoot.place, shoot.triangles.size()});
     }
 
-    const std::vector<Surface> surfaces_; ///< of the input
+    const std::vector<Surface> surfaces_; ///< those of the input
     const SealOptions& options_;
     const Run& run_;
     std::vector<ExtensionTriangle> strips_;
-    std::vector<Gap> gaps_; ///< per piece of strips, ever made
-    Arrangement whole_;     ///< of the surfaces with strips_
+    std::vector<Gap> gaps_; ///< per piece of all strips ever made
+    Arrangement whole_;     ///< arrangement of the surfaces with strips_
     Judged judged_;         ///< of whole_
     Arrangement kept_;      ///< of whole_
     Sealed sealed_;

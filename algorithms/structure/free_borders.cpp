@@ -15,7 +15,7 @@
 namespace terrane {
 namespace {
 
-/// The nearest surface to a point, and how far it is.
+/// The nearest surface to a point, and its distance.
 struct Nearest {
     std::uint32_t surface = 0;
     double distance = 0;
@@ -34,7 +34,7 @@ public:
         }
     }
 
-    /// Of all surfaces but those listed (ascending); the first among equals.
+    /// Finds the nearest of all surfaces except those listed (ascending); the first among equals.
     [[nodiscard]] std::optional<Nearest> nearest(const Point3& p,
                                                  std::span<const std::uint32_t> but) const {
         std::optional<Nearest> best;
@@ -58,13 +58,14 @@ int decade_of(double distance) {
     return distance > 0 ? static_cast<int>(std::floor(std::log10(distance))) : INT_MIN;
 }
 
-/// A point of the border with what is nearest to it.
+/// A point of the border and the surface nearest to it.
 struct Sample {
     Point3 place{};
     Nearest nearest{};
 };
 
-/// Vertices and middles of edges in turn; empty where there is no other surface.
+/// Samples a border at its vertices and the midpoints of its edges; empty if there is no other
+/// surface.
 std::vector<Sample> samples_along(const Mesh& mesh, const ModelLine& line,
                                   const SurfaceTrees& trees) {
     std::vector<Sample> samples;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Where surfaces end without meeting another one: the leaks through which volumes run together.
+// Finds where surfaces end without meeting another one: the leaks through which volumes are
+// connected.
 #pragma once
 
 #include <cstdint>
@@ -12,44 +13,47 @@
 
 namespace terrane {
 
-/// A part of a free border with one surface nearest, at distances of one order of magnitude: so
-/// that what stops a hair short is not mixed with what ends far from anything.
+/// A part of a free border whose nearest surface is the same and whose distances are of one order
+/// of magnitude, so that borders that stop a little short are separated from those that end far
+/// away.
 struct BorderGap {
     std::uint32_t surface = 0; ///< the nearest one that the border does not belong to
-    int decade = 0;    ///< distances are in [10^decade, 10^(decade + 1)); INT_MIN: they are 0
-    double length = 0; ///< of the border there
-    double least = 0;  ///< smallest and largest distance of an edge, at its farther end
-    double largest = 0;
-    Point3 place{}; ///< the vertex with the largest
+    int decade = 0;     ///< distances are in [10^decade, 10^(decade + 1)); INT_MIN: they are 0
+    double length = 0;  ///< of the border there
+    double least = 0;   ///< smallest distance of an edge, at its farther end
+    double largest = 0; ///< largest distance of an edge, at its farther end
+    Point3 place{};     ///< the vertex with the largest
 };
 
-/// One free border, from corner to corner or closed.
+/// A free border, from corner to corner or closed.
 struct FreeBorder {
     std::uint32_t line = 0;                ///< of the structure, of kind free_border
     std::vector<std::uint32_t> surfaces{}; ///< that end here, ascending
-    double length = 0;
-    bool closed = false;
+    double length = 0;                     ///< unit of the mesh
+    bool closed = false;                   ///< whether it is a loop without corner
     std::vector<BorderGap> gaps{}; ///< by decade, then surface; empty without other surfaces
 };
 
-/// Two surfaces, one of which ends near the other without meeting it; at distances of one order of
-/// magnitude, as above.
+/// Two surfaces, one of which ends near the other without meeting it, at distances of one order of
+/// magnitude.
 struct Leak {
-    std::uint32_t from = 0, to = 0; ///< the one that ends; the one nearest to it
-    int decade = 0;
+    std::uint32_t from = 0;  ///< the surface that ends
+    std::uint32_t to = 0;    ///< the surface nearest to it
+    int decade = 0;          ///< as in BorderGap
     std::size_t borders = 0; ///< parts of borders
     double length = 0;       ///< of them
-    double least = 0, largest = 0;
-    Point3 place{}; ///< where it is largest
+    double least = 0;        ///< smallest distance
+    double largest = 0;      ///< largest distance
+    Point3 place{};          ///< where it is largest
 };
 
-/// All free borders, in the order of their lines. Each edge counts for the surface nearest to its
-/// farthest point. Distances, lengths: unit of the mesh, in floating point.
-/// Cost: O(n log n) for trees; per border vertex two searches in each surface.
+/// Finds all free borders, in the order of their lines. Each edge counts for the surface nearest to
+/// its farthest point. Distances and lengths are in the unit of the mesh, in floating point. Cost:
+/// O(n log n) for search trees; two queries in each surface per border vertex.
 std::vector<FreeBorder> find_free_borders(const Mesh& mesh, const Structure& structure);
 
-/// The same by pairs of surfaces: by the one that ends, then the other. A border of several
-/// surfaces counts for each.
+/// Summarises free borders by pairs of surfaces: by the surface that ends, then the other. A border
+/// of several surfaces counts for each.
 std::vector<Leak> leaks_of(std::span<const FreeBorder> borders);
 
 } // namespace terrane

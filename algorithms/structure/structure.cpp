@@ -14,7 +14,7 @@
 namespace terrane {
 namespace {
 
-/// The vertices of triangles by rank, each once, ascending: what parts are ordered by.
+/// Lists the ranks of the triangles' vertices, each once, ascending; parts are ordered by them.
 std::vector<std::uint32_t> vertex_ranks(const Mesh& mesh, std::span<const std::uint32_t> triangles,
                                         const std::vector<std::uint32_t>& ranks) {
     std::vector<std::uint32_t> all;
@@ -26,7 +26,7 @@ std::vector<std::uint32_t> vertex_ranks(const Mesh& mesh, std::span<const std::u
     return all;
 }
 
-/// Triangles that are equal in the order `before`, list by list, ascending.
+/// Groups triangles that are equal in the order `before`; groups and their triangles are ascending.
 template <class Before>
 IndexLists<std::uint32_t> grouped(std::size_t count, const Before& before) {
     std::vector<std::uint32_t> order(count);

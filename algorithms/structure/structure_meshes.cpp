@@ -7,7 +7,7 @@
 namespace terrane {
 namespace {
 
-/// Triangles wound so that `front` of each pair of volumes, where they differ, is in front.
+/// Extracts triangles, oriented so that in_front(t) becomes the front side.
 template <class InFront>
 MeshPart part_of(const Mesh& mesh, std::vector<std::uint32_t> triangles, const InFront& in_front) {
     MeshPart part;

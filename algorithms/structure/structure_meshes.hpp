@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Blocks and interfaces as meshes of their own. Neighbours conform exactly: where two parts share a
-// triangle, an edge or a vertex of the whole, they have the same doubles there.
+// Extracts blocks and interfaces as separate meshes. They conform exactly: where two parts share a
+// triangle, an edge or a vertex of the whole mesh, they have the same doubles there.
 #pragma once
 
 #include <cstdint>
@@ -14,20 +14,20 @@
 
 namespace terrane {
 
-/// A part of a mesh. It has all its surfaces, the vertices that its triangles use, in their order,
-/// and no intersection edges.
+/// A part of a mesh. It has all surfaces of the mesh, the vertices used by its triangles, in their
+/// order, and no intersection edges.
 struct MeshPart {
-    Mesh mesh;
+    Mesh mesh;                            ///< the part as a mesh of its own
     std::vector<std::uint32_t> triangles; ///< per triangle of the part: its number in the whole
 };
 
-/// The closed boundary of a block (or of the outside, 0), wound outward, without what dangles in
-/// it.
+/// Extracts the closed boundary of a block (or of the outside, 0), oriented outward, without
+/// interfaces that dangle in it.
 MeshPart block_part(const Mesh& mesh, const Volumes& volumes, const Structure& structure,
                     std::uint32_t block);
 
-/// An interface, wound so that its front faces the volume of higher number; where it dangles, as it
-/// comes.
+/// Extracts an interface, oriented so that its front faces the volume of higher index; a dangling
+/// one keeps the orientation of its triangles.
 MeshPart interface_part(const Mesh& mesh, const Volumes& volumes, const Structure& structure,
                         std::uint32_t interface);
 

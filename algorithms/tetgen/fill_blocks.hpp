@@ -19,15 +19,17 @@ namespace terrane {
 
 /// A surface or a block, as the user calls it.
 struct GivenName {
-    std::string name;
+    std::string name;  ///< of a surface or a block
     std::string place; ///< where the user gave it, for errors: "--size-of", "tetrahedra.split[0]"
 };
 
+/// An edge length for a name.
 struct NamedSize {
-    GivenName of;
+    GivenName of;           ///< what gets it
     double edge_length = 0; ///< unit of the mesh
 };
 
+/// What fill_blocks is asked for.
 struct TetrahedraRequest {
     TetrahedraOptions options{};      ///< without sizes of blocks and surfaces
     std::vector<NamedSize> size_of{}; ///< by surface
@@ -36,12 +38,15 @@ struct TetrahedraRequest {
     bool outside = true;              ///< whether region 0 gets tetrahedra, too
 };
 
+/// The tetrahedra of a model.
 struct FilledBlocks {
     TetrahedralMesh tetrahedra; ///< regions by the numbers of the blocks
     TetrahedraReport report;    ///< likewise; of all tetrahedra, the outside too, before the cut
     std::vector<std::string> block_names; ///< per region
     std::size_t added_nodes = 0;          ///< by splitting
-    double seconds_tetrahedralize = 0, seconds_check = 0, seconds_split = 0;
+    double seconds_tetrahedralize = 0;    ///< time of TetGen
+    double seconds_check = 0;             ///< time of the checks
+    double seconds_split = 0;             ///< time of splitting nodes
 };
 
 /// Fills the blocks with tetrahedra, checks these against mesh and volumes, and splits nodes. Where

@@ -17,21 +17,23 @@ namespace terrane {
 
 /// Axis-aligned; low < high in each coordinate; unit of the mesh.
 struct Box3 {
-    Point3 low, high;
+    Point3 low;  ///< least coordinates
+    Point3 high; ///< largest coordinates
 };
 
 /// A length of edges that is wanted on a surface, and near it; unit of the mesh.
 struct SurfaceSize {
     std::uint32_t surface = 0; ///< of the mesh
-    double edge_length = 0;
+    double edge_length = 0;    ///< wanted, > 0, unit of the mesh
 };
 
 /// The same in a block (0: between the mesh and the box).
 struct BlockSize {
     std::uint32_t block = 0; ///< as find_volumes(mesh) counts them
-    double edge_length = 0;
+    double edge_length = 0;  ///< wanted, > 0, unit of the mesh
 };
 
+/// Options of tetrahedralize().
 struct TetrahedraOptions {
     std::optional<Box3> box{}; ///< closes the domain; must contain the mesh strictly inside
     double margin = 0.1;       ///< without a box: the bounding box, enlarged on each side by this

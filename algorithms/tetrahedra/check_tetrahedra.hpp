@@ -27,6 +27,7 @@ struct RegionVolume {
     bool equal = false;    ///< whether the two volumes are exactly equal
 };
 
+/// What check_tetrahedra() found.
 struct TetrahedraReport {
     std::vector<std::string> violations; ///< one sentence each; empty: no violation
     std::vector<RegionVolume> volumes;   ///< per volume; [0], the outside, is not compared

@@ -13,7 +13,9 @@ namespace terrane {
 
 /// The spread of some values; all 0 if there are none.
 struct ShapeSpread {
-    double least = 0, mean = 0, largest = 0;
+    double least = 0;   ///< the least value
+    double mean = 0;    ///< the arithmetic mean
+    double largest = 0; ///< the largest value
 };
 
 /// The upper ends of the classes of radius-edge ratios; the last class is open: [0, 0.75),
@@ -23,17 +25,20 @@ inline constexpr std::array<double, 11> radius_edge_bounds{0.75, 1,  1.25, 1.5, 
                                                            5,    10, 20,   50,  100};
 inline constexpr std::size_t dihedral_bins = 18; ///< of 10 degrees each; 180 is in the last
 
+/// The shapes of all tetrahedra of a mesh.
 struct TetrahedraShape {
-    ShapeSpread dihedral; ///< degrees, six per tetrahedron
-    std::array<std::size_t, dihedral_bins> dihedral_histogram{};
+    ShapeSpread dihedral;                                        ///< degrees, six per tetrahedron
+    std::array<std::size_t, dihedral_bins> dihedral_histogram{}; ///< number of angles by class
     ShapeSpread radius_edge; ///< circumradius over shortest edge; infinite for a flat tetrahedron
-    std::array<std::size_t, radius_edge_bounds.size() + 1> radius_edge_histogram{};
+    std::array<std::size_t, radius_edge_bounds.size() + 1>
+        radius_edge_histogram{}; ///< tetrahedra by class
 };
 
 /// Returns the angle between the two faces at each edge, in degrees in [0, 180], for the edges 01,
 /// 02, 03, 12, 13, 23.
 std::array<double, 6> dihedral_angles(const std::array<Point3, 4>& corners);
 
+/// Ratio of circumradius to shortest edge; infinite for a flat tetrahedron.
 double radius_edge_ratio(const std::array<Point3, 4>& corners);
 
 /// Measures all tetrahedra, including those of the outside. The values are computed in doubles and

@@ -31,6 +31,7 @@ struct ArrangementClaim {
                                                           ///< same three points}, sorted
 };
 
+/// The rules that the verifier judges by.
 enum class Rule : std::uint8_t {
     R1_indices,   ///< an index is out of range, a list unsorted or empty
     R2_vertices,  ///< a construction is undefined (parallel line and plane, ...)
@@ -58,8 +59,9 @@ enum class Rule : std::uint8_t {
 /// Returns "R5" for rule R5, and so on.
 std::string name_of(Rule rule);
 
+/// A rule that does not hold, and where.
 struct Violation {
-    Rule rule{};
+    Rule rule{};                         ///< which rule
     std::vector<std::uint32_t> elements; ///< R1: the element with the wrong index, empty for a list
                                          ///< R2, R3: vertices; R4, R5: triangles
                                          ///< R6: {input triangle}, {input triangle, triangle}, or
@@ -69,7 +71,7 @@ struct Violation {
                                          ///< R3 to R5; R12: {input triangle} or {triangle, parent}
                                          ///< R13: {vertex, input triangle}; R14: vertex
                                          ///< R16: triangles, or none for the whole; R17: none
-    std::string sentence;
+    std::string sentence;                ///< what is wrong
 };
 
 /// Once this many pairs violate R5, no more are searched for: the claim is sufficiently refuted.

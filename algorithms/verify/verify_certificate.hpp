@@ -30,25 +30,27 @@
 
 namespace terrane {
 
+/// A surface of an input file as the certificate describes it.
 struct CertifiedSurface {
-    std::string name;
-    Role role = Role::unknown;
-    std::uint64_t vertices = 0, triangles = 0;
+    std::string name;            ///< as in the file
+    Role role = Role::unknown;   ///< as in the file
+    std::uint64_t vertices = 0;  ///< number of vertices
+    std::uint64_t triangles = 0; ///< number of triangles
 
     friend bool operator==(const CertifiedSurface&, const CertifiedSurface&) = default;
 };
 
 /// An input file as the certificate describes it.
 struct CertifiedInput {
-    std::string name;   ///< relative to the folder of the certificate
-    std::string sha256; ///< 64 lower-case hexadecimal digits
-    std::uint64_t bytes = 0;
+    std::string name;                       ///< relative to the folder of the certificate
+    std::string sha256;                     ///< 64 lower-case hexadecimal digits
+    std::uint64_t bytes = 0;                ///< length of the file
     std::vector<CertifiedSurface> surfaces; ///< order of the file
 };
 
 /// The claims of a certificate about the mesh of doubles.
 struct RoundedClaim {
-    std::vector<Point3> vertices;
+    std::vector<Point3> vertices;         ///< unit of the input
     std::vector<Triangle> triangles;      ///< indices into vertices
     IndexLists<std::uint32_t> parents_of; ///< per triangle: input triangles, sorted, >= 1
     std::vector<Edge> intersection_edges; ///< sorted, unique
@@ -57,15 +59,17 @@ struct RoundedClaim {
                                          ///< its parents, by surface
     bool clean = false;                  ///< conforming
     std::uint32_t rounds = 0;            ///< rounds of snapping; not judged
-    double max_move = 0, deviation = 0;  ///< unit of the input
+    double max_move = 0;                 ///< of a vertex, unit of the input
+    double deviation = 0;                ///< of a triangle from a parent, unit of the input
     std::vector<std::uint32_t> vanished; ///< input triangles, sorted
 };
 
+/// A certificate, parsed.
 struct Certificate {
-    std::vector<CertifiedInput> inputs;
-    ArrangementClaim exact;
-    std::optional<RoundedClaim> rounded;
-    std::string digest; ///< "sha256:" and 64 hexadecimal digits; see digest.hpp
+    std::vector<CertifiedInput> inputs;  ///< in the order in which they were read
+    ArrangementClaim exact;              ///< the arrangement in exact numbers
+    std::optional<RoundedClaim> rounded; ///< the mesh of doubles, if there is one
+    std::string digest;                  ///< "sha256:" and 64 hexadecimal digits; see digest.hpp
 };
 
 /// Parses a certificate. Errors: bad_syntax with "source, line l, column c" if the text is not
@@ -76,11 +80,12 @@ Result<Certificate> parse_certificate(std::string_view text, std::string_view so
 
 /// An input file as it was found.
 struct InputFile {
-    std::string sha256; ///< of its bytes, 64 lower-case hexadecimal digits
-    std::uint64_t bytes = 0;
+    std::string sha256;            ///< of its bytes, 64 lower-case hexadecimal digits
+    std::uint64_t bytes = 0;       ///< length of the file
     std::vector<Surface> surfaces; ///< its surfaces; none if it cannot be read
 };
 
+/// Hashes the contents of a file; `surfaces` are what a reader made of it.
 InputFile input_file(std::string_view contents, std::vector<Surface> surfaces);
 
 /// Returns all violations, sorted by rule and elements; none if the certificate is true. After a

@@ -30,8 +30,8 @@ bool is_finite(const Point3& p) {
     return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
-/// A closed body from two rings of corners, counterclockwise seen from above, and triangles between
-/// the corners of one.
+/// Builds a closed body from two rings of corners, counterclockwise seen from above, and the
+/// triangulation of one ring.
 std::vector<Surface> prism(std::span<const Point3> bottom, std::span<const Point3> top,
                            std::span<const Triangle> cap) {
     std::vector<Surface> surfaces;
@@ -59,13 +59,12 @@ std::vector<Surface> prism(std::span<const Point3> bottom, std::span<const Point
 }
 
 // ---- Polygons
-// ------------------------------------------------------------------------------------
 
 Point3 flat(const Point2& p) {
     return {p[0], p[1], 0};
 }
 
-/// A simple polygon, to be divided into triangles.
+/// A simple polygon that can be triangulated.
 class Polygon {
 public:
     explicit Polygon(std::span<const Point2> corners) {
@@ -76,7 +75,7 @@ public:
     [[nodiscard]] std::span<const Point3> corners() const { return corners_; }
     [[nodiscard]] std::optional<Error> flaw() const;
     void turn_counterclockwise();
-    /// Counterclockwise. For simple polygons.
+    /// Triangulates the polygon, counterclockwise; it must be simple.
     [[nodiscard]] std::vector<Triangle> triangles() const;
 
 private:
@@ -89,18 +88,18 @@ private:
     std::vector<Point3> corners_; ///< z = 0
 };
 
-/// Whether two edges meet other than in the corner between them. Their boxes overlap.
+/// Tells whether two edges, whose boxes overlap, meet other than in their common corner.
 bool Polygon::meet(std::size_t e, std::size_t f) const {
     if (next(f) == e) std::swap(e, f);
     const std::size_t e1 = next(e), f1 = next(f);
-    if (e1 == f) { // f follows e: they meet further where f runs back
+    if (e1 == f) { // f follows e: they share more than the corner if f runs back
         const bool in_line = orientation(e, e1, f1) == Sign::Zero;
         return in_line && (corners_[e] < corners_[e1]) == (corners_[f1] < corners_[e1]);
     }
     const Sign a = orientation(e, e1, f), b = orientation(e, e1, f1);
     if (a == b && a != Sign::Zero) return false;
     const Sign c = orientation(f, f1, e), d = orientation(f, f1, e1);
-    return c != d || c == Sign::Zero; // in line, with boxes that overlap: they share a point
+    return c != d || c == Sign::Zero; // collinear edges whose boxes overlap share a point
 }
 
 std::optional<Error> Polygon::flaw() const {
@@ -129,8 +128,8 @@ std::optional<Error> Polygon::flaw() const {
     return std::nullopt;
 }
 
-/// A simple polygon turns left at its least corner, or it is clockwise. Corners in line with their
-/// neighbours can't be the least one, or the polygon would run back there.
+/// A simple polygon turns left at its least corner, unless it is clockwise. The least corner is
+/// never collinear with its neighbours, as the polygon would run back there.
 void Polygon::turn_counterclockwise() {
     const auto least = static_cast<std::size_t>(std::min_element(corners_.begin(), corners_.end()) -
                                                 corners_.begin());
@@ -139,7 +138,7 @@ void Polygon::turn_counterclockwise() {
         std::reverse(corners_.begin(), corners_.end());
 }
 
-/// A triangle strictly around all points.
+/// Returns a triangle strictly around all points.
 std::array<Point3, 3> triangle_around(std::span<const Point3> points) {
     Point3 low = points[0], high = points[0];
     for (const Point3& p : points) {
@@ -160,7 +159,7 @@ std::vector<std::uint32_t> ranks_of(std::span<const Point3> points) {
     return rank;
 }
 
-/// Those that the triangles at the first three points do not reach without crossing a segment.
+/// Selects the triangles that are separated by segments from those at the first three points.
 std::vector<Triangle> enclosed(const std::vector<Triangle>& all, std::size_t points,
                                std::vector<Edge> segments) {
     for (Edge& s : segments)
@@ -205,9 +204,8 @@ std::vector<Triangle> Polygon::triangles() const {
 }
 
 // ---- Rotation
-// ------------------------------------------------------------------------------------
 
-/// Exact for multiples of 90 degrees.
+/// Computes cosine and sine, exactly for multiples of 90 degrees.
 std::array<double, 2> cos_sin(double degrees) {
     const double azimuth = std::remainder(degrees, 360.0);
     if (azimuth == 0) return {1, 0};
@@ -218,7 +216,7 @@ std::array<double, 2> cos_sin(double degrees) {
     return {std::cos(radians), std::sin(radians)};
 }
 
-/// The directions across, along and up.
+/// Returns the directions across, along and up.
 std::array<Point3, 3> axes_of(const RotatedBox& box) {
     const auto [ca, sa] = cos_sin(box.azimuth);
     const auto [cp, sp] = cos_sin(box.plunge);
@@ -231,7 +229,7 @@ std::array<Point3, 3> axes_of(const RotatedBox& box) {
             Point3{cr * up.x + sr * right.x, cr * up.y + sr * right.y, cr * up.z + sr * right.z}};
 }
 
-/// The corner at the given shares of the edges, from -1/2 to 1/2 about the centre or 0 to 1.
+/// Returns the corner at these shares of the edges: from -1/2 to 1/2 about the centre, or 0 to 1.
 Point3 corner_at(const RotatedBox& box, const std::array<Point3, 3>& axes,
                  const std::array<double, 3>& shares) {
     Point3 p = box.place;
@@ -242,7 +240,7 @@ Point3 corner_at(const RotatedBox& box, const std::array<Point3, 3>& axes,
     return p;
 }
 
-/// Where two triangles of the boundary meet that should not.
+/// Describes where two triangles of the boundary meet improperly.
 Error contact_error(const CheckReport& report, std::span<const Surface> surfaces) {
     const ImproperContact& c = report.contacts.front();
     const auto name = [&](std::uint32_t t) {
@@ -257,7 +255,7 @@ Error contact_error(const CheckReport& report, std::span<const Surface> surfaces
             text_of(c.place)};
 }
 
-/// An edge at which the boundary is open, or a wall inside it ends.
+/// Finds an edge at which the boundary is open or a wall inside of it ends.
 std::optional<Error> open_edge(std::span<const Surface> surfaces, const Run& run) {
     const Soup soup = merge_surfaces(surfaces, run);
     if (soup.triangles.empty())

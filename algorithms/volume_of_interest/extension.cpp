@@ -21,7 +21,7 @@ namespace terrane {
 namespace {
 
 constexpr std::uint32_t none = UINT32_MAX;
-constexpr double least_cosine = 0.4;   ///< strips at corners are wider by at most the inverse
+constexpr double least_cosine = 0.4;   ///< corners are widened by at most the inverse
 constexpr unsigned most_doublings = 3; ///< of the length along which directions are averaged
 constexpr double past_targets = 1.5;   ///< see StripEdge::targets
 
@@ -29,7 +29,7 @@ Point3 along(const Point3& from, double by, const Point3& way) {
     return {from.x + by * way.x, from.y + by * way.y, from.z + by * way.z};
 }
 
-/// Where strips go at the vertices of borders.
+/// Computes the directions of strips at the vertices of borders.
 class Directions {
 public:
     Directions(const Arrangement& a, std::span<const BorderEdge> edges, double limit) :
@@ -50,8 +50,8 @@ public:
             windows_.push_back(std::min(limit / 2, total[sets.find(e)] / 8));
         for (unsigned i = 0; i < most_doublings; ++i) widen_where_folded(sets);
     }
-    /// The point that the strip aims at from a vertex, so that past it by half it is as far from
-    /// the border as the limit.
+    /// Returns the point at which the strip aims from a vertex. The strip goes beyond it by half,
+    /// to the limit.
     [[nodiscard]] Point3 target(std::uint32_t surface, std::uint32_t vertex) const {
         const auto& edges = at_vertex_.at({surface, vertex});
         Point3 sum{};
@@ -64,7 +64,7 @@ public:
     }
 
 private:
-    /// Doubles the windows along borders whose strip runs backwards somewhere.
+    /// Doubles the averaging windows along borders whose strip runs backwards somewhere.
     void widen_where_folded(DisjointSets& borders) {
         std::vector<bool> folded(edges_.size(), false);
         for (std::uint32_t e = 0; e < edges_.size(); ++e) {
@@ -80,7 +80,8 @@ private:
     }
 
     [[nodiscard]] const Point3& at(std::uint32_t v) const { return a_.points.input(v); }
-    /// In the plane of the edge's triangle, away from it, of length 1.
+    /// Returns the unit vector in the plane of the edge's triangle, perpendicular to the edge and
+    /// away from the triangle.
     [[nodiscard]] Point3 outward_of(const BorderEdge& e) const {
         const Triangle& c = a_.inputs.corners[e.triangle];
         const Point3 n = cross(minus(at(c[1]), at(c[0])), minus(at(c[2]), at(c[0]))),
@@ -88,7 +89,8 @@ private:
         return along({}, 1 / length(way), way);
     }
 
-    /// Adds the directions of the edges from a vertex on, by their lengths within the window.
+    /// Adds the directions of the edges from a vertex on, weighted by their lengths within the
+    /// window.
     void walk(std::uint32_t surface, std::uint32_t vertex, std::uint32_t edge, Point3& sum,
               double& weight) const {
         double left = windows_[edge];
@@ -100,7 +102,7 @@ private:
             if (!(left > 0)) return;
             vertex = edges_[edge].from == vertex ? edges_[edge].to : edges_[edge].from;
             const auto& next = at_vertex_.at({surface, vertex});
-            if (next.size() != 2) return; // the border ends, or parts
+            if (next.size() != 2) return; // the border ends or branches
             edge = next[next[0] == edge ? 1 : 0];
         }
     }
@@ -113,7 +115,7 @@ private:
     std::vector<double> lengths_, windows_;                                        ///< per edge
 };
 
-/// Free borders inside the volume of surfaces that are to be extended.
+/// Finds the free borders inside the volume of surfaces that are to be extended.
 std::vector<BorderEdge> borders_inside(const Arrangement& inside) {
     auto edges = open_border_edges(inside);
     std::erase_if(edges, [&](const BorderEdge& e) {
@@ -137,8 +139,8 @@ std::vector<ExtensionTriangle> strips_beyond(const Arrangement& a,
     return make_strips(a, wanted);
 }
 
-/// Whether a part of a strip, inside the volume, reaches the strip's outer edge, or its outer
-/// corner: it ends inside. Exact.
+/// Tells exactly whether a part of a strip inside the volume contains the outer edge of the strip
+/// or an outer corner, which means that the strip ends inside.
 bool ends_here(const Arrangement& a, std::uint32_t t, std::uint32_t parent,
                const ExtensionTriangle& strip) {
     const Triangle &corners = a.inputs.corners[parent], &part = a.triangles[t];
@@ -155,7 +157,8 @@ bool ends_here(const Arrangement& a, std::uint32_t t, std::uint32_t parent,
     return false;
 }
 
-/// Per piece, of which there are so many and fans, whether it comes out of the volume all along.
+/// Decides for each piece (border edges, then fans) whether it leaves the volume along its whole
+/// length.
 Result<std::vector<bool>> find_reached(std::vector<Surface> surfaces,
                                        std::span<const ExtensionTriangle> strips,
                                        std::size_t pieces, std::span<const std::uint32_t> boundary,
@@ -168,7 +171,9 @@ Result<std::vector<bool>> find_reached(std::vector<Surface> surfaces,
     const auto by_input = strips_by_input(a.value(), strips);
     for (const ExtensionTriangle& t : strips) pieces = std::max(pieces, t.piece + std::size_t{1});
     std::vector<bool> reached(pieces, false);
-    for (const ExtensionTriangle& t : strips) reached[t.piece] = true; // but for those without area
+    for (const ExtensionTriangle& t : strips)
+        reached[t.piece] = true; // includes pieces of
+                                 // degenerate triangles
     const UpwardRounding guard;
     for (std::uint32_t t = 0; t < a.value().triangles.size(); ++t) {
         if (where.value()[t] != Where::inside) continue;
@@ -179,7 +184,7 @@ Result<std::vector<bool>> find_reached(std::vector<Surface> surfaces,
     return reached;
 }
 
-/// Fans beside pieces that are gone.
+/// Removes fans beside removed pieces.
 void drop_lone_fans(std::vector<ExtensionTriangle>& strips) {
     std::set<std::pair<Point3, Point3>> sides;
     const auto side_of = [](const ExtensionTriangle& t) {
@@ -192,7 +197,7 @@ void drop_lone_fans(std::vector<ExtensionTriangle>& strips) {
     });
 }
 
-/// Connected edges with the same fate are one entry.
+/// Lists connected edges with the same result as one entry.
 std::vector<ExtendedBorder> list(const Arrangement& inside, std::span<const BorderEdge> edges,
                                  const std::vector<bool>& reached) {
     DisjointSets sets(edges.size());

@@ -33,8 +33,8 @@ std::vector<bool> triangles_in(const Arrangement& a, std::span<const std::uint32
     return in;
 }
 
-/// The parts of space that the boundary leaves, and how many times one crosses it on the way from
-/// the outside: odd or even.
+/// The parts of space that the boundary separates, and the parity of the number of crossings on a
+/// path from the outside.
 class Parts {
 public:
     Parts(const Volumes& volumes, const std::vector<bool>& in_boundary) :
@@ -44,7 +44,8 @@ public:
             if (!in_boundary[t]) parts_.join(volumes.of_sides[t][0], volumes.of_sides[t][1]);
     }
 
-    /// False where some way round crosses it an odd number of times: it is open.
+    /// Counts crossings. Returns false if some closed path crosses the boundary an odd number of
+    /// times, so that it is open.
     bool count_crossings() {
         std::vector<std::vector<std::uint32_t>> beyond(parity_.size());
         for (std::size_t t = 0; t < in_boundary_.size(); ++t) {
@@ -79,7 +80,7 @@ private:
     std::vector<std::uint8_t> parity_; ///< per part
 };
 
-/// What was done before, then the cut.
+/// Repeats earlier restrictions, then the cut.
 std::function<Result<Arrangement>(Arrangement, const Run&)>
 again(std::function<Result<Arrangement>(Arrangement, const Run&)> before,
       std::vector<std::uint32_t> boundary) {
@@ -97,7 +98,6 @@ again(std::function<Result<Arrangement>(Arrangement, const Run&)> before,
 }
 
 // ---- Report
-// --------------------------------------------------------------------------------------
 
 double area_of(std::span<const Point3> places, const Triangle& t) {
     const Point3 n = cross(minus(places[t[1]], places[t[0]]), minus(places[t[2]], places[t[0]]));
@@ -126,8 +126,7 @@ std::vector<SurfaceCut> areas(const Arrangement& a, std::span<const Where> where
     return cuts;
 }
 
-/// Pairs of a surface and what of it an edge joins, for each edge and surface with two triangles or
-/// more at it.
+/// Calls join(surface, triangle, triangle) for the triangles of one surface that an edge connects.
 template <class Join>
 void for_joined(const Arrangement& a, const Join& join) {
     for (const auto& inner : a.adjacency.inner)
@@ -141,7 +140,7 @@ void for_joined(const Arrangement& a, const Join& join) {
     }
 }
 
-/// Connected pieces of each surface.
+/// Counts the connected pieces of each surface.
 void count_pieces(const Arrangement& a, std::vector<SurfaceCut>& cuts) {
     const auto& offsets = a.surfaces_of.offsets;
     DisjointSets pieces(a.surfaces_of.values.size()); // one element per triangle and surface of it

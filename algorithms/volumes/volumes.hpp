@@ -29,6 +29,7 @@
 
 namespace terrane {
 
+/// The volumes of a mesh or an arrangement; 0 is the outside.
 struct Volumes {
     /// Per triangle: the volume in front of it (from where its corners are counterclockwise) and
     /// the volume behind it. They are equal if the triangle dangles, as at a fault tip.
@@ -37,10 +38,13 @@ struct Volumes {
     /// even; infinite beyond the largest double). [0] is the measure of all blocks together; for
     /// the exact measures [1] + [2] + ... = [0] (see exact_volumes).
     std::vector<double> measures = std::vector<double>(1);
-    double seconds_shells = 0, seconds_nesting = 0, seconds_measures = 0;
+    double seconds_shells = 0;   ///< for step (a)
+    double seconds_nesting = 0;  ///< for step (b)
+    double seconds_measures = 0; ///< for step (d)
 
     /// Returns the number of blocks, without the outside.
     [[nodiscard]] std::size_t block_count() const { return measures.size() - 1; }
+    /// Whether the same volume is on both sides of a triangle.
     [[nodiscard]] bool dangles(std::size_t triangle) const {
         return of_sides[triangle][0] == of_sides[triangle][1];
     }
@@ -59,6 +63,7 @@ Result<Volumes> find_volumes(const Mesh& mesh, const Run& run = {});
 /// such corners take seconds, 100 000 take minutes.
 std::vector<std::string> exact_volumes(const Arrangement& arrangement, const Volumes& volumes,
                                        int base = 10);
+/// The same for a mesh of doubles.
 std::vector<std::string> exact_volumes(const Mesh& mesh, const Volumes& volumes, int base = 10);
 
 /// Matches the blocks of a rounded mesh with those of its exact arrangement: returns, per volume of

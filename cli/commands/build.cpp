@@ -51,8 +51,8 @@ does. All results go to one new folder:
   statistics.json        counts, times and memory, as --stats of the other commands
   log.txt                what was said, with times
 
-The keys of PROJECT.json are in io/project.schema.json, which editors can use, and in the README. A
-small one:
+The keys of PROJECT.json are in io/project.schema.json, which editors can use; docs/reference/project.md
+explains them. A small one:
 
   {
     "format": "terrane-project 1",

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What --stats writes. Keys are listed in README.md.
+// What --stats writes. docs/reference/statistics.md lists its keys.
 #pragma once
 
 #include <cstddef>

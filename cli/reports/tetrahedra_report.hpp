@@ -17,7 +17,7 @@ std::string report_text(const TetrahedraReport& report);
 /// A line per violation, for the terminal: the first ones and how many there are.
 std::string violations_text(const TetrahedraReport& report);
 
-/// violations, exact_volumes, volume_difference, dihedral and radius_edge; see README.md.
+/// violations, exact_volumes, volume_difference, dihedral and radius_edge; see docs/reference/statistics.md.
 Json report_json(const TetrahedraReport& report);
 
 /// Counts, per region too, the checks and the shapes.

@@ -44,20 +44,22 @@ struct ModelSide {
     friend bool operator==(const ModelSide&, const ModelSide&) = default;
 };
 
+/// A region of a model: what its sides bound.
 struct ModelRegion {
     std::uint32_t id = 0;         ///< number in the file
     std::string name;             ///< "Universe" is the outside
     std::vector<ModelSide> sides; ///< in file order
 };
 
+/// A layer of a model: some of its regions.
 struct ModelLayer {
-    std::string name;
+    std::string name;                   ///< as in the file
     std::vector<std::uint32_t> regions; ///< ids of its regions, in file order
 };
 
 /// A GOCAD Model3d with its surfaces.
 struct GocadModel {
-    std::string name;
+    std::string name;                 ///< as in the file
     std::vector<Surface> surfaces;    ///< as read_gocad gives them
     std::vector<ModelPart> parts;     ///< in file order
     std::vector<ModelRegion> regions; ///< in file order, including the outside

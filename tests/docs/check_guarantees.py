@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Checks that each test that stands behind a guarantee exists.
+"""Checks that each test that stands behind a guarantee exists, and that README.md stays short.
 
 check_guarantees.py [ROOT]    Reads the table of README.md and docs/explanation/guarantees.md.
 
@@ -10,6 +10,7 @@ import pathlib
 import re
 import sys
 
+MOST_LINES = 120  # of README.md
 CODE = re.compile(r"`([^`]+)`")
 LONG_NAME = re.compile(r'"((?:[^"\\]|\\.)*)"')
 
@@ -56,7 +57,10 @@ def exists(name, tests, root):
 def check(root):
     """The count of names, and the flaws as sentences."""
     tests, count, flaws = test_names(root), 0, []
-    table = list(in_table((root / "README.md").read_text()))
+    readme = (root / "README.md").read_text()
+    if readme.count("\n") > MOST_LINES:
+        flaws.append(f"README.md has more than {MOST_LINES} lines: details belong in docs/")
+    table = list(in_table(readme))
     lists = list(in_lists((root / "docs" / "explanation" / "guarantees.md").read_text()))
     if {g for g, _ in table} != {h.split()[0] for h, _ in lists if re.match(r"G\d+ ", h)}:
         flaws.append("README.md and docs/explanation/guarantees.md state other guarantees")

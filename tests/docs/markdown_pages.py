@@ -5,7 +5,7 @@ import unicodedata
 from dataclasses import dataclass, field
 
 FENCE = re.compile(r"^(\s*)(`{3,}|~{3,})\s*([\w+-]*)")
-DIRECTIVE = re.compile(r"^\s*<!--\s*(file|not run|needs):\s*(.*?)\s*-->\s*$")
+DIRECTIVE = re.compile(r"^\s*<!--\s*(file|not run|needs|source):\s*(.*?)\s*-->\s*$")
 HEADING = re.compile(r"^#{1,6}\s+(.*?)\s*#*\s*$")
 LINK = re.compile(r"!?\[(?:[^\[\]]|\[[^\[\]]*\])*\]\(\s*<?([^)\s>]+)>?(?:\s+\"[^\"]*\")?\s*\)")
 LINK_DEFINITION = re.compile(r"^\s{0,3}\[[^\]]+\]:\s+<?(\S+?)>?(?:\s|$)")
@@ -23,7 +23,7 @@ class Block:
     language: str
     line: int
     lines: list
-    directive: str = ""  # "file", "not run" or empty: from a comment right before the block
+    directive: str = ""  # "file", "source", "not run" or empty: from a comment right before the block
     argument: str = ""
 
 

@@ -55,11 +55,13 @@ def output_matches(expected, actual):
 class Shell:
     """Runs commands one after the other, as a terminal does: the folder and $? carry over."""
 
-    def __init__(self, program, folder, scratch, seconds=60):
+    def __init__(self, program, folder, scratch, seconds=60, examples=()):
         self.folder, self.scratch, self.seconds, self.status = folder, scratch, seconds, 0
         binaries = scratch / "bin"
         binaries.mkdir()
         (binaries / "terrane").symlink_to(program)
+        for example in examples:
+            (binaries / example.name).symlink_to(example)
         self.environment = {"PATH": f"{binaries}:/usr/local/bin:/usr/bin:/bin",
                             "HOME": str(scratch), "LC_ALL": "C.UTF-8"}
 
@@ -130,6 +132,18 @@ def write_file(block, page, shell):
     path.write_text("\n".join(block.lines) + "\n")
 
 
+def compare_with_source(block, path, page, tally, changes):
+    """A block that shows a source must be that file, without the line that names the licence."""
+    source = (path.parent / block.argument).resolve()
+    if not source.is_file():
+        raise PageError(f"{page}:{block.line}: there is no file {block.argument}")
+    lines = source.read_text().splitlines()
+    shown = lines[1:] if "SPDX-License-Identifier" in lines[0] else lines
+    if block.lines != shown:
+        changes.append((block.line + 1, len(block.lines), shown))
+        tally.fail(f"{page}:{block.line}", f"the block is not {block.argument}")
+
+
 def looks_like_commands(block):
     return block.language in SHELLS or (
         block.language != "console" and any(line.startswith(("$ ", "terrane ")) for line in block.lines))
@@ -145,6 +159,8 @@ def run_page(path, page, shell, tally):
             tally.skipped.append(f"{page}:{block.line}: {block.argument}")
         elif block.directive == "file":
             write_file(block, page, shell)
+        elif block.directive == "source":
+            compare_with_source(block, path, page, tally, changes)
         elif block.language == "console":
             tally.blocks += 1
             run_block(block, page, shell, tally, changes)
@@ -176,13 +192,13 @@ def has_tetgen(program):
 
 
 def run_all(options, tally):
-    known = {"tetgen": has_tetgen(options.program)}
+    known = {"tetgen": has_tetgen(options.program), "examples": bool(options.examples)}
     for path in options.pages:
         page = str(path.relative_to(ROOT)) if path.is_relative_to(ROOT) else str(path)
         try:
             missing = [x for x in needs_of(path.read_text()) if not known[x]]
             if missing:
-                tally.skipped.append(f"{page}: the program has no {missing[0]}")
+                tally.skipped.append(f"{page}: there is no {missing[0]} in this build")
                 continue
             if not any(b.language for b in blocks_of(path.read_text(), page)):
                 continue
@@ -192,7 +208,7 @@ def run_all(options, tally):
             prepare(folder)
             started = time.monotonic()
             before = tally.commands
-            shell = Shell(options.program, folder, scratch, options.seconds)
+            shell = Shell(options.program, folder, scratch, options.seconds, options.examples)
             changes = run_page(path, page, shell, tally)
             print(f"{page}: {tally.commands - before} commands, {time.monotonic() - started:.1f} s")
             if options.update:
@@ -210,6 +226,9 @@ def main():
     parser.add_argument("--program", required=True, type=lambda p: pathlib.Path(p).resolve())
     parser.add_argument("--update", action="store_true", help="write the true output to the pages")
     parser.add_argument("--seconds", type=float, default=60, help="limit of time for each command")
+    parser.add_argument("--examples", nargs="*", default=[], metavar="PROGRAM",
+                        type=lambda p: pathlib.Path(p).resolve(),
+                        help="programs of docs/examples; put pages after another option")
     parser.add_argument("--keep", help="folder in which the pages' folders are made and kept")
     parser.add_argument("pages", nargs="*", type=lambda p: pathlib.Path(p).resolve())
     options = parser.parse_args()

@@ -90,10 +90,12 @@ class Outputs(unittest.TestCase):
 class Pages(unittest.TestCase):
     """Whole pages, with /bin/true in the place of the program."""
 
-    def run_text(self, text):
+    def run_text(self, text, files=()):
         tally = run_docs.Tally()
         with tempfile.TemporaryDirectory() as name:
             scratch = pathlib.Path(name)
+            for file, content in files:
+                (scratch / file).write_text(content)
             page = scratch / "page.md"
             page.write_text(text)
             folder = scratch / "terrane"
@@ -114,6 +116,14 @@ class Pages(unittest.TestCase):
         self.assertEqual(len(tally.failures), 1)
         self.assertIn("page.md:13", tally.failures[0])
         self.assertEqual(self.updated, PAGE)
+
+    def test_a_block_of_a_source_is_that_source(self):
+        files = [("a.cpp", "// SPDX-License-Identifier: X\nint a;\n")]
+        page = "<!-- source: a.cpp -->\n```cpp\nint a;\n```\n"
+        self.assertEqual(self.run_text(page, files).failures, [])
+        self.assertEqual(len(self.run_text(page.replace("int a", "int b"), files).failures), 1)
+        self.assertEqual(self.updated, page)
+        self.assertRaises(PageError, self.run_text, page)
 
     def test_a_missing_and_an_extra_line_fail(self):
         self.assertEqual(len(self.run_text(PAGE.replace("one two\n", "")).failures), 1)
@@ -226,8 +236,10 @@ class Guarantees(unittest.TestCase):
             self.assertEqual(check_guarantees.check(root), (3, []))
             page.write_text("## G1 It works\n\n- Tests: `b: ...`.\n")
             self.assertIn("b: ...", check_guarantees.check(root)[1][0])
-            readme.write_text("| G2 | works | nothing |\n")
+            readme.write_text("| G2 | works | nothing |\n" + "\n" * 119)
             self.assertEqual(len(check_guarantees.check(root)[1]), 3)
+            readme.write_text(readme.read_text() + "\n")
+            self.assertIn("120 lines", check_guarantees.check(root)[1][0])
 
 
 class Licences(unittest.TestCase):

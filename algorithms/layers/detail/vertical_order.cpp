@@ -12,8 +12,8 @@ Sign orientation(const PointStore& points, PointIndex a, PointIndex b, PointInde
     return points.orient2d(Axis::z, a, b, c);
 }
 
-/// Whether an edge of s has all of t on its right, or on it.
-bool is_apart(const PointStore& points, const UprightTriangle& s, const UprightTriangle& t) {
+/// Tells whether an edge of s has all of t on its right or on its line.
+bool is_apart(const PointStore& points, const UpwardTriangle& s, const UpwardTriangle& t) {
     for (unsigned i = 0; i < 3; ++i) {
         bool apart = true;
         for (unsigned j = 0; j < 3 && apart; ++j)
@@ -23,14 +23,14 @@ bool is_apart(const PointStore& points, const UprightTriangle& s, const UprightT
     return false;
 }
 
-bool is_over(const PointStore& points, const UprightTriangle& t, PointIndex p) {
+bool is_over(const PointStore& points, const UpwardTriangle& t, PointIndex p) {
     for (unsigned i = 0; i < 3; ++i)
         if (orientation(points, t[i], t[(i + 1) % 3], p) == right) return false;
     return true;
 }
 
-/// From the corners of s over or under t, the first that is not on it.
-Sign side_of_corners(const PointStore& points, const UprightTriangle& s, const UprightTriangle& t) {
+/// Returns the side of the first corner of s over or under t that is not on t.
+Sign side_of_corners(const PointStore& points, const UpwardTriangle& s, const UpwardTriangle& t) {
     for (const PointIndex p : s)
         if (is_over(points, t, p))
             if (const Sign side = points.orient3d(t[0], t[1], t[2], p); side != Sign::Zero)
@@ -38,7 +38,7 @@ Sign side_of_corners(const PointStore& points, const UprightTriangle& s, const U
     return Sign::Zero;
 }
 
-/// The side of s where edges a b of s and c d of t cross in the projection; Zero where they don't.
+/// Returns the side of s if edges a b of s and c d of t cross in the projection; otherwise Zero.
 Sign side_of_edges(const PointStore& points, PointIndex a, PointIndex b, PointIndex c,
                    PointIndex d) {
     const Sign c_side = orientation(points, a, b, c), d_side = orientation(points, a, b, d);
@@ -46,24 +46,24 @@ Sign side_of_edges(const PointStore& points, PointIndex a, PointIndex b, PointIn
     if (orientation(points, c, d, a) * orientation(points, c, d, b) != Sign::Negative)
         return Sign::Zero;
     if (c_side == right) std::swap(c, d);
-    // a, b, c turn left: where d is above their plane, c d passes above a b.
+    // a, b, c turn left: if d is above their plane, c d passes above a b.
     return -points.orient3d(a, b, c, d);
 }
 
 } // namespace
 
-std::optional<UprightTriangle> seen_along_z(const PointStore& points, UprightTriangle corners) {
+std::optional<UpwardTriangle> seen_along_z(const PointStore& points, UpwardTriangle corners) {
     const Sign side = orientation(points, corners[0], corners[1], corners[2]);
     if (side == Sign::Zero) return std::nullopt;
     if (side == right) std::swap(corners[1], corners[2]);
     return corners;
 }
 
-bool overlap_along_z(const PointStore& points, const UprightTriangle& s, const UprightTriangle& t) {
+bool overlap_along_z(const PointStore& points, const UpwardTriangle& s, const UpwardTriangle& t) {
     return !is_apart(points, s, t) && !is_apart(points, t, s);
 }
 
-Sign above_along_z(const PointStore& points, const UprightTriangle& s, const UprightTriangle& t) {
+Sign above_along_z(const PointStore& points, const UpwardTriangle& s, const UpwardTriangle& t) {
     if (const Sign side = side_of_corners(points, s, t); side != Sign::Zero) return side;
     if (const Sign side = side_of_corners(points, t, s); side != Sign::Zero) return -side;
     for (unsigned i = 0; i < 3; ++i)

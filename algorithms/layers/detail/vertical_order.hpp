@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Which of two triangles is above the other, seen along z, exactly. Private to layers.
+// Decides exactly which of two triangles is above the other, seen along z.
 #pragma once
 
 #include <array>
@@ -12,17 +12,18 @@
 namespace terrane {
 
 /// Corners in a store, counterclockwise in the projection along z.
-using UprightTriangle = std::array<PointIndex, 3>;
+using UpwardTriangle = std::array<PointIndex, 3>;
 
-/// None for a triangle that is upright: its projection has no area.
-std::optional<UprightTriangle> seen_along_z(const PointStore& points, UprightTriangle corners);
+/// Orders the corners. Returns nothing for a vertical triangle, whose projection has no area.
+std::optional<UpwardTriangle> seen_along_z(const PointStore& points, UpwardTriangle corners);
 
-/// Whether the projections of the two have an area in common.
-bool overlap_along_z(const PointStore& points, const UprightTriangle& s, const UprightTriangle& t);
+/// Tells whether the projections of the two have a common area.
+bool overlap_along_z(const PointStore& points, const UpwardTriangle& s, const UpwardTriangle& t);
 
-/// Side on which s lies of t: Positive above. The triangles overlap along z and meet in common
-/// corners and edges at most, so it is the same wherever both are. Zero where they have the same
-/// heights all over, which is the same triangle. The caller holds an UpwardRounding.
-Sign above_along_z(const PointStore& points, const UprightTriangle& s, const UprightTriangle& t);
+/// Returns the side of t on which s lies: Positive above. The triangles must overlap along z and
+/// meet in common corners and edges at most, so the side is the same wherever both are. Zero if
+/// they have the same heights everywhere, which means that they are the same triangle. The caller
+/// holds an UpwardRounding.
+Sign above_along_z(const PointStore& points, const UpwardTriangle& s, const UpwardTriangle& t);
 
 } // namespace terrane

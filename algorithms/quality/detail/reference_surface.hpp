@@ -5,19 +5,15 @@
 // Guarantee of contains_within_tolerance(): every point of the triangle is within the tolerance of
 // its sheet of the original surface. Two proofs are tried, on the triangle and, where both fail, on
 // parts of it:
-// (1) The triangle, shrunk a little, is covered along its normal or along an axis. A set of
-//     triangles of the sheet, all with the same orientation in this projection, is grown from one
-//     that meets the target across every edge that meets it, and contains no curve edge that does.
-//     Over the target, which is connected and simply connected, that set is a covering, so one part
-//     of it is the graph of a function over it. The difference of heights is linear on each common
-//     part, so it is bounded at the corners.
-// (2) All its corners are within the tolerance of one triangle of the sheet: the distance to a
-//     convex set is a convex function.
+// (1) The triangle, shrunk a little, is covered by triangles of the sheet along its normal or along
+//     an axis, and all heights over it are within the tolerance: statements (1) to (3) of
+//     docs/explanation/deviation.md.
+// (2) All its corners are within the tolerance of one triangle of the sheet: statement (4).
 // Rounding errors are included. Cost: about the number of triangles that it covers.
 //
 // An input triangle is isolated if it is farther from all other sheets than both tolerances
 // together. Triangles that follow isolated ones only can't meet another sheet that stays within its
-// own tolerance.
+// own tolerance: statement (5).
 #pragma once
 
 #include <array>

@@ -32,7 +32,7 @@ struct Filling {
     std::vector<double>
         expected_error{}; ///< per vertex: expected error, >= 0; 0 on the border of the hole; NaN if
                           ///< unknown
-    FillReport report{};
+    FillReport report{};  ///< how it was made
 };
 
 } // namespace terrane

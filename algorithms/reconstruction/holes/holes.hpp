@@ -16,6 +16,7 @@
 
 namespace terrane {
 
+/// What a loop of border edges is to its surface.
 enum class LoopKind : std::uint8_t {
     outer, ///< in each part connected across edges, the loop whose bounding box has the longest
            ///< diagonal, if that is at least half of the diagonal of the part (otherwise the part
@@ -34,7 +35,7 @@ struct GapRule {
 
 /// A closed loop of border edges. Lengths are in the unit of the surface.
 struct BorderLoop {
-    LoopKind kind = LoopKind::hole;
+    LoopKind kind = LoopKind::hole;        ///< outline, hole or fault gap
     std::vector<std::uint32_t> vertices{}; ///< of the surface, in order, each once, >= 3; the
                                            ///< surface is on the left, seen from its front. Of
                                            ///< equal points, the one with the lowest index

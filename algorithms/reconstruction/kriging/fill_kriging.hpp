@@ -14,11 +14,12 @@
 
 namespace terrane {
 
+/// Options of fill_by_kriging().
 struct KrigingOptions {
-    FitOptions variogram{};
-    double mesh_size = 0;  ///< of the filling, unit of x and y; 0: the median edge of the hole's
-                           ///< border, down to a quarter of it if flat triangles of that size would
-                           ///< be farther from the estimated heights than their expected error
+    FitOptions variogram{}; ///< how the variogram is chosen
+    double mesh_size = 0;   ///< of the filling, unit of x and y; 0: the median edge of the hole's
+        ///< border, down to a quarter of it if flat triangles of that size would
+        ///< be farther from the estimated heights than their expected error
     std::size_t rings = 5; ///< rings of triangles around the hole whose corners are data; >= 1
     std::span<const BorderLoop> loops{}; ///< all loops of the surface: parts within the hole are
                                          ///< data, too, and are left out of the filling

@@ -4,19 +4,19 @@
 //
 // Steps:
 //   (1) data: the vertices within `reach` times the hole's radius of its border, measured along the
-//   surface, and at least the first `rings` rings, with normals (detail/data.hpp);
+//       surface, and at least the first `rings` rings, with normals (detail/data.hpp);
 //   (2) constraints: f = 0 at centres; at some of them, well spread, also f = +-d at a distance d
-//   off the surface, where no other part of it is as near. The offset is along the axis of the hole
-//   if the surface is a graph over its plane, so that f is a height and the polynomial part can
-//   take much of it; otherwise along normals;
+//       off the surface, where no other part of it is as near. The offset is along the axis of the
+//       hole if the surface is a graph over its plane, so that f is a height and the polynomial
+//       part can take much of it; otherwise along normals;
 //   (3) centres: well-spread ones first; then, repeatedly, the data at which |f| is largest, until
-//   none exceeds `tolerance` or there are `most_centres` (detail/function.hpp). With smoothing, and
-//   where it is better by a quarter: only the well-spread ones, with weights from all data by
-//   penalised least squares (detail/smooth.cpp);
+//       none exceeds `tolerance` or there are `most_centres` (detail/function.hpp). With smoothing,
+//       and where it is better by a quarter: only the well-spread ones, with weights from all data
+//       by penalised least squares (detail/smooth.cpp);
 //   (4) a partition of unity interpolates the remaining errors at the data, even millions of them:
-//   small patches with functions |p - q| of their own, blended, and fading into the hole
-//   (detail/patches.hpp). So every datum is interpolated, whatever the number of centres; not with
-//   options.smoothing;
+//       small patches with functions |p - q| of their own, blended, and fading into the hole
+//       (detail/patches.hpp). So every datum is interpolated, whatever the number of centres; not
+//       with options.smoothing;
 //   (5) the zero level over the hole and a margin beyond it as triangles (detail/zero_level.hpp).
 // The polynomial part (along the hole's plane, or in space if the surface turns away from any
 // plane), its degree, the direction of (2) and the variant of (3) are chosen by validation: data
@@ -42,6 +42,7 @@
 
 namespace terrane {
 
+/// Options of fill_by_rbf().
 struct RbfOptions {
     double reach = 1;               ///< of the data, in radii of a disk with the hole's area
     unsigned rings = 4;             ///< least number of rings of vertices that are data
@@ -53,7 +54,7 @@ struct RbfOptions {
                           ///< enlarged if the hole would need more than most_vertices, and reduced,
                           ///< down to a quarter, if the triangles would cut corners at the border
                           ///< or be farther from the zero level than its expected error
-    std::size_t most_vertices = 50'000;
+    std::size_t most_vertices = 50'000; ///< of the filling
     unsigned degree = 0; ///< of the polynomial part along the hole, up to 8 (1 in the paper); 0:
                          ///< the one of least validation error
     std::optional<double> smoothing{};   ///< none: every datum is interpolated. Otherwise the root
@@ -69,16 +70,19 @@ struct RbfOptions {
 
 /// Describes a fit. Lengths are in the unit of the surface.
 struct RbfReport {
-    std::size_t data = 0, centres = 0, offsets = 0; ///< centres on the surface; constraints off it
-    unsigned degree = 0;                            ///< of the polynomial part
-    std::size_t patches = 0;                        ///< of step (4); 0 if step (3) sufficed
-    double missed = 0;                              ///< largest |f| at the data after step (3)
+    std::size_t data = 0;     ///< points of the surface and of islands
+    std::size_t centres = 0;  ///< centres on the surface
+    std::size_t offsets = 0;  ///< constraints off the surface
+    unsigned degree = 0;      ///< of the polynomial part
+    std::size_t patches = 0;  ///< of step (4); 0 if step (3) sufficed
+    double missed = 0;        ///< largest |f| at the data after step (3)
     double largest_error = 0; ///< largest |f| at the data at the end: the interpolation error
-    double rms_error = 0;
-    double freedom = 0;          ///< degrees of freedom that smoothing leaves; 0 if every datum is
-                                 ///< interpolated
-    double offset = 0, size = 0; ///< as used
-    RbfSolution solution;
+    double rms_error = 0;     ///< root mean square of f at the data at the end
+    double freedom = 0;       ///< degrees of freedom that smoothing leaves; 0 if every datum is
+                              ///< interpolated
+    double offset = 0;        ///< as used
+    double size = 0;          ///< edge length as used
+    RbfSolution solution;     ///< how well the system was solved
 };
 
 /// Fills a hole by steps (1) to (5). Errors: bad_option, bad_index, bad_number; unsupported (an

@@ -8,10 +8,11 @@
 
 namespace terrane {
 
+/// A hole filled by radial basis functions and joined.
 struct FilledByRbf {
-    Filling filling; ///< before joining
-    Joined joined;
-    RbfReport report;
+    Filling filling;  ///< before joining
+    Joined joined;    ///< the surface with the filling
+    RbfReport report; ///< of the fit
 };
 
 /// Runs fill_by_rbf() and join_filling(). If the zero level does not pass along the border, so that

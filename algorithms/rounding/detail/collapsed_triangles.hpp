@@ -22,9 +22,7 @@ using PointsInSides = std::array<std::vector<std::uint32_t>, 3>;
 
 /// Triangles that became lines and are dropped leave corners inside the sides of their neighbours.
 /// Lost triangles that share a side lie on one line; the neighbours' sides on it are divided at all
-/// their corners. Then these sides fit again: the borders of the lost parts of one input triangle
-/// add up to nothing between corners next to each other on the line, so the sides of its other
-/// parts do so, too, as far as they did before.
+/// their corners. Then these sides fit again: statement (2) of docs/explanation/rounding.md.
 class CollapsedTriangles {
 public:
     /// Precondition: points with the same coordinates have the same index; the lost triangles are

@@ -16,7 +16,7 @@ namespace terrane {
 namespace {
 
 constexpr std::uint32_t none = UINT32_MAX;
-constexpr int samples = 8; ///< along each edge of a triangle
+constexpr int samples = 8; ///< per edge of a triangle
 
 class Finder {
 public:
@@ -41,12 +41,12 @@ public:
 private:
     struct Candidate {
         std::vector<std::uint32_t> triangles{}; ///< ascending
-        std::vector<Triangle> curve{};          ///< edges, as triangles without area
+        std::vector<Triangle> curve{};          ///< edges as degenerate triangles
         double border = 0;
         std::set<std::uint32_t> beyond{}; ///< regions of the same surface across the curve
     };
 
-    /// The region of a triangle in its only surface, or none.
+    /// Returns the region of a triangle that is in one surface only, otherwise none.
     [[nodiscard]] std::uint32_t region_of(std::uint32_t t) const {
         const auto of = regions_.regions_of[t];
         return of.size() == 1 ? of[0] : none;
@@ -91,7 +91,7 @@ private:
                 candidate.beyond.insert(regions_.regions_of[u][i]);
     }
 
-    /// Nothing where some point is too far from the curve.
+    /// Measures a candidate. Returns nothing if some point is too far from the curve.
     [[nodiscard]] std::optional<Overshoot> measure(std::uint32_t r, Candidate& c) const {
         const TriangleTree curve(places_, std::move(c.curve));
         const double bound = std::nextafter(distance_, HUGE_VAL);
@@ -122,8 +122,8 @@ private:
         return true;
     }
 
-    /// A surface all of which is near curves is no overshoot of itself: some region must stay that
-    /// this one continues.
+    /// Keeps surfaces all of whose regions are near curves: a region is an overshoot only if one
+    /// that it continues remains.
     void keep_what_goes_on(std::map<std::uint32_t, Overshoot>& found) const {
         std::vector<std::uint32_t> alone;
         for (const auto& [r, shoot] : found) {
@@ -135,7 +135,7 @@ private:
         for (const std::uint32_t r : alone) found.erase(r);
     }
 
-    /// Takes back regions without which an edge would have a single triangle.
+    /// Keeps regions without which an edge would have a single triangle.
     void keep_what_others_end_on(std::map<std::uint32_t, Overshoot>& found) const {
         for (bool changed = true; changed;) {
             changed = false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Ends of surfaces that reach a little beyond another one. Private to sealing.
+// Finds ends of surfaces that extend a little beyond another surface.
 #pragma once
 
 #include <cstdint>
@@ -18,11 +18,11 @@ struct Overshoot {
     Point3 place{};                         ///< the vertex with that distance
 };
 
-/// Regions (regions.hpp) between a free border and curves with other surfaces, no point of which is
-/// farther than `distance` from these curves, where the surface goes on beyond the curve. They
-/// dangle, so no volume changes without them; none is listed whose loss would leave the border of
-/// another surface free. Distances: in floating point, at vertices and a grid between them.
-/// Triangles of several surfaces are never part of one.
+/// Finds regions (regions.hpp) between a free border and curves with other surfaces, all points of
+/// which are within `distance` of these curves, where the surface continues beyond the curve. They
+/// dangle, so removing them changes no volume; regions whose removal would free the border of
+/// another surface are omitted. Distances are in floating point, at vertices and a grid between
+/// them. Triangles of several surfaces are never part of an overshoot.
 std::vector<Overshoot> find_overshoots(const Arrangement& arrangement, double distance);
 
 } // namespace terrane

@@ -11,19 +11,20 @@
 namespace terrane {
 namespace {
 
-constexpr double least_share = 0.1; ///< of a surface's area, to be named above, below or beside
+constexpr double least_share = 0.1; ///< least share of a surface's area at a block to be named
+                                    ///< above, below or beside
 
 /// Area of a surface at a block: above, below, beside.
 using Shares = std::array<double, 3>;
 
-/// Which of the three a triangle counts for, by the outward normal of the block.
+/// Returns the position that a triangle counts for, from the outward normal of the block.
 std::size_t position_of(const Point3& outward) {
     const double level = std::hypot(outward.x, outward.y);
     if (outward.z >= level) return 0;
     return -outward.z >= level ? 1 : 2;
 }
 
-/// Sums the shares of the interface's surfaces in both of its volumes.
+/// Adds the areas of the interface's surfaces to the shares of both its volumes.
 void add_shares(const Mesh& mesh, const Volumes& volumes, const ModelInterface& interface,
                 std::vector<std::map<std::uint32_t, Shares>>& shares) {
     for (const std::uint32_t t : interface.triangles) {

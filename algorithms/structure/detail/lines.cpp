@@ -15,7 +15,7 @@ constexpr std::uint32_t none = UINT32_MAX;
 /// An edge that is part of a line.
 struct LineEdge {
     Edge ends{};
-    std::uint32_t at = 0; ///< its triangles: a list of LineEdges::triangles
+    std::uint32_t at = 0; ///< index of its triangles and patches in LineMaker's lists
 };
 
 class LineMaker {
@@ -56,7 +56,7 @@ private:
         });
     }
 
-    /// Line edges by vertex, and which vertices are corners.
+    /// Lists the line edges of each vertex and finds corners.
     void find_ends() {
         starts_.assign(mesh_.vertices.size() + 1, 0);
         for (const LineEdge& e : edges_)
@@ -82,7 +82,7 @@ private:
         return std::ranges::equal(patches_[edges_[e].at], patches_[edges_[f].at]);
     }
 
-    /// Follows the line from `v` over edge `e` to its other end, or round to `v`.
+    /// Follows the line from `v` across edge `e` to its other end, or around to `v`.
     void trace(std::uint32_t v, std::uint32_t e) {
         if (used_[e]) return;
         ModelLine line;
@@ -102,7 +102,8 @@ private:
         out_.lines.push_back(std::move(line));
     }
 
-    /// From the lesser end; round a closed line from its least vertex towards its lesser neighbour.
+    /// Starts the line at its lesser end; a closed line at its least vertex, towards the lesser
+    /// neighbour.
     void orient(ModelLine& line) const {
         auto& v = line.vertices;
         const auto less = [&](std::uint32_t a, std::uint32_t b) { return ranks_[a] < ranks_[b]; };
@@ -123,13 +124,13 @@ private:
         return std::hypot(p.x - q.x, p.y - q.y, p.z - q.z);
     }
 
-    /// All edges of a line have the same patches, so one tells its kind.
+    /// All edges of a line have the same patches, so one edge determines its kind.
     void describe(std::uint32_t e, ModelLine& line) const {
         const auto patches = patches_[edges_[e].at];
         line.patches.assign(patches.begin(), patches.end());
         line.patches.erase(std::unique(line.patches.begin(), line.patches.end()),
                            line.patches.end());
-        std::map<std::uint32_t, std::size_t> sheets; // triangles here, by surface
+        std::map<std::uint32_t, std::size_t> sheets; // number of triangles here, by surface
         const auto triangles = triangles_[edges_[e].at];
         for (const std::uint32_t t : triangles)
             for (const std::uint32_t s : mesh_.surfaces_of[t]) ++sheets[s];
@@ -187,8 +188,9 @@ private:
     Structure& out_;
     std::vector<LineEdge> edges_;
     IndexLists<std::uint32_t> triangles_;  ///< per line edge
-    IndexLists<std::uint32_t> patches_;    ///< of these triangles, ascending
-    std::vector<std::uint32_t> starts_;    ///< per vertex, and the total: into at_vertex_
+    IndexLists<std::uint32_t> patches_;    ///< per line edge: the patches of these triangles,
+                                           ///< ascending
+    std::vector<std::uint32_t> starts_;    ///< per vertex, and the total: index into at_vertex_
     std::vector<std::uint32_t> at_vertex_; ///< line edges
     std::vector<bool> is_corner_;          ///< per vertex
     std::vector<bool> used_;               ///< per line edge

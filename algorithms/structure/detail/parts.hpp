@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Steps of build_structure. Private to structure.
+// Steps of build_structure(): add_lines() is defined in lines.cpp, add_blocks() in blocks.cpp, the
+// others in structure.cpp.
 #pragma once
 
 #include <cstdint>
@@ -11,17 +12,17 @@
 
 namespace terrane {
 
-/// Per vertex its place in the lexicographic order.
+/// Returns the lexicographic rank of each vertex.
 std::vector<std::uint32_t> ranks_of(const std::vector<Point3>& vertices);
 
-/// Lines and corners, once interfaces and patches are known; the lines of patches, too.
+/// Adds lines and corners, and the lines of patches; interfaces and patches must be known.
 void add_lines(const Mesh& mesh, const EdgeSides& edges, const std::vector<std::uint32_t>& ranks,
                Structure& structure);
 
-/// Blocks with their names, once interfaces are known.
+/// Adds blocks with their names; interfaces must be known.
 void add_blocks(const Mesh& mesh, const Volumes& volumes, Structure& structure);
 
-/// Twice the area times the unit normal, in front.
+/// Returns twice the area times the unit normal on the front side.
 Point3 area_vector(const Mesh& mesh, std::uint32_t triangle);
 
 } // namespace terrane

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Stacks of layers against heights at single points, found from the input surfaces alone.
+// Compares stacks of layers with heights at single points, computed from the input surfaces alone.
 #include <terrane/algorithms/layers/layers.hpp>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ using namespace test_support;
 
 namespace {
 
-/// The triangle over x, y and the height there.
+/// Finds the triangle over x, y and the height there.
 struct Hit {
     std::size_t triangle = 0;
     double z = 0;
@@ -59,7 +59,7 @@ std::optional<Hit> height_of_layer(const Mesh& mesh, std::uint32_t layer, double
     });
 }
 
-/// What the definition says, point by point: from the hardest to the softest.
+/// Evaluates the definition at a point, from the hardest layer to the softest.
 std::vector<std::optional<double>> expected_heights(const std::vector<Surface>& surfaces,
                                                     const std::vector<Layer>& order, double x,
                                                     double y, double thickness) {
@@ -92,11 +92,11 @@ std::vector<std::optional<double>> expected_heights(const std::vector<Surface>& 
     return z;
 }
 
-/// Sums and products of these coordinates are exact in so many bits.
+/// Number of bits in which sums and products of these coordinates are exact.
 using Exactly = mpf_class;
 constexpr unsigned exact_bits = 1024;
 
-/// Six times the exact volume over z = 0.
+/// Computes six times the exact volume over z = 0.
 Exactly volume_under(const Mesh& mesh, std::uint32_t layer) {
     const auto wide = [](double x) { return Exactly(x, exact_bits); };
     Exactly sum = wide(0);
@@ -118,7 +118,7 @@ Mesh check_stack(const std::vector<Surface>& surfaces, const std::vector<Layer>&
     if (!stacked) FAIL(stacked.error().message());
     const Mesh& mesh = stacked.value().rounded.mesh;
     REQUIRE(stacked.value().rounded.report.clean);
-    // The exact test again, on surfaces: no two of them cross.
+    // The exact test on surfaces: no two of them cross.
     std::vector<Surface> results(order.size());
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
         for (const std::uint32_t s : mesh.surfaces_of[t])
@@ -127,7 +127,7 @@ Mesh check_stack(const std::vector<Surface>& surfaces, const std::vector<Layer>&
     const auto report = check(results);
     REQUIRE(report);
     CHECK(report.value().clean());
-    // Heights as the definition says; where two are the same, the triangle is the same.
+    // Heights follow the definition; where two are equal, the triangles are equal.
     std::uniform_real_distribution<double> at(0, 10);
     for (int k = 0; k < 25; ++k) {
         const double x = at(random), y = at(random);
@@ -152,7 +152,7 @@ Mesh check_stack(const std::vector<Surface>& surfaces, const std::vector<Layer>&
     return mesh;
 }
 
-/// A sheet of some random waves round a level.
+/// Builds a sheet of random waves around a level.
 Surface random_sheet(std::mt19937_64& random, double level, unsigned n, double x0 = 0,
                      double x1 = 10) {
     std::uniform_real_distribution<double> amplitude(0.1, 0.8), wave(0.2, 1.2), phase(0, 6);
@@ -168,7 +168,7 @@ Surface random_sheet(std::mt19937_64& random, double level, unsigned n, double x
 
 } // namespace
 
-TEST_CASE("stacks: 100 random ones with crossings", "[layers]") {
+TEST_CASE("stacks: 100 random stacks with crossings follow the definition", "[layers]") {
     std::mt19937_64 random(11);
     for (int i = 0; i < cases(100); ++i) {
         CAPTURE(i);
@@ -180,7 +180,7 @@ TEST_CASE("stacks: 100 random ones with crossings", "[layers]") {
             surfaces.push_back(random_sheet(random, 0.4 * s, 5 + s + static_cast<unsigned>(i % 4)));
             order.push_back({s, static_cast<double>(hardness(random))});
         }
-        std::reverse(order.begin(), order.end()); // the highest level on top
+        std::reverse(order.begin(), order.end()); // the highest level comes first
         const Mesh mesh = check_stack(surfaces, order, {}, random);
         std::vector<Exactly> volumes;
         for (std::uint32_t s = 0; s < n; ++s) volumes.push_back(volume_under(mesh, s));
@@ -188,7 +188,7 @@ TEST_CASE("stacks: 100 random ones with crossings", "[layers]") {
     }
 }
 
-TEST_CASE("stacks: outlines that differ leave steps, and are right all the same", "[layers]") {
+TEST_CASE("stacks: layers of different outlines follow the definition and have steps", "[layers]") {
     std::mt19937_64 random(12);
     for (int i = 0; i < cases(8); ++i) {
         CAPTURE(i);
@@ -210,7 +210,7 @@ TEST_CASE("stacks: a minimum thickness is kept", "[layers]") {
     }
 }
 
-TEST_CASE("stacks: hard and soft, upper and lower", "[layers]") {
+TEST_CASE("stacks: hard and soft layers, with the soft one above or below", "[layers]") {
     const Surface soft =
         sheet(graph([](double x, double) { return (x - 5) / 4; }), 0, 0, 10, 10, 9, 9);
     Surface hard = sheet(graph([](double, double) { return 0.0; }), 0, 0, 10, 10, 7, 7);
@@ -240,7 +240,8 @@ TEST_CASE("stacks: hard and soft, upper and lower", "[layers]") {
     }
 }
 
-TEST_CASE("stacks: nothing changes where nothing crosses, nor a second time", "[layers]") {
+TEST_CASE("stacks: layers that do not cross do not change, and stacking twice changes nothing more",
+          "[layers]") {
     const Surface top =
         sheet(graph([](double x, double) { return 1 + 0.1 * x; }), 0, 0, 10, 10, 4, 4);
     const Surface base =
@@ -269,7 +270,8 @@ TEST_CASE("stacks: nothing changes where nothing crosses, nor a second time", "[
     CHECK(twice.value().rounded.mesh->triangles.size() == mesh.triangles.size());
 }
 
-TEST_CASE("stacks: where the hard one ends there is a step, and its length is told", "[layers]") {
+TEST_CASE("stacks: a soft layer has a step where the hard one ends, and its length is reported",
+          "[layers]") {
     const Surface soft = sheet(graph([](double, double) { return -1.0; }), 0, 0, 10, 10, 10, 10);
     const Surface hard = sheet(graph([](double, double) { return 0.0; }), 2.5, 2.5, 7.5, 6.5, 5, 5);
     const auto result = harden(hard, soft, Keep::upper);
@@ -280,7 +282,7 @@ TEST_CASE("stacks: where the hard one ends there is a step, and its length is to
     CHECK(result.value().reports[0].taken_area == Approx(20));
 }
 
-TEST_CASE("stacks: the same for any number of threads", "[layers]") {
+TEST_CASE("stacks: the result does not depend on the number of threads", "[layers]") {
     std::mt19937_64 random(15);
     const std::array surfaces{random_sheet(random, 0.1, 12), random_sheet(random, 0, 13)};
     const std::array order{Layer{0, 0}, Layer{1, 1}};
@@ -292,7 +294,7 @@ TEST_CASE("stacks: the same for any number of threads", "[layers]") {
     CHECK(one.value().rounded.mesh->vertices == three.value().rounded.mesh->vertices);
 }
 
-TEST_CASE("stacks: what can't be stacked is refused", "[layers]") {
+TEST_CASE("stacks: layers that can't be stacked are refused", "[layers]") {
     const Surface flat = sheet(graph([](double, double) { return 0.0; }), 0, 0, 10, 10, 4, 4);
     const auto code = [](const std::vector<Surface>& surfaces, const std::vector<Layer>& order,
                          const LayerOptions& options = {}) {
@@ -305,7 +307,7 @@ TEST_CASE("stacks: what can't be stacked is refused", "[layers]") {
     CHECK(code({flat}, {{0, 0}, {0, 1}}) == ErrorCode::bad_option);
     CHECK(code({flat}, {{0, std::nan("")}}) == ErrorCode::bad_option);
     CHECK(code({flat}, {{0, 0}}, {.min_thickness = -1}) == ErrorCode::bad_option);
-    SECTION("an upright wall, an overturned fold") {
+    SECTION("a vertical wall, an overturned fold") {
         const Surface wall = sheet(
             [](double u, double v) {
                 return Point3{5, u, v - 5};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Which triangle is above which, against clipped polygons in rationals.
+// Compares the vertical order of triangles with clipped polygons in rationals.
 #include <terrane/algorithms/layers/detail/vertical_order.hpp>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ Exact2 flat(const Point3& p) {
     return {p.x, p.y};
 }
 
-/// What the two projections share: the first clipped by the second's edges.
+/// Intersects the two projections by clipping the first by the edges of the second.
 std::vector<Exact2> common(const Corners& s, const Corners& t) {
     std::vector<Exact2> polygon{flat(s[0]), flat(s[1]), flat(s[2])};
     for (unsigned i = 0; i < 3 && !polygon.empty(); ++i) {
@@ -71,7 +71,7 @@ TEST_CASE("vertical order: agrees with clipped polygons in rationals", "[layers]
     std::mt19937_64 random(21);
     int above = 0, below = 0, same = 0, apart = 0;
     for (int i = 0; i < test_support::cases(30000); ++i) {
-        // Few places, so that corners on edges and shared edges are common; heights apart or not.
+        // Few places, so that corners on edges and shared edges are common; heights may be equal.
         std::uniform_int_distribution<int> place(0, 2 + i % 4), level(0, i % 3 == 0 ? 2 : 9);
         const auto corner = [&](int shift) {
             return Point3{static_cast<double>(place(random)), static_cast<double>(place(random)),
@@ -83,7 +83,7 @@ TEST_CASE("vertical order: agrees with clipped polygons in rationals", "[layers]
         const PointStore store({first[0], first[1], first[2], second[0], second[1], second[2]});
         const UpwardRounding guard;
         const auto s = seen_along_z(store, {0, 1, 2}), t = seen_along_z(store, {3, 4, 5});
-        const auto corners = [&](const UprightTriangle& u) {
+        const auto corners = [&](const UpwardTriangle& u) {
             return Corners{store.input(u[0]), store.input(u[1]), store.input(u[2])};
         };
         CHECK(s.has_value() == (turn(flat(first[0]), flat(first[1]), flat(first[2])) != 0));

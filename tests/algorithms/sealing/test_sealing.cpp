@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Known gaps, and what closing them must and must not change.
+// Checks what closing known gaps changes and what it must not change.
 #include <terrane/algorithms/sealing/sealing.hpp>
 
 #include <algorithm>
@@ -27,8 +27,7 @@ using namespace test_support;
 
 namespace {
 
-/// Strips end on other surfaces; where they end free, it is at a side, no longer than they are
-/// wide.
+/// Checks that strips end on other surfaces, or free at a side that is no longer than their width.
 void check_strip_ends(const std::vector<Surface>& surfaces, const Sealed& s, double distance) {
     const Arrangement& a = s.arrangement;
     for (std::size_t e = 0; e < a.adjacency.edges.size(); ++e) {
@@ -55,14 +54,14 @@ Volumes volumes_of(const Arrangement& a) {
     return volumes.value();
 }
 
-/// Conforming as doubles, too.
+/// Checks that the arrangement is conforming in doubles, too.
 void check_rounds(const Arrangement& a) {
     const auto rounded = round_to_doubles(a);
     REQUIRE(rounded);
     CHECK(rounded.value().report.clean);
 }
 
-/// A grid over [x0, x1] x [y0, y1], n by n cells, at heights z(x, y).
+/// Builds a grid over [x0, x1] x [y0, y1] of n by n cells at heights z(x, y).
 template <class Height>
 Surface grid(double x0, double y0, double x1, double y1, unsigned n, const Height& z,
              std::string name) {
@@ -93,7 +92,7 @@ std::size_t kinds(const Sealed& s, SealKind kind) {
 
 } // namespace
 
-TEST_CASE("sealing: a horizon that stops short of the walls of a box is extended onto them",
+TEST_CASE("sealing: a horizon that stops short of the walls of a box is extended to them",
           "[seal]") {
     for (const unsigned n : {1U, 4U}) {
         const auto flat = [](double, double) { return 4.0; };
@@ -101,7 +100,7 @@ TEST_CASE("sealing: a horizon that stops short of the walls of a box is extended
         CHECK(volumes_of(arrange(model).value()).block_count() == 1);
         const Sealed s = sealed(model, 0.11);
         const Volumes v = volumes_of(s.arrangement);
-        CHECK(v.measures == std::vector<double>{512, 256, 256}); // the plane goes on exactly
+        CHECK(v.measures == std::vector<double>{512, 256, 256}); // the plane is continued exactly
         check_rounds(s.arrangement);
         REQUIRE(s.changes.size() == 1);
         CHECK(s.changes[0].kind == SealKind::extended);
@@ -115,7 +114,7 @@ TEST_CASE("sealing: a horizon that stops short of the walls of a box is extended
     }
 }
 
-TEST_CASE("sealing: nothing moves where no gap is small enough", "[seal]") {
+TEST_CASE("sealing: nothing changes if no gap is small enough", "[seal]") {
     const auto flat = [](double, double) { return 4.0; };
     const std::vector<Surface> model{cube(0, 8), grid(0.1, 0.1, 7.9, 7.9, 3, flat, "horizon"),
                                      level(2, 1, 1, 20, 7, "beyond")};
@@ -135,12 +134,12 @@ TEST_CASE("sealing: nothing moves where no gap is small enough", "[seal]") {
     CHECK(seal(model, {.distance = NAN}).error().code == ErrorCode::bad_option);
 }
 
-TEST_CASE("sealing: against a fault at any angle", "[seal]") {
-    // Cut by a fault through the box that leans, the horizon stops 0.1 short of it on one side.
+TEST_CASE("sealing: a gap to a fault is closed at any angle", "[seal]") {
+    // An inclined fault cuts the horizon, which stops 0.1 short of it on one side.
     for (const double lean : {0.0, 0.5, 1.0, 2.0, -1.0, -2.0}) {
         const Surface fault =
             quad({4 - 4.5 * lean, -1, -0.5}, {4 - 4.5 * lean, 9, -0.5}, {4 + 4.5 * lean, 9, 8.5},
-                 {4 + 4.5 * lean, -1, 8.5}, "fault"); // at x = 4 in height 4
+                 {4 + 4.5 * lean, -1, 8.5}, "fault"); // at x = 4 at height 4
         const auto flat = [](double, double) { return 4.0; };
         const std::vector<Surface> model{cube(0, 8), fault, grid(-1, -1, 3.9, 9, 5, flat, "left")};
         INFO("lean " << lean);
@@ -162,8 +161,8 @@ TEST_CASE("sealing: against a fault at any angle", "[seal]") {
     }
 }
 
-TEST_CASE("sealing: along a part of a border only", "[seal]") {
-    // The border leaves the fault: near it for y < 4, far for y > 4.
+TEST_CASE("sealing: only the part of a border near the fault is closed", "[seal]") {
+    // The border is near the fault for y < 4 and far from it for y > 4.
     Surface horizon = grid(
         0, 0, 3.9, 8, 8, [](double, double) { return 4.0; }, "horizon");
     for (Point3& p : horizon.vertices) p.x *= p.y > 4 ? 0.5 : 1;
@@ -186,7 +185,7 @@ TEST_CASE("sealing: along a part of a border only", "[seal]") {
     CHECK(on_fault >= 4);
 }
 
-TEST_CASE("sealing: ends that reach beyond are trimmed", "[seal]") {
+TEST_CASE("sealing: ends that extend beyond a fault are trimmed", "[seal]") {
     const auto flat = [](double, double) { return 4.0; };
     const Surface box = cube(0, 8);
     const std::vector<Surface> model{box, grid(-0.1, -0.05, 8.1, 8.08, 3, flat, "horizon")};
@@ -200,12 +199,12 @@ TEST_CASE("sealing: ends that reach beyond are trimmed", "[seal]") {
         CHECK((p.x >= 0 && p.x <= 8 && p.y >= 0 && p.y <= 8));
     }
     check_rounds(s.arrangement);
-    const Sealed none = sealed(model, 0.09); // less than its corner
+    const Sealed none = sealed(model, 0.09); // less than at its corner
     CHECK(none.changes.empty());
     CHECK(none.arrangement.whole);
 }
 
-TEST_CASE("sealing: a border that crosses the fault to and fro", "[seal]") {
+TEST_CASE("sealing: a border that crosses the fault back and forth is closed", "[seal]") {
     Random random(4);
     for (int round = 0; round < cases(12); ++round) {
         Surface horizon = grid(
@@ -231,15 +230,15 @@ TEST_CASE("sealing: a border that crosses the fault to and fro", "[seal]") {
     }
 }
 
-TEST_CASE("sealing: at the corner of two faults", "[seal]") {
-    // A horizon that ends short of two walls which meet in a vertical edge, at any angle.
+TEST_CASE("sealing: a gap at the corner of two faults is closed", "[seal]") {
+    // A horizon ends short of two walls that meet in a vertical edge, at any angle.
     for (const double turn : {0.0, 0.6, -0.6}) {
         const Surface first = quad({6, -1, -1}, {6, 6, -1}, {6, 6, 9}, {6, -1, 9}, "first"),
                       second = quad({6, 6, -1}, {-1, 6 + 7 * turn, -1}, {-1, 6 + 7 * turn, 9},
                                     {6, 6, 9}, "second");
         Surface horizon = grid(
             -1, -1, 5.9, 5.9, 6, [](double, double) { return 4.0; }, "horizon");
-        for (Point3& p : horizon.vertices) // up to the second wall, but for 0.1
+        for (Point3& p : horizon.vertices) // up to 0.1 before the second wall
             p.y = -1 + (p.y + 1) / 6.9 * (6.9 + turn * (6 - p.x));
         const std::vector<Surface> model{cube(0, 8), first, second, horizon};
         INFO("turn " << turn);
@@ -247,13 +246,13 @@ TEST_CASE("sealing: at the corner of two faults", "[seal]") {
         const Sealed s = sealed(model, 0.15);
         CHECK(volumes_of(s.arrangement).block_count() == before + 1);
         check_rounds(s.arrangement);
-        // The second wall ends where the horizon's border does, outside the box: the part of the
-        // edge between them may be left.
+        // The second wall ends where the border of the horizon does, outside the box; the part of
+        // the edge between them may remain.
         CHECK(s.left < 1.2);
     }
 }
 
-TEST_CASE("sealing: curved and rough surfaces at great coordinates, gaps of micrometres",
+TEST_CASE("sealing: gaps of micrometres are closed on curved, rough surfaces at large coordinates",
           "[seal]") {
     Random random(9);
     for (const double gap : {2e-6, 1e-3, 0.1}) {
@@ -266,11 +265,11 @@ TEST_CASE("sealing: curved and rough surfaces at great coordinates, gaps of micr
             -200, -200, 600, 1200, 16,
             [](double x, double y) { return 10 * std::sin(x / 90) + 8 * std::cos(y / 70); },
             "horizon");
-        // Its right border: straight to the fault, then back by the gap or beyond it.
+        // The right border ends short of the fault by the gap, or beyond it.
         const Surface walls = box({0, 0, -300}, {1000, 1000, 300}, "walls");
         for (Point3& p : horizon.vertices) {
             if (p.x != 600) continue;
-            double low = 400, high = 800; // the fault's x at this y and z, by halving
+            double low = 400, high = 800; // the fault's x at this y and z, by bisection
             const auto side = [&](double x) {
                 for (const Triangle& t : fault.triangles) {
                     const Point3 &a = fault.vertices[t[0]], &b = fault.vertices[t[1]],
@@ -299,7 +298,7 @@ TEST_CASE("sealing: curved and rough surfaces at great coordinates, gaps of micr
     }
 }
 
-TEST_CASE("sealing: what legitimately ends in the open stays", "[seal]") {
+TEST_CASE("sealing: free borders far from other surfaces do not change", "[seal]") {
     const std::vector<Surface> model{cube(0, 8), level(4, 2, 2, 6, 6, "inside"),
                                      quad({-3, 4, 4}, {3, 4, 4}, {3, 4, 6}, {-3, 4, 6}, "through")};
     const Sealed s = sealed(model, 0.5);
@@ -307,7 +306,7 @@ TEST_CASE("sealing: what legitimately ends in the open stays", "[seal]") {
     CHECK(s.arrangement.triangles == arrange(model).value().triangles);
 }
 
-TEST_CASE("sealing: the same for any number of threads; and within a volume of interest",
+TEST_CASE("sealing: the result does not depend on threads, also within a volume of interest",
           "[seal]") {
     const auto flat = [](double x, double y) { return 4 + 0.1 * x - 0.05 * y; };
     std::vector<Surface> model{grid(0.1, 0.1, 3.92, 8.5, 4, flat, "left"),
@@ -330,7 +329,7 @@ TEST_CASE("sealing: the same for any number of threads; and within a volume of i
     CHECK(volumes_of(cut.value().arrangement).measures[0] == 512);
     CHECK(cut.value().report.borders.empty());
     check_rounds(cut.value().arrangement);
-    // done again on the same surfaces with their strips it gives the same
+    // Repeating the restriction on the same surfaces and strips gives the same result.
     REQUIRE(cut.value().arrangement.restrict_again);
     const auto again = cut.value().arrangement.restrict_again(arrange(a.surfaces).value(), Run{});
     REQUIRE(again);

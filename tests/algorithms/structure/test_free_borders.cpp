@@ -31,7 +31,7 @@ std::vector<FreeBorder> borders_of(const std::vector<Surface>& surfaces) {
     return find_free_borders(mesh, build_structure(mesh, volumes.value()));
 }
 
-/// By sampling the triangle finely: an upper bound, off by at most a cell.
+/// Samples the triangle finely: an upper bound that exceeds the distance by at most a cell.
 double sampled_distance(const Point3& p, const Point3& a, const Point3& b, const Point3& c) {
     double best = HUGE_VAL;
     constexpr int n = 60;
@@ -56,7 +56,7 @@ TEST_CASE("distance_to_triangle: above the face, beside an edge, beyond a corner
     CHECK(distance_to_triangle({0, 1, 0}, a, a, a) == 1);
 }
 
-TEST_CASE("TriangleTree: the nearest of many, as by looking at each", "[borders]") {
+TEST_CASE("TriangleTree: the nearest triangle agrees with brute force", "[borders]") {
     Random random(11);
     std::vector<Point3> points;
     std::vector<Triangle> triangles;
@@ -84,8 +84,8 @@ TEST_CASE("TriangleTree: the nearest of many, as by looking at each", "[borders]
     CHECK(TriangleTree(points, {}).distance({0, 0, 0}, 7) == 7);
 }
 
-TEST_CASE("free borders: a fault that stops short of a horizon", "[borders]") {
-    // From y = 0 to 10, its lower border 0.5 above the horizon at one end, 1.5 at the other.
+TEST_CASE("free borders: a fault that stops short of a horizon has gaps by distance", "[borders]") {
+    // Its lower border from y = 0 to 10 is 0.5 above the horizon at one end, 1.5 at the other.
     const auto borders =
         borders_of({level(0, -20, -20, 20, 20, "horizon"),
                     quad({0, 0, 0.5}, {0, 10, 1.5}, {0, 10, 5}, {0, 0, 5}, "fault"),
@@ -112,7 +112,8 @@ TEST_CASE("free borders: a fault that stops short of a horizon", "[borders]") {
     CHECK(leak->least == 1.5);
 }
 
-TEST_CASE("free borders: none on a closed surface, none known without another one", "[borders]") {
+TEST_CASE("free borders: a closed surface has none, and a single surface has no gaps",
+          "[borders]") {
     CHECK(borders_of({cube(0, 1)}).empty());
     const auto alone = borders_of({level(0, 0, 0, 2, 1)});
     REQUIRE(alone.size() == 1);
@@ -127,14 +128,14 @@ TEST_CASE("free borders: a surface that ends on another one has no gap there", "
     const auto fault = std::find_if(borders.begin(), borders.end(),
                                     [](const FreeBorder& b) { return b.surfaces[0] == 1; });
     REQUIRE(fault != borders.end());
-    CHECK_FALSE(fault->closed); // the lower edge is no free border
+    CHECK_FALSE(fault->closed); // the lower edge is not a free border
     CHECK(fault->length == 10);
     REQUIRE(fault->gaps.size() == 1);
     CHECK(fault->gaps[0].least == 3);
     CHECK(fault->gaps[0].largest == 3);
 }
 
-TEST_CASE("free borders: hair's breadths come before what ends far from anything", "[borders]") {
+TEST_CASE("free borders: the smallest gaps come first", "[borders]") {
     const double hair = 0x1p-30;
     const auto borders =
         borders_of({level(0, -4, -4, 4, 4, "horizon"),
@@ -151,7 +152,7 @@ TEST_CASE("free borders: hair's breadths come before what ends far from anything
 
 TEST_CASE("free borders: one that lies on another surface has distance 0 and comes first",
           "[borders]") {
-    Mesh mesh; // two triangles over the same border, named apart: no more than a seam
+    Mesh mesh; // two triangles with separate vertices at the same border: a seam
     mesh.surfaces = {{"a", Role::unknown}, {"b", Role::unknown}};
     mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0}, {1, 0, 0}, {0, 0, 1}};
     mesh.triangles = {{0, 1, 2}, {3, 4, 5}};

@@ -29,7 +29,7 @@ struct Built {
     Structure structure;
 };
 
-/// std::nullopt where the doubles are not conforming.
+/// Returns std::nullopt if the mesh is not conforming in doubles.
 std::optional<Built> try_build(const std::vector<Surface>& surfaces) {
     const auto arrangement = arrange(surfaces);
     REQUIRE(arrangement);
@@ -61,12 +61,12 @@ Surface with_role(Surface s, Role role) {
     return s;
 }
 
-/// A vertical rectangle over (x0, y0) - (x1, y1), from -1 to 9.
+/// Builds a vertical rectangle over (x0, y0) - (x1, y1), from -1 to 9.
 Surface wall(double x0, double y0, double x1, double y1, std::string name) {
     return quad({x0, y0, -1}, {x1, y1, -1}, {x1, y1, 9}, {x0, y0, 9}, std::move(name));
 }
 
-/// Each directed edge of a closed mesh comes as often as its reverse.
+/// Tells whether each directed edge occurs as often as its reverse, as in a closed mesh.
 bool is_closed(const Mesh& mesh) {
     std::map<Edge, int> balance;
     for (const Triangle& t : mesh.triangles)
@@ -77,7 +77,7 @@ bool is_closed(const Mesh& mesh) {
     return std::all_of(balance.begin(), balance.end(), [](const auto& e) { return e.second == 0; });
 }
 
-/// What holds for every model.
+/// Checks what holds for every model.
 void check_laws(const Built& b) {
     const Structure& s = b.structure;
     const std::size_t triangles = b.mesh.triangles.size();
@@ -99,7 +99,7 @@ void check_laws(const Built& b) {
     CHECK(std::all_of(in_patch.begin(), in_patch.end(), [](int n) { return n == 1; }));
     CHECK(std::all_of(in_interface.begin(), in_interface.end(), [](int n) { return n == 1; }));
 
-    // Lines are all edges but those within patches, each once.
+    // Lines contain each edge that is not within a patch exactly once.
     std::map<Edge, int> in_line;
     for (const ModelLine& line : s.lines)
         for (std::size_t i = 0; i + 1 < line.vertices.size(); ++i) {
@@ -118,7 +118,7 @@ void check_laws(const Built& b) {
         for (const std::uint32_t l : s.corners[c].lines)
             CHECK(std::ranges::count(s.lines[l].corners, c) > 0);
 
-    // Blocks are closed; neighbours have the same doubles on what they share.
+    // Blocks are closed; adjacent blocks have the same doubles on shared triangles.
     double sum = 0;
     std::map<std::array<Point3, 3>, int> shared;
     for (std::uint32_t block = 0; block < s.blocks.size(); ++block) {
@@ -141,7 +141,7 @@ void check_laws(const Built& b) {
 
 } // namespace
 
-TEST_CASE("structure: a cube of six surfaces has eight corners, twelve lines", "[structure]") {
+TEST_CASE("structure: a cube of six surfaces has eight corners and twelve lines", "[structure]") {
     const Surface whole = cube(0, 1);
     std::vector<Surface> sides;
     for (std::uint32_t k = 0; k < 6; ++k) {
@@ -163,7 +163,8 @@ TEST_CASE("structure: a cube of six surfaces has eight corners, twelve lines", "
     CHECK(one.structure.blocks[1].name == "cube/cube|cube");
 }
 
-TEST_CASE("structure: two horizons and a fault in a box", "[structure]") {
+TEST_CASE("structure: two horizons and a fault in a box have the expected entities",
+          "[structure]") {
     const Built b = build({with_role(box({0, 0, 0}, {8, 8, 8}, "box"), Role::boundary),
                            with_role(level(3, -1, -1, 9, 9, "base"), Role::horizon),
                            with_role(level(5, -1, -1, 9, 9, "top"), Role::horizon),
@@ -179,14 +180,14 @@ TEST_CASE("structure: two horizons and a fault in a box", "[structure]") {
     CHECK(s.blocks[2].volume == 4 * 8 * 2);
     CHECK(s.blocks[2].area == Approx(2 * (4 * 8 + 4 * 2 + 8 * 2)));
     const auto count = kinds(s);
-    CHECK(count.at(LineKind::cutoff) == 4 + 2); // two inside, and the ends beyond the box
+    CHECK(count.at(LineKind::cutoff) == 4 + 2); // two inside, and their ends beyond the box
     CHECK(count.at(LineKind::free_border) > 0);
     for (const ModelInterface& i : s.interfaces)
         if (i.volumes == std::array<std::uint32_t, 2>{1, 4}) CHECK(i.area == Approx(8 * 3));
     check_laws(b);
 }
 
-TEST_CASE("structure: kinds of lines by roles", "[structure]") {
+TEST_CASE("structure: roles determine the kinds of lines", "[structure]") {
     const auto kind_of_crossing = [](const Surface& a, const Surface& b) {
         std::set<LineKind> found;
         const Built built = build({a, b});
@@ -206,7 +207,7 @@ TEST_CASE("structure: kinds of lines by roles", "[structure]") {
     CHECK(kind_of_crossing(with_role(a, Role::boundary), fault(ending)) == LineKind::boundary);
 }
 
-TEST_CASE("structure: closed lines and what dangles", "[structure]") {
+TEST_CASE("structure: closed lines and dangling interfaces are found", "[structure]") {
     const Built b = build({cube(0, 8), level(4, 2, 2, 6, 6, "inside")});
     REQUIRE(b.structure.lines.size() == 1);
     const ModelLine& border = b.structure.lines[0];
@@ -243,7 +244,7 @@ TEST_CASE("structure: the laws hold for the certified inputs", "[structure]") {
     CHECK(built > 40);
 }
 
-TEST_CASE("structure: another order of the surfaces gives the same entities", "[structure]") {
+TEST_CASE("structure: entities do not depend on the order of the surfaces", "[structure]") {
     std::vector<Surface> model{box({0, 0, 0}, {8, 8, 8}, "box"), level(3, -1, -1, 9, 9, "base"),
                                quad({2, -1, -1}, {2, 9, -1}, {5, 9, 9}, {5, -1, 9}, "fault"),
                                wall(2, 2, 6, 5, "piece"), cube(1, 2)};
@@ -273,12 +274,12 @@ TEST_CASE("structure: another order of the surfaces gives the same entities", "[
         CHECK(s.blocks[b].volume == r.blocks[b].volume);
 }
 
-TEST_CASE("structure: blocks of the mesh get the numbers of the exact ones", "[structure]") {
+TEST_CASE("structure: blocks of the mesh get the indices of the exact blocks", "[structure]") {
     Volumes volumes;
     volumes.of_sides = {{0, 1}, {2, 1}, {3, 0}};
     volumes.measures = {6, 1, 2, 3};
     const std::vector<std::uint32_t> match{0, 3, UINT32_MAX, 1};
-    const Volumes after = renumbered(volumes, match, 5); // 2 and 4 of the exact ones are lost
+    const Volumes after = renumbered(volumes, match, 5); // exact blocks 2 and 4 are lost
     CHECK(after.measures == std::vector<double>{6, 3, 0, 1, 0, 2});
     CHECK(after.of_sides == std::vector<std::array<std::uint32_t, 2>>{{0, 3}, {5, 3}, {1, 0}});
 }

@@ -57,8 +57,8 @@ TEST_CASE("extension: a horizon inside a box is extended to all its walls", "[ex
     CHECK(c.cut.report.surfaces[0].area_inside == Approx(64));
 }
 
-TEST_CASE("extension: what is too far is left as it is, and listed", "[extend]") {
-    // Left and right walls are one unit away, front and back walls three.
+TEST_CASE("extension: borders too far from the boundary are not extended but listed", "[extend]") {
+    // Left and right walls are one unit away, front and back walls three units.
     const auto c = extend({level(4, 1, 3, 7, 5, "horizon")}, box8, 1.5);
     CHECK(c.volumes.block_count() == 1);
     bool near = false, far = false;
@@ -70,7 +70,7 @@ TEST_CASE("extension: what is too far is left as it is, and listed", "[extend]")
     CHECK(none.extended.surfaces[0].triangles.size() == 2);
 }
 
-TEST_CASE("extension: faults are not extended, horizons go through them", "[extend]") {
+TEST_CASE("extension: faults are not extended, and horizons pass through them", "[extend]") {
     Surface fault = quad({4, 2, 1}, {4, 6, 1}, {4, 6, 7}, {4, 2, 7}, "fault");
     fault.role = Role::fault;
     Surface crossed = quad({6, -1, -1}, {6, 9, -1}, {6, 9, 9}, {6, -1, 9}, "through");
@@ -85,7 +85,7 @@ TEST_CASE("extension: faults are not extended, horizons go through them", "[exte
     for (const OpenBorder& b : c.cut.report.borders) CHECK(b.surface == 0);
 }
 
-TEST_CASE("extension: along the tangent plane, whatever the dip; rough borders do not fold",
+TEST_CASE("extension: strips follow the tangent plane at any dip; rough borders do not fold",
           "[extend]") {
     Surface dipping{"dipping", Role::horizon, {}, {}};
     const unsigned n = 12;
@@ -106,14 +106,14 @@ TEST_CASE("extension: along the tangent plane, whatever the dip; rough borders d
     const auto c = extend({dipping}, boundary, 3.5);
     CHECK(c.volumes.block_count() == 2);
     CHECK(c.volumes.measures[0] == 720);
-    // the plane at the middle of the box, which halves it but for the slope
+    // The plane passes through the middle of the box, which it halves except for the slope.
     const double below = 9 * 10 * height(0.5, 0);
     CHECK(c.volumes.measures[1] + c.volumes.measures[2] == Approx(720));
     CHECK(std::min(std::fabs(c.volumes.measures[1] - below),
                    std::fabs(c.volumes.measures[2] - below)) < 1e-9);
 }
 
-TEST_CASE("extension: nothing to extend; bad limits", "[extend]") {
+TEST_CASE("extension: nothing to extend is no error, and bad limits are refused", "[extend]") {
     const auto c = extend({level(4, -1, -1, 9, 9)}, box8, 1);
     CHECK(c.extended.borders.empty());
     CHECK(c.extended.surfaces[0].triangles.size() == 2);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Laws of the cut, judged by rationals that share no code with it.
+// Checks the laws of the cut with rationals that share no code with it.
 #include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
 
 #include <algorithm>
@@ -40,7 +40,7 @@ std::vector<Spot> spots_of(const Arrangement& a) {
     return spots;
 }
 
-/// Twice the area of a triangle's projections, by rationals.
+/// Computes twice the areas of a triangle's projections in rationals.
 Spot normal_of(const Spot& a, const Spot& b, const Spot& c) {
     Spot n;
     for (unsigned k = 0; k < 3; ++k) {
@@ -50,13 +50,13 @@ Spot normal_of(const Spot& a, const Spot& b, const Spot& c) {
     return n;
 }
 
-/// An arrangement of surfaces and a boundary, and what the cut makes of it.
+/// An arrangement of surfaces and a boundary, and the result of the cut.
 struct Case {
-    std::vector<Surface> surfaces; ///< the boundary's last
+    std::vector<Surface> surfaces; ///< those of the boundary come last
     std::vector<std::uint32_t> boundary;
     Arrangement whole;
     VolumeOfInterest cut;
-    std::vector<Where> where; ///< of the whole
+    std::vector<Where> where; ///< of the whole arrangement
 };
 
 Case cut(std::vector<Surface> surfaces, const std::vector<Surface>& boundary) {
@@ -79,7 +79,7 @@ Case cut(std::vector<Surface> surfaces, const std::vector<Surface>& boundary) {
     return c;
 }
 
-/// What arrange would have found, had it been given nothing else.
+/// Checks that the arrangement is the one that arrange() would find for these triangles alone.
 void check_consistent(const Arrangement& a) {
     REQUIRE(a.parents_of.size() == a.triangles.size());
     REQUIRE(a.surfaces_of.size() == a.triangles.size());
@@ -100,7 +100,7 @@ void check_consistent(const Arrangement& a) {
     CHECK(sides == 3 * a.triangles.size());
 }
 
-/// The doubles of what is left are a conforming mesh with the same blocks.
+/// Checks that the rest, in doubles, is a conforming mesh with the same blocks.
 std::vector<mpq_class> volumes_of(const Arrangement& a) {
     const auto volumes = find_volumes(a);
     REQUIRE(volumes);
@@ -130,7 +130,7 @@ std::vector<Surface> box_of(const Point3& low, const Point3& high) {
     return std::move(made).value();
 }
 
-/// Where a point lies in a box: by rationals.
+/// Locates a point in a box, in rationals.
 Where place_in_box(const Spot& p, const Point3& low, const Point3& high) {
     const std::array<double, 3> l{low.x, low.y, low.z}, h{high.x, high.y, high.z};
     bool on = false;
@@ -148,8 +148,8 @@ Surface soup_of(Random& random, Family family, std::size_t triangles) {
     return s;
 }
 
-/// Each triangle of the whole lies where an independent test of its centroid says, and the pieces
-/// of each input triangle add up to it: inside, outside and on the boundary.
+/// Checks that each triangle lies where an independent test of its centroid says, and that the
+/// pieces of each input triangle add up to it: inside, outside and on the boundary.
 void check_against_box(const Case& c, const Point3& low, const Point3& high) {
     const auto spots = spots_of(c.whole);
     std::vector<Spot> sums(c.whole.inputs.corners.size());
@@ -169,14 +169,14 @@ void check_against_box(const Case& c, const Point3& low, const Point3& high) {
 
 } // namespace
 
-TEST_CASE("volume of interest: makers give closed bodies wound outward", "[voi]") {
+TEST_CASE("volume of interest: boundaries are closed and oriented outward", "[voi]") {
     const std::vector<Point2> star{{0, 0}, {4, 1}, {8, 0}, {7, 4}, {8, 8}, {4, 7}, {0, 8}, {1, 4}};
     std::vector<Point2> clockwise(star.rbegin(), star.rend());
     clockwise.push_back(clockwise.front());
     const auto counter = polygon_boundary(star, 5, -5), same = polygon_boundary(clockwise, -5, 5);
     REQUIRE(counter);
     REQUIRE(same);
-    mpq_class area; // by the shoelace formula
+    mpq_class area; // shoelace formula
     for (std::size_t i = 0; i < star.size(); ++i) {
         const Point2 &p = star[i], &q = star[(i + 1) % star.size()];
         area += mpq_class(p[0]) * q[1] - mpq_class(p[1]) * q[0];
@@ -191,10 +191,11 @@ TEST_CASE("volume of interest: makers give closed bodies wound outward", "[voi]"
     CHECK(volume_of(box_of({-1, 2, 3}, {4, 6, 5})) == 40);
 }
 
-TEST_CASE("volume of interest: polygons with many corners and corners in line", "[voi]") {
+TEST_CASE("volume of interest: polygons with many corners and collinear corners are valid",
+          "[voi]") {
     Random random(5);
     for (int round = 0; round < 20; ++round) {
-        // a star-shaped polygon round 0: simple, whatever the radii
+        // A polygon that is star-shaped around 0 is simple, whatever the radii.
         std::vector<Point2> ring;
         const int n = random_int(random, 3, 60);
         for (int i = 0; i < n; ++i) {
@@ -219,7 +220,7 @@ TEST_CASE("volume of interest: polygons with many corners and corners in line", 
     CHECK(volume_of(made.value()) == 4);
 }
 
-TEST_CASE("volume of interest: rotated boxes", "[voi]") {
+TEST_CASE("volume of interest: rotated boxes have their place, directions and volume", "[voi]") {
     RotatedBox box;
     box.place = {10, 20, 30};
     box.lengths = {2, 4, 6};
@@ -259,7 +260,7 @@ TEST_CASE("volume of interest: rotated boxes", "[voi]") {
     }
 }
 
-TEST_CASE("volume of interest: boundaries that are none are refused", "[voi]") {
+TEST_CASE("volume of interest: invalid boundaries are refused", "[voi]") {
     using Ring = std::vector<Point2>;
     const auto polygon = [](const Ring& ring) { return polygon_boundary(ring, 0, 1).error(); };
     const Error crossed = polygon({{0, 0}, {2, 2}, {2, 0}, {0, 2}});
@@ -286,21 +287,22 @@ TEST_CASE("volume of interest: boundaries that are none are refused", "[voi]") {
     open.triangles.pop_back();
     const Error hole = closed_boundary(std::vector{open}).error();
     CHECK(hole.code == ErrorCode::not_closed);
-    CHECK(hole.place == "(0, 1, 0)"); // a corner of the triangle that is gone
+    CHECK(hole.place == "(0, 1, 0)"); // a corner of the missing triangle
     CHECK(closed_boundary(std::vector{cube(0, 2), cube(1, 3)}).error().code ==
           ErrorCode::improper_contact);
     CHECK(closed_boundary(std::vector{cube(0, 2), cube(0, 2)}).error().code ==
           ErrorCode::improper_contact);
     CHECK(closed_boundary(std::vector<Surface>{}).error().code == ErrorCode::nothing_to_do);
 
-    // open, and given as the boundary all the same
+    // An open surface given as the boundary is refused.
     const std::vector<Surface> sheet{level(0, 0, 0, 1, 1)};
     const auto a = arrange(sheet);
     const std::vector<std::uint32_t> all{0};
     CHECK(locate(a.value(), all).error().code == ErrorCode::not_closed);
 }
 
-TEST_CASE("restricted: everything kept is the same, nothing kept is nothing", "[voi]") {
+TEST_CASE("restricted: keeping everything changes nothing, keeping nothing leaves nothing",
+          "[voi]") {
     const auto a = arrange(std::vector{cube(0, 4), level(2, -1, -1, 5, 5)}).value();
     const Arrangement same = restricted(a, std::vector<bool>(a.triangles.size(), true));
     CHECK(same.triangles == a.triangles);
@@ -313,9 +315,8 @@ TEST_CASE("restricted: everything kept is the same, nothing kept is nothing", "[
     CHECK(find_volumes(none).value().block_count() == 0);
 }
 
-TEST_CASE("restricted: a mask of the parts of one surface leaves the other ones' arrangement",
-          "[voi]") {
-    // The level is cut by the cube; without the cube its pieces are one region again.
+TEST_CASE("restricted: removing one surface leaves the arrangement of the others", "[voi]") {
+    // The cube cuts the level; without the cube its pieces are one region again.
     const auto a = arrange(std::vector{cube(0, 4), level(2, -1, -1, 5, 5)}).value();
     std::vector<bool> keep(a.triangles.size());
     for (std::size_t t = 0; t < keep.size(); ++t) keep[t] = a.surfaces_of[t][0] == 1;
@@ -329,7 +330,7 @@ TEST_CASE("restricted: a mask of the parts of one surface leaves the other ones'
     CHECK(rounded.value().regions[0].area == Approx(36));
 }
 
-TEST_CASE("volume of interest: horizons and a fault in a box", "[voi]") {
+TEST_CASE("volume of interest: horizons and a fault in a box have the expected blocks", "[voi]") {
     const std::vector<Surface> model{level(3, -1, -1, 9, 9, "base"), level(5, -1, -1, 9, 9, "top"),
                                      quad({4, -1, -1}, {4, 9, -1}, {4, 9, 9}, {4, -1, 9}, "F1")};
     const auto c = cut(model, box_of({0, 0, 0}, {8, 8, 8}));
@@ -349,7 +350,9 @@ TEST_CASE("volume of interest: horizons and a fault in a box", "[voi]") {
     CHECK(find_volumes(rounded.value().mesh).value().measures[0] == 512);
 }
 
-TEST_CASE("volume of interest: what lies in the boundary, touches it and ends inside", "[voi]") {
+TEST_CASE(
+    "volume of interest: surfaces in the boundary, touching it and ending inside are reported",
+    "[voi]") {
     const std::vector<Surface> model{
         level(8, 2, 2, 6, 10, "in the top face, and beyond"),
         level(4, 0, 2, 4, 6, "border on a side"), level(6, 3, 3, 5, 5, "inside"),
@@ -375,7 +378,7 @@ TEST_CASE("volume of interest: what lies in the boundary, touches it and ends in
     CHECK(round_to_doubles(c.cut.arrangement).value().report.clean);
 }
 
-TEST_CASE("volume of interest: all inside leaves all as it is", "[voi]") {
+TEST_CASE("volume of interest: surfaces inside the volume do not change", "[voi]") {
     const auto c =
         cut({level(3, 1, 1, 7, 7), octahedron({4, 4, 4}, 2)}, box_of({0, 0, 0}, {8, 8, 8}));
     CHECK(c.cut.arrangement.triangles == c.whole.triangles);
@@ -398,7 +401,7 @@ TEST_CASE("volume of interest: a cavity is outside, bodies that touch are inside
     CHECK(volumes_of(two.cut.arrangement)[0] == 128);
 }
 
-TEST_CASE("volume of interest: closed surfaces of any shape", "[voi]") {
+TEST_CASE("volume of interest: closed surfaces of any shape can be boundaries", "[voi]") {
     const std::vector<Surface> bodies{torus({0, 0, 0}, 4, 1.5, 9), octahedron({0, 0, 0}, 5),
                                       torus({0, 0, 0}, 4, 1, 12, 0)};
     for (const Surface& body : bodies) {
@@ -446,7 +449,8 @@ TEST_CASE("volume of interest: random triangles in a box, judged by rationals", 
     }
 }
 
-TEST_CASE("volume of interest: the same for any number of threads; it can be stopped", "[voi]") {
+TEST_CASE("volume of interest: the result does not depend on threads, and it can be stopped",
+          "[voi]") {
     Random random(2);
     std::vector<Surface> surfaces{soup_of(random, Family::uniform, 60)};
     const auto boundary = box_of({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5});
@@ -506,5 +510,5 @@ TEST_CASE(
         moved += part.value().report.moved_input_vertices > 0 ? 1U : 0U;
     }
     CHECK(tried > 40);
-    if (effort_divisor == 1) CHECK(moved > 0); // rounding had to arrange some anew
+    if (effort_divisor == 1) CHECK(moved > 0); // rounding had to repeat some arrangements
 }

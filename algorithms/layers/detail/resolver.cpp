@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/layers/detail/resolver.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+#include <terrane/algorithms/core/disjoint_sets.hpp>
+#include <terrane/algorithms/core/parallel.hpp>
+#include <terrane/algorithms/mesh/edges.hpp>
+#include <terrane/algorithms/mesh/vectors.hpp>
+
+namespace terrane::layers::detail {
+
+double LayerResolver::area(std::uint32_t t) const {
+    const Point3 n = cross(minus(corner(t, 1), corner(t, 0)), minus(corner(t, 2), corner(t, 0)));
+    return std::hypot(n.x, n.y, n.z) / 2;
+}
+
+std::string LayerResolver::place(std::uint32_t t) const {
+    const Point3 p = corner(t, 0);
+    return a_.surfaces[a_.surfaces_of[t][0]].name + " (" + std::to_string(p.x) + ", " +
+           std::to_string(p.y) + ", " + std::to_string(p.z) + ")";
+}
+
+/// Finds the corners in counterclockwise order, and the boxes, of all triangles of the layers.
+Status LayerResolver::prepare() {
+    const UpwardRounding upward;
+    for (std::uint32_t t = 0; t < a_.triangles.size(); ++t) {
+        const auto surfaces = a_.surfaces_of[t];
+        if (surfaces[0] == input_.copies.size()) continue; // only a wall
+        const Triangle& c = a_.triangles[t];
+        const auto seen =
+            seen_along_z(a_.points, {a_.vertices[c[0]], a_.vertices[c[1]], a_.vertices[c[2]]});
+        if (!seen)
+            return Error{ErrorCode::unsupported, "a layer has an upright triangle: it is no graph",
+                         place(t)};
+        seen_[t] = *seen;
+        Box box{{HUGE_VAL, HUGE_VAL, 0}, {-HUGE_VAL, -HUGE_VAL, 0}};
+        for (const PointIndex p : *seen) {
+            const Enclosure e = a_.points.enclosure(p);
+            for (std::size_t k = 0; k < 2; ++k) {
+                box.low[k] = std::min(box.low[k], e.low[k]);
+                box.high[k] = std::max(box.high[k], e.high[k]);
+            }
+        }
+        boxes_[t] = box;
+    }
+    for (std::size_t i = 0; i < input_.order.size(); ++i)
+        reports_[i].surface = input_.order[i].surface;
+    return Done{};
+}
+
+/// Step (2): finds the pairs that overlap along z, with their order.
+Result<std::vector<LayerResolver::Relation>> LayerResolver::relate(const Set& soft,
+                                                                   const Set& hard) const {
+    std::vector<Box> boxes;
+    std::vector<std::uint32_t> groups;
+    for (const std::uint32_t t : soft) {
+        boxes.push_back(boxes_[t]);
+        groups.push_back(0);
+    }
+    for (const std::uint32_t t : hard) {
+        boxes.push_back(boxes_[t]);
+        groups.push_back(1);
+    }
+    const auto pairs = candidate_pairs(boxes, groups, Search::automatic, run_);
+    const auto of = [&](std::uint32_t box) {
+        return box < soft.size() ? soft[box] : hard[box - soft.size()];
+    };
+    const auto blocks = for_blocks<std::vector<Relation>>(
+        pairs.size(), 4096, run_, [&](std::size_t first, std::size_t last) {
+            std::vector<Relation> found;
+            for (std::size_t i = first; i < last; ++i) {
+                const std::uint32_t s = of(pairs[i].first), t = of(pairs[i].second);
+                if (s != t && !overlap_along_z(a_.points, seen_[s], seen_[t])) continue;
+                found.push_back(
+                    {s, t, s == t ? Sign::Zero : above_along_z(a_.points, seen_[s], seen_[t])});
+            }
+            return found;
+        });
+    if (run_.stop.stop_requested()) return Error{ErrorCode::interrupted, "stopped on request", ""};
+    std::vector<Relation> all;
+    for (const auto& b : blocks) all.insert(all.end(), b.begin(), b.end());
+    return all;
+}
+
+/// Finds the triangles on the wrong side and those that replace them. A triangle with pairs on both
+/// sides means that the other layer is overturned.
+Result<LayerResolver::Replacement> LayerResolver::classify(const std::vector<Relation>& relations,
+                                                           Sign wrong) const {
+    Replacement change;
+    Set stays, not_taken;
+    for (const Relation& r : relations) {
+        (r.side == wrong ? change.dropped : stays).push_back(r.first);
+        (r.side == wrong ? change.taken : not_taken).push_back(r.second);
+    }
+    for (Set* set : {&change.dropped, &change.taken, &stays, &not_taken}) sort_unique(*set);
+    for (const auto& [one, other] :
+         {std::pair(&change.dropped, &stays), std::pair(&change.taken, &not_taken)}) {
+        Set both;
+        std::set_intersection(one->begin(), one->end(), other->begin(), other->end(),
+                              std::back_inserter(both));
+        if (both.empty()) continue;
+        const bool of_soft = one == &change.dropped;
+        const auto pair = std::find_if(relations.begin(), relations.end(), [&](const Relation& r) {
+            return (of_soft ? r.first : r.second) == both[0];
+        });
+        return Error{ErrorCode::unsupported,
+                     "a layer is above and below another along one vertical: it is no graph",
+                     place(of_soft ? pair->second : pair->first)};
+    }
+    return change;
+}
+
+/// Step (3): replaces the parts of `soft` on the wrong side of `hard` by `hard`.
+Result<Set> LayerResolver::replace(const Set& soft, const Set& hard, Side kept,
+                                   LayerReport* report) {
+    const auto related = relate(soft, hard);
+    if (!related) return related.error();
+    const auto change =
+        classify(related.value(), kept == Side::above ? Sign::Negative : Sign::Positive);
+    if (!change) return change.error();
+    const auto& [dropped, taken] = change.value();
+    Set result;
+    std::set_difference(soft.begin(), soft.end(), dropped.begin(), dropped.end(),
+                        std::back_inserter(result));
+    result.insert(result.end(), taken.begin(), taken.end());
+    sort_unique(result);
+    if (report != nullptr) add_to_report(change.value(), soft, related.value(), *report);
+    return result;
+}
+
+void LayerResolver::add_to_report(const Replacement& change, const Set& soft,
+                                  const std::vector<Relation>& relations,
+                                  LayerReport& report) const {
+    report.dropped += change.dropped.size();
+    report.taken += change.taken.size();
+    for (const std::uint32_t t : change.dropped) report.dropped_area += area(t);
+    for (const std::uint32_t t : change.taken) report.taken_area += area(t);
+    add_steps(change, soft, report);
+    add_moves(change, relations, report);
+}
+
+/// Counts the connected parts of the dropped triangles, and measures their borders where the harder
+/// layer ends.
+void LayerResolver::add_steps(const Replacement& change, const Set& soft,
+                              LayerReport& report) const {
+    std::vector<Triangle> corners;
+    for (const std::uint32_t t : soft) corners.push_back(a_.triangles[t]);
+    std::vector<bool> gone(soft.size());
+    for (std::size_t i = 0; i < soft.size(); ++i)
+        gone[i] = std::binary_search(change.dropped.begin(), change.dropped.end(), soft[i]);
+    Set taken_vertices;
+    for (const std::uint32_t t : change.taken)
+        for (const std::uint32_t v : a_.triangles[t]) taken_vertices.push_back(v);
+    sort_unique(taken_vertices);
+    const auto is_taken = [&](std::uint32_t v) {
+        return std::binary_search(taken_vertices.begin(), taken_vertices.end(), v);
+    };
+    DisjointSets parts(soft.size());
+    group_edges(corners, a_.vertices.size())
+        .for_each([&](std::uint32_t a, std::uint32_t b, auto sides) {
+            bool stays = false, goes = false;
+            for (const auto& s : sides) (gone[s.triangle] ? goes : stays) = true;
+            if (!stays)
+                for (const auto& s : sides) parts.join(sides[0].triangle, s.triangle);
+            if (!stays || !goes || (is_taken(a) && is_taken(b))) return;
+            const Point3 d =
+                minus(a_.points.nearest(a_.vertices[b]), a_.points.nearest(a_.vertices[a]));
+            report.step_length += std::hypot(d.x, d.y, d.z);
+        });
+    for (std::uint32_t i = 0; i < soft.size(); ++i)
+        report.parts += gone[i] && parts.find(i) == i ? 1 : 0;
+}
+
+/// Measures the heights of corners of dropped triangles over the planes of the others, in floating
+/// point.
+void LayerResolver::add_moves(const Replacement& change, const std::vector<Relation>& relations,
+                              LayerReport& report) const {
+    for (const Relation& r : relations) {
+        if (!std::binary_search(change.dropped.begin(), change.dropped.end(), r.first)) continue;
+        const Point3 p = corner(r.second, 0);
+        const Point3 n = cross(minus(corner(r.second, 1), p), minus(corner(r.second, 2), p));
+        for (unsigned k = 0; k < 3; ++k) {
+            const UpwardRounding upward;
+            const PointIndex v = a_.vertices[a_.triangles[r.first][k]];
+            bool over = true;
+            for (unsigned e = 0; e < 3 && over; ++e)
+                over = a_.points.orient2d(Axis::z, seen_[r.second][e], seen_[r.second][(e + 1) % 3],
+                                          v) != Sign::Negative;
+            if (!over) continue;
+            const double height = dot(minus(corner(r.first, k), p), n) / n.z;
+            report.largest_move = std::max(report.largest_move, std::fabs(height));
+        }
+    }
+}
+
+Result<Set> LayerResolver::resolve(const Copy& copy) {
+    if (const auto found = known_.find(copy); found != known_.end()) return found->second;
+    const auto which = static_cast<std::uint32_t>(
+        std::find(input_.copies.begin(), input_.copies.end(), copy) - input_.copies.begin());
+    Set own;
+    for (std::uint32_t t = 0; t < a_.triangles.size(); ++t) {
+        const auto surfaces = a_.surfaces_of[t];
+        if (std::binary_search(surfaces.begin(), surfaces.end(), which)) own.push_back(t);
+    }
+    LayerReport* report = copy.steps == 0 ? &reports_[copy.layer] : nullptr;
+    const auto apply = [&](const std::optional<std::size_t>& layer, int steps,
+                           Side kept) -> Status {
+        if (!layer) return Done{};
+        const auto hard = resolve({*layer, steps});
+        if (!hard) return hard.error();
+        auto next = replace(own, hard.value(), kept, report);
+        if (!next) return next.error();
+        own = std::move(next).value();
+        return Done{};
+    };
+    const auto& above = input_.bounds.above[copy.layer];
+    const auto& below = input_.bounds.below[copy.layer];
+    const int step = input_.has_min_thickness ? 1 : 0;
+    if (const auto done = apply(above, copy.steps - step, Side::below); !done) return done.error();
+    if (const auto done = apply(below, copy.steps + step, Side::above); !done) return done.error();
+    if (input_.has_min_thickness) // where both leave too little room, the upper one decides
+        if (const auto done = apply(above, copy.steps, Side::below); !done) return done.error();
+    known_.emplace(copy, own);
+    return own;
+}
+
+} // namespace terrane::layers::detail
