@@ -538,7 +538,9 @@ Result<Project> parse_project(std::string_view text, const fs::path& base,
     return detail::guard_memory(std::string(source), [&]() -> Result<Project> {
         const auto json = parsed(text, source);
         if (!json) return json.error();
-        return ProjectParser(base, source)(json.value());
+        auto project = ProjectParser(base, source)(json.value());
+        if (project) project->source = source;
+        return project;
     });
 }
 

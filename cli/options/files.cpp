@@ -194,14 +194,6 @@ Result<Inputs> read_inputs(const FileOptions& options, Session& session) {
     return all;
 }
 
-void append(Inputs& inputs, std::vector<Surface> surfaces, const std::string& origin) {
-    for (Surface& s : surfaces) {
-        inputs.surfaces.push_back(std::move(s));
-        inputs.files.push_back(origin);
-    }
-    inputs.labels = unique_labels(infos_of(inputs.surfaces));
-}
-
 Mesh concatenate(const std::vector<Surface>& surfaces) {
     Mesh mesh;
     for (const Surface& s : surfaces) {

@@ -69,10 +69,6 @@ struct Inputs {
 /// Errors: those of read_surfaces; interrupted; unsupported where 32 bits can't count it all.
 Result<Inputs> read_inputs(const FileOptions& options, Session& session);
 
-/// Adds surfaces that are no input of the user's, with a word on where they come from. Counts of
-/// the input stay.
-void append(Inputs& inputs, std::vector<Surface> surfaces, const std::string& origin);
-
 /// The surfaces one after the other: each triangle in one surface, no vertex shared between two.
 Mesh concatenate(const std::vector<Surface>& surfaces);
 

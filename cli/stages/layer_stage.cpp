@@ -24,9 +24,23 @@ std::string line_of(const std::string& label, const LayerReport& r) {
     return text;
 }
 
-Json json_of(const Inputs& inputs, const Layered& layered) {
+} // namespace
+
+Result<Layered> layer_inputs(const Inputs& inputs, const std::vector<Layer>& order,
+                             const LayerOptions& options, Session& session, Json& statistics) {
+    Stopwatch watch;
+    session.begin("layers", Phase::computing);
+    auto layered = stack_layers(inputs.surfaces, order, options, session.run());
+    session.end_stage();
+    if (!layered) return layered.error();
+    statistics["layers"] = json_of(inputs, layered.value().reports);
+    statistics["seconds"]["layers"] = watch.lap();
+    return layered;
+}
+
+Json json_of(const Inputs& inputs, std::span<const LayerReport> reports) {
     Json all = Json::array();
-    for (const LayerReport& r : layered.reports)
+    for (const LayerReport& r : reports)
         all.push_back({{"name", inputs.labels[r.surface]},
                        {"dropped", r.dropped},
                        {"taken", r.taken},
@@ -38,59 +52,20 @@ Json json_of(const Inputs& inputs, const Layered& layered) {
     return all;
 }
 
-} // namespace
-
-Result<Layered> layer_inputs(const Inputs& inputs, const std::vector<Layer>& order,
-                             const LayerOptions& options, Session& session, Json& statistics) {
-    Stopwatch watch;
-    session.begin("layers", Phase::computing);
-    auto layered = stack_layers(inputs.surfaces, order, options, session.run());
-    session.end_stage();
-    if (!layered) return layered.error();
-    statistics["layers"] = json_of(inputs, layered.value());
-    statistics["seconds"]["layers"] = watch.lap();
-    return layered;
-}
-
-std::string text_of(const Inputs& inputs, const Layered& layered) {
-    auto text = counted(layered.reports.size(), "layer") + ", from the top down:\n";
-    for (const LayerReport& r : layered.reports) text += line_of(inputs.labels[r.surface], r);
-    if (layered.rounded.report.clean)
-        text += "verified: the doubles are a conforming mesh, by exact check\n";
+std::string text_of(const Inputs& inputs, std::span<const LayerReport> reports,
+                    const RoundingReport& rounding) {
+    auto text = counted(reports.size(), "layer") + ", from the top down:\n";
+    for (const LayerReport& r : reports) text += line_of(inputs.labels[r.surface], r);
+    if (rounding.clean) text += "verified: the doubles are a conforming mesh, by exact check\n";
     return text;
 }
 
-std::string contacts_text(const Layered& layered) {
-    const RoundingReport& report = layered.rounded.report;
+std::string contacts_text(const RoundingReport& report) {
     if (report.clean) return {};
     return fmt::format("terrane: {} of triangles meet improperly in doubles, the first at {}; "
                        "nothing written\n",
                        counted(report.contacts.size(), "pair"),
                        text_of(report.contacts.at(0).place));
-}
-
-std::vector<Surface> surfaces_of(const Mesh& mesh) {
-    std::vector<Surface> all;
-    std::vector<std::vector<std::uint32_t>> members(mesh.surfaces.size()); // triangles of each
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
-        for (const std::uint32_t s : mesh.surfaces_of[t]) members[s].push_back(t);
-    std::vector<std::uint32_t> number(mesh.vertices.size());
-    for (std::size_t s = 0; s < members.size(); ++s) {
-        all.push_back({mesh.surfaces[s].name, mesh.surfaces[s].role, {}, {}});
-        std::vector<bool> used(mesh.vertices.size());
-        for (const std::uint32_t t : members[s])
-            for (const std::uint32_t v : mesh.triangles[t]) used[v] = true;
-        for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
-            if (!used[v]) continue;
-            number[v] = static_cast<std::uint32_t>(all.back().vertices.size());
-            all.back().vertices.push_back(mesh.vertices[v]);
-        }
-        for (const std::uint32_t t : members[s]) {
-            const Triangle& c = mesh.triangles[t];
-            all.back().triangles.push_back({number[c[0]], number[c[1]], number[c[2]]});
-        }
-    }
-    return all;
 }
 
 } // namespace terrane::cli
