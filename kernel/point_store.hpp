@@ -31,6 +31,7 @@
 #include <span>
 #include <vector>
 
+#include <terrane/kernel/assertion.hpp>
 #include <terrane/kernel/ball_filter.hpp>
 #include <terrane/kernel/construction.hpp>
 #include <terrane/kernel/numbers.hpp>
@@ -61,7 +62,10 @@ public:
     [[nodiscard]] std::size_t size() const { return input_.size() + constructed_.size(); }
     [[nodiscard]] std::size_t input_count() const { return input_.size(); }
     [[nodiscard]] bool is_input(PointIndex p) const { return p < input_.size(); }
-    [[nodiscard]] const Point3& input(PointIndex p) const { return input_[p]; }
+    [[nodiscard]] const Point3& input(PointIndex p) const {
+        TERRANE_ASSERT_DEBUG(is_input(p));
+        return input_[p];
+    }
     [[nodiscard]] std::span<const Point3> inputs() const { return input_; }
 
     /// How the point is constructed; {input, v[0] = p} for an input point.
@@ -84,6 +88,7 @@ public:
     [[nodiscard]] ApproximatePoint approximate(Axis axis, PointIndex p) const;
     [[nodiscard]] ExactPoint exact(PointIndex p) const;
     [[nodiscard]] const Point3& nearest(PointIndex p) const {
+        TERRANE_ASSERT_DEBUG(p < size());
         return is_input(p) ? input_[p] : rounded_[p - input_.size()].nearest;
     }
 

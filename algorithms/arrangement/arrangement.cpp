@@ -10,6 +10,7 @@
 #include <terrane/algorithms/arrangement/retriangulation.hpp>
 #include <terrane/algorithms/arrangement/soup.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
+#include <terrane/algorithms/core/invariants.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/algorithms/intersection/injective_patches.hpp>
@@ -136,6 +137,19 @@ Error interrupted() {
     return {ErrorCode::interrupted, "stopped on request", ""};
 }
 
+/// What arrangement.hpp says of the arrays.
+void assert_invariants([[maybe_unused]] const Arrangement& a) {
+    TERRANE_ASSERT(a.parents_of.size() == a.triangles.size());
+    TERRANE_ASSERT(a.surfaces_of.size() == a.triangles.size());
+    TERRANE_ASSERT_PARANOID(corners_below(a.triangles, a.vertices.size()));
+    TERRANE_ASSERT_PARANOID(all_below(a.vertices, a.points.size()));
+    TERRANE_ASSERT_PARANOID(are_sorted_lists(a.parents_of, a.triangles.size()));
+    TERRANE_ASSERT_PARANOID(are_sorted_lists(a.surfaces_of, a.triangles.size()));
+    TERRANE_ASSERT_PARANOID(all_below(a.surfaces_of.values, a.surfaces.size()));
+    TERRANE_ASSERT_PARANOID(is_sorted_unique(a.intersection_edges));
+    TERRANE_ASSERT_PARANOID(is_sorted_unique(a.degenerate));
+}
+
 Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
                                     const ArrangeOptions& options, const Run& run) {
     const auto report = [&](double share) {
@@ -155,6 +169,7 @@ Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
     // (b) candidate pairs
     const auto candidates =
         candidate_pairs({soup.points, soup.triangles}, patches.of, options.search, run);
+    TERRANE_ASSERT_PARANOID(is_sorted_unique(candidates));
     a.statistics.seconds_search = watch.lap();
     report(0.3);
     if (run.stop.stop_requested()) return interrupted();
@@ -199,6 +214,7 @@ Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
         {a.triangles, division.faces_of, division.unchanged_as, vertex_of, a.vertices.size()}, run);
     a.intersection_edges = find_intersection_edges(state->adjacency, a.inputs, a.parents_of);
     a.statistics.seconds_stitch = d.seconds_stitch + watch.lap();
+    assert_invariants(a);
     report(1);
     return a;
 }

@@ -8,6 +8,7 @@
 #include <terrane/algorithms/arrangement/intersection_edges.hpp>
 #include <terrane/algorithms/mesh/edges.hpp>
 #include <terrane/algorithms/mesh/submesh.hpp>
+#include <terrane/kernel/assertion.hpp>
 
 namespace terrane {
 namespace {
@@ -60,6 +61,7 @@ void drop_neighbours_without_parts(const Arrangement& a, ExactState& state) {
 } // namespace
 
 Arrangement restricted(Arrangement a, const std::vector<bool>& keep, const Run& run) {
+    TERRANE_ASSERT(keep.size() == a.triangles.size());
     if (std::find(keep.begin(), keep.end(), false) == keep.end()) return a;
     ExactState& state = own_state(a);
     state.whole = false;

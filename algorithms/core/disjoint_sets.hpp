@@ -7,6 +7,8 @@
 #include <numeric>
 #include <vector>
 
+#include <terrane/kernel/assertion.hpp>
+
 namespace terrane {
 
 template <class T>
@@ -22,6 +24,7 @@ public:
         std::iota(parent_.begin(), parent_.end(), std::uint32_t{0});
     }
     std::uint32_t find(std::uint32_t i) {
+        TERRANE_ASSERT_DEBUG(i < parent_.size());
         while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
         return i;
     }

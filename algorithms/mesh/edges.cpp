@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <utility>
 
+#include <terrane/algorithms/core/invariants.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
+#include <terrane/kernel/assertion.hpp>
 
 namespace terrane {
 
@@ -38,6 +40,7 @@ void sort_by_high(std::span<EdgeSides::Side> sides) {
 
 EdgeSides group_edges(std::span<const Triangle> triangles, std::size_t vertex_count,
                       const Run& run) {
+    TERRANE_ASSERT_PARANOID(corners_below(triangles, vertex_count));
     // This is a counting sort. Each share of the triangles has its own counts, which become the
     // positions of its sides, after those of the shares before it. The number of shares is limited
     // because their counts take memory.

@@ -5,6 +5,7 @@
 #include <array>
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
+#include <terrane/algorithms/core/invariants.hpp>
 
 namespace terrane {
 namespace {
@@ -35,6 +36,7 @@ std::vector<Point3> Submesh::cut_small(std::vector<Triangle>& triangles) const {
 }
 
 std::vector<Point3> Submesh::cut(std::vector<Triangle>& triangles) {
+    TERRANE_ASSERT_PARANOID(corners_below(triangles, whole_.size()));
     if (triangles.size() < whole_.size() / 48) return cut_small(triangles);
     constexpr std::uint32_t unused = UINT32_MAX;
     in_part_.assign(whole_.size(), unused);

@@ -11,6 +11,7 @@
 
 #include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
+#include <terrane/kernel/assertion.hpp>
 
 namespace terrane {
 
@@ -32,6 +33,7 @@ public:
     /// Keeps the values of vertices in use; `values` has one for each old vertex.
     template <class T>
     void compact(std::vector<T>& values) const {
+        TERRANE_ASSERT(values.size() == new_of_.size());
         for (std::size_t v = 0; v < values.size(); ++v)
             if (new_of_[v] != unused) values[new_of_[v]] = values[v];
         values.resize(kept_);
@@ -40,7 +42,10 @@ public:
     template <class Cells>
     void rename(Cells& cells) const {
         for (auto& cell : cells)
-            for (std::uint32_t& v : cell) v = new_of_[v];
+            for (std::uint32_t& v : cell) {
+                TERRANE_ASSERT_DEBUG(v < new_of_.size() && new_of_[v] != unused);
+                v = new_of_[v];
+            }
     }
 
 private:

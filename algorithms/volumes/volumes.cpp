@@ -11,6 +11,7 @@
 
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
+#include <terrane/algorithms/core/invariants.hpp>
 #include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/algorithms/mesh/work_hook.hpp>
@@ -170,6 +171,8 @@ Result<Volumes> find(const TriangleComplex& sheets, const Run& run) {
     volumes.seconds_shells = shells;
     volumes.seconds_nesting = nesting;
     volumes.seconds_measures = watch.lap();
+    TERRANE_ASSERT(volumes.of_sides.size() == sheets.triangles.size());
+    TERRANE_ASSERT_PARANOID(corners_below(volumes.of_sides, volumes.measures.size()));
     if (std::any_of(volumes.measures.begin(), volumes.measures.end(),
                     [](double v) { return v < 0; }))
         throw std::logic_error("a volume is negative");
