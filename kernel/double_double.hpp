@@ -7,6 +7,10 @@
 #include <limits>
 #include <optional>
 
+#ifdef TERRANE_SHADOW
+#include <terrane/kernel/shadow.hpp>
+#endif
+
 namespace terrane {
 
 /// A number of about 106 bits with a running bound of its error: the true value is within err of
@@ -16,9 +20,11 @@ namespace terrane {
 class DoubleDouble {
 public:
     DoubleDouble() = default;
-    explicit DoubleDouble(double d) : hi_(d) {}
+    explicit DoubleDouble(double d) : hi_(d) { has_twin(d); }
 
-    friend DoubleDouble operator-(const DoubleDouble& a) { return {-a.hi_, -a.lo_, a.err_}; }
+    friend DoubleDouble operator-(const DoubleDouble& a) {
+        return DoubleDouble(-a.hi_, -a.lo_, a.err_).stands_for([&] { return -a.twin(); });
+    }
 
     // The sum of the high parts is exact in two numbers; adding the three low ones rounds three
     // times, each time by at most unit / 2 of what is added.
@@ -27,7 +33,9 @@ public:
         const double rest = (a.hi_ - (s - t)) + (b.hi_ - t);
         const double low = rest + (a.lo_ + b.lo_);
         const double lost = std::fabs(rest) + std::fabs(a.lo_) + std::fabs(b.lo_);
-        return normal(s, low, a.err_ + b.err_ + 2 * unit * lost);
+        return normal(s, low, a.err_ + b.err_ + 2 * unit * lost).stands_for([&] {
+            return a.twin() + b.twin();
+        });
     }
     friend DoubleDouble operator-(const DoubleDouble& a, const DoubleDouble& b) { return a + -b; }
 
@@ -41,7 +49,9 @@ public:
         const double err = a.size() * b.err_ + b.size() * a.err_ + a.err_ * b.err_ +
                            std::fabs(a.lo_ * b.lo_) + 2 * unit * lost + underflow;
         const bool is_exact = a.is_double() && b.is_double() && std::fabs(p) > least_product;
-        return normal(p, rest + (m + n), is_exact ? 0 : err);
+        return normal(p, rest + (m + n), is_exact ? 0 : err).stands_for([&] {
+            return a.twin() * b.twin();
+        });
     }
 
     // Two quotients of high parts; what they leave of the dividend bounds the error.
@@ -52,11 +62,12 @@ public:
         const DoubleDouble second(left.hi_ / b.hi_);
         const DoubleDouble open = left - second * b;
         DoubleDouble q = first + second;
-        if (open.is_zero()) return q;
+        const auto quotient = [&] { return a.twin() / b.twin(); };
+        if (open.is_zero()) return q.stands_for(quotient);
         const double least = std::fabs(b.hi_) * (1 - 4 * unit) - std::fabs(b.lo_) - b.err_;
         q.err_ += (least > 0 ? (open.size() + open.err_) / least : HUGE_VAL) * (1 + 8 * unit) +
                   std::numeric_limits<double>::denorm_min();
-        return q;
+        return q.stands_for(quotient);
     }
 
     /// The double nearest to the true value, where the error leaves no doubt.
@@ -92,8 +103,38 @@ private:
         return {s, (high - (s - t)) + (low - t), err * (1 + 0x1p-40)};
     }
 
-    [[nodiscard]] bool is_zero() const { return hi_ == 0 && lo_ == 0 && err_ == 0; }
-    [[nodiscard]] double size() const { return std::fabs(hi_) + std::fabs(lo_); }
+    // The exact twin, in shadow builds; otherwise these calls are nothing.
+#ifdef TERRANE_SHADOW
+    [[nodiscard]] const shadow::Twin& twin() const {
+        return twin_;
+    }
+    void has_twin(double d) {
+        twin_ = shadow::Twin(d);
+    }
+    template <class MakeTwin>
+    DoubleDouble& stands_for(const MakeTwin& make_twin) {
+        twin_ = make_twin();
+        TERRANE_ASSERT(twin_.is_near(shadow::Twin(hi_) + shadow::Twin(lo_), err_));
+        return *this;
+    }
+    shadow::Twin twin_;
+#else
+    static int twin() {
+        return 0;
+    }
+    static void has_twin(double) {}
+    template <class MakeTwin>
+    DoubleDouble& stands_for(const MakeTwin&) {
+        return *this;
+    }
+#endif
+
+    [[nodiscard]] bool is_zero() const {
+        return hi_ == 0 && lo_ == 0 && err_ == 0;
+    }
+    [[nodiscard]] double size() const {
+        return std::fabs(hi_) + std::fabs(lo_);
+    }
 
     double hi_ = 0, lo_ = 0, err_ = 0;
 };

@@ -12,11 +12,18 @@
 
 #include <terrane/kernel/predicate_counts.hpp>
 #include <terrane/kernel/sign.hpp>
+#ifdef TERRANE_SHADOW
+#include <terrane/kernel/shadow.hpp>
+#endif
 
 namespace terrane {
 
 /// Encloses a real number; correct only under an UpwardRounding in the same thread.
+#ifdef TERRANE_SHADOW
+using Interval = shadow::Interval;
+#else
 using Interval = CGAL::Interval_nt<false>;
+#endif
 
 /// Sums, differences and products of doubles, exactly; no division. Full range of double.
 using Exact = CGAL::Mpzf;

@@ -218,8 +218,16 @@ ApproximatePoint PointStore::approximate(Axis axis, PointIndex p) const {
 PointStore::IntervalPoint PointStore::interval(PointIndex p) const {
     if (is_input(p)) return cartesian<Interval>(input_[p]);
     const Enclosure e = enclosure(p);
+#ifdef TERRANE_SHADOW
+    const ExactPoint exactly = exact(p);
+    const auto twin = [&](const Exact& x) { return shadow::Twin(x, exactly.w); };
+    return {Interval(e.low[0], e.high[0], twin(exactly.x)),
+            Interval(e.low[1], e.high[1], twin(exactly.y)),
+            Interval(e.low[2], e.high[2], twin(exactly.z)), One{}};
+#else
     return {Interval(e.low[0], e.high[0]), Interval(e.low[1], e.high[1]),
             Interval(e.low[2], e.high[2]), One{}};
+#endif
 }
 
 template <class Polynomial, class... P>

@@ -3,94 +3,50 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <terrane/kernel/numbers.hpp>
 #include <terrane/kernel/polynomials.hpp>
+#include <terrane/kernel/static_filter_bounds.hpp>
 
 namespace terrane {
 namespace {
 
 using polynomial::cartesian;
-
-// One operation in any rounding mode: |computed - true| <= unit |true|.
-constexpr double unit = std::numeric_limits<double>::epsilon();
-
-// Products of the coordinate differences must neither underflow nor overflow for the bounds to
-// hold: all products of degree 2, 3, 4 of numbers in these ranges are normal.
-constexpr double low2 = 0x1p-480;
-constexpr double low3 = 0x1p-320;
-constexpr double low4 = 0x1p-240;
-constexpr double high2 = 0x1p+500;
-constexpr double high3 = 0x1p+330;
-constexpr double high4 = 0x1p+250;
-
-std::optional<Sign> beyond(double value, double bound) {
-    if (value > bound) return Sign::Positive;
-    if (value < -bound) return Sign::Negative;
-    return std::nullopt;
-}
+using static_filter::in_circle_factor, static_filter::turn2d_factor, static_filter::unit;
+using static_filter::project, static_filter::Uv;
 
 double largest(double a, double b, double c) {
     return std::max({std::fabs(a), std::fabs(b), std::fabs(c)});
 }
 
-// Rounding: each difference is off by unit, each product adds unit; a minor of two products of size
-// A B is off by at most 2 (3 unit) A B + 2 unit A B = 8 unit A B; times a third difference
-// (2 A B C)(2 unit) more: 12 unit A B C; three of them 36, two additions (4 + 6) unit A B C. 46 in
-// all, 48 covers the terms of second order and the rounding of the bound itself.
 std::optional<Sign> static_orient3d(const Point3& a, const Point3& b, const Point3& c,
                                     const Point3& d) {
-    const double bx = b.x - a.x, by = b.y - a.y, bz = b.z - a.z;
-    const double cx = c.x - a.x, cy = c.y - a.y, cz = c.z - a.z;
-    const double dx = d.x - a.x, dy = d.y - a.y, dz = d.z - a.z;
-    const double x = largest(bx, cx, dx), y = largest(by, cy, dy), z = largest(bz, cz, dz);
-    if (x == 0 || y == 0 || z == 0) return Sign::Zero;
-    if (!(std::min({x, y, z}) > low3 && std::max({x, y, z}) < high3)) return std::nullopt;
-    const double value =
-        (by * cz - bz * cy) * dx + (bz * cx - bx * cz) * dy + (bx * cy - by * cx) * dz;
-    return beyond(value, 48 * unit * x * y * z);
+    const static_filter::Plane plane(a, b, c);
+    const auto determinant = plane.determinant(d);
+    if (determinant.is_zero()) return Sign::Zero;
+    if (!determinant.in_range()) return std::nullopt;
+    return determinant.estimate().sign();
 }
 
-struct Uv {
-    double u, v;
-};
-
-Uv project(Axis axis, const Point3& p) {
-    switch (axis) {
-    case Axis::x:
-        return {p.y, p.z};
-    case Axis::y:
-        return {p.z, p.x};
-    default:
-        return {p.x, p.y};
-    }
-}
-
-// Two products of size U V, each off by 3 unit, and a subtraction: 8 unit U V; 9 covers the rest.
 std::optional<Sign> static_turn2d(const Uv& a, const Uv& b, const Uv& c, const Uv& d) {
-    const double bu = b.u - a.u, bv = b.v - a.v, cu = d.u - c.u, cv = d.v - c.v;
-    const double u = std::max(std::fabs(bu), std::fabs(cu));
-    const double v = std::max(std::fabs(bv), std::fabs(cv));
-    if (u == 0 || v == 0) return Sign::Zero;
-    if (!(std::min(u, v) > low2 && std::max(u, v) < high2)) return std::nullopt;
-    return beyond(bu * cv - bv * cu, 9 * unit * u * v);
+    const static_filter::Turn2d turn(a, b, c, d);
+    if (turn.is_zero()) return Sign::Zero;
+    if (!turn.in_range()) return std::nullopt;
+    return turn.estimate().sign();
 }
 
-// With m the largest difference: a minor is at most 2 m^2 and off by 8 unit m^2, a lifted
-// coordinate at most 2 m^2 and off by 8 unit m^2 (two squares off by 3 each, a sum of size 2);
-// their product at most 4 m^4, off by 36 unit m^4; three of them 108, two additions (8 + 12). 128
-// in all; 132 covers the rest.
 std::optional<Sign> static_in_circle(const Uv& a, const Uv& b, const Uv& c, const Uv& d) {
     const double au = a.u - d.u, av = a.v - d.v, bu = b.u - d.u, bv = b.v - d.v;
     const double cu = c.u - d.u, cv = c.v - d.v;
     const double m = std::max(largest(au, bu, cu), largest(av, bv, cv));
     if (m == 0) return Sign::Zero;
-    if (!(m > low4 && m < high4)) return std::nullopt;
+    if (!static_filter::range_of_degree4.contains(m, m)) return std::nullopt;
     const double value = (au * au + av * av) * (bu * cv - bv * cu) +
                          (bu * bu + bv * bv) * (cu * av - cv * au) +
                          (cu * cu + cv * cv) * (au * bv - av * bu);
-    return beyond(value, 132 * unit * (m * m) * (m * m));
+    const static_filter::Estimate e{value, in_circle_factor * unit * (m * m) * (m * m)};
+    TERRANE_ASSERT_SHADOW(shadow::in_circle(a, b, c, d).is_near(shadow::Twin(value), e.bound));
+    return e.sign();
 }
 
 // The axis along which the normal is longest, by more than rounding can hide: each of its
@@ -99,10 +55,10 @@ std::optional<Axis> static_projection_axis(const Point3& a, const Point3& b, con
     const double bx = b.x - a.x, by = b.y - a.y, bz = b.z - a.z;
     const double cx = c.x - a.x, cy = c.y - a.y, cz = c.z - a.z;
     const double m = std::max(largest(bx, by, bz), largest(cx, cy, cz));
-    if (!(m > low2 && m < high2)) return std::nullopt;
+    if (!static_filter::range_of_degree2.contains(m, m)) return std::nullopt;
     const double x = std::fabs(by * cz - bz * cy), y = std::fabs(bz * cx - bx * cz),
                  z = std::fabs(bx * cy - by * cx);
-    const double bound = 18 * unit * m * m;
+    const double bound = 2 * turn2d_factor * unit * m * m; // of two minors
     if (x > y + bound && x > z + bound) return Axis::x;
     if (y > z + bound && y > x + bound) return Axis::y;
     if (z > x + bound && z > y + bound) return Axis::z;

@@ -11,6 +11,7 @@
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/search/search.hpp>
 #include <terrane/kernel/predicates.hpp>
+#include <terrane/kernel/static_filter_bounds.hpp>
 
 namespace terrane {
 namespace {
@@ -37,16 +38,8 @@ private:
         return orient2d(axis_, points_[a], points_[b], points_[c]);
     }
 
-    [[nodiscard]] std::array<double, 2> at(std::uint32_t v) const {
-        const Point3& p = points_[v];
-        switch (axis_) {
-        case Axis::x:
-            return {p.y, p.z};
-        case Axis::y:
-            return {p.z, p.x};
-        default:
-            return {p.x, p.y};
-        }
+    [[nodiscard]] static_filter::Uv at(std::uint32_t v) const {
+        return static_filter::project(axis_, points_[v]);
     }
 
     /// Every vertex of the border has one edge in and one out.
@@ -73,8 +66,8 @@ private:
         std::vector<Box> boxes;
         for (const BorderEdge& e : edges_) {
             const auto a = at(e.from), b = at(e.to);
-            boxes.push_back({{std::min(a[0], b[0]), std::min(a[1], b[1]), 0},
-                             {std::max(a[0], b[0]), std::max(a[1], b[1]), 0}});
+            boxes.push_back({{std::min(a.u, b.u), std::min(a.v, b.v), 0},
+                             {std::max(a.u, b.u), std::max(a.v, b.v), 0}});
         }
         for (const CandidatePair& p : candidate_pairs(boxes, {}, Search::automatic))
             if (meet(edges_[p.first], edges_[p.second])) return true;
@@ -104,11 +97,11 @@ private:
 
     /// How often all loops but that of v wind round v, which lies on none of them.
     int winding(std::uint32_t v, const std::vector<std::uint32_t>& loop_of) const {
-        const double y = at(v)[1];
+        const double y = at(v).v;
         int sum = 0;
         for (std::uint32_t e = 0; e < edges_.size(); ++e) {
             if (loop_of[e] == loop_at_v_) continue;
-            const bool from_above = at(edges_[e].from)[1] > y, to_above = at(edges_[e].to)[1] > y;
+            const bool from_above = at(edges_[e].from).v > y, to_above = at(edges_[e].to).v > y;
             if (from_above == to_above) continue;
             const Sign side = orient(edges_[e].from, edges_[e].to, v);
             if (to_above && side == Sign::Positive) ++sum;
