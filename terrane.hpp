@@ -21,10 +21,15 @@
 #include <terrane/algorithms/mesh/region_point.hpp>
 #include <terrane/algorithms/mesh/shared_mesh.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
+#include <terrane/algorithms/model/arrange_within.hpp>
 #include <terrane/algorithms/model/model.hpp>
+#include <terrane/algorithms/project/build.hpp>
+#include <terrane/algorithms/project/preprocess.hpp>
+#include <terrane/algorithms/project/project.hpp>
 #include <terrane/algorithms/quality/deviation.hpp>
 #include <terrane/algorithms/quality/improve.hpp>
 #include <terrane/algorithms/quality/improve_back.hpp>
+#include <terrane/algorithms/quality/improve_measured.hpp>
 #include <terrane/algorithms/quality/quality.hpp>
 #include <terrane/algorithms/reconstruction/fill.hpp>
 #include <terrane/algorithms/reconstruction/holes/filling.hpp>
@@ -61,6 +66,7 @@
 #include <terrane/io/meshes/cell_array.hpp>
 #include <terrane/io/meshes/poly.hpp>
 #include <terrane/io/project.hpp>
+#include <terrane/io/project_inputs.hpp>
 #include <terrane/io/structure_json.hpp>
 #include <terrane/kernel/construction.hpp>
 #include <terrane/kernel/point.hpp>

@@ -290,7 +290,9 @@ Result<Project> parse_project(std::string_view text, const fs::path& base,
     return guard_memory(std::string(source), [&]() -> Result<Project> {
         const auto json = parse_json(text, source);
         if (!json) return json.error();
-        return ProjectParser(base, source)(json.value());
+        auto project = ProjectParser(base, source)(json.value());
+        if (project) project->source = source;
+        return project;
     });
 }
 

@@ -5,121 +5,14 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
-#include <variant>
 #include <vector>
 
 #include <terrane/algorithms/core/result.hpp>
-#include <terrane/algorithms/mesh/surface.hpp>
-#include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
-#include <terrane/io/files.hpp>
+#include <terrane/algorithms/project/project.hpp>
 
 namespace terrane {
-
-/// An entry of "surfaces".
-struct ProjectSurfaces {
-    std::filesystem::path file;         ///< absolute, or relative to the project's folder
-    std::vector<std::string> objects{}; ///< names of the objects to read; empty: all
-    std::string name{};                 ///< of the only surface; empty: the name in the file
-    std::optional<Role> role{};         ///< none: the role in the file
-    bool depth = false;                 ///< grids and points: values are depths, positive down
-};
-
-/// An axis-aligned box given by two corners.
-struct ProjectBox {
-    Point3 low;  ///< least coordinates
-    Point3 high; ///< largest coordinates
-};
-
-/// A vertical prism over a polygon, between two values of z in either order.
-struct ProjectPolygon {
-    std::vector<Point2> corners;     ///< >= 3
-    std::array<double, 2> between{}; ///< z of its two ends
-};
-
-/// The volume that the closed surfaces of some files enclose.
-struct ProjectWithin {
-    std::vector<std::filesystem::path> files; ///< >= 1
-};
-
-/// Filling the holes of a surface, which is the first step (holes.hpp, fill_kriging.hpp, rbf.hpp).
-struct ProjectFill {
-    std::string surface{};             ///< name of a surface, or "horizon" for all with that role
-    std::string method = "kriging";    ///< or "rbf"
-    std::string model = "auto";        ///< model of the variogram
-    std::optional<double> max_area{};  ///< squared unit; larger holes stay open
-    std::optional<double> mesh_size{}; ///< edge length, unit of the surface; none: that of the
-                                       ///< edges of the border
-    std::optional<double> gap_slope{}; ///< no unit; none: the default of GapRule
-    bool bridge_faults = false;        ///< whether gaps torn by faults are filled as well
-    std::optional<double> smoothing{}; ///< root mean square misfit of rbf to the data, unit of
-                                       ///< the surface; 0: "auto"
-};
-
-/// A horizon of a stack, and its hardness.
-struct ProjectLayer {
-    std::string surface{}; ///< its name
-    double hardness = 0;   ///< no unit; more is harder
-};
-
-/// A stack of horizons, whose vertical order is restored after holes are filled (layers.hpp).
-struct ProjectLayers {
-    std::vector<ProjectLayer> order{}; ///< from the top down; >= 1
-    double min_thickness = 0;          ///< of each layer, along z, unit of the surfaces
-};
-
-/// The edge length for a surface or block with this name.
-using ProjectSize = std::pair<std::string, double>;
-
-/// Remeshing of the surfaces (improve.hpp).
-struct ProjectImprove {
-    std::optional<double> edge_length{};       ///< unit of the surfaces; none: keeps about the
-                                               ///< number of triangles
-    std::optional<double> max_deviation{};     ///< none: a twentieth of the edge length
-    std::vector<ProjectSize> edge_length_of{}; ///< by surface
-};
-
-/// Tetrahedra of the blocks (tetrahedra.hpp).
-struct ProjectTetrahedra {
-    std::optional<double> edge_length{}; ///< wanted, unit of the surfaces
-    std::optional<double> quality{};     ///< bound of circumradius / shortest edge, no unit
-    std::optional<double> max_volume{};  ///< of a tetrahedron, cubic unit
-    double time_limit = 600;             ///< seconds, > 0
-    std::vector<ProjectSize> size_of{};  ///< by surface
-    std::vector<ProjectSize> size_in{};  ///< by number or name of a block
-    std::vector<std::string> split{};    ///< names of surfaces, or "fault" for all with that role
-    std::optional<bool> outside{};       ///< whether region 0 is meshed; none: only if there is no
-                                         ///< volume of interest
-};
-
-/// The formats of the files in the folder of results.
-struct ProjectOutputs {
-    std::vector<std::string> surfaces{}; ///< names for format_named
-    std::vector<std::string>
-        tetrahedra{};         ///< names for format_named; empty: no tetrahedra are made
-    std::string blocks{};     ///< "vtp", "obj"; empty: none
-    bool certificate = false; ///< whether one is written
-};
-
-/// A project: what to read, what to do, what to write.
-struct Project {
-    std::filesystem::path folder{};          ///< of the results; empty: not stated
-    std::vector<ProjectSurfaces> surfaces{}; ///< >= 1
-    std::variant<std::monostate, ProjectBox, RotatedBox, ProjectPolygon, ProjectWithin>
-        volume{};                          ///< the volume of interest
-    std::vector<ProjectFill> fill{};       ///< no surface is in two of them
-    std::optional<ProjectLayers> layers{}; ///< none: horizons are not put in order
-    std::optional<double> extend{}; ///< limit of the extension of horizons that end in the volume,
-                                    ///< unit of the surfaces
-    std::optional<double> seal{};   ///< largest width of gaps to close, unit of the surfaces
-    std::optional<ProjectImprove> improve{}; ///< none: triangles stay as they are
-    ProjectTetrahedra tetrahedra{};          ///< made where outputs.tetrahedra asks for them
-    ProjectOutputs outputs{};                ///< what is written
-    unsigned threads = 0;                    ///< 0: all cores
-};
 
 /// Parses a project. Paths that are not absolute are taken relative to `base`, the folder of the
 /// project file; `source` names the file in messages. The files of surfaces are not opened.

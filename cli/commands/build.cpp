@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -8,20 +9,21 @@
 #include <fmt/format.h>
 
 #include <terrane/algorithms/core/stopwatch.hpp>
+#include <terrane/algorithms/mesh/labels.hpp>
+#include <terrane/algorithms/project/build.hpp>
 #include <terrane/algorithms/tetgen/tetgen_helper.hpp>
 #include <terrane/algorithms/volumes/region_points.hpp>
 #include <terrane/cli/commands/command.hpp>
-#include <terrane/cli/options/roles.hpp>
 #include <terrane/cli/reports/fill_report.hpp>
 #include <terrane/cli/reports/improve_report.hpp>
 #include <terrane/cli/reports/tetrahedra_report.hpp>
 #include <terrane/cli/stages/blocks.hpp>
 #include <terrane/cli/stages/certificate_output.hpp>
-#include <terrane/cli/stages/project_inputs.hpp>
-#include <terrane/cli/stages/project_preprocessing.hpp>
+#include <terrane/cli/stages/layer_stage.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/atomic/atomic_folder.hpp>
 #include <terrane/io/project.hpp>
+#include <terrane/io/project_inputs.hpp>
 
 namespace terrane::cli {
 
@@ -101,30 +103,21 @@ public:
         journal_.note(fmt::format("terrane {}, {}", TERRANE_VERSION, source_));
         if (auto done = check(); !done) return done.error();
         if (auto done = read(); !done) return done.error();
-        if (auto done = mend_surfaces(); !done) return done.error();
-        if (!mended_.refused.empty()) {
-            print(stderr, mended_.refused + "terrane: nothing written\n");
-            return ExitStatus::negative;
-        }
-        if (auto done = arrange_all(); !done) return done.error();
-        if (!arranged_->rounded.report.clean) {
-            print(stderr, offending_pairs(inputs_, *arranged_));
-            print(stderr, "terrane: no blocks without a conforming mesh; nothing written\n");
-            return ExitStatus::negative;
-        }
-        if (auto done = improve_triangles(); !done) return done.error();
-        if (auto done = find_blocks(); !done) return done.error();
-        if (auto done = fill_blocks(); !done) return done.error();
-        if (filled_ && !filled_->report.violations.empty()) {
-            print(stderr, violations_text(filled_->report) + "terrane: nothing written\n");
-            return ExitStatus::negative;
-        }
+        if (auto done = make(); !done)
+            return refused_.empty() ? Result<ExitStatus>(done.error()) : refuse(refused_);
+        if (built_.filled && !built_.filled->report.violations.empty())
+            return refuse(violations_text(built_.filled->report) + "terrane: nothing written\n");
         if (auto done = write(); !done) return done.error();
         return ExitStatus::done;
     }
 
 private:
-    /// Reports errors of the configuration before the work starts.
+    static ExitStatus refuse(const std::string& reason) {
+        print(stderr, reason);
+        return ExitStatus::negative;
+    }
+
+    /// Reports configuration errors before the work starts.
     Status check() {
         if (folder_.empty())
             return Error{ErrorCode::bad_option, "the key folder is missing, and there is no -o",
@@ -142,108 +135,85 @@ private:
     }
 
     Status read() {
+        Stopwatch watch;
         journal_.note("read");
-        auto inputs = read_inputs(project_, source_, session_);
-        if (!inputs) return inputs.error();
-        inputs_ = std::move(inputs.value().inputs);
-        as_read_ = std::move(inputs.value().as_read);
-        statistics_ = statistics_of(inputs_);
-        auto boundary = boundary_of(project_, source_, session_);
-        if (!boundary) return boundary.error();
-        boundary_ = std::move(boundary).value();
-        return Done{};
-    }
-
-    Status mend_surfaces() {
-        if (project_.fill.empty() && !project_.layers) return Done{};
-        journal_.note("mend");
-        auto mended = mend(project_, source_, inputs_, session_, statistics_);
-        if (!mended) return mended.error();
-        mended_ = std::move(mended).value();
-        journal_.say(mended_.said);
-        return Done{};
-    }
-
-    Status arrange_all() {
-        journal_.note("arrange");
-        ArrangeSettings settings;
-        settings.seal = project_.seal.value_or(0);
-        settings.volume.extend = project_.extend.value_or(0);
-        auto arranged =
-            arrange_within(inputs_, std::move(boundary_), settings, session_, statistics_);
-        if (!arranged) return arranged.error();
-        arranged_ = std::move(arranged).value();
-        journal_.say(summary(inputs_, *arranged_));
-        return Done{};
-    }
-
-    [[nodiscard]] const Mesh& mesh() const {
-        return better_ ? better_->mesh : arranged_->rounded.mesh;
-    }
-
-    Status improve_triangles() {
-        if (!project_.improve) return Done{};
-        journal_.note("improve");
-        const ProjectImprove& wanted = *project_.improve;
-        ImproveOptions options;
-        options.edge_length = wanted.edge_length.value_or(0);
-        options.max_deviation = wanted.max_deviation.value_or(0);
-        if (!wanted.edge_length_of.empty()) options.edge_length_of.resize(mesh().surfaces.size());
-        for (const auto& [name, length] : wanted.edge_length_of) {
-            const auto found = surfaces_called(name, mesh().surfaces, inputs_.labels);
-            if (found.empty())
-                return Error{ErrorCode::bad_option, "no surface is called " + name,
-                             source_ + ": improve.edge_length_of." + name};
-            for (const std::uint32_t s : found) options.edge_length_of[s] = length;
-        }
-        auto measured =
-            improve_and_measure(*arranged_->rounded.conforming, options, session_, statistics_);
-        if (!measured) return measured.error();
-        add_statistics(statistics_, measured.value());
-        journal_.say(improve_text(measured.value(), inputs_));
-        better_ = std::move(measured.value().improved);
-        return Done{};
-    }
-
-    Status find_blocks() {
-        journal_.note("blocks");
-        auto model = better_ ? find_model(*arranged_, *better_, session_, statistics_)
-                             : find_model(*arranged_, session_, statistics_);
-        if (!model) return model.error();
-        model_ = std::move(model).value();
-        journal_.say(model_text(inputs_, *model_));
-        return Done{};
-    }
-
-    [[nodiscard]] TetrahedraRequest wishes() const {
-        const ProjectTetrahedra& t = project_.tetrahedra;
-        const std::string start = source_ + ": tetrahedra.";
-        TetrahedraRequest w;
-        w.options.edge_length = t.edge_length;
-        w.options.max_volume = t.max_volume;
-        w.options.radius_edge_ratio = t.quality;
-        w.options.time_limit = t.time_limit;
-        for (const auto& [name, length] : t.size_of)
-            w.size_of.push_back({{name, fmt::format("{}size_of.{}", start, name)}, length});
-        for (const auto& [name, length] : t.size_in)
-            w.size_in.push_back({{name, fmt::format("{}size_in.{}", start, name)}, length});
-        for (std::size_t i = 0; i < t.split.size(); ++i)
-            w.split.push_back({t.split[i], fmt::format("{}split[{}]", start, i)});
-        w.outside = t.outside.value_or(project_.volume.index() == 0);
-        return w;
-    }
-
-    Status fill_blocks() {
-        if (project_.outputs.tetrahedra.empty()) return Done{};
-        journal_.note("tetrahedra");
-        session_.begin("tetrahedralize", Phase::computing);
-        auto filled = terrane::fill_blocks(*model_, wishes(), session_.run());
+        session_.begin("read", Phase::computing);
+        auto inputs = terrane::read_inputs(project_, session_.run());
         session_.end_stage();
-        if (!filled) return filled.error();
-        filled_ = std::move(filled).value();
-        add_statistics(statistics_, *filled_);
-        journal_.say(filled_text(*filled_));
+        if (!inputs) return inputs.error();
+        read_ = std::move(*inputs);
+        inputs_.surfaces_of_file = read_.surfaces_of_entry;
+        inputs_.labels = unique_labels(infos_of(read_.build.surfaces));
+        inputs_.vertices = read_.vertices;
+        inputs_.triangles = read_.triangles;
+        inputs_.seconds = watch.lap();
+        statistics_ = statistics_of(inputs_);
         return Done{};
+    }
+
+    Status make() {
+        const BuildObserver observer{
+            .begins = [&](BuildStage stage) { begins(stage); },
+            .ended = [&](BuildStage stage, const Built& built) { ended(stage, built); }};
+        auto built = terrane::build(project_, std::move(read_.build), session_.run(), observer);
+        session_.end_stage();
+        if (!built) return built.error();
+        built_ = std::move(*built);
+        return Done{};
+    }
+
+    void begins(BuildStage stage) {
+        static constexpr std::array names{"mend", "arrange", "improve", "blocks", "tetrahedra"};
+        const char* const name = names.at(static_cast<std::size_t>(stage));
+        journal_.note(name);
+        session_.begin(name, Phase::computing);
+    }
+
+    /// Says what a stage did, and adds it to the statistics.
+    void ended(BuildStage stage, const Built& built) {
+        session_.end_stage();
+        switch (stage) {
+        case BuildStage::preprocess:
+            return preprocessed(built.preprocessed);
+        case BuildStage::arrange:
+            inputs_.labels = built.labels;
+            add_statistics(statistics_, built.arranged, Search::automatic, inputs_);
+            journal_.say(summary(inputs_, built.arranged));
+            if (!built.arranged.rounded.conforming)
+                refused_ = offending_pairs(inputs_, built.arranged) +
+                           "terrane: no blocks without a conforming mesh; nothing written\n";
+            return;
+        case BuildStage::improve:
+            add_statistics(statistics_, *built.improved);
+            return journal_.say(improve_text(*built.improved, inputs_));
+        case BuildStage::blocks:
+            add_statistics(statistics_, *built.model);
+            return journal_.say(model_text(inputs_, *built.model));
+        case BuildStage::tetrahedra:
+            add_statistics(statistics_, *built.filled);
+            return journal_.say(filled_text(*built.filled));
+        }
+    }
+
+    void preprocessed(const Preprocessed& done) {
+        std::string said;
+        if (done.filled) {
+            said += borders_text(*done.filled) + filled_text(*done.filled);
+            refused_ = refusals_text(*done.filled);
+            if (!done.contacts.empty())
+                refused_ += "terrane: what was invented meets other triangles\n" +
+                            contacts_text(*done.filled, done.contacts);
+            statistics_["holes"] = json_of(*done.filled);
+            statistics_["seconds"]["fill"] = done.seconds_fill;
+        }
+        if (done.stack) {
+            said += text_of(inputs_, done.layers, *done.stack);
+            refused_ = contacts_text(*done.stack);
+            statistics_["layers"] = json_of(inputs_, done.layers);
+            statistics_["seconds"]["layers"] = done.seconds_layers;
+        }
+        journal_.say(said);
+        if (!refused_.empty()) refused_ += "terrane: nothing written\n";
     }
 
     Status write() {
@@ -288,25 +258,28 @@ private:
         for (const std::string& format : project_.outputs.surfaces) {
             options.format = format_named(format);
             if (points.empty() && (format == "poly" || format == "smesh")) {
-                auto found = region_points(mesh(), model_->volumes, session_.run());
+                auto found =
+                    region_points(built_.model->mesh, built_.model->volumes, session_.run());
                 if (!found) return found.error();
                 points = std::move(found).value();
                 options.regions = points;
             }
             written_.push_back(file_name("surfaces", format));
-            if (auto done = write_mesh(mesh(), to / written_.back(), options); !done) return done;
+            if (auto done = write_mesh(built_.model->mesh, to / written_.back(), options); !done)
+                return done;
         }
         return Done{};
     }
 
     Status write_tetrahedra_files(const fs::path& to) {
-        if (!filled_) return Done{};
+        if (!built_.filled) return Done{};
         WriteOptions options;
-        options.region_names = filled_->block_names;
+        options.region_names = built_.filled->block_names;
         for (const std::string& format : project_.outputs.tetrahedra) {
             options.format = format_named(format);
             written_.push_back(file_name("tetrahedra", format));
-            if (auto done = write_tetrahedra(filled_->tetrahedra, to / written_.back(), options);
+            if (auto done =
+                    write_tetrahedra(built_.filled->tetrahedra, to / written_.back(), options);
                 !done)
                 return done;
         }
@@ -321,29 +294,35 @@ private:
             return Error{ErrorCode::cannot_open, "cannot be made: " + failed.message(),
                          (to / "model").string()};
         written_.emplace_back("model/");
-        return write_model(*model_, arranged_->sealed, project_.outputs.blocks, to / "model",
-                           session_);
+        return write_model(*built_.model, built_.arranged.sealed, project_.outputs.blocks,
+                           to / "model", session_);
     }
 
     Status write_invented(const fs::path& to) {
-        if (!mended_.filled) return Done{};
+        if (!built_.preprocessed.filled) return Done{};
         written_.insert(written_.end(), {"invented.csv", "filled.svg"});
-        if (auto done = write_file(to / "invented.csv", csv_of(*mended_.filled)); !done)
+        if (auto done = write_file(to / "invented.csv", csv_of(*built_.preprocessed.filled)); !done)
             return done;
-        return write_file(to / "filled.svg", map_of(*mended_.filled));
+        return write_file(to / "filled.svg", map_of(*built_.preprocessed.filled));
+    }
+
+    /// The paths of the files, one per entry of "surfaces".
+    [[nodiscard]] std::vector<std::string> files() const {
+        std::vector<std::string> files;
+        for (const ProjectSurfaces& entry : project_.surfaces) files.push_back(entry.file.string());
+        return files;
     }
 
     Status write_certificate(const fs::path& to) {
         if (!project_.outputs.certificate) return Done{};
         written_.emplace_back("certificate.json");
         const auto path = to / written_.back();
-        Inputs as_read = inputs_; // the verifier reads the files, not the project
-        for (std::size_t s = 0; s < as_read_.size(); ++s) {
-            as_read.surfaces[s].name = as_read_[s].name;
-            as_read.surfaces[s].role = as_read_[s].role;
+        Arranged& arranged = built_.arranged; // the verifier reads the files, not the project
+        for (std::size_t s = 0; s < read_.as_read.size(); ++s) {
+            arranged.surfaces[s].name = read_.as_read[s].name;
+            arranged.surfaces[s].role = read_.as_read[s].role;
         }
-        const auto text =
-            certificate_text(path.string(), files_of(project_), as_read, *arranged_, session_);
+        const auto text = certificate_text(path.string(), files(), inputs_, arranged, session_);
         if (!text) return text.error();
         return write_file(path, text.value());
     }
@@ -354,14 +333,10 @@ private:
     Session& session_;
     Journal journal_;
     Json statistics_;
-    Inputs inputs_;
-    std::vector<SurfaceInfo> as_read_; ///< per surface of a file
-    std::vector<Surface> boundary_;    ///< of the volume of interest, until surfaces are arranged
-    Preprocessed mended_;              ///< where the project asks for it
-    std::optional<Arranged> arranged_;
-    std::optional<Improved> better_; ///< where the project asks for it
-    std::optional<Model> model_;
-    std::optional<FilledBlocks> filled_;
+    Inputs inputs_;       ///< names and counts; the surfaces are in built_
+    ProjectInputs read_;  ///< its surfaces until they are built from
+    std::string refused_; ///< why nothing is written; empty: all is well
+    Built built_;
     std::vector<std::string> written_; ///< names in the folder
 };
 

@@ -8,7 +8,7 @@
 
 #include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/algorithms/quality/deviation.hpp>
-#include <terrane/algorithms/quality/improve.hpp>
+#include <terrane/algorithms/quality/improve_measured.hpp>
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/reports/improve_report.hpp>
 #include <terrane/cli/stages/outputs.hpp>
@@ -90,7 +90,7 @@ Status set_lengths(const ImproveCommand& command, const Inputs& inputs, ImproveO
     return Done{};
 }
 
-Status write_all(const ImproveCommand& command, const Measured& measured,
+Status write_all(const ImproveCommand& command, const ImprovedAndMeasured& measured,
                  const std::vector<Output>& outputs, Session& session) {
     if (!command.histogram.empty()) {
         const auto& report = measured.improved.report;
@@ -118,15 +118,17 @@ Result<ExitStatus> improve_files(const ImproveCommand& command, Session& session
     const auto arranged = arrange_and_round(inputs.value(), command.settings, session, statistics);
     if (!arranged) return arranged.error();
     if (!options.edge_length_of.empty()) // with the boundary of a volume of interest
-        options.edge_length_of.resize(inputs.value().surfaces.size());
+        options.edge_length_of.resize(inputs.value().labels.size());
     print(summary_stream(files), summary(inputs.value(), arranged.value()));
     bool clean = arranged.value().rounded.report.clean;
     if (!clean) {
         print(stderr, offending_pairs(inputs.value(), arranged.value()));
         print(stderr, "terrane: only a conforming mesh can be improved; nothing written\n");
     } else {
+        session.begin("improve", Phase::computing);
         const auto measured =
-            improve_and_measure(*arranged.value().rounded.conforming, options, session, statistics);
+            improve_and_measure(*arranged.value().rounded.conforming, options, session.run());
+        session.end_stage();
         if (!measured) return measured.error();
         add_statistics(statistics, measured.value());
         print(summary_stream(files), improve_text(measured.value(), inputs.value()));

@@ -121,8 +121,8 @@ Result<ExitStatus> layer_files(LayerCommand& command, Session& session) {
                      session, statistics);
     if (!layered) return layered.error();
     const RoundedMesh& rounded = layered.value().rounded;
-    print(summary_stream(files), text_of(inputs.value(), layered.value()));
-    print(stderr, contacts_text(layered.value()));
+    print(summary_stream(files), text_of(inputs.value(), layered.value().reports, rounded.report));
+    print(stderr, contacts_text(rounded.report));
     if (rounded.report.clean)
         if (const auto written = write_all(rounded.mesh, files, outputs.value(), session); !written)
             return written.error();

@@ -194,12 +194,6 @@ Result<Inputs> read_inputs(const FileOptions& options, Session& session) {
     return all;
 }
 
-void append(Inputs& inputs, std::vector<Surface> surfaces, const std::string& origin) {
-    for (Surface& s : surfaces) {
-        inputs.surfaces.push_back(std::move(s));
-        inputs.files.push_back(origin);
-    }
-    inputs.labels = unique_labels(infos_of(inputs.surfaces));
 }
 
 std::string name_of_inputs(const FileOptions& options) {

@@ -69,9 +69,6 @@ struct Inputs {
 /// Errors: those of read_surfaces; interrupted; unsupported where 32 bits can't count it all.
 Result<Inputs> read_inputs(const FileOptions& options, Session& session);
 
-/// Adds surfaces that are no input of the user's, with a word on where they come from. Counts of
-/// the input stay.
-void append(Inputs& inputs, std::vector<Surface> surfaces, const std::string& origin);
 
 /// "basin.ts", "basin.ts and 3 more files"
 std::string name_of_inputs(const FileOptions& options);

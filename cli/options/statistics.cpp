@@ -22,7 +22,7 @@ double peak_memory() {
 Json statistics_of(const Inputs& inputs) {
     Json json;
     json["version"] = TERRANE_VERSION;
-    json["input"] = {{"surfaces", inputs.surfaces.size()},
+    json["input"] = {{"surfaces", inputs.labels.size()},
                      {"triangles", inputs.triangles},
                      {"vertices", inputs.vertices}};
     json["seconds"]["read"] = inputs.seconds;

@@ -7,8 +7,6 @@
 
 #include <fmt/format.h>
 
-#include <terrane/algorithms/core/stopwatch.hpp>
-#include <terrane/algorithms/quality/improve_back.hpp>
 #include <terrane/cli/session/console.hpp>
 #include <terrane/io/text/histogram_svg.hpp>
 
@@ -33,7 +31,7 @@ std::string worst_text(const Improved& improved) {
 }
 
 /// Of the surface that comes nearest to its bound.
-std::string deviation_text(const Measured& measured, const Inputs& inputs) {
+std::string deviation_text(const ImprovedAndMeasured& measured, const Inputs& inputs) {
     const ImproveReport& r = measured.improved.report;
     const auto& deviations = measured.deviations;
     std::size_t where = 0;
@@ -72,13 +70,7 @@ Json json_of(const QualityReport& q) {
 
 } // namespace
 
-bool Measured::is_near_back() const {
-    for (std::size_t s = 0; s < bounds_back.size(); ++s)
-        if (!(bounds_back[s] <= improved.report.bound_of[s])) return false;
-    return true;
-}
-
-std::string improve_text(const Measured& measured, const Inputs& inputs) {
+std::string improve_text(const ImprovedAndMeasured& measured, const Inputs& inputs) {
     const Improved& improved = measured.improved;
     const ImproveReport& r = improved.report;
     std::string text =
@@ -91,7 +83,9 @@ std::string improve_text(const Measured& measured, const Inputs& inputs) {
     return text + deviation_text(measured, inputs);
 }
 
-void add_statistics(Json& json, const Measured& measured) {
+void add_statistics(Json& json, const ImprovedAndMeasured& measured) {
+    json["seconds"]["improve"] = measured.seconds_improve;
+    json["seconds"]["measure"] = measured.seconds_measure;
     const Improved& improved = measured.improved;
     const ImproveReport& r = improved.report;
     json["output"]["triangles"] = improved.mesh->triangles.size();
@@ -133,28 +127,6 @@ std::string histogram_of(const ImproveReport& report) {
     const std::array histograms{Histogram{before, report.before.histogram, report.before.q.mean},
                                 Histogram{after, report.after.histogram, report.after.q.mean}};
     return histogram_svg(histograms);
-}
-
-Result<Measured> improve_and_measure(const ConformingMesh& mesh, const ImproveOptions& options,
-                                     Session& session, Json& statistics) {
-    Stopwatch watch;
-    session.begin("improve", Phase::computing);
-    auto improved = improve(mesh, options, session.run());
-    session.end_stage();
-    if (!improved) return improved.error();
-    statistics["seconds"]["improve"] = watch.lap();
-    session.begin("measure", Phase::computing);
-    auto deviations = deviations_of(mesh, improved.value().mesh, session.run());
-    auto back = bounds_back(mesh, improved.value(), options, session.run());
-    session.end_stage();
-    if (!back) return back.error();
-    if (session.stopped()) return Error{ErrorCode::interrupted, "stopped on request", ""};
-    statistics["seconds"]["measure"] = watch.lap();
-    for (std::size_t s = 0; s < deviations.size(); ++s)
-        if (deviations[s].out > improved.value().report.bound_of[s])
-            return Error{ErrorCode::internal, "the surface is farther away than was shown",
-                         mesh->surfaces[s].name};
-    return Measured{std::move(improved).value(), std::move(deviations), std::move(back).value()};
 }
 
 } // namespace terrane::cli

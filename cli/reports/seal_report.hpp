@@ -4,19 +4,12 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
-#include <terrane/algorithms/sealing/sealing.hpp>
+#include <terrane/algorithms/model/arrange_within.hpp>
 #include <terrane/cli/options/files.hpp>
 #include <terrane/cli/options/statistics.hpp>
 
 namespace terrane::cli {
-
-struct SealReport {
-    double distance = 0; ///< as asked for
-    std::vector<SealChange> changes{};
-    double left = 0; ///< see Sealed
-};
 
 std::string text_of(const SealReport& report, const Inputs& inputs);
 

@@ -58,8 +58,8 @@ std::string structure_text(const Model& model) {
 
 /// Surfaces of which a part has the same volume on both sides.
 std::string dangling_text(const Inputs& inputs, const Model& model) {
-    std::vector<double> area(inputs.surfaces.size()), dangling(inputs.surfaces.size()),
-        border(inputs.surfaces.size());
+    std::vector<double> area(inputs.labels.size()), dangling(inputs.labels.size()),
+        border(inputs.labels.size());
     for (const ModelInterface& i : model.structure.interfaces)
         for (const std::uint32_t s : i.surfaces) {
             area[s] += i.area;
@@ -190,6 +190,8 @@ private:
 } // namespace
 
 void add_statistics(Json& json, const Model& model) {
+    json["seconds"]["volumes"] = model.seconds_volumes;
+    json["seconds"]["structure"] = model.seconds_structure;
     json["output"]["volumes"] = model.block_count();
     Json volumes = Json::array();
     for (std::size_t b = 1; b < model.exact_volumes.size(); ++b)
@@ -206,32 +208,12 @@ void add_statistics(Json& json, const Model& model) {
                        {"free_borders", model.borders.size()}};
 }
 
-namespace {
-
-Result<Model> with_statistics(Result<Model> model, Session& session, Json& statistics) {
-    session.end_stage();
-    if (!model) return model;
-    statistics["seconds"]["volumes"] = model->seconds_volumes;
-    statistics["seconds"]["structure"] = model->seconds_structure;
-    add_statistics(statistics, *model);
-    return model;
-}
-
-} // namespace
-
 Result<Model> find_model(const Arranged& arranged, Session& session, Json& statistics) {
     session.begin("volumes", Phase::computing);
-    return with_statistics(
-        make_model(arranged.exact, arranged.rounded.conforming.value(), session.run()), session,
-        statistics);
-}
-
-Result<Model> find_model(const Arranged& arranged, const Improved& improved, Session& session,
-                         Json& statistics) {
-    session.begin("volumes", Phase::computing);
-    return with_statistics(
-        make_model(arranged.exact, arranged.rounded.conforming.value(), improved, session.run()),
-        session, statistics);
+    auto model = make_model(arranged.exact, arranged.rounded.conforming.value(), session.run());
+    session.end_stage();
+    if (model) add_statistics(statistics, *model);
+    return model;
 }
 
 std::string model_text(const Inputs& inputs, const Model& model) {

@@ -8,7 +8,6 @@
 #include <string>
 
 #include <terrane/algorithms/model/model.hpp>
-#include <terrane/algorithms/quality/improve.hpp>
 #include <terrane/cli/stages/pipeline.hpp>
 
 namespace terrane::cli {
@@ -16,11 +15,6 @@ namespace terrane::cli {
 /// Makes the model of what was arranged, and adds to `statistics`. Precondition: the rounded mesh is
 /// conforming. Errors: those of make_model.
 Result<Model> find_model(const Arranged& arranged, Session& session, Json& statistics);
-
-/// Makes the model of what was arranged and then improved, and adds to `statistics`. Errors: those
-/// of make_model.
-Result<Model> find_model(const Arranged& arranged, const Improved& improved, Session& session,
-                         Json& statistics);
 
 /// Adds what is known of the model to `statistics`.
 void add_statistics(Json& statistics, const Model& model);

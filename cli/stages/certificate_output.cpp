@@ -67,7 +67,7 @@ Result<std::string> certificate_text(const std::string& path, const std::vector<
                                      const Session& session) {
     const auto records = record_inputs(path, files, inputs);
     if (!records) return records.error();
-    return to_certificate({records.value(), inputs.surfaces, arranged.exact, &arranged.rounded},
+    return to_certificate({records.value(), arranged.surfaces, arranged.exact, &arranged.rounded},
                           session.run());
 }
 

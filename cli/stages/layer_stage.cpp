@@ -24,9 +24,23 @@ std::string line_of(const std::string& label, const LayerReport& r) {
     return text;
 }
 
-Json json_of(const Inputs& inputs, const Layered& layered) {
+} // namespace
+
+Result<Layered> layer_inputs(const Inputs& inputs, const std::vector<Layer>& order,
+                             const LayerOptions& options, Session& session, Json& statistics) {
+    Stopwatch watch;
+    session.begin("layers", Phase::computing);
+    auto layered = stack_layers(inputs.surfaces, order, options, session.run());
+    session.end_stage();
+    if (!layered) return layered.error();
+    statistics["layers"] = json_of(inputs, layered.value().reports);
+    statistics["seconds"]["layers"] = watch.lap();
+    return layered;
+}
+
+Json json_of(const Inputs& inputs, std::span<const LayerReport> reports) {
     Json all = Json::array();
-    for (const LayerReport& r : layered.reports)
+    for (const LayerReport& r : reports)
         all.push_back({{"name", inputs.labels[r.surface]},
                        {"dropped", r.dropped},
                        {"taken", r.taken},
@@ -38,30 +52,15 @@ Json json_of(const Inputs& inputs, const Layered& layered) {
     return all;
 }
 
-} // namespace
-
-Result<Layered> layer_inputs(const Inputs& inputs, const std::vector<Layer>& order,
-                             const LayerOptions& options, Session& session, Json& statistics) {
-    Stopwatch watch;
-    session.begin("layers", Phase::computing);
-    auto layered = stack_layers(inputs.surfaces, order, options, session.run());
-    session.end_stage();
-    if (!layered) return layered.error();
-    statistics["layers"] = json_of(inputs, layered.value());
-    statistics["seconds"]["layers"] = watch.lap();
-    return layered;
-}
-
-std::string text_of(const Inputs& inputs, const Layered& layered) {
-    auto text = counted(layered.reports.size(), "layer") + ", from the top down:\n";
-    for (const LayerReport& r : layered.reports) text += line_of(inputs.labels[r.surface], r);
-    if (layered.rounded.report.clean)
-        text += "verified: the doubles are a conforming mesh, by exact check\n";
+std::string text_of(const Inputs& inputs, std::span<const LayerReport> reports,
+                    const RoundingReport& rounding) {
+    auto text = counted(reports.size(), "layer") + ", from the top down:\n";
+    for (const LayerReport& r : reports) text += line_of(inputs.labels[r.surface], r);
+    if (rounding.clean) text += "verified: the doubles are a conforming mesh, by exact check\n";
     return text;
 }
 
-std::string contacts_text(const Layered& layered) {
-    const RoundingReport& report = layered.rounded.report;
+std::string contacts_text(const RoundingReport& report) {
     if (report.clean) return {};
     return fmt::format("terrane: {} of triangles meet improperly in doubles, the first at {}; "
                        "nothing written\n",

@@ -3,6 +3,7 @@
 // Horizons put in order: what `layer` and `build` share.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,10 +18,14 @@ namespace terrane::cli {
 Result<Layered> layer_inputs(const Inputs& inputs, const std::vector<Layer>& order,
                              const LayerOptions& options, Session& session, Json& statistics);
 
-/// What was replaced, and whether the doubles are conforming.
-std::string text_of(const Inputs& inputs, const Layered& layered);
+/// Tells what was replaced, and whether the doubles are conforming.
+std::string text_of(const Inputs& inputs, std::span<const LayerReport> reports,
+                    const RoundingReport& rounding);
 
 /// Where the doubles are not conforming: how many pairs, and the first place; empty else.
-std::string contacts_text(const Layered& layered);
+std::string contacts_text(const RoundingReport& rounding);
+
+/// One entry per layer, for the statistics.
+Json json_of(const Inputs& inputs, std::span<const LayerReport> reports);
 
 } // namespace terrane::cli

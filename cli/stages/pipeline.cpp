@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include <terrane/algorithms/check/check.hpp>
-#include <terrane/algorithms/core/stopwatch.hpp>
+#include <terrane/algorithms/mesh/labels.hpp>
+#include <terrane/cli/reports/seal_report.hpp>
 #include <terrane/cli/session/console.hpp>
 
 namespace terrane::cli {
@@ -26,8 +26,8 @@ struct SurfaceTally {
     std::vector<double> areas; ///< of its regions
 };
 
-std::vector<SurfaceTally> tally(const Inputs& inputs, const RoundedMesh& rounded) {
-    std::vector<SurfaceTally> tallies(inputs.surfaces.size());
+std::vector<SurfaceTally> tally(const RoundedMesh& rounded) {
+    std::vector<SurfaceTally> tallies(rounded.mesh->surfaces.size());
     for (const auto s : rounded.mesh->surfaces_of.values) ++tallies[s].triangles;
     for (const Region& r : rounded.regions) tallies[r.surface].areas.push_back(r.area);
     for (auto& t : tallies) std::sort(t.areas.rbegin(), t.areas.rend());
@@ -41,15 +41,15 @@ std::string areas_text(const std::vector<double>& areas) {
     return areas.size() > most_areas ? text + ", ..." : text;
 }
 
-std::string surface_table(const Inputs& inputs, const RoundedMesh& rounded) {
+std::string surface_table(const Inputs& inputs, const Arranged& arranged) {
     std::size_t width = 7;
     for (const auto& label : inputs.labels) width = std::max(width, label.size());
     auto text = fmt::format("  {:<{}}  {:>9}  {:>9}  {:>7}  areas of the regions\n", "surface",
                             width, "triangles", "-> output", "regions");
-    const auto tallies = tally(inputs, rounded);
+    const auto tallies = tally(arranged.rounded);
     for (std::size_t s = 0; s < std::min(tallies.size(), most_surfaces); ++s)
         text += fmt::format("  {:<{}}  {:>9}  {:>9}  {:>7}  {}\n", inputs.labels[s], width,
-                            inputs.surfaces[s].triangles.size(), tallies[s].triangles,
+                            arranged.surfaces[s].triangles.size(), tallies[s].triangles,
                             tallies[s].areas.size(), areas_text(tallies[s].areas));
     if (tallies.size() > most_surfaces)
         text += fmt::format("  and {} more\n", tallies.size() - most_surfaces);
@@ -126,31 +126,23 @@ void add_settings(CLI::App& command, ArrangeSettings& settings) {
     add_volume_options(command, settings.volume);
 }
 
-namespace {
-
-Result<Arrangement> arrange_or_seal(Inputs& inputs, const ArrangeSettings& settings,
-                                    Session& session, Json& statistics, Arranged& arranged) {
-    const ArrangeOptions options{.search = settings.search};
-    if (settings.seal == 0) {
-        session.begin("arrange", Phase::computing);
-        auto exact = arrange(inputs.surfaces, options, session.run());
-        session.end_stage();
-        return exact;
+void add_statistics(Json& statistics, const Arranged& arranged, Search asked,
+                    const Inputs& inputs) {
+    if (arranged.extended) {
+        add_statistics(statistics, *arranged.extended);
+        statistics["seconds"]["extend"] = arranged.seconds_extend;
     }
-    Stopwatch watch;
-    session.begin("seal", Phase::computing);
-    auto sealed = seal(inputs.surfaces, {settings.seal, options}, session.run());
-    session.end_stage();
-    if (!sealed) return sealed.error();
-    statistics["seconds"]["seal"] = watch.lap();
-    Sealed& s = sealed.value();
-    inputs.surfaces = std::move(s.surfaces);
-    arranged.sealed = SealReport{settings.seal, std::move(s.changes), s.left};
-    add_statistics(statistics, *arranged.sealed, inputs);
-    return std::move(s.arrangement);
+    if (arranged.sealed) {
+        statistics["seconds"]["seal"] = arranged.seconds_seal;
+        add_statistics(statistics, *arranged.sealed, inputs);
+    }
+    add_statistics(statistics, arranged.exact, asked);
+    if (arranged.cut) {
+        add_statistics(statistics, *arranged.cut, inputs);
+        statistics["seconds"]["volume_of_interest"] = arranged.seconds_cut;
+    }
+    add_statistics(statistics, arranged.rounded, arranged.seconds_round);
 }
-
-} // namespace
 
 Result<Arranged> arrange_and_round(Inputs& inputs, const ArrangeSettings& settings,
                                    Session& session, Json& statistics) {
@@ -160,60 +152,27 @@ Result<Arranged> arrange_and_round(Inputs& inputs, const ArrangeSettings& settin
         if (!made) return made.error();
         boundary = std::move(made).value();
     }
-    return arrange_within(inputs, std::move(boundary), settings, session, statistics);
-}
-
-Result<Arranged> arrange_within(Inputs& inputs, std::vector<Surface> surfaces,
-                                const ArrangeSettings& settings, Session& session,
-                                Json& statistics) {
-    std::vector<std::uint32_t> boundary(surfaces.size()); // their indices
-    std::iota(boundary.begin(), boundary.end(), static_cast<std::uint32_t>(inputs.surfaces.size()));
-    append(inputs, std::move(surfaces), "volume of interest");
-    Stopwatch watch;
-    Arranged arranged;
-    if (settings.volume.extend != 0) {
-        session.begin("extend", Phase::computing);
-        auto extended = extend_to_boundary(
-            inputs.surfaces, boundary, {settings.volume.extend, {settings.search}}, session.run());
-        session.end_stage();
-        if (!extended) return extended.error();
-        inputs.surfaces = std::move(extended.value().surfaces);
-        arranged.extended = std::move(extended.value().borders);
-        add_statistics(statistics, *arranged.extended);
-        statistics["seconds"]["extend"] = watch.lap();
-    }
-    auto exact = arrange_or_seal(inputs, settings, session, statistics, arranged);
-    if (!exact) return exact.error();
-    add_statistics(statistics, exact.value(), settings.search);
-    watch.lap();
-    if (!boundary.empty()) {
-        session.begin("volume of interest", Phase::computing);
-        auto cut = cut_to_volume(std::move(exact).value(), boundary, session.run());
-        session.end_stage();
-        if (!cut) return cut.error();
-        arranged.exact = std::move(cut.value().arrangement);
-        arranged.cut = std::move(cut.value().report);
-        add_statistics(statistics, *arranged.cut, inputs);
-        statistics["seconds"]["volume_of_interest"] = watch.lap();
-    } else {
-        arranged.exact = std::move(exact).value();
-    }
-    session.begin("round", Phase::computing);
-    auto rounded = round_to_doubles(arranged.exact, {.max_rounds = settings.rounds}, session.run());
+    session.begin("arrange", Phase::computing);
+    auto arranged = arrange_within(std::move(inputs.surfaces), std::move(boundary),
+                                   {.arrange = {.search = settings.search},
+                                    .rounding = {.max_rounds = settings.rounds},
+                                    .seal = settings.seal,
+                                    .extend = settings.volume.extend},
+                                   session.run());
     session.end_stage();
-    if (!rounded) return rounded.error();
-    add_statistics(statistics, rounded.value(), watch.lap());
-    arranged.rounded = std::move(rounded).value();
+    if (!arranged) return arranged;
+    inputs.labels = unique_labels(infos_of(arranged->surfaces));
+    add_statistics(statistics, *arranged, settings.search, inputs);
     return arranged;
 }
 
 std::string summary(const Inputs& inputs, const Arranged& arranged) {
     const Mesh& m = arranged.rounded.mesh;
-    auto text = fmt::format("{}: {} -> {}, {}, {}\n", counted(inputs.surfaces.size(), "surface"),
+    auto text = fmt::format("{}: {} -> {}, {}, {}\n", counted(arranged.surfaces.size(), "surface"),
                             counted(inputs.triangles, "triangle"), m.triangles.size(),
                             counted(m.intersection_edges.size(), "intersection edge"),
                             counted(arranged.rounded.regions.size(), "region"));
-    text += surface_table(inputs, arranged.rounded);
+    text += surface_table(inputs, arranged);
     text += set_aside(arranged.exact);
     if (arranged.extended) text += text_of(*arranged.extended, inputs);
     if (arranged.sealed) text += text_of(*arranged.sealed, inputs);

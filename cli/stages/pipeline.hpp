@@ -9,12 +9,10 @@
 
 #include <CLI/CLI.hpp>
 
-#include <terrane/algorithms/arrangement/arrangement.hpp>
-#include <terrane/algorithms/rounding/rounding.hpp>
+#include <terrane/algorithms/model/arrange_within.hpp>
 #include <terrane/cli/options/files.hpp>
 #include <terrane/cli/options/statistics.hpp>
 #include <terrane/cli/options/volume_options.hpp>
-#include <terrane/cli/reports/seal_report.hpp>
 #include <terrane/cli/session/session.hpp>
 
 namespace terrane::cli {
@@ -28,24 +26,13 @@ struct ArrangeSettings {
 
 void add_settings(CLI::App& command, ArrangeSettings& settings);
 
-struct Arranged {
-    Arrangement exact; ///< with a volume of interest: restricted to it
-    RoundedMesh rounded;
-    std::optional<VolumeReport> cut;  ///< with a volume of interest
-    std::optional<SealReport> sealed; ///< where asked for, as the next one
-    std::optional<std::vector<ExtendedBorder>> extended;
-};
-
-/// Adds to `statistics`; to `inputs` the boundary of a volume of interest, and the triangles by
-/// which gaps were closed. Errors: those of arrange, cut_to_volume and round_to_doubles.
+/// Arranges and rounds the surfaces of `inputs`, which move to the result. Adds to `statistics`, and
+/// to `inputs` the names of the boundary's surfaces. Errors: those of arrange, cut_to_volume and round_to_doubles.
 Result<Arranged> arrange_and_round(Inputs& inputs, const ArrangeSettings& settings,
                                    Session& session, Json& statistics);
 
-/// The same with the boundary of a volume of interest that was made already; none: there is no such
-/// volume. Of settings.volume only `extend` counts.
-Result<Arranged> arrange_within(Inputs& inputs, std::vector<Surface> boundary,
-                                const ArrangeSettings& settings, Session& session,
-                                Json& statistics);
+/// Adds what was done to `statistics`.
+void add_statistics(Json& statistics, const Arranged& arranged, Search asked, const Inputs& inputs);
 
 /// Surfaces with their triangles, regions and areas; what was set aside; how the rounding went.
 std::string summary(const Inputs& inputs, const Arranged& arranged);

@@ -34,6 +34,7 @@ set(terrane_headers
     algorithms/quality/deviation.hpp
     algorithms/quality/improve.hpp
     algorithms/quality/improve_back.hpp
+    algorithms/quality/improve_measured.hpp
     algorithms/quality/quality.hpp
     algorithms/reconstruction/holes/filling.hpp
     algorithms/reconstruction/holes/holes.hpp
@@ -47,6 +48,7 @@ set(terrane_headers
     algorithms/volume_of_interest/boundary_surfaces.hpp
     algorithms/volume_of_interest/extension.hpp
     algorithms/volume_of_interest/volume_of_interest.hpp
+    algorithms/model/arrange_within.hpp
     algorithms/model/model.hpp
     algorithms/tetrahedra/check_tetrahedra.hpp
     algorithms/tetrahedra/split_nodes.hpp
@@ -55,6 +57,9 @@ set(terrane_headers
     algorithms/tetgen/fill_blocks.hpp
     algorithms/tetgen/tetgen_helper.hpp
     algorithms/tetgen/tetrahedra.hpp
+    algorithms/project/build.hpp
+    algorithms/project/preprocess.hpp
+    algorithms/project/project.hpp
     io/certificate.hpp
     io/exact_text.hpp
     io/files.hpp
@@ -63,6 +68,7 @@ set(terrane_headers
     io/meshes/cell_array.hpp
     io/meshes/poly.hpp
     io/project.hpp
+    io/project_inputs.hpp
     io/structure_json.hpp)
 set(verify_headers
     algorithms/verify/verify.hpp

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/cli/stages/project_inputs.hpp>
+#include <terrane/io/project_inputs.hpp>
 
 #include <algorithm>
 #include <optional>
@@ -8,11 +8,10 @@
 
 #include <fmt/format.h>
 
-#include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
-#include <terrane/cli/session/console.hpp>
+#include <terrane/io/files.hpp>
 
-namespace terrane::cli {
+namespace terrane {
 namespace {
 
 std::string names_of(const std::vector<Surface>& surfaces) {
@@ -25,14 +24,14 @@ std::string names_of(const std::vector<Surface>& surfaces) {
 
 /// Those of the file that the entry asks for, in the order of the file.
 Result<std::vector<Surface>> chosen(std::vector<Surface> surfaces, const ProjectSurfaces& entry,
-                                    const std::string& source, const std::string& key) {
+                                    const Project& project, const std::string& key) {
     if (entry.objects.empty()) return surfaces;
     const auto has_name = [](const std::string& name) {
         return [&name](const Surface& s) { return s.name == name; };
     };
     for (std::size_t i = 0; i < entry.objects.size(); ++i)
         if (std::none_of(surfaces.begin(), surfaces.end(), has_name(entry.objects[i])))
-            return at_key(source, fmt::format("{}.objects[{}]", key, i),
+            return at_key(project, fmt::format("{}.objects[{}]", key, i),
                           fmt::format("{} has no surface {}; it has {}", entry.file.string(),
                                       entry.objects[i], names_of(surfaces)));
     std::erase_if(surfaces, [&](const Surface& s) {
@@ -42,17 +41,17 @@ Result<std::vector<Surface>> chosen(std::vector<Surface> surfaces, const Project
 }
 
 /// One entry of "surfaces".
-Result<std::vector<Surface>> surfaces_of_entry(const ProjectSurfaces& entry,
-                                               const std::string& source, const std::string& key,
+Result<std::vector<Surface>> surfaces_of_entry(const ProjectSurfaces& entry, const Project& project,
+                                               const std::string& key,
                                                std::vector<SurfaceInfo>& as_read) {
     ReadOptions options;
     options.depth = entry.depth;
     auto read = read_surfaces(entry.file, std::nullopt, options);
     if (!read) return read.error();
-    auto surfaces = chosen(std::move(read).value(), entry, source, key);
+    auto surfaces = chosen(std::move(read).value(), entry, project, key);
     if (!surfaces) return surfaces.error();
     if (!entry.name.empty() && surfaces.value().size() != 1)
-        return at_key(source, key + ".name",
+        return at_key(project, key + ".name",
                       fmt::format("is for one surface, but {} are taken from {}",
                                   surfaces.value().size(), entry.file.string()));
     for (Surface& s : surfaces.value()) {
@@ -63,56 +62,18 @@ Result<std::vector<Surface>> surfaces_of_entry(const ProjectSurfaces& entry,
     return surfaces;
 }
 
-Result<std::vector<Surface>> boundary_within(const ProjectWithin& within, Session& session) {
+Result<std::vector<Surface>> boundary_within(const ProjectWithin& within, const Run& run) {
     std::vector<Surface> all;
     for (const auto& file : within.files) {
         auto read = read_surfaces(file);
         if (!read) return read.error();
-        for (Surface& s : read.value()) all.push_back(std::move(s));
+        for (Surface& s : *read) all.push_back(std::move(s));
     }
-    return closed_boundary(all, session.run());
+    return closed_boundary(all, run);
 }
 
-} // namespace
-
-Error at_key(const std::string& source, const std::string& key, std::string sentence) {
-    return usage(std::move(sentence), source + ": " + key);
-}
-
-Result<ProjectInputs> read_inputs(const Project& project, const std::string& source,
-                                  Session& session) {
-    Stopwatch watch;
-    ProjectInputs read;
-    Inputs& all = read.inputs;
-    session.begin("read", Phase::computing);
-    for (std::size_t i = 0; i < project.surfaces.size(); ++i) {
-        if (session.stopped()) return Error{ErrorCode::interrupted, "", ""};
-        const ProjectSurfaces& entry = project.surfaces[i];
-        auto surfaces =
-            surfaces_of_entry(entry, source, fmt::format("surfaces[{}]", i), read.as_read);
-        if (!surfaces) return surfaces.error();
-        all.surfaces_of_file.push_back(surfaces.value().size());
-        for (const Surface& s : surfaces.value()) {
-            all.vertices += s.vertices.size();
-            all.triangles += s.triangles.size();
-        }
-        append(all, std::move(surfaces).value(), entry.file.string());
-    }
-    session.end_stage();
-    if (std::max(all.vertices, all.triangles) >= UINT32_MAX)
-        return Error{ErrorCode::unsupported, "more than 4294967294 vertices or triangles", ""};
-    all.seconds = watch.lap();
-    return read;
-}
-
-std::vector<std::string> files_of(const Project& project) {
-    std::vector<std::string> files;
-    for (const ProjectSurfaces& entry : project.surfaces) files.push_back(entry.file.string());
-    return files;
-}
-
-Result<std::vector<Surface>> boundary_of(const Project& project, const std::string& source,
-                                         Session& session) {
+/// The boundary of the volume of interest; empty where the project has none.
+Result<std::vector<Surface>> boundary_of(const Project& project, const Run& run) {
     auto made = std::visit(
         [&](const auto& volume) -> Result<std::vector<Surface>> {
             using Volume = std::decay_t<decltype(volume)>;
@@ -123,7 +84,7 @@ Result<std::vector<Surface>> boundary_of(const Project& project, const std::stri
             else if constexpr (std::is_same_v<Volume, ProjectPolygon>)
                 return polygon_boundary(volume.corners, volume.between[0], volume.between[1]);
             else if constexpr (std::is_same_v<Volume, ProjectWithin>)
-                return boundary_within(volume, session);
+                return boundary_within(volume, run);
             else
                 return std::vector<Surface>();
         },
@@ -131,8 +92,33 @@ Result<std::vector<Surface>> boundary_of(const Project& project, const std::stri
     const bool has_files = std::holds_alternative<ProjectWithin>(project.volume);
     if (made || (has_files && !made.error().place.empty())) return made;
     Error error = made.error();
-    error.place = source + ": volume_of_interest";
+    error.place = place_of_key(project, "volume_of_interest");
     return error;
 }
 
-} // namespace terrane::cli
+} // namespace
+
+Result<ProjectInputs> read_inputs(const Project& project, const Run& run) {
+    ProjectInputs read;
+    for (std::size_t i = 0; i < project.surfaces.size(); ++i) {
+        if (run.stop.stop_requested()) return Error{ErrorCode::interrupted, "", ""};
+        const ProjectSurfaces& entry = project.surfaces[i];
+        auto surfaces =
+            surfaces_of_entry(entry, project, fmt::format("surfaces[{}]", i), read.as_read);
+        if (!surfaces) return surfaces.error();
+        read.surfaces_of_entry.push_back(surfaces->size());
+        for (Surface& s : *surfaces) {
+            read.vertices += s.vertices.size();
+            read.triangles += s.triangles.size();
+            read.build.surfaces.push_back(std::move(s));
+        }
+    }
+    if (std::max(read.vertices, read.triangles) >= UINT32_MAX)
+        return Error{ErrorCode::unsupported, "more than 4294967294 vertices or triangles", ""};
+    auto boundary = boundary_of(project, run);
+    if (!boundary) return boundary.error();
+    read.build.boundary = std::move(*boundary);
+    return read;
+}
+
+} // namespace terrane

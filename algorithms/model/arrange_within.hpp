@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// From surfaces to a mesh of doubles: extended to the boundary of a volume of interest, sealed,
+// arranged, cut, rounded; each of them where it is asked for.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <terrane/algorithms/arrangement/arrangement.hpp>
+#include <terrane/algorithms/core/result.hpp>
+#include <terrane/algorithms/core/run.hpp>
+#include <terrane/algorithms/mesh/surface.hpp>
+#include <terrane/algorithms/rounding/rounding.hpp>
+#include <terrane/algorithms/sealing/sealing.hpp>
+#include <terrane/algorithms/volume_of_interest/extension.hpp>
+#include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
+
+namespace terrane {
+
+struct ArrangeWithinOptions {
+    ArrangeOptions arrange{};
+    RoundingOptions rounding{};
+    double seal = 0;   ///< distance of gaps that are closed, unit of the input; 0: none
+    double extend = 0; ///< limit for horizons that end inside, unit of the input; 0: none
+};
+
+struct SealReport {
+    double distance = 0; ///< as asked for
+    std::vector<SealChange> changes{};
+    double left = 0; ///< see Sealed
+};
+
+struct Arranged {
+    std::vector<Surface> surfaces; ///< the input with the triangles by which gaps were closed, then
+                                   ///< the boundary
+    Arrangement exact;             ///< with a volume of interest: restricted to it
+    RoundedMesh rounded;
+    std::optional<VolumeReport> cut;                     ///< with a volume of interest
+    std::optional<SealReport> sealed;                    ///< where asked for
+    std::optional<std::vector<ExtendedBorder>> extended; ///< where asked for
+    double seconds_extend = 0, seconds_seal = 0, seconds_cut = 0, seconds_round = 0;
+};
+
+/// Arranges and rounds the surfaces. `boundary` is that of a volume of interest; empty: there is
+/// none. Errors: those of extend_to_boundary, seal, arrange, cut_to_volume and round_to_doubles. A
+/// mesh that is not conforming is no error: see rounded.report.
+Result<Arranged> arrange_within(std::vector<Surface> surfaces, std::vector<Surface> boundary,
+                                const ArrangeWithinOptions& options = {}, const Run& run = {});
+
+} // namespace terrane

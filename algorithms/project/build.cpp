@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/project/build.hpp>
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <terrane/algorithms/mesh/labels.hpp>
+
+namespace terrane {
+namespace {
+
+Error refused(std::string sentence) {
+    return {ErrorCode::improper_contact, std::move(sentence), ""};
+}
+
+/// What keeps preprocessed surfaces from being used.
+Error flaw_of(const Preprocessed& done) {
+    if (done.filled)
+        for (const NumberedHole& hole : done.filled->holes)
+            if (!hole.refused.empty())
+                return refused(fmt::format("hole {} of {} is left open: {}", hole.number,
+                                           done.filled->surfaces[hole.task].label, hole.refused));
+    if (!done.contacts.empty())
+        return refused(fmt::format("the filling of hole {} meets other triangles improperly",
+                                   done.contacts.front().hole));
+    return refused("the stack of layers is no conforming mesh of doubles");
+}
+
+/// One call of build.
+class Builder {
+public:
+    Builder(const Project& project, BuildInput input, const Run& run,
+            const BuildObserver& observer) :
+        project_(project),
+        input_(std::move(input)), run_(run), observer_(observer) {}
+
+    Result<Built> operator()() {
+        const bool preprocessing = !project_.fill.empty() || project_.layers;
+        if (preprocessing)
+            if (auto done = stage(BuildStage::preprocess, &Builder::preprocess_surfaces); !done)
+                return done.error();
+        if (!built_.preprocessed.good()) return flaw_of(built_.preprocessed);
+        if (auto done = stage(BuildStage::arrange, &Builder::arrange_surfaces); !done)
+            return done.error();
+        if (!built_.arranged.rounded.conforming)
+            return refused("the rounded mesh is not conforming");
+        if (project_.improve)
+            if (auto done = stage(BuildStage::improve, &Builder::improve_mesh); !done)
+                return done.error();
+        if (auto done = stage(BuildStage::blocks, &Builder::find_blocks); !done)
+            return done.error();
+        if (!project_.outputs.tetrahedra.empty())
+            if (auto done = stage(BuildStage::tetrahedra, &Builder::fill_with_tetrahedra); !done)
+                return done.error();
+        return std::move(built_);
+    }
+
+private:
+    Status stage(BuildStage which, Status (Builder::*work)()) {
+        if (observer_.begins) observer_.begins(which);
+        if (auto done = (this->*work)(); !done) return done;
+        if (observer_.ended) observer_.ended(which, built_);
+        return Done{};
+    }
+
+    Status preprocess_surfaces() {
+        auto done = preprocess(project_, input_.surfaces, run_);
+        if (!done) return done.error();
+        built_.preprocessed = std::move(*done);
+        return Done{};
+    }
+
+    Status arrange_surfaces() {
+        const ArrangeWithinOptions options{.seal = project_.seal.value_or(0),
+                                           .extend = project_.extend.value_or(0)};
+        auto arranged =
+            arrange_within(std::move(input_.surfaces), std::move(input_.boundary), options, run_);
+        if (!arranged) return arranged.error();
+        built_.arranged = std::move(*arranged);
+        built_.labels = unique_labels(infos_of(built_.arranged.surfaces));
+        return Done{};
+    }
+
+    [[nodiscard]] const ConformingMesh& rounded() const {
+        return *built_.arranged.rounded.conforming;
+    }
+
+    Status improve_mesh() {
+        const ProjectImprove& wanted = *project_.improve;
+        const auto& surfaces = rounded()->surfaces;
+        ImproveOptions options;
+        options.edge_length = wanted.edge_length.value_or(0);
+        options.max_deviation = wanted.max_deviation.value_or(0);
+        if (!wanted.edge_length_of.empty()) options.edge_length_of.resize(surfaces.size());
+        for (const auto& [name, length] : wanted.edge_length_of) {
+            const auto found = surfaces_called(name, surfaces, built_.labels);
+            if (found.empty())
+                return at_key(project_, "improve.edge_length_of." + name,
+                              "no surface is called " + name);
+            for (const std::uint32_t s : found) options.edge_length_of[s] = length;
+        }
+        auto improved = improve_and_measure(rounded(), options, run_);
+        if (!improved) return improved.error();
+        built_.improved = std::move(*improved);
+        return Done{};
+    }
+
+    Status find_blocks() {
+        const Arrangement& exact = built_.arranged.exact;
+        auto model = built_.improved ? make_model(exact, rounded(), built_.improved->improved, run_)
+                                     : make_model(exact, rounded(), run_);
+        if (!model) return model.error();
+        built_.model = std::move(*model);
+        return Done{};
+    }
+
+    Status fill_with_tetrahedra() {
+        auto filled = fill_blocks(*built_.model, request_of(project_), run_);
+        if (!filled) return filled.error();
+        built_.filled = std::move(*filled);
+        return Done{};
+    }
+
+    const Project& project_;
+    BuildInput input_;
+    const Run& run_;
+    const BuildObserver& observer_;
+    Built built_;
+};
+
+} // namespace
+
+TetrahedraRequest request_of(const Project& project) {
+    const ProjectTetrahedra& t = project.tetrahedra;
+    const auto place = [&](const std::string& key) {
+        return place_of_key(project, "tetrahedra." + key);
+    };
+    TetrahedraRequest r;
+    r.options.edge_length = t.edge_length;
+    r.options.max_volume = t.max_volume;
+    r.options.radius_edge_ratio = t.quality;
+    r.options.time_limit = t.time_limit;
+    for (const auto& [name, length] : t.size_of)
+        r.size_of.push_back({{name, place("size_of." + name)}, length});
+    for (const auto& [name, length] : t.size_in)
+        r.size_in.push_back({{name, place("size_in." + name)}, length});
+    for (std::size_t i = 0; i < t.split.size(); ++i)
+        r.split.push_back({t.split[i], place(fmt::format("split[{}]", i))});
+    r.outside = t.outside.value_or(project.volume.index() == 0);
+    return r;
+}
+
+Result<Built> build(const Project& project, BuildInput input, const Run& run,
+                    const BuildObserver& observer) {
+    return Builder(project, std::move(input), run, observer)();
+}
+
+} // namespace terrane

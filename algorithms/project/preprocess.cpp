@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/project/preprocess.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <terrane/algorithms/core/stopwatch.hpp>
+#include <terrane/algorithms/mesh/labels.hpp>
+
+namespace terrane {
+namespace {
+
+struct Names {
+    explicit Names(std::span<const Surface> surfaces) :
+        infos(infos_of(surfaces)), labels(unique_labels(infos)) {}
+
+    [[nodiscard]] std::vector<std::uint32_t> called(const std::string& name) const {
+        return surfaces_called(name, infos, labels);
+    }
+
+    std::vector<SurfaceInfo> infos;
+    std::vector<std::string> labels;
+};
+
+FillOptions options_of(const ProjectFill& entry) {
+    FillOptions o;
+    if (entry.method == "rbf") o.method = FillMethod::rbf;
+    o.model = variogram_model_named(entry.model);
+    o.max_area = entry.max_area.value_or(o.max_area);
+    o.mesh_size = entry.mesh_size.value_or(o.mesh_size);
+    o.gap_slope = entry.gap_slope.value_or(o.gap_slope);
+    o.bridge = entry.bridge_faults;
+    o.smoothing = entry.smoothing;
+    return o;
+}
+
+Result<std::vector<FillTask>> tasks_of(const Project& project, const Names& names) {
+    std::vector<FillTask> tasks;
+    for (std::size_t i = 0; i < project.fill.size(); ++i) {
+        const ProjectFill& entry = project.fill[i];
+        const auto key = fmt::format("fill[{}].surface", i);
+        auto found = names.called(entry.surface);
+        if (found.empty() && entry.surface == "horizon")
+            for (std::uint32_t s = 0; s < names.infos.size(); ++s)
+                if (names.infos[s].role == Role::horizon) found.push_back(s);
+        if (found.empty())
+            return at_key(project, key,
+                          entry.surface == "horizon" ? "no surface has the role horizon"
+                                                     : "no surface is called " + entry.surface);
+        for (const std::uint32_t s : found) {
+            if (std::any_of(tasks.begin(), tasks.end(),
+                            [&](const FillTask& t) { return t.surface == s; }))
+                return at_key(project, key, names.labels[s] + " is in an entry before this one");
+            tasks.push_back({s, options_of(entry)});
+        }
+    }
+    return tasks;
+}
+
+Result<std::vector<Layer>> order_of(const Project& project, const Names& names) {
+    std::vector<Layer> order;
+    if (!project.layers) return order;
+    for (std::size_t i = 0; i < project.layers->order.size(); ++i) {
+        const std::string& name = project.layers->order[i].surface;
+        const auto key = fmt::format("layers.order[{}].surface", i);
+        const auto found = names.called(name);
+        if (found.empty()) return at_key(project, key, "no surface is called " + name);
+        if (found.size() > 1)
+            return at_key(project, key,
+                          fmt::format("{} surfaces are called {}; set a name where they are read",
+                                      found.size(), name));
+        if (std::any_of(order.begin(), order.end(),
+                        [&](const Layer& l) { return l.surface == found[0]; }))
+            return at_key(project, key, name + " is in the order twice");
+        order.push_back({found[0], project.layers->order[i].hardness});
+    }
+    return order;
+}
+
+/// The surfaces of a mesh, each with the vertices that it uses.
+std::vector<Surface> surfaces_of(const Mesh& mesh) {
+    std::vector<Surface> all;
+    std::vector<std::vector<std::uint32_t>> members(mesh.surfaces.size()); // triangles of each
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+        for (const std::uint32_t s : mesh.surfaces_of[t]) members[s].push_back(t);
+    std::vector<std::uint32_t> number(mesh.vertices.size());
+    for (std::size_t s = 0; s < members.size(); ++s) {
+        all.push_back({mesh.surfaces[s].name, mesh.surfaces[s].role, {}, {}});
+        std::vector<bool> used(mesh.vertices.size());
+        for (const std::uint32_t t : members[s])
+            for (const std::uint32_t v : mesh.triangles[t]) used[v] = true;
+        for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
+            if (!used[v]) continue;
+            number[v] = static_cast<std::uint32_t>(all.back().vertices.size());
+            all.back().vertices.push_back(mesh.vertices[v]);
+        }
+        for (const std::uint32_t t : members[s]) {
+            const Triangle& c = mesh.triangles[t];
+            all.back().triangles.push_back({number[c[0]], number[c[1]], number[c[2]]});
+        }
+    }
+    return all;
+}
+
+Status fill(const std::vector<FillTask>& tasks, std::vector<Surface>& surfaces, const Run& run,
+            Preprocessed& done) {
+    Stopwatch watch;
+    auto work = find_holes(surfaces, tasks, run);
+    if (!work) return work.error();
+    if (auto filled = fill_holes(surfaces, wanted_holes(*work), *work, run); !filled) return filled;
+    auto contacts = contacts_of_new(*work, run);
+    if (!contacts) return contacts.error();
+    done.contacts = std::move(*contacts);
+    for (const HoledSurface& s : work->surfaces) surfaces[s.task.surface] = s.filled;
+    done.filled = std::move(*work);
+    done.seconds_fill = watch.lap();
+    return Done{};
+}
+
+Status stack(const std::vector<Layer>& order, double min_thickness, std::vector<Surface>& surfaces,
+             const Run& run, Preprocessed& done) {
+    Stopwatch watch;
+    if (run.progress) run.progress("layers", 0);
+    auto layered = stack_layers(surfaces, order, {.min_thickness = min_thickness}, run);
+    if (!layered) return layered.error();
+    auto replaced = surfaces_of(layered->rounded.mesh);
+    for (std::size_t i = 0; i < order.size(); ++i)
+        surfaces[order[i].surface] = std::move(replaced[i]);
+    done.layers = std::move(layered->reports);
+    done.stack = std::move(layered->rounded.report);
+    done.seconds_layers = watch.lap();
+    return Done{};
+}
+
+} // namespace
+
+bool Preprocessed::good() const {
+    const bool all_filled =
+        !filled || std::all_of(filled->holes.begin(), filled->holes.end(),
+                               [](const NumberedHole& hole) { return hole.refused.empty(); });
+    return all_filled && contacts.empty() && (!stack || stack->clean);
+}
+
+Result<Preprocessed> preprocess(const Project& project, std::vector<Surface>& surfaces,
+                                const Run& run) {
+    const Names names(surfaces);
+    const auto tasks = tasks_of(project, names);
+    if (!tasks) return tasks.error();
+    const auto order = order_of(project, names);
+    if (!order) return order.error();
+    Preprocessed done;
+    if (!tasks->empty())
+        if (auto filled = fill(*tasks, surfaces, run, done); !filled) return filled.error();
+    if (!order->empty() && done.good())
+        if (auto stacked = stack(*order, project.layers->min_thickness, surfaces, run, done);
+            !stacked)
+            return stacked.error();
+    return done;
+}
+
+} // namespace terrane

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// What a project has done to its surfaces before they are arranged: holes filled, then horizons put
+// in order.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <terrane/algorithms/core/result.hpp>
+#include <terrane/algorithms/core/run.hpp>
+#include <terrane/algorithms/layers/layers.hpp>
+#include <terrane/algorithms/mesh/surface.hpp>
+#include <terrane/algorithms/project/project.hpp>
+#include <terrane/algorithms/reconstruction/fill.hpp>
+
+namespace terrane {
+
+struct Preprocessed {
+    std::optional<FillWork> filled{};      ///< where the project has "fill"
+    std::vector<NewContact> contacts{};    ///< of fillings with other triangles of their surface
+    std::vector<LayerReport> layers{};     ///< where the project has "layers" and filling succeeded
+    std::optional<RoundingReport> stack{}; ///< of the stack of layers
+    double seconds_fill = 0, seconds_layers = 0;
+
+    /// Whether the surfaces can be used: no wanted hole stays open, no filling meets other
+    /// triangles, and the stack of layers is conforming.
+    [[nodiscard]] bool good() const;
+};
+
+/// Replaces surfaces; their names and roles stay. A triangle in which layers coincide is in each of
+/// them. Where filling fails, layers are left as they are.
+/// Errors: bad_option with the key, for names that no surface has or two entries share; those of
+/// find_border_loops, fill_holes and stack_layers.
+Result<Preprocessed> preprocess(const Project& project, std::vector<Surface>& surfaces,
+                                const Run& run = {});
+
+} // namespace terrane

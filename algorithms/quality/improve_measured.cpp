@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/quality/improve_measured.hpp>
+
+#include <utility>
+
+#include <terrane/algorithms/core/stopwatch.hpp>
+#include <terrane/algorithms/quality/improve_back.hpp>
+
+namespace terrane {
+
+bool ImprovedAndMeasured::is_near_back() const {
+    for (std::size_t s = 0; s < bounds_back.size(); ++s)
+        if (!(bounds_back[s] <= improved.report.bound_of[s])) return false;
+    return true;
+}
+
+Result<ImprovedAndMeasured> improve_and_measure(const ConformingMesh& mesh,
+                                                const ImproveOptions& options, const Run& run) {
+    Stopwatch watch;
+    if (run.progress) run.progress("improve", 0);
+    auto improved = improve(mesh, options, run);
+    if (!improved) return improved.error();
+    const double seconds_improve = watch.lap();
+    if (run.progress) run.progress("measure", 0);
+    auto deviations = deviations_of(mesh, improved->mesh, run);
+    auto back = bounds_back(mesh, *improved, options, run);
+    if (!back) return back.error();
+    if (run.stop.stop_requested()) return Error{ErrorCode::interrupted, "stopped on request", ""};
+    for (std::size_t s = 0; s < deviations.size(); ++s)
+        if (deviations[s].out > improved->report.bound_of[s])
+            return Error{ErrorCode::internal, "the surface is farther away than was shown",
+                         mesh->surfaces[s].name};
+    return ImprovedAndMeasured{std::move(*improved), std::move(deviations), std::move(*back),
+                               seconds_improve, watch.lap()};
+}
+
+} // namespace terrane

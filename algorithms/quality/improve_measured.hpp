@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include <terrane/algorithms/check/conforming.hpp>
+#include <terrane/algorithms/core/result.hpp>
+#include <terrane/algorithms/core/run.hpp>
+#include <terrane/algorithms/quality/deviation.hpp>
+#include <terrane/algorithms/quality/improve.hpp>
+
+namespace terrane {
+
+/// An improved mesh and how far it is from the mesh before, measured by code that shares nothing
+/// with the improvement.
+struct ImprovedAndMeasured {
+    Improved improved;
+    std::vector<Deviation> deviations; ///< per surface, measured
+    std::vector<double> bounds_back; ///< per surface: no point of it before is farther from it now
+    double seconds_improve = 0, seconds_measure = 0;
+
+    /// Whether the mesh before is shown to be within the bounds from the improved one as well.
+    [[nodiscard]] bool is_near_back() const;
+};
+
+/// Improves a mesh and measures its deviation. Errors: those of improve; interrupted; internal
+/// where the measured deviation exceeds the bound.
+Result<ImprovedAndMeasured> improve_and_measure(const ConformingMesh& mesh,
+                                                const ImproveOptions& options, const Run& run = {});
+
+} // namespace terrane

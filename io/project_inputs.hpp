@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// The files that a project names, read.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <terrane/algorithms/core/result.hpp>
+#include <terrane/algorithms/core/run.hpp>
+#include <terrane/algorithms/mesh/mesh.hpp>
+#include <terrane/algorithms/project/build.hpp>
+#include <terrane/algorithms/project/project.hpp>
+
+namespace terrane {
+
+struct ProjectInputs {
+    BuildInput build;                             ///< what terrane::build takes
+    std::vector<SurfaceInfo> as_read{};           ///< per surface: name and role in its file
+    std::vector<std::size_t> surfaces_of_entry{}; ///< per entry of "surfaces": how many
+    std::size_t vertices = 0, triangles = 0;      ///< of the surfaces
+};
+
+/// Reads the surfaces and makes the boundary of the volume of interest. Errors: those of
+/// read_surfaces and of the makers in boundary_surfaces.hpp; bad_option with the key of an object
+/// that a file does not have, or of a name for several surfaces; unsupported where 32 bits can't
+/// count everything; interrupted.
+Result<ProjectInputs> read_inputs(const Project& project, const Run& run = {});
+
+} // namespace terrane
