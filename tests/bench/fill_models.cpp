@@ -9,6 +9,8 @@
 
 #include <terrane/algorithms/mesh/triangle_tree.hpp>
 
+#include "support/shapes.hpp"
+
 namespace fill_bench {
 
 using terrane::Point3;
@@ -21,24 +23,11 @@ constexpr int cells = 60;
 using Shape = std::function<Point3(double u, double v)>; ///< of the unit square
 using Inside = std::function<bool(double u, double v)>;
 
+/// Returns the sheet over the unit square with n x n cells, without those in `left_out`.
 Surface sheet(int n, const Shape& shape, const Inside& left_out) {
-    Surface s{"sheet", terrane::Role::horizon, {}, {}};
-    std::map<std::pair<int, int>, std::uint32_t> known;
-    const auto vertex = [&](int i, int j) {
-        const auto [at, added] =
-            known.try_emplace({i, j}, static_cast<std::uint32_t>(s.vertices.size()));
-        if (added) s.vertices.push_back(shape(double(i) / n, double(j) / n));
-        return at->second;
-    };
-    for (int j = 0; j < n; ++j)
-        for (int i = 0; i < n; ++i) {
-            if (left_out((i + 0.5) / n, (j + 0.5) / n)) continue;
-            const auto a = vertex(i, j), b = vertex(i + 1, j), c = vertex(i + 1, j + 1),
-                       d = vertex(i, j + 1);
-            s.triangles.push_back({a, b, c});
-            s.triangles.push_back({a, c, d});
-        }
-    return s;
+    return test_support::sheet_of(
+        n, n, 1, [&](int i, int j) { return !left_out((i + 0.5) / n, (j + 0.5) / n); },
+        [&](double i, double j) { return shape(i / n, j / n); });
 }
 
 /// A hole that is no circle: an ellipse with lobes, off the middle.

@@ -15,6 +15,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "support/files.hpp"
+
 namespace program_test {
 
 namespace fs = std::filesystem;
@@ -33,18 +35,9 @@ inline std::string contents_of(const fs::path& path) {
 class Folder {
 public:
     Folder() {
-        auto name = (fs::temp_directory_path() / "terrane-XXXXXX").string();
-        if (mkdtemp(name.data()) == nullptr) std::abort();
-        path_ = name;
         fs::create_directory(path_ / "in");
         fs::create_directory(path_ / "io");
     }
-    ~Folder() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
 
     /// Puts a file into in/; its name for the command line.
     std::string input(const std::string& name, const std::string& text) const {
@@ -80,7 +73,8 @@ public:
     }
 
 private:
-    fs::path path_;
+    test_support::TemporaryFolder folder_;
+    const fs::path& path_ = folder_.path();
 };
 
 inline bool contains(const std::string& text, const std::string& part) {

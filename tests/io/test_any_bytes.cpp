@@ -11,7 +11,6 @@
 
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/files.hpp>
-#include <terrane/io/meshes/gmsh.hpp>
 #include <terrane/io/surfaces/obj.hpp>
 #include <terrane/io/surfaces/off.hpp>
 #include <terrane/io/surfaces/ply.hpp>
@@ -20,7 +19,7 @@
 #include "support/samples.hpp"
 
 using namespace terrane;
-using namespace terrane::test;
+using namespace test_support;
 
 namespace {
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "support/certificate_cases.hpp"
+#include "support/files.hpp"
 
 #include <filesystem>
 #include <fstream>
@@ -84,7 +85,8 @@ TEST_CASE("certificate: files are called relative to it") {
 }
 
 TEST_CASE("certificate: inputs are hashed as they are on the disk") {
-    const auto path = std::filesystem::temp_directory_path() / "terrane_certificate_input.obj";
+    const test_support::TemporaryFolder folder;
+    const auto path = folder / "input.obj";
     std::ofstream(path) << "abc";
     const auto record = record_input(path, "name", 2);
     std::filesystem::remove(path);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "support/certified_inputs.hpp"
+#include "support/files.hpp"
 
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/exact_text.hpp>
@@ -64,10 +65,10 @@ TEST_CASE("exact text: through a file, and threads make no difference") {
     const auto a = arrange(pierced());
     REQUIRE(a);
     CHECK(to_exact(a.value(), {.threads = 2}) == to_exact(a.value()));
-    const auto path = std::filesystem::temp_directory_path() / "terrane_exact.txt";
+    const test_support::TemporaryFolder folder;
+    const auto path = folder / "exact.txt";
     REQUIRE(write_file(path, to_text(to_exact(a.value()))));
     const auto read = read_exact(read_file(path).value(), path.string());
-    std::filesystem::remove(path);
     REQUIRE(read);
     CHECK(read.value() == to_exact(a.value()));
 }

@@ -1,39 +1,25 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <catch2/catch.hpp>
 
-#include <csignal>
 #include <cstdio>
 #include <new>
 #include <stdexcept>
 
 #include <fcntl.h>
-#include <sys/resource.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/files.hpp>
 
+#include "support/files.hpp"
 #include "support/samples.hpp"
 
 using namespace terrane;
-using namespace terrane::test;
+using namespace test_support;
 namespace fs = std::filesystem;
 
-namespace {
-
-std::size_t entries(const fs::path& folder) {
-    return static_cast<std::size_t>(
-        std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
-}
-
-ErrorCode code_of(const Status& status) {
-    REQUIRE_FALSE(status);
-    return status.error().code;
-}
-
-} // namespace
+namespace {} // namespace
 
 TEST_CASE("files: the extension tells the format, in any case", "[io][files]") {
     CHECK(format_of("a/b.ts") == Format::gocad);
@@ -123,48 +109,6 @@ TEST_CASE("files: reading what can't be read", "[io][files]") {
     check(parse_surfaces("", "b/a.off", Format::off), nothing_to_do, "b/a.off: the file is empty");
 }
 
-TEST_CASE("files: what can't be written leaves nothing behind", "[io][files]") {
-    TemporaryFolder folder;
-    const auto mesh = awkward_mesh();
-    using enum ErrorCode;
-    CHECK(code_of(write_mesh(mesh, folder / "no/a.obj")) == cannot_open);
-    CHECK(code_of(write_mesh(mesh, folder.path(), {.format = Format::obj})) == cannot_open);
-    CHECK(code_of(write_mesh(mesh, folder / "a.abc")) == unknown_format);
-    CHECK(code_of(write_mesh(mesh, folder / "a.vtu")) == unsupported);
-    CHECK(code_of(write_tetrahedra(two_tetrahedra(), folder / "a.obj")) == unsupported);
-    const auto stl = write_mesh(mesh, folder / "a.stl");
-    CHECK(code_of(stl) == bad_number);
-    CHECK(stl.error().place == (folder / "a.stl").string());
-    const std::vector<CellArray> wrong{{"quality", std::vector<double>(3)}};
-    CHECK(code_of(write_mesh(mesh, folder / "a.vtp", {.cells = wrong})) == bad_option);
-    CHECK(entries(folder.path()) == 0);
-}
-
-TEST_CASE("files: a full disk is noticed", "[io][files]") {
-    if (!fs::exists("/dev/full")) return;
-    const auto status = write_mesh(awkward_mesh(), "/dev/full", {.format = Format::obj});
-    CHECK(message_of(status) == "/dev/full: writing failed: No space left on device");
-    CHECK(code_of(status) == ErrorCode::write_failed);
-    CHECK(fs::is_character_file("/dev/full"));
-}
-
-TEST_CASE("files: a write cut short leaves what was there", "[io][files]") {
-    TemporaryFolder folder;
-    REQUIRE(write_file(folder / "a.obj", "old"));
-    struct rlimit before {};
-    REQUIRE(::getrlimit(RLIMIT_FSIZE, &before) == 0);
-    auto limit = before;
-    limit.rlim_cur = 100; // bytes: stands for a disk that fills up half way
-    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
-    REQUIRE(::setrlimit(RLIMIT_FSIZE, &limit) == 0);
-    const auto status = write_mesh(awkward_mesh(), folder / "a.obj");
-    REQUIRE(::setrlimit(RLIMIT_FSIZE, &before) == 0);
-    std::signal(SIGXFSZ, handler);
-    CHECK(code_of(status) == ErrorCode::write_failed);
-    CHECK(read_file(folder / "a.obj").value() == "old");
-    CHECK(entries(folder.path()) == 1);
-}
-
 TEST_CASE("files: - is standard input and output", "[io][files]") {
     TemporaryFolder folder;
     const auto file = (folder / "stream").string();
@@ -187,45 +131,6 @@ TEST_CASE("files: - is standard input and output", "[io][files]") {
     REQUIRE(message_of(result) == "no error");
     CHECK(result.value()[0].triangles == awkward_mesh().triangles);
     CHECK(result.value()[0].name == "standard input");
-}
-
-TEST_CASE("files: replacing keeps permissions and follows links", "[io][files]") {
-    TemporaryFolder folder;
-    REQUIRE(write_file(folder / "a", "old"));
-    REQUIRE(::chmod((folder / "a").c_str(), 0640) == 0);
-    fs::create_symlink("a", folder / "link");
-    REQUIRE(write_file(folder / "link", "new"));
-    CHECK(fs::is_symlink(folder / "link"));
-    CHECK(read_file(folder / "a").value() == "new");
-    struct stat info {};
-    REQUIRE(::stat((folder / "a").c_str(), &info) == 0);
-    CHECK((info.st_mode & 0777u) == 0640u);
-    CHECK(entries(folder.path()) == 2);
-}
-
-TEST_CASE("files: protected folders and files stay as they are", "[io][files]") {
-    if (::geteuid() == 0) return; // nothing is forbidden to root
-    TemporaryFolder folder;
-    fs::permissions(folder.path(), fs::perms::owner_read | fs::perms::owner_exec);
-    CHECK(code_of(write_file(folder / "a", "x")) == ErrorCode::cannot_open);
-    fs::permissions(folder.path(), fs::perms::owner_all);
-    REQUIRE(write_file(folder / "b", "old"));
-    fs::permissions(folder / "b", fs::perms::owner_read);
-    CHECK(code_of(write_file(folder / "b", "x")) == ErrorCode::cannot_open);
-    CHECK(read_file(folder / "b").value() == "old");
-    fs::remove(folder / "b");
-    CHECK(entries(folder.path()) == 0);
-}
-
-TEST_CASE("files: any size is read whole", "[io][files]") {
-    TemporaryFolder folder;
-    for (const std::size_t size :
-         {0ul, 1ul, (1ul << 20) - 1, 1ul << 20, (1ul << 20) + 1, 5000000ul}) {
-        std::string contents(size, 'x');
-        if (size != 0) contents.back() = '\0';
-        REQUIRE(write_file(folder / "a", contents));
-        CHECK(read_file(folder / "a").value() == contents);
-    }
 }
 
 TEST_CASE("files: running out of memory is an error, not an exception", "[io][files]") {

@@ -16,7 +16,7 @@
 #include "support/samples.hpp"
 
 using namespace terrane;
-using namespace terrane::test;
+using namespace test_support;
 using nlohmann::json;
 
 namespace {

@@ -1,23 +1,17 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <catch2/catch.hpp>
 
-#include <terrane/io/files.hpp>
 #include <terrane/io/surfaces/obj.hpp>
 #include <terrane/io/surfaces/off.hpp>
 #include <terrane/io/surfaces/ply.hpp>
 
+#include "support/read.hpp"
 #include "support/samples.hpp"
 
 using namespace terrane;
-using namespace terrane::test;
+using namespace test_support;
 
 namespace {
-
-std::vector<Surface> read(std::string_view name) {
-    const auto result = read_surfaces(std::filesystem::path(TERRANE_TEST_DATA) / name);
-    REQUIRE(message_of(result) == "no error");
-    return result.value();
-}
 
 Mesh joined(const std::vector<Surface>& surfaces) {
     Mesh mesh;
@@ -58,7 +52,7 @@ TEST_CASE("files of other programs", "[io][files]") {
     };
     for (const auto& [file, surfaces, triangles, vertices] : files) {
         INFO(file);
-        const auto mesh = joined(read(file));
+        const auto mesh = joined(read_data(file));
         CHECK(mesh.surfaces.size() == surfaces);
         CHECK(mesh.triangles.size() == triangles);
         CHECK(mesh.vertices.size() == vertices);
@@ -67,7 +61,7 @@ TEST_CASE("files of other programs", "[io][files]") {
 
 TEST_CASE("files of other programs survive every format", "[io][files]") {
     for (const auto* file : {"arch-platform/faults.ts", "ringmesh/modelA1.ml"}) {
-        const auto mesh = joined(read(file));
+        const auto mesh = joined(read_data(file));
         const auto expected = split(mesh);
         for (const auto& result :
              {read_gocad(to_gocad(mesh), "a", "a"), read_obj(to_obj(mesh), "a", "a"),

@@ -14,13 +14,13 @@
 #include "support/samples.hpp"
 
 using namespace terrane;
-using namespace terrane::test;
+using namespace test_support;
 using nlohmann::json;
 
 namespace {
 
 /// Large enough for several compressed blocks.
-Mesh grid(std::uint32_t n) {
+Mesh waves(std::uint32_t n) {
     Mesh mesh;
     mesh.surfaces = {{"waves", Role::horizon}};
     for (std::uint32_t i = 0; i < n; ++i)
@@ -96,7 +96,7 @@ TEST_CASE("samples for other programs", "[.samples]") {
     const char* folder = std::getenv("TERRANE_SAMPLES");
     REQUIRE(folder != nullptr);
     save(folder, "awkward", awkward_mesh(), ".vtp");
-    save(folder, "grid", grid(220), ".vtp");
+    save(folder, "grid", waves(220), ".vtp");
     save(folder, "tetrahedra", two_tetrahedra(), ".vtu");
     save(folder, "cut", cut_tetrahedra(), ".vtu");
 }

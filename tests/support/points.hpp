@@ -50,6 +50,20 @@ inline double random_real(Random& random, double low, double high) {
 }
 
 /// Off by one ulp, down or up, or not at all; finite.
+/// Returns n points in a cube around `middle` whose edges are 2 * scale long.
+inline std::vector<Point3> random_points(std::size_t n, unsigned seed, double scale = 1,
+                                         const Point3& middle = {}) {
+    Random random(seed);
+    std::uniform_real_distribution<double> x(-scale, scale);
+    std::vector<Point3> points;
+    for (std::size_t i = 0; i < n; ++i) {
+        Point3 p = middle;
+        for (double* c : {&p.x, &p.y, &p.z}) *c += x(random);
+        points.push_back(p);
+    }
+    return points;
+}
+
 inline double nudged(Random& random, double d) {
     const int step = random_int(random, -1, 1);
     const double next = std::nextafter(d, step * HUGE_VAL);
@@ -168,6 +182,20 @@ inline std::vector<Point3> points_of(Random& random, Family family, std::size_t 
         return points;
     }
     for (std::size_t i = 0; i < count; ++i) points.push_back(single_point(random, family));
+    return points;
+}
+
+template <class F>
+std::vector<double> values_at(const std::vector<Point3>& points, const F& f) {
+    std::vector<double> values;
+    for (const Point3& p : points) values.push_back(f(p));
+    return values;
+}
+
+inline std::vector<Point3> scattered(Random& random, int count, double size) {
+    std::vector<Point3> points;
+    for (int i = 0; i < count; ++i)
+        points.push_back({random_real(random, 0, size), random_real(random, 0, size), 0});
     return points;
 }
 

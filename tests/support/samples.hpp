@@ -3,7 +3,6 @@
 
 #include <bit>
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,33 +10,16 @@
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
 
-namespace terrane::test {
+namespace test_support {
 
-/// A folder that is gone, with all in it, at the end of the scope.
-class TemporaryFolder {
-public:
-    TemporaryFolder() {
-        static unsigned counter = 0;
-        do
-            path_ = std::filesystem::temp_directory_path() /
-                    ("terrane-io-" + std::to_string(reinterpret_cast<std::uintptr_t>(this)) + "-" +
-                     std::to_string(counter++));
-        while (!std::filesystem::create_directory(path_));
-    }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    ~TemporaryFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    [[nodiscard]] std::filesystem::path operator/(std::string_view name) const {
-        return path_ / name;
-    }
-    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
-private:
-    std::filesystem::path path_;
-};
+using terrane::ErrorCode;
+using terrane::Mesh;
+using terrane::Point3;
+using terrane::Result;
+using terrane::Role;
+using terrane::Surface;
+using terrane::TetrahedralMesh;
+using terrane::Triangle;
 
 /// Three surfaces with awkward names and numbers; triangle 1 belongs to the first two, and no
 /// triangle uses vertex 3.
@@ -146,6 +128,11 @@ std::string message_of(const Result<T>& result) {
     return result ? "no error" : result.error().message();
 }
 
+/// Returns the code of a failure.
+inline ErrorCode code_of(const terrane::Status& status) {
+    return status ? ErrorCode::internal : status.error().code;
+}
+
 /// A broken input and what must be said about it.
 struct Broken {
     std::string_view text;
@@ -153,4 +140,4 @@ struct Broken {
     std::string_view message;
 };
 
-} // namespace terrane::test
+} // namespace test_support

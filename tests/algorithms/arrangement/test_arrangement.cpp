@@ -3,7 +3,7 @@
 // Small models of every kind of contact, each judged by the verifier, with counts pinned.
 #include "support/claim.hpp"
 #include "support/points.hpp"
-#include "support/sheets.hpp"
+#include "support/shapes.hpp"
 
 #include <catch2/catch.hpp>
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>

@@ -4,7 +4,7 @@
 #include "support/claim.hpp"
 #include "support/effort.hpp"
 #include "support/points.hpp"
-
+#include "support/shapes.hpp"
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/kernel/predicates.hpp>
 
@@ -132,20 +132,11 @@ bool always_the_same(const std::vector<Surface>& surfaces) {
     return true;
 }
 
-/// A sheet of n x n squares over the unit square.
-Surface sheet(Random& random, int n, double roughness) {
-    Surface s;
-    for (int j = 0; j <= n; ++j)
-        for (int i = 0; i <= n; ++i)
-            s.vertices.push_back({i / double(n), j / double(n), random_real(random, 0, roughness)});
-    for (int j = 0; j < n; ++j)
-        for (int i = 0; i < n; ++i) {
-            const auto v = static_cast<std::uint32_t>(j * (n + 1) + i);
-            const auto up = v + static_cast<std::uint32_t>(n) + 1;
-            s.triangles.push_back({v, v + 1, up});
-            s.triangles.push_back({v + 1, up + 1, up});
-        }
-    return s;
+/// Returns a sheet of n x n squares over the unit square, with random heights.
+Surface rough_sheet(Random& random, unsigned n, double roughness) {
+    return unit_grid(n, n, [&](double u, double v) {
+        return Point3{u, v, random_real(random, 0, roughness)};
+    });
 }
 
 } // namespace
@@ -198,7 +189,7 @@ TEST_CASE("arrangements depend on neither threads nor search method") {
             REQUIRE(always_the_same(random_soup(random, shape, random_count(random))));
     // enough triangles for several blocks of work
     std::vector<Surface> sheets;
-    for (int k = 0; k < 3; ++k) sheets.push_back(sheet(random, 30, 0.1));
+    for (int k = 0; k < 3; ++k) sheets.push_back(rough_sheet(random, 30, 0.1));
     REQUIRE(always_the_same(sheets));
 }
 
@@ -229,7 +220,7 @@ TEST_CASE("arrangements of powers of two and of turned axes are the same") {
 TEST_CASE("larger sheets that cross hold for the verifier") {
     Random random(88);
     std::vector<Surface> sheets;
-    for (int k = 0; k < 3; ++k) sheets.push_back(sheet(random, cases(20) > 1 ? 20 : 6, 0.1));
+    for (int k = 0; k < 3; ++k) sheets.push_back(rough_sheet(random, cases(20) > 1 ? 20 : 6, 0.1));
     const std::string found = flaws(sheets);
     if (!found.empty()) FAIL(found.substr(0, 2000));
 }

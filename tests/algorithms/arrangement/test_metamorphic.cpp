@@ -3,6 +3,7 @@
 // What must not change the arrangement, tried on the inputs of tests/certified.
 #include "support/certified_inputs.hpp"
 #include "support/metamorphic.hpp"
+#include "support/rounded.hpp"
 
 #include <terrane/algorithms/arrangement/digest.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
@@ -16,12 +17,6 @@ namespace {
 
 using namespace terrane;
 using namespace test_support;
-
-Arrangement arranged(std::span<const Surface> surfaces) {
-    auto a = arrange(surfaces);
-    REQUIRE(a);
-    return std::move(a).value();
-}
 
 std::string digest(std::span<const Surface> surfaces) {
     return canonical_digest(surfaces, arranged(surfaces));

@@ -11,10 +11,9 @@
 #include <stop_token>
 
 #include <catch2/catch.hpp>
-#include <gmpxx.h>
 
 #include "support/effort.hpp"
-#include "support/holed_surfaces.hpp"
+#include "support/shapes.hpp"
 #include <terrane/algorithms/check/check.hpp>
 
 using namespace terrane;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <random>
 #include <set>
 #include <vector>
 
@@ -21,8 +20,8 @@ using namespace test_support;
 
 namespace {
 
-/// n x n quadrilaterals; vertex (i, j) is i * (n + 1) + j.
-IndexLists<std::uint32_t> grid(std::uint32_t n) {
+/// Returns a grid of n x n quadrilaterals; vertex (i, j) is i * (n + 1) + j.
+IndexLists<std::uint32_t> quads_of(std::uint32_t n) {
     IndexLists<std::uint32_t> quads;
     for (std::uint32_t i = 0; i < n; ++i)
         for (std::uint32_t j = 0; j < n; ++j) {
@@ -44,11 +43,11 @@ TEST_CASE("diffusion: quadrilaterals are parted by a curve through the grid", "[
     std::vector<Edge> curve;
     for (std::uint32_t j = 0; j < n; ++j) // the line i = 2
         curve.push_back({2 * (n + 1) + j, 2 * (n + 1) + j + 1});
-    auto regions = regions_of_polygons(grid(n), sorted(curve));
+    auto regions = regions_of_polygons(quads_of(n), sorted(curve));
     REQUIRE(regions.size() == n * n);
     for (std::uint32_t q = 0; q < regions.size(); ++q) CHECK(regions[q] == (q < 2 * n ? 0U : 1U));
     curve.pop_back(); // a gap is a way through
-    regions = regions_of_polygons(grid(n), sorted(curve));
+    regions = regions_of_polygons(quads_of(n), sorted(curve));
     CHECK(std::count(regions.begin(), regions.end(), 0U) == n * n);
 }
 
@@ -57,7 +56,7 @@ TEST_CASE("diffusion: a closed curve cuts a region out", "[regions]") {
     const auto v = [](std::uint32_t i, std::uint32_t j) { return i * (n + 1) + j; };
     const std::vector<Edge> ring =
         sorted({{v(2, 2), v(3, 2)}, {v(2, 3), v(3, 3)}, {v(2, 2), v(2, 3)}, {v(3, 2), v(3, 3)}});
-    const auto regions = regions_of_polygons(grid(n), ring);
+    const auto regions = regions_of_polygons(quads_of(n), ring);
     for (std::uint32_t q = 0; q < regions.size(); ++q)
         CHECK(regions[q] == (q == 2 * n + 2 ? 1U : 0U));
 }
@@ -78,7 +77,7 @@ TEST_CASE("diffusion: random stops, against paths found by brute force", "[regio
     Random random(9);
     constexpr std::uint32_t n = 8;
     for (int round = 0; round < 30; ++round) {
-        const auto quads = grid(n);
+        const auto quads = quads_of(n);
         std::set<Edge> stops;
         for (std::uint32_t q = 0; q < quads.size(); ++q)
             for (std::size_t i = 0; i < 4; ++i)

@@ -3,11 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <random>
 #include <stop_token>
-#include <string>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -15,73 +13,18 @@
 #include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/algorithms/quality/deviation.hpp>
 #include <terrane/algorithms/quality/improve_back.hpp>
-#include <terrane/algorithms/rounding/rounding.hpp>
 
+#include "support/improve_cases.hpp"
 #include "support/points.hpp"
+#include "support/rounded.hpp"
+#include "support/shapes.hpp"
 #include "support/solids.hpp"
 
 using namespace terrane;
 using namespace test_support;
+using namespace improve_cases;
 
 namespace {
-
-using Map = std::function<Point3(double, double)>;
-
-/// Maps a grid of n by m cells over [0, 1] x [0, 1].
-Surface grid(std::uint32_t n, std::uint32_t m, const Map& map, std::string name) {
-    Surface s{std::move(name), Role::unknown, {}, {}};
-    for (std::uint32_t j = 0; j <= m; ++j)
-        for (std::uint32_t i = 0; i <= n; ++i)
-            s.vertices.push_back(map(static_cast<double>(i) / n, static_cast<double>(j) / m));
-    for (std::uint32_t j = 0; j < m; ++j)
-        for (std::uint32_t i = 0; i < n; ++i) {
-            const std::uint32_t a = j * (n + 1) + i, b = a + n + 1;
-            s.triangles.push_back({a, a + 1, b + 1});
-            s.triangles.push_back({a, b + 1, b});
-        }
-    return s;
-}
-
-Mesh rounded(const std::vector<Surface>& surfaces) {
-    const auto exact = arrange(surfaces);
-    REQUIRE(exact);
-    auto mesh = round_to_doubles(exact.value());
-    REQUIRE(mesh);
-    REQUIRE(mesh.value().report.clean);
-    return std::move(mesh.value().mesh);
-}
-
-Improved improved(const Mesh& mesh, const ImproveOptions& options = {}, const Run& run = {}) {
-    auto better = improve(mesh, options, run);
-    INFO((better ? std::string() : better.error().message()));
-    REQUIRE(better);
-    return std::move(better).value();
-}
-
-/// Builds a horizon and four faults that cut it into nine regions, of 1134 triangles (1136 in the
-/// paper).
-std::vector<Surface> nine_regions() {
-    const auto horizon = [](double u, double v) {
-        return Point3{10 * u, 10 * v, 0.5 * std::sin(6 * u) * std::cos(5 * v)};
-    };
-    std::vector<Surface> all{grid(17, 20, horizon, "horizon")};
-    const auto across = [](double at, double lean) {
-        return [=](double u, double v) {
-            return Point3{at + 0.4 * std::sin(4 * u) + lean * (v - 0.5), -0.5 + 11 * u, -2 + 4 * v};
-        };
-    };
-    for (const double at : {3.1, 6.65}) {
-        all.push_back(grid(8, 2, across(at, 0.8), "fault across"));
-        all.push_back(grid(
-            8, 2,
-            [&](double u, double v) {
-                const Point3 p = across(at, -0.6)(u, v);
-                return Point3{p.y, p.x, p.z};
-            },
-            "fault along"));
-    }
-    return all;
-}
 
 ErrorCode refusal(const Mesh& mesh, const ImproveOptions& options = {}, const Run& run = {}) {
     const auto result = improve(mesh, options, run);
@@ -98,7 +41,7 @@ double mean_edge(const Mesh& mesh, std::uint32_t surface) {
 } // namespace
 
 TEST_CASE("improve: a horizon cut into nine regions, as in the paper's Figure 18", "[improve]") {
-    const Mesh mesh = rounded(nine_regions());
+    const Mesh mesh = mesh_of(nine_regions());
     const Surface horizon = surface_of_mesh(mesh, 0);
     std::vector<std::uint32_t> regions;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
@@ -125,7 +68,7 @@ TEST_CASE("improve: a horizon cut into nine regions, as in the paper's Figure 18
 }
 
 TEST_CASE("improve: another method confirms the bound for all points", "[improve]") {
-    const Mesh mesh = rounded(nine_regions());
+    const Mesh mesh = mesh_of(nine_regions());
     ImproveOptions options;
     options.edge_length = 1.2;
     options.max_deviation = 0.2;
@@ -138,42 +81,8 @@ TEST_CASE("improve: another method confirms the bound for all points", "[improve
     }
 }
 
-TEST_CASE("improve: the original is near the result, and a hole is detected", "[improve]") {
-    const Mesh mesh = rounded(nine_regions());
-    ImproveOptions options;
-    options.edge_length = 0.5;
-    Improved better = improved(mesh, options);
-    const auto back = bounds_back(mesh, better, options);
-    REQUIRE(back);
-    for (std::uint32_t s = 0; s < mesh.surfaces.size(); ++s) {
-        CHECK(back.value()[s] <= better.report.bound_of[s]);
-        const Surface before = surface_of_mesh(mesh, s), after = surface_of_mesh(better.mesh, s);
-        CHECK(back.value()[s] >= sampled_distance(before, after));
-    }
-    // Without a triangle it is far: the inscribed circle is larger than the bound.
-    for (const std::size_t gone : {std::size_t{0}, better.mesh->triangles.size() / 2}) {
-        Improved holed = better;
-        const std::uint32_t surface = better.mesh->surfaces_of[gone][0];
-        const auto keep = [&](auto& list) {
-            list.erase(list.begin() + static_cast<std::ptrdiff_t>(gone));
-        };
-        Mesh rest = better.mesh;
-        keep(rest.triangles);
-        keep(holed.near_of);
-        rest.surfaces_of = {};
-        for (std::size_t t = 0; t < better.mesh->triangles.size(); ++t)
-            if (t != gone) rest.surfaces_of.push_back(better.mesh->surfaces_of[t]);
-        holed.mesh = rest;
-        const auto far = bounds_back(mesh, holed, options);
-        REQUIRE(far);
-        CHECK(far.value()[surface] > better.report.bound_of[surface]);
-        CHECK(far.value()[surface] >= sampled_distance(surface_of_mesh(mesh, surface),
-                                                       surface_of_mesh(holed.mesh, surface)));
-    }
-}
-
 TEST_CASE("improve: vertices of curves stay on them", "[improve]") {
-    const Mesh mesh = rounded(nine_regions());
+    const Mesh mesh = mesh_of(nine_regions());
     ImproveOptions options;
     options.edge_length = 0.3;
     const Improved better = improved(mesh, options);
@@ -201,9 +110,9 @@ TEST_CASE("improve: sheets closer than the bound never meet", "[improve]") {
             return Point3{4 * u, 4 * v, 0.3 * std::sin(7 * u + off) * std::cos(6 * v) + off};
         };
     };
-    const std::vector<Surface> sheets{grid(24, 24, wave(0), "low"),
-                                      grid(17, 31, wave(0.01), "high")};
-    const Mesh mesh = rounded(sheets);
+    const std::vector<Surface> sheets{unit_grid(24, 24, wave(0), "low"),
+                                      unit_grid(17, 31, wave(0.01), "high")};
+    const Mesh mesh = mesh_of(sheets);
     ImproveOptions options;
     options.edge_length = 0.4;
     options.max_deviation = 0.1;
@@ -225,8 +134,8 @@ TEST_CASE("improve: no sheet sweeps over a piece that is smaller than the bound"
             for (const double length : {2.0, 4.0}) {
                 Surface piece = cube(0, size); // below the top of the hill
                 for (Point3& p : piece.vertices) p = {4.99 + p.x, 4.99 + p.y, 0.3 + p.z};
-                const Mesh mesh = rounded({grid(20, 20, hill(0.6, narrow), "top"),
-                                           grid(9, 9, hill(-3, 0), "bottom"), piece});
+                const Mesh mesh = mesh_of({unit_grid(20, 20, hill(0.6, narrow), "top"),
+                                           unit_grid(9, 9, hill(-3, 0), "bottom"), piece});
                 ImproveOptions options;
                 options.edge_length = length;
                 options.max_deviation = 0.8;
@@ -239,7 +148,7 @@ TEST_CASE("improve: no sheet sweeps over a piece that is smaller than the bound"
 }
 
 TEST_CASE("improve: the result does not depend on the number of threads", "[improve]") {
-    const Mesh mesh = rounded(nine_regions());
+    const Mesh mesh = mesh_of(nine_regions());
     const Improved one = improved(mesh), four = improved(mesh, {}, {.threads = 4});
     CHECK(one.mesh->vertices == four.mesh->vertices);
     CHECK(one.mesh->triangles == four.mesh->triangles);
@@ -251,7 +160,7 @@ TEST_CASE("improve: target lengths hold by surface, along curves, and where a su
           "[improve]") {
     const std::vector<Surface> surfaces{level(0, 0, 0, 10, 10),
                                         quad({-1, 5, -3}, {11, 5, -3}, {11, 5, 3}, {-1, 5, 3})};
-    const Mesh mesh = rounded(surfaces);
+    const Mesh mesh = mesh_of(surfaces);
     ImproveOptions options;
     options.edge_length = 1;
     options.edge_length_of = {0, 0.5};
@@ -263,7 +172,7 @@ TEST_CASE("improve: target lengths hold by surface, along curves, and where a su
     near_curves.curve_length = 0.25;
     CHECK(improved(mesh, near_curves).mesh->triangles.size() >
           2 * improved(mesh, {.edge_length = 2}).mesh->triangles.size());
-    const Mesh bump = rounded({grid(
+    const Mesh bump = mesh_of({unit_grid(
         30, 30,
         [](double u, double v) {
             const double r = (u - 0.5) * (u - 0.5) + (v - 0.5) * (v - 0.5);
@@ -280,7 +189,7 @@ TEST_CASE("improve: target lengths hold by surface, along curves, and where a su
 
 TEST_CASE("improve: closed, one-sided and folded surfaces stay near their originals", "[improve]") {
     for (const Surface& s : {torus({0, 0, 0}, 3, 1, 24), moebius_strip(24), cube(0, 4)}) {
-        const Mesh mesh = rounded({s});
+        const Mesh mesh = mesh_of({s});
         ImproveOptions options;
         options.edge_length = 0.5;
         const Improved better = improved(mesh, options);
@@ -316,7 +225,7 @@ TEST_CASE("improve: triangles that cross at random are refused, however they are
 }
 
 TEST_CASE("improve: invalid options and meshes are refused", "[improve]") {
-    const Mesh mesh = rounded(nine_regions());
+    const Mesh mesh = mesh_of(nine_regions());
     CHECK(refusal({}) == ErrorCode::nothing_to_do);
     ImproveOptions options;
     options.edge_length = -1;

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <set>
-#include <string>
 #include <vector>
 
 #include <catch2/catch.hpp>

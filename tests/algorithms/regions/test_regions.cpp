@@ -2,6 +2,8 @@
 //
 // Regions of models whose regions are known.
 #include "support/claim.hpp"
+#include "support/rounded.hpp"
+#include "support/shapes.hpp"
 
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/algorithms/regions/regions_over.hpp>
@@ -15,19 +17,9 @@ namespace {
 using namespace terrane;
 using namespace test_support;
 
-/// n x n squares of the horizontal plane z = 0, from 0 to 4.
-Surface horizon(int n = 4) {
-    Surface s;
-    for (int j = 0; j <= n; ++j)
-        for (int i = 0; i <= n; ++i) s.vertices.push_back({4.0 * i / n, 4.0 * j / n, 0});
-    for (int j = 0; j < n; ++j)
-        for (int i = 0; i < n; ++i) {
-            const auto v = static_cast<std::uint32_t>(j * (n + 1) + i);
-            const auto up = v + static_cast<std::uint32_t>(n) + 1;
-            s.triangles.push_back({v, v + 1, up + 1});
-            s.triangles.push_back({v, up + 1, up});
-        }
-    return s;
+/// Returns n x n squares of the horizontal plane z = 0, from 0 to 4.
+Surface horizon(unsigned n = 4) {
+    return grid(n, n, [n](unsigned i, unsigned j) { return Point3{4.0 * i / n, 4.0 * j / n, 0}; });
 }
 
 /// A vertical wall over the line from (x0, y0) to (x1, y1), from z = -1 to 1.
@@ -46,9 +38,7 @@ void check_same(const Regions& r, const Regions& expected) {
 
 /// What a mesh alone says must agree with what the arrangement's adjacency says.
 Regions regions(const std::vector<Surface>& surfaces) {
-    const auto arranged = arrange(surfaces);
-    REQUIRE(arranged);
-    const Arrangement& a = arranged.value();
+    const Arrangement a = arranged(surfaces);
     REQUIRE(flaws(surfaces, a) == "");
     std::vector<Point3> vertices;
     for (const PointIndex p : a.vertices) vertices.push_back(a.state->points.nearest(p));

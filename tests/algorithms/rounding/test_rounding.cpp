@@ -4,42 +4,25 @@
 #include "support/claim.hpp"
 #include "support/effort.hpp"
 #include "support/points.hpp"
-#include "support/sheets.hpp"
+#include "support/rounded.hpp"
+#include "support/shapes.hpp"
 #include "support/soup_laws.hpp"
 
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/algorithms/intersection/intersection.hpp>
 #include <terrane/algorithms/rounding/detail/collapsed_triangles.hpp>
-#include <terrane/algorithms/rounding/detail/state.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
 
 #include <catch2/catch.hpp>
 
 #include <cmath>
 #include <cstdint>
-#include <functional>
-#include <limits>
-#include <span>
-#include <utility>
 
 namespace {
 
 using namespace terrane;
 using namespace terrane::rounding::detail;
 using namespace test_support;
-
-Surface grid(int n, const std::function<Point3(double, double)>& at) {
-    Surface s;
-    for (int j = 0; j <= n; ++j)
-        for (int i = 0; i <= n; ++i) s.vertices.push_back(at(double(i) / n, double(j) / n));
-    const auto index = [n](int i, int j) { return static_cast<std::uint32_t>(j * (n + 1) + i); };
-    for (int j = 0; j < n; ++j)
-        for (int i = 0; i < n; ++i) {
-            s.triangles.push_back({index(i, j), index(i + 1, j), index(i + 1, j + 1)});
-            s.triangles.push_back({index(i, j), index(i + 1, j + 1), index(i, j + 1)});
-        }
-    return s;
-}
 
 /// A rotation and shift that no double is safe from: coplanar becomes nearly coplanar.
 Point3 turned(const Point3& p) {
@@ -49,27 +32,15 @@ Point3 turned(const Point3& p) {
             std::sin(0.4) * p.x + std::cos(0.4) * z + 0.1};
 }
 
-std::vector<Surface> turned_sheets(int n) {
+std::vector<Surface> turned_sheets(unsigned n) {
     const double h = 0.5 / n;
-    return {grid(n,
-                 [](double x, double y) {
-                     return turned({x, y, 0});
-                 }),
-            grid(n, [h](double x, double y) {
+    return {unit_grid(n, n,
+                      [](double x, double y) {
+                          return turned({x, y, 0});
+                      }),
+            unit_grid(n, n, [h](double x, double y) {
                 return turned({x + h, y + h, 0});
             })};
-}
-
-Arrangement arranged(const std::vector<Surface>& surfaces) {
-    auto a = arrange(surfaces);
-    REQUIRE(a.ok());
-    return std::move(a).value();
-}
-
-RoundedMesh rounded(const Arrangement& a, const RoundingOptions& options = {}) {
-    auto r = round_to_doubles(a, options);
-    REQUIRE(r.ok());
-    return std::move(r).value();
 }
 
 bool is_conforming(const Mesh& m) {
@@ -84,23 +55,6 @@ void check_lists(const RoundedMesh& r) {
     for (std::size_t t = 0; t < m.triangles.size(); ++t)
         for (std::size_t k = 0; k < m.surfaces_of[t].size(); ++k)
             REQUIRE(r.regions[m.regions_of[t][k]].surface == m.surfaces_of[t][k]);
-}
-
-/// Dirty points, and triangles each with itself as its parent.
-RoundingState state_of(std::vector<Point3> points, std::vector<Triangle> triangles) {
-    RoundingState state;
-    state.move.assign(points.size(), 0);
-    state.is_dirty.assign(points.size(), true);
-    for (std::uint32_t t = 0; t < triangles.size(); ++t) state.parents_of.push_back(std::array{t});
-    state.points = std::move(points);
-    state.triangles = std::move(triangles);
-    return state;
-}
-
-/// Twice the area, of triangles in the plane z = 0.
-double twice_area(std::span<const Point3> points, const Triangle& t) {
-    const Point3 &a = points[t[0]], &b = points[t[1]], &c = points[t[2]];
-    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
 } // namespace
@@ -167,7 +121,9 @@ TEST_CASE("rounding: what is left is named when no round is allowed") {
 
 TEST_CASE("rounding: a triangle too thin for doubles is reported as vanished, or still there") {
     // Two needles cross a sheet; one is thinner than doubles can tell where it is cut.
-    std::vector<Surface> model{grid(4, [](double x, double y) { return Point3{x, y, 0.1 * x}; })};
+    std::vector<Surface> model{unit_grid(4, 4, [](double x, double y) {
+        return Point3{x, y, 0.1 * x};
+    })};
     const double ulp = std::nextafter(0.3, 1) - 0.3;
     model.push_back(surface({{0.3, 0.4, -1}, {0.3, 0.45, 1}, {0.3 + ulp, 0.45, 1}}, {{0, 1, 2}}));
     model.push_back(surface({{0.6, 0.4, -1}, {0.6, 0.45, 1}, {0.6001, 0.45, 1}}, {{0, 1, 2}}));
@@ -223,71 +179,6 @@ TEST_CASE("rounding: the same for any number of threads, and stopped on request"
     const auto stopped = round_to_doubles(a, {}, run);
     REQUIRE_FALSE(stopped.ok());
     CHECK(stopped.error().code == ErrorCode::interrupted);
-}
-
-TEST_CASE("rounding: triangles that became a line leave no corner inside their neighbours' sides") {
-    // Two between the side 0 3 above and the chain 0 1 2 3 below it.
-    auto state = state_of({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {1, 2, 0}, {1, -2, 0}},
-                          {{0, 3, 4}, {0, 2, 3}, {0, 1, 2}, {1, 0, 5}, {2, 1, 5}, {3, 2, 5}});
-    state.is_dirty.assign(state.points.size(), false);
-    state.is_dirty[2] = true;
-    REQUIRE_FALSE(verify_conforming(state.points, state.triangles).empty());
-    CHECK(state.tidy({}));
-    CHECK(state.collapsed == 2);
-    CHECK(state.triangles ==
-          std::vector<Triangle>{{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {1, 0, 5}, {2, 1, 5}, {3, 2, 5}});
-    CHECK(state.parents_of.values == std::vector<std::uint32_t>{0, 0, 0, 3, 4, 5});
-    CHECK(state.is_dirty[1]);
-    CHECK(verify_conforming(state.points, state.triangles).empty());
-    CHECK_FALSE(state.tidy({}));
-}
-
-TEST_CASE("rounding: what is equal once it is divided is one triangle with both parents") {
-    auto state =
-        state_of({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {1, 1, 0}}, {{0, 2, 3}, {3, 1, 0}, {0, 1, 2}});
-    CHECK(state.tidy({}));
-    CHECK(state.triangles == std::vector<Triangle>{{0, 1, 3}, {1, 2, 3}});
-    CHECK(state.parents_of[0].size() == 2);
-    CHECK(state.parents_of[1].size() == 1);
-}
-
-TEST_CASE("rounding: a triangle is divided at points inside all its sides") {
-    const std::vector<Point3> points{{0, 0, 0}, {6, 0, 0}, {0, 6, 0}, {2, 0, 0}, {4, 0, 0},
-                                     {4, 2, 0}, {3, 3, 0}, {1, 5, 0}, {0, 3, 0}};
-    const PointsInSides all{{{3, 4}, {5, 6, 7}, {8}}};
-    for (unsigned sides = 0; sides < 8; ++sides) {
-        PointsInSides within;
-        std::size_t count = 1;
-        for (unsigned i = 0; i < 3; ++i)
-            if ((sides >> i & 1) != 0) count += (within[i] = all[i]).size();
-        std::vector<Triangle> parts;
-        divide_at({0, 1, 2}, within, parts);
-        CHECK(parts.size() == count);
-        double area = 0;
-        for (std::size_t i = 0; i < parts.size(); ++i) {
-            CHECK(twice_area(points, parts[i]) > 0);
-            area += twice_area(points, parts[i]);
-            for (std::size_t j = 0; j < i; ++j)
-                CHECK_FALSE(improper_contact(points, parts[i], parts[j]));
-        }
-        CHECK(area == 36);
-    }
-}
-
-TEST_CASE("rounding: a sliver that becomes a line opens no slit between its neighbours") {
-    const double least = std::numeric_limits<double>::denorm_min();
-    const std::vector model{
-        surface({{-1, -2, -1 - 0x1p-52}, {-1, 0, 0}, {0, 0, 0}}, {{0, 1, 2}}),
-        surface(
-            {{-1, -0.5, 0}, {0, -0.5, 0}, {0, 0.5, -1}, {least, least, -1}, {-1, -2, 0}, {0, 0, 0}},
-            {{0, 1, 2}, {3, 4, 5}})};
-    const auto a = arranged(model);
-    const auto r = rounded(a);
-    CHECK(r.report.collapsed_triangles == 1);
-    CHECK(r.report.clean);
-    CHECK(r.report.rounds == 0); // nothing meets improperly but for that sliver's corner
-    for (const unsigned rounds : {8U, 1U, 0U})
-        CHECK(soup_laws::rounding_flaw(model, a, {.max_rounds = rounds}).empty());
 }
 
 namespace {

@@ -4,10 +4,8 @@
 #include <terrane/algorithms/sealing/sealing.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -15,6 +13,7 @@
 
 #include "support/effort.hpp"
 #include "support/points.hpp"
+#include "support/shapes.hpp"
 #include "support/solids.hpp"
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/algorithms/arrangement/restricted.hpp>
@@ -63,23 +62,15 @@ void check_rounds(const Arrangement& a) {
     CHECK(rounded.value().report.clean);
 }
 
-/// Builds a grid over [x0, x1] x [y0, y1] of n by n cells at heights z(x, y).
+/// Builds a horizon over [x0, x1] x [y0, y1] of n by n cells at heights z(x, y).
 template <class Height>
-Surface grid(double x0, double y0, double x1, double y1, unsigned n, const Height& z,
-             std::string name) {
-    Surface s{std::move(name), Role::horizon, {}, {}};
-    for (unsigned j = 0; j <= n; ++j)
-        for (unsigned i = 0; i <= n; ++i) {
-            const double x = x0 + (x1 - x0) * i / n, y = y0 + (y1 - y0) * j / n;
-            s.vertices.push_back({x, y, z(x, y)});
-        }
-    for (std::uint32_t j = 0; j < n; ++j)
-        for (std::uint32_t i = 0; i < n; ++i) {
-            const std::uint32_t a = j * (n + 1) + i, b = a + 1, c = a + n + 2, d = a + n + 1;
-            s.triangles.push_back({a, b, c});
-            s.triangles.push_back({a, c, d});
-        }
-    return s;
+Surface horizon_grid(double x0, double y0, double x1, double y1, unsigned n, const Height& z,
+                     std::string name) {
+    const auto node = [&](unsigned i, unsigned j) {
+        const double x = x0 + (x1 - x0) * i / n, y = y0 + (y1 - y0) * j / n;
+        return Point3{x, y, z(x, y)};
+    };
+    return grid(n, n, node, std::move(name), Role::horizon);
 }
 
 Surface moved_by(Surface s, const Point3& by) {
@@ -98,7 +89,8 @@ TEST_CASE("sealing: a horizon that stops short of the walls of a box is extended
           "[seal]") {
     for (const unsigned n : {1U, 4U}) {
         const auto flat = [](double, double) { return 4.0; };
-        const std::vector<Surface> model{cube(0, 8), grid(0.1, 0.1, 7.95, 7.9, n, flat, "horizon")};
+        const std::vector<Surface> model{cube(0, 8),
+                                         horizon_grid(0.1, 0.1, 7.95, 7.9, n, flat, "horizon")};
         CHECK(volumes_of(arrange(model).value()).block_count() == 1);
         const Sealed s = sealed(model, 0.11);
         const Volumes v = volumes_of(s.arrangement);
@@ -118,7 +110,8 @@ TEST_CASE("sealing: a horizon that stops short of the walls of a box is extended
 
 TEST_CASE("sealing: nothing changes if no gap is small enough", "[seal]") {
     const auto flat = [](double, double) { return 4.0; };
-    const std::vector<Surface> model{cube(0, 8), grid(0.1, 0.1, 7.9, 7.9, 3, flat, "horizon"),
+    const std::vector<Surface> model{cube(0, 8),
+                                     horizon_grid(0.1, 0.1, 7.9, 7.9, 3, flat, "horizon"),
                                      level(2, 1, 1, 20, 7, "beyond")};
     const Arrangement a = arrange(model).value();
     const Sealed s = sealed(model, 0.0999);
@@ -143,7 +136,8 @@ TEST_CASE("sealing: a gap to a fault is closed at any angle", "[seal]") {
             quad({4 - 4.5 * lean, -1, -0.5}, {4 - 4.5 * lean, 9, -0.5}, {4 + 4.5 * lean, 9, 8.5},
                  {4 + 4.5 * lean, -1, 8.5}, "fault"); // at x = 4 at height 4
         const auto flat = [](double, double) { return 4.0; };
-        const std::vector<Surface> model{cube(0, 8), fault, grid(-1, -1, 3.9, 9, 5, flat, "left")};
+        const std::vector<Surface> model{cube(0, 8), fault,
+                                         horizon_grid(-1, -1, 3.9, 9, 5, flat, "left")};
         INFO("lean " << lean);
         const Volumes before = volumes_of(arrange(model).value());
         const Sealed s = sealed(model, 0.1);
@@ -165,7 +159,7 @@ TEST_CASE("sealing: a gap to a fault is closed at any angle", "[seal]") {
 
 TEST_CASE("sealing: only the part of a border near the fault is closed", "[seal]") {
     // The border is near the fault for y < 4 and far from it for y > 4.
-    Surface horizon = grid(
+    Surface horizon = horizon_grid(
         0, 0, 3.9, 8, 8, [](double, double) { return 4.0; }, "horizon");
     for (Point3& p : horizon.vertices) p.x *= p.y > 4 ? 0.5 : 1;
     const std::vector<Surface> model{horizon,
@@ -190,7 +184,7 @@ TEST_CASE("sealing: only the part of a border near the fault is closed", "[seal]
 TEST_CASE("sealing: ends that extend beyond a fault are trimmed", "[seal]") {
     const auto flat = [](double, double) { return 4.0; };
     const Surface box = cube(0, 8);
-    const std::vector<Surface> model{box, grid(-0.1, -0.05, 8.1, 8.08, 3, flat, "horizon")};
+    const std::vector<Surface> model{box, horizon_grid(-0.1, -0.05, 8.1, 8.08, 3, flat, "horizon")};
     const Sealed s = sealed(model, 0.15);
     CHECK(volumes_of(s.arrangement).measures == std::vector<double>{512, 256, 256});
     REQUIRE(s.changes.size() == 1);
@@ -209,13 +203,13 @@ TEST_CASE("sealing: ends that extend beyond a fault are trimmed", "[seal]") {
 TEST_CASE("sealing: a border that crosses the fault back and forth is closed", "[seal]") {
     Random random(4);
     for (int round = 0; round < cases(12); ++round) {
-        Surface horizon = grid(
+        Surface horizon = horizon_grid(
             0, -1, 4, 9, 12, [](double, double) { return 4.0; }, "horizon");
         for (Point3& p : horizon.vertices)
             if (p.x == 4) p.x += random_real(random, -0.05, 0.05);
         const std::vector<Surface> model{
             cube(0, 8), quad({4, -1, -1}, {4, 9, -1}, {4, 9, 9}, {4, -1, 9}, "fault"), horizon,
-            grid(
+            horizon_grid(
                 -1, -1, 4, 9, 1, [](double, double) { return 2.0; }, "low")};
         const Sealed s = sealed(model, 0.06);
         const Volumes v = volumes_of(s.arrangement);
@@ -238,7 +232,7 @@ TEST_CASE("sealing: a gap at the corner of two faults is closed", "[seal]") {
         const Surface first = quad({6, -1, -1}, {6, 6, -1}, {6, 6, 9}, {6, -1, 9}, "first"),
                       second = quad({6, 6, -1}, {-1, 6 + 7 * turn, -1}, {-1, 6 + 7 * turn, 9},
                                     {6, 6, 9}, "second");
-        Surface horizon = grid(
+        Surface horizon = horizon_grid(
             -1, -1, 5.9, 5.9, 6, [](double, double) { return 4.0; }, "horizon");
         for (Point3& p : horizon.vertices) // up to 0.1 before the second wall
             p.y = -1 + (p.y + 1) / 6.9 * (6.9 + turn * (6 - p.x));
@@ -259,11 +253,11 @@ TEST_CASE("sealing: gaps of micrometres are closed on curved, rough surfaces at 
     Random random(9);
     for (const double gap : {2e-6, 1e-3, 0.1}) {
         const Point3 origin{3.7e5, 3.77e6, -1e4};
-        Surface fault = grid(
+        Surface fault = horizon_grid(
             -200, -200, 1200, 1200, 9, [](double, double) { return 0.0; }, "fault");
         for (Point3& p : fault.vertices)
             p = {600 + 40 * std::sin(p.x / 150) + random_real(random, -5, 5), p.y, p.x - 500};
-        Surface horizon = grid(
+        Surface horizon = horizon_grid(
             -200, -200, 600, 1200, 16,
             [](double x, double y) { return 10 * std::sin(x / 90) + 8 * std::cos(y / 70); },
             "horizon");
@@ -311,8 +305,8 @@ TEST_CASE("sealing: free borders far from other surfaces do not change", "[seal]
 TEST_CASE("sealing: the result does not depend on threads, also within a volume of interest",
           "[seal]") {
     const auto flat = [](double x, double y) { return 4 + 0.1 * x - 0.05 * y; };
-    std::vector<Surface> model{grid(0.1, 0.1, 3.92, 8.5, 4, flat, "left"),
-                               grid(4.03, -1, 9, 9, 3, flat, "right"),
+    std::vector<Surface> model{horizon_grid(0.1, 0.1, 3.92, 8.5, 4, flat, "left"),
+                               horizon_grid(4.03, -1, 9, 9, 3, flat, "right"),
                                quad({4, -1, -1}, {4, 9, -1}, {4, 9, 9}, {4, -1, 9}, "fault")};
     auto boundary = box_boundary({0, 0, 0}, {8, 8, 8}).value();
     model.insert(model.end(), boundary.begin(), boundary.end());

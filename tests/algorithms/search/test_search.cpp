@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // All searches give the pairs that comparing every box with every other gives.
+#include "support/boxes.hpp"
 #include "support/effort.hpp"
 #include "support/points.hpp"
 
@@ -16,7 +17,7 @@ namespace {
 
 using namespace terrane;
 using namespace test_support;
-using Groups = std::vector<std::uint32_t>;
+using namespace box_cases;
 using Pairs = std::vector<CandidatePair>;
 
 std::vector<Search> all_methods() {
@@ -24,12 +25,6 @@ std::vector<Search> all_methods() {
     for (int m = 0; m <= static_cast<int>(Search::brute); ++m)
         methods.push_back(static_cast<Search>(m));
     return methods;
-}
-
-bool meet(const Box& a, const Box& b) {
-    for (unsigned k = 0; k < 3; ++k)
-        if (std::max(a.low[k], b.low[k]) > std::min(a.high[k], b.high[k])) return false;
-    return true;
 }
 
 Pairs expected(const std::vector<Box>& boxes, const Groups& groups) {
@@ -51,10 +46,6 @@ std::size_t check(const std::vector<Box>& boxes, const Groups& groups = {}) {
         REQUIRE(candidate_pairs(boxes, groups, method) == right);
     }
     return right.size();
-}
-
-Box box(const Point3& p, const Point3& size) {
-    return {{p.x, p.y, p.z}, {p.x + size.x, p.y + size.y, p.z + size.z}};
 }
 
 enum class Kind { cells, sizes, flat, ratios, lattice, far, everything };
@@ -230,88 +221,6 @@ TEST_CASE("pairs of active boxes are those pairs with one of them") {
                         right.push_back(p);
                 REQUIRE(candidate_pairs_of(boxes, active) == right);
             }
-}
-
-TEST_CASE("alternating trees: a list does no harm, and Table 1 gives the same boxes") {
-    std::vector<Box> boxes; // ascending in all keys: everything goes right
-    const int count = cases(5000);
-    for (int i = 0; i < count; ++i) boxes.push_back(box({i * 1.0, i * 1.0, i * 1.0}, {1, 1, 1}));
-    search::AbTree list(boxes);
-    CHECK(list.depth() == boxes.size());
-    const auto order = search::table_1_order(boxes);
-    REQUIRE(order.size() == boxes.size());
-    CHECK(order[0] == boxes.size() / 2);
-    search::BalancedAbTree table(boxes);
-    CHECK(table.depth() <= 16);
-    for (int i = 0; i < count; i += 97) {
-        const auto ask = [&](auto& tree) {
-            Groups found;
-            tree.query(boxes[static_cast<std::size_t>(i)],
-                       [&](std::uint32_t j) { found.push_back(j); });
-            std::sort(found.begin(), found.end());
-            return found;
-        };
-        const Groups right = ask(list);
-        CHECK(right.size() == (i == 0 ? 2 : 3));
-        CHECK(ask(table) == right);
-    }
-}
-
-TEST_CASE("the mixed search keeps what lies in cells of both") {
-    std::vector<Box> boxes; // two rows at right angles; they meet in the middle
-    Groups groups;
-    for (int i = 0; i < 50; ++i) {
-        boxes.push_back(box({i * 1.0, 25, 0}, {1, 1, 1}));
-        groups.push_back(0);
-        boxes.push_back(box({25, i * 1.0, 0}, {1, 1, 1}));
-        groups.push_back(1);
-    }
-    const auto kept = search::boxes_in_mixed_cells(boxes, groups);
-    CHECK(kept.size() >= 6);
-    CHECK(kept.size() <= 12);
-    CHECK(search::boxes_in_mixed_cells(boxes, Groups(100, 4)).empty());
-    CHECK(search::boxes_in_mixed_cells(boxes, Groups(100, no_group)).size() == 100);
-}
-
-TEST_CASE("packed boxes are compared as their coordinates are, one by one and eight at once") {
-    using search::PackedBox;
-    Random random(48);
-    // Few different coordinates, so that many are equal; the ends of the range among them.
-    constexpr std::array<std::uint64_t, 5> values{0, 1, 2, PackedBox::last - 1, PackedBox::last};
-    const auto any = [&] {
-        std::array<std::uint64_t, 3> low{}, high{};
-        for (unsigned k = 0; k < 3; ++k) {
-            low[k] = values[random() % values.size()];
-            high[k] = values[random() % values.size()];
-            if (low[k] > high[k]) std::swap(low[k], high[k]);
-        }
-        return PackedBox::of(low, high);
-    };
-    std::size_t inside = 0;
-    for (int i = 0; i < 2000; ++i) {
-        const PackedBox q = any();
-        search::EightBoxes eight;
-        REQUIRE(eight.overlapping(q) == 0);
-        const unsigned count = random() % 9;
-        for (unsigned b = 0; b < count; ++b) eight.set(b, any());
-        const unsigned found = eight.overlapping(q);
-        for (unsigned b = 0; b < 8; ++b) {
-            const PackedBox box = eight[b];
-            bool overlap = b < count, beyond = true;
-            for (unsigned k = 0; k < 3 && b < count; ++k) {
-                const auto reach = std::min(box.high_of(k), q.high_of(k)),
-                           start = std::max(box.low_of(k), q.low_of(k));
-                overlap = overlap && start <= reach;
-                beyond = beyond && box.low_of(k) < q.high_of(k) && q.low_of(k) < box.high_of(k);
-            }
-            REQUIRE(q.overlaps(box) == overlap);
-            REQUIRE(((found >> b) & 1) == (overlap ? 1 : 0));
-            if (!overlap) continue;
-            REQUIRE(q.overlaps_inside(box) == beyond);
-            inside += beyond ? 1 : 0;
-        }
-    }
-    CHECK(inside > 100);
 }
 
 TEST_CASE("searches tell boxes apart that are as near as no lattice shows") {

@@ -5,15 +5,14 @@
 #include <array>
 #include <climits>
 #include <cmath>
-#include <random>
 #include <vector>
 
 #include <catch2/catch.hpp>
 
 #include "support/points.hpp"
+#include "support/rounded.hpp"
 #include "support/solids.hpp"
 #include <terrane/algorithms/mesh/triangle_tree.hpp>
-#include <terrane/algorithms/rounding/rounding.hpp>
 
 using namespace terrane;
 using namespace test_support;
@@ -21,68 +20,13 @@ using namespace test_support;
 namespace {
 
 std::vector<FreeBorder> borders_of(const std::vector<Surface>& surfaces) {
-    const auto arrangement = arrange(surfaces);
-    REQUIRE(arrangement);
-    const auto rounded = round_to_doubles(arrangement.value());
-    REQUIRE(rounded);
-    const Mesh& mesh = rounded.value().mesh;
+    const Mesh mesh = rounded(arranged(surfaces)).mesh;
     const auto volumes = find_volumes(mesh);
     REQUIRE(volumes);
     return find_free_borders(mesh, build_structure(mesh, volumes.value()));
 }
 
-/// Samples the triangle finely: an upper bound that exceeds the distance by at most a cell.
-double sampled_distance(const Point3& p, const Point3& a, const Point3& b, const Point3& c) {
-    double best = HUGE_VAL;
-    constexpr int n = 60;
-    for (int i = 0; i <= n; ++i)
-        for (int j = 0; i + j <= n; ++j) {
-            const double s = double(i) / n, t = double(j) / n;
-            best = std::min(best, std::hypot(a.x + s * (b.x - a.x) + t * (c.x - a.x) - p.x,
-                                             a.y + s * (b.y - a.y) + t * (c.y - a.y) - p.y,
-                                             a.z + s * (b.z - a.z) + t * (c.z - a.z) - p.z));
-        }
-    return best;
-}
-
 } // namespace
-
-TEST_CASE("distance_to_triangle: above the face, beside an edge, beyond a corner", "[borders]") {
-    const Point3 a{0, 0, 0}, b{4, 0, 0}, c{0, 4, 0};
-    CHECK(distance_to_triangle({1, 1, 3}, a, b, c) == 3);
-    CHECK(distance_to_triangle({1, -2, 0}, a, b, c) == 2);
-    CHECK(distance_to_triangle({-3, -4, 0}, a, b, c) == 5);
-    CHECK(distance_to_triangle({1, 1, 0}, a, b, c) == 0);
-    CHECK(distance_to_triangle({0, 1, 0}, a, a, a) == 1);
-}
-
-TEST_CASE("TriangleTree: the nearest triangle agrees with brute force", "[borders]") {
-    Random random(11);
-    std::vector<Point3> points;
-    std::vector<Triangle> triangles;
-    const auto real = [&] { return random_real(random, -10, 10); };
-    for (std::uint32_t t = 0; t < 300; ++t) {
-        const Point3 at = point_of(real);
-        for (int i = 0; i < 3; ++i)
-            points.push_back({at.x + random_real(random, -1, 1), at.y + random_real(random, -1, 1),
-                              at.z + random_real(random, -1, 1)});
-        triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
-    }
-    const TriangleTree tree(points, triangles);
-    for (int i = 0; i < 300; ++i) {
-        const Point3 p = point_of(real);
-        double best = HUGE_VAL, sampled = HUGE_VAL;
-        for (const auto& [a, b, c] : triangles) {
-            best = std::min(best, distance_to_triangle(p, points[a], points[b], points[c]));
-            if (i < 10)
-                sampled = std::min(sampled, sampled_distance(p, points[a], points[b], points[c]));
-        }
-        CHECK(tree.distance(p, HUGE_VAL) == best);
-        CHECK(tree.distance(p, best / 2) == best / 2);
-        if (i < 10) CHECK(std::abs(best - sampled) < 0.06);
-    }
-    CHECK(TriangleTree(points, {}).distance({0, 0, 0}, 7) == 7);
-}
 
 TEST_CASE("free borders: a fault that stops short of a horizon has gaps by distance", "[borders]") {
     // Its lower border from y = 0 to 10 is 0.5 above the horizon at one end, 1.5 at the other.

@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
-#include <random>
 #include <set>
 #include <string>
 #include <vector>
@@ -14,6 +12,7 @@
 #include <catch2/catch.hpp>
 
 #include "support/certified_inputs.hpp"
+#include "support/rounded.hpp"
 #include "support/solids.hpp"
 #include <terrane/algorithms/rounding/rounding.hpp>
 #include <terrane/algorithms/structure/structure_meshes.hpp>
@@ -32,9 +31,7 @@ struct Built {
 
 /// Returns std::nullopt if the mesh is not conforming in doubles.
 std::optional<Built> try_build(const std::vector<Surface>& surfaces) {
-    const auto arrangement = arrange(surfaces);
-    REQUIRE(arrangement);
-    auto rounded = round_to_doubles(arrangement.value());
+    auto rounded = round_to_doubles(arranged(surfaces));
     if (!rounded || !rounded.value().report.clean) return std::nullopt;
     Built built;
     built.mesh = std::move(rounded.value().mesh);

@@ -3,104 +3,30 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <limits>
-#include <map>
-#include <memory>
 #include <optional>
 #include <set>
-#include <stop_token>
-#include <thread>
 #include <vector>
-
-#include <unistd.h>
 
 #include <catch2/catch.hpp>
 
-#include <terrane/algorithms/arrangement/arrangement.hpp>
-#include <terrane/algorithms/rounding/rounding.hpp>
 #include <terrane/algorithms/tetgen/detail/process.hpp>
-#include <terrane/algorithms/tetgen/tetgen_helper.hpp>
 #include <terrane/io/files.hpp>
-#include <terrane/kernel/predicates.hpp>
+
+#include "support/read.hpp"
+#include "support/rounded.hpp"
+#include "support/tetgen_cases.hpp"
 
 using namespace terrane;
+using namespace test_support;
+using namespace tetgen_cases;
 using namespace terrane::tetgen::detail;
 
 namespace {
 
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
-const Box3 unit_box{{-1, -1, -1}, {2, 2, 2}};
-
-/// A mesh that grows surface by surface; equal points are one vertex.
-class MeshBuilder {
-public:
-    std::uint32_t surface(const std::string& name) {
-        mesh_.surfaces.push_back({name, Role::unknown});
-        return static_cast<std::uint32_t>(mesh_.surfaces.size() - 1);
-    }
-    void triangle(std::uint32_t surface, const Point3& a, const Point3& b, const Point3& c) {
-        mesh_.triangles.push_back({vertex(a), vertex(b), vertex(c)});
-        mesh_.surfaces_of.push_back(std::array{surface});
-    }
-    void quad(std::uint32_t surface, const Point3& a, const Point3& b, const Point3& c,
-              const Point3& d) {
-        triangle(surface, a, b, c);
-        triangle(surface, a, c, d);
-    }
-    /// The sides of a box, wound outward; the vertical ones in two halves if split at a height.
-    void block(std::uint32_t s, const Point3& l, const Point3& h) {
-        quad(s, {l.x, l.y, l.z}, {l.x, h.y, l.z}, {h.x, h.y, l.z}, {h.x, l.y, l.z});
-        quad(s, {l.x, l.y, h.z}, {h.x, l.y, h.z}, {h.x, h.y, h.z}, {l.x, h.y, h.z});
-        walls(s, l, h);
-    }
-    void walls(std::uint32_t s, const Point3& l, const Point3& h) {
-        quad(s, {l.x, l.y, l.z}, {h.x, l.y, l.z}, {h.x, l.y, h.z}, {l.x, l.y, h.z});
-        quad(s, {h.x, l.y, l.z}, {h.x, h.y, l.z}, {h.x, h.y, h.z}, {h.x, l.y, h.z});
-        quad(s, {h.x, h.y, l.z}, {l.x, h.y, l.z}, {l.x, h.y, h.z}, {h.x, h.y, h.z});
-        quad(s, {l.x, h.y, l.z}, {l.x, l.y, l.z}, {l.x, l.y, h.z}, {l.x, h.y, h.z});
-    }
-    [[nodiscard]] const Mesh& mesh() const { return mesh_; }
-
-private:
-    std::uint32_t vertex(const Point3& p) {
-        const auto [at, added] = index_.try_emplace(p, mesh_.vertices.size());
-        if (added) mesh_.vertices.push_back(p);
-        return at->second;
-    }
-    Mesh mesh_;
-    std::map<Point3, std::uint32_t> index_;
-};
-
-Mesh cube() {
-    MeshBuilder builder;
-    builder.block(builder.surface("cube"), {0, 0, 0}, {1, 1, 1});
-    return builder.mesh();
-}
-
-Mesh rectangle() {
-    MeshBuilder builder;
-    builder.quad(builder.surface("sheet"), {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
-    return builder.mesh();
-}
-
-/// n x n squares with an uneven height.
-Mesh uneven_sheet(unsigned n) {
-    MeshBuilder builder;
-    const std::uint32_t surface = builder.surface("horizon");
-    const auto at = [&](unsigned i, unsigned j) {
-        const unsigned height = (i * 7 + j * 13 + i * j * 5) % 11;
-        return Point3{double(i) / n, double(j) / n, height / 64.0};
-    };
-    for (unsigned i = 0; i < n; ++i)
-        for (unsigned j = 0; j < n; ++j)
-            builder.quad(surface, at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
-    return builder.mesh();
-}
-
 double volume(const TetrahedralMesh& mesh, std::size_t t) {
     const auto& [ia, ib, ic, id] = mesh.tetrahedra[t];
     const Point3 &a = mesh.vertices[ia], &b = mesh.vertices[ib], &c = mesh.vertices[ic],
@@ -130,30 +56,6 @@ std::vector<std::uint32_t> regions_at(const TetrahedralMesh& mesh, const Triangl
             regions.push_back(mesh.region_of[t]);
     }
     return regions;
-}
-
-TetrahedralMesh must(const Mesh& mesh, const TetrahedraOptions& options) {
-    Result<TetrahedralMesh> result = tetrahedralize(mesh, options, Run{});
-    INFO((result ? std::string() : result.error().message()));
-    REQUIRE(result.ok());
-    const TetrahedralMesh& made = result.value();
-    CHECK(made.region_of.size() == made.tetrahedra.size());
-    CHECK(made.face_triangle.size() == made.faces.size());
-    CHECK(made.surfaces_of.size() == made.faces.size());
-    CHECK(made.surfaces.size() == mesh.surfaces.size() + 1);
-    CHECK(made.surfaces.back().name == "box");
-    for (const auto& [a, b, c, d] : made.tetrahedra) {
-        const auto& v = made.vertices;
-        REQUIRE(orient3d(v[a], v[b], v[c], v[d]) == Sign::Positive);
-    }
-    return std::move(result).value();
-}
-
-Error must_fail(const Mesh& mesh, const TetrahedraOptions& options, const Run& run = {}) {
-    const Result<TetrahedralMesh> result = tetrahedralize(mesh, options, run);
-    REQUIRE(!result.ok());
-    CHECK(!result.error().sentence.empty());
-    return result.error();
 }
 
 /// Per triangle of the mesh its faces as points, first corner first.
@@ -400,108 +302,6 @@ TEST_CASE("tetrahedra: a margin lost in rounding is as wide as it can be told ap
     }
 }
 
-TEST_CASE("tetrahedra: TetGen is given up when its time is over", "[tetrahedra]") {
-    CHECK(must_fail(rectangle(), {.time_limit = 1e-9}).code == ErrorCode::timed_out);
-}
-
-TEST_CASE("tetrahedra: where TetGen never ends, the work does", "[tetrahedra]") {
-    const auto surfaces =
-        read_surfaces(std::string(TERRANE_TEST_DATA) + "/regression/009-tetgen-never-ends.obj");
-    REQUIRE(surfaces);
-    const auto rounded = round_to_doubles(arrange(surfaces.value()).value()).value();
-    REQUIRE(rounded.report.clean);
-    const auto made = tetrahedralize(rounded.mesh, {.time_limit = 2}, {});
-    REQUIRE_FALSE(made); // all ways run out of time, or crash
-    CHECK(made.error().sentence.find("TetGen") == 0);
-}
-
-TEST_CASE("tetrahedra: a stop request ends the work, before and between steps", "[tetrahedra]") {
-    std::stop_source source;
-    Run run{.stop = source.get_token()};
-    run.progress = [&](std::string_view, double share) {
-        if (share > 0) source.request_stop();
-    };
-    const Error late = must_fail(cube(), {.box = unit_box, .edge_length = 0.05}, run);
-    CHECK(late.code == ErrorCode::interrupted);
-    run.progress = {};
-    CHECK(must_fail(cube(), {}, run).code == ErrorCode::interrupted);
-}
-
-TEST_CASE("tetrahedra: a stop request ends TetGen while it runs", "[tetrahedra]") {
-    std::stop_source source;
-    const auto start = std::chrono::steady_clock::now();
-    std::jthread later([&] {
-        std::this_thread::sleep_for(std::chrono::milliseconds(200));
-        source.request_stop();
-    });
-    const Run run{.stop = source.get_token()};
-    // Tens of millions of tetrahedra: minutes, if nothing stopped it.
-    const Error error = must_fail(cube(), {.box = unit_box, .edge_length = 0.01}, run);
-    CHECK(error.code == ErrorCode::interrupted);
-    CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(20));
-}
-
-TEST_CASE("tetrahedra: calls from several threads do not disturb each other", "[tetrahedra]") {
-    const TetrahedralMesh alone = must(uneven_sheet(6), {.edge_length = 0.25});
-    std::vector<std::optional<TetrahedralMesh>> made(4);
-    {
-        std::vector<std::jthread> threads;
-        for (auto& slot : made)
-            threads.emplace_back([&slot] {
-                auto result = tetrahedralize(uneven_sheet(6), {.edge_length = 0.25}, Run{});
-                if (result) slot = std::move(result).value();
-            });
-    }
-    for (const auto& one : made) {
-        REQUIRE(one.has_value());
-        CHECK(one->vertices == alone.vertices);
-        CHECK(one->tetrahedra == alone.tetrahedra);
-    }
-}
-
-TEST_CASE("tetrahedra: other threads may allocate while TetGen is started", "[tetrahedra]") {
-    const auto allocate = [](const std::stop_token& stop) {
-        for (std::size_t round = 0; !stop.stop_requested(); ++round) {
-            std::vector<std::unique_ptr<char[]>> blocks;
-            for (std::size_t k = 0; k < 1000; ++k)
-                blocks.emplace_back(new char[1 + (k * 3701 + round * 11) % 20'000]);
-        }
-    };
-    const std::array<std::jthread, 2> busy{std::jthread(allocate), std::jthread(allocate)};
-    TetgenInput cube_of_points;
-    for (unsigned k = 0; k < 8; ++k)
-        cube_of_points.points.push_back({k & 1U ? 1.0 : 0, k & 2U ? 1.0 : 0, k & 4U ? 1.0 : 0});
-    for (const auto& face : std::array<std::array<std::uint32_t, 4>, 6>{
-             {{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}}})
-        cube_of_points.facets.push_back(face);
-    cube_of_points.max_volume = 0.001;
-    cube_of_points.keep_facets = false;
-    cube_of_points.time_limit = 60; // it takes milliseconds
-    cube_of_points.helper = find_tetgen_helper().value();
-    for (int k = 0; k < 20; ++k) REQUIRE(run_tetgen(cube_of_points, {}));
-}
-
-TEST_CASE("tetrahedra: nothing is printed, also where TetGen would", "[tetrahedra]") {
-    // Steps of one part in 10^12: TetGen warns of angles and distances.
-    MeshBuilder builder;
-    const std::uint32_t s = builder.surface("thin");
-    builder.quad(s, {0, 0, 0}, {1, 0, 0}, {1, 1, 1e-12}, {0, 1, 0});
-    builder.quad(s, {0, 0, 1e-12}, {1, 0, 1e-12}, {1, 1, 2e-12}, {0, 1, 1e-12});
-    std::fflush(stdout);
-    const int kept = dup(STDOUT_FILENO);
-    std::FILE* file = std::tmpfile();
-    REQUIRE(file != nullptr);
-    dup2(fileno(file), STDOUT_FILENO);
-    const Result<TetrahedralMesh> result = tetrahedralize(builder.mesh(), {}, Run{});
-    std::fflush(stdout);
-    dup2(kept, STDOUT_FILENO);
-    close(kept);
-    CHECK(std::fseek(file, 0, SEEK_END) == 0);
-    CHECK(std::ftell(file) == 0);
-    std::fclose(file);
-    if (!result) CHECK(result.error().code == ErrorCode::unsupported);
-}
-
 TEST_CASE("tetrahedra: real models, arranged and rounded", "[tetrahedra]") {
     struct Model {
         std::vector<std::string> files;
@@ -513,16 +313,10 @@ TEST_CASE("tetrahedra: real models, arranged and rounded", "[tetrahedra]") {
     for (const auto& [files, regions] : models) {
         std::vector<Surface> surfaces;
         for (const std::string& file : files) {
-            auto read = read_surfaces(std::string(TERRANE_TEST_DATA) + "/" + file);
-            REQUIRE(read.ok());
-            surfaces.insert(surfaces.end(), read.value().begin(), read.value().end());
+            const auto read = read_data(file);
+            surfaces.insert(surfaces.end(), read.begin(), read.end());
         }
-        const auto arrangement = arrange(surfaces);
-        REQUIRE(arrangement.ok());
-        const auto rounded = round_to_doubles(arrangement.value());
-        REQUIRE(rounded.ok());
-        REQUIRE(rounded.value().report.clean);
-        CHECK(must(rounded.value().mesh, {}).region_count == regions);
+        CHECK(must(mesh_of(surfaces), {}).region_count == regions);
     }
 }
 
@@ -545,11 +339,7 @@ TEST_CASE("tetrahedra: vertices of the mesh stay as they are, in what once faile
         INFO(entry.path().filename().string());
         const auto surfaces = read_surfaces(entry.path());
         REQUIRE(surfaces);
-        const auto exact = arrange(surfaces.value());
-        REQUIRE(exact);
-        const auto rounded = round_to_doubles(exact.value());
-        REQUIRE(rounded);
-        const Mesh& mesh = rounded.value().mesh;
+        const Mesh mesh = rounded(arranged(surfaces.value())).mesh;
         const auto made = tetrahedralize(mesh, {.time_limit = 2}, {});
         if (!made) continue; // too thin for TetGen
         ++filled;

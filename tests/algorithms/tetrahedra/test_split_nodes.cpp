@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
 #include <set>
 #include <string>
@@ -13,11 +12,11 @@
 
 #include "support/effort.hpp"
 #include "support/points.hpp"
+#include "support/rounded.hpp"
 #include "support/solids.hpp"
 #include <terrane/algorithms/rounding/rounding.hpp>
 #include <terrane/algorithms/tetgen/tetrahedra.hpp>
 #include <terrane/algorithms/tetrahedra/without_outside.hpp>
-#include <terrane/io/files.hpp>
 #include <terrane/kernel/predicates.hpp>
 
 using namespace terrane;
@@ -27,11 +26,7 @@ namespace {
 
 TetrahedralMesh filled(const std::vector<Surface>& surfaces,
                        const TetrahedraOptions& options = {}) {
-    const auto arrangement = arrange(surfaces);
-    REQUIRE(arrangement);
-    const auto rounded = round_to_doubles(arrangement.value());
-    REQUIRE(rounded.value().report.clean);
-    auto made = tetrahedralize(rounded.value().mesh, options, {});
+    auto made = tetrahedralize(mesh_of(surfaces), options, {});
     INFO((made ? std::string() : made.error().message()));
     REQUIRE(made);
     return std::move(made).value();

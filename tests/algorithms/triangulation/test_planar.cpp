@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/algorithms/triangulation/planar.hpp>
-#include <terrane/algorithms/triangulation/point_surface.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +11,7 @@
 
 #include "support/effort.hpp"
 #include "support/points.hpp"
+#include "support/shapes.hpp"
 #include <terrane/kernel/predicates.hpp>
 
 using namespace terrane;
@@ -25,17 +25,6 @@ std::vector<Point3> lattice_points(Random& random, int count, int size) {
         points.push_back({double(random_int(random, -size, size)),
                           double(random_int(random, -size, size)), random_real(random, -9, 9)});
     return points;
-}
-
-double doubled_area(std::span<const Point3> p, const Triangle& t) {
-    return (p[t[1]].x - p[t[0]].x) * (p[t[2]].y - p[t[0]].y) -
-           (p[t[1]].y - p[t[0]].y) * (p[t[2]].x - p[t[0]].x);
-}
-
-double doubled_area(std::span<const Point3> p, const std::vector<Triangle>& triangles) {
-    double sum = 0;
-    for (const Triangle& t : triangles) sum += doubled_area(p, t);
-    return sum;
 }
 
 /// Of integers: exact.
@@ -78,7 +67,7 @@ Polygon numbered(std::uint32_t from, std::size_t count) {
     return polygon;
 }
 
-double doubled_area(std::span<const Point3> p, const Polygon& polygon) {
+double doubled_polygon_area(std::span<const Point3> p, const Polygon& polygon) {
     double sum = 0;
     for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
         sum += doubled_area(p, Triangle{polygon[0], polygon[i], polygon[i + 1]});
@@ -160,7 +149,7 @@ TEST_CASE("triangulate_inside: a star with an island, filled but for the island"
         REQUIRE(result);
         const auto& triangles = result.value();
         const double expected =
-            doubled_area(points, polygons[0]) - doubled_area(points, polygons[1]);
+            doubled_polygon_area(points, polygons[0]) - doubled_polygon_area(points, polygons[1]);
         CHECK(doubled_area(points, triangles) == Approx(expected).epsilon(1e-12));
         const auto counts = edge_counts(triangles);
         std::size_t border = 0;
@@ -195,37 +184,4 @@ TEST_CASE("triangulate_inside: polygons that cross or touch are refused", "[plan
     const std::vector<Point3> upright{{0, 0, 0}, {4, 0, 0}, {4, 0, 3}, {0, 4, 0}};
     CHECK(code(upright, {{0, 1, 2, 3}}) == refused); // two corners coincide
     CHECK(code(bow, {{0, 1, 9}}) == ErrorCode::bad_index);
-}
-
-TEST_CASE("connect_points: long edges are left out, by the plane of the points", "[planar]") {
-    std::vector<Point3> points;
-    for (int i = 0; i < 20; ++i)
-        for (int j = 0; j < 20; ++j)
-            if (std::hypot(i - 10, j - 10) > 4)
-                points.push_back({10.0 * i, 10.0 * j, 30 * std::sin(0.3 * i)});
-    const auto level = connect_points(points);
-    REQUIRE(level);
-    double area = doubled_area(points, level.value()) / 2;
-    CHECK(area < 19 * 19 * 100 - M_PI * 1600 * 0.8);
-    CHECK(area > 19 * 19 * 100 - M_PI * 2500 * 1.3);
-    // Upright: the same as seen from the side.
-    std::vector<Point3> upright;
-    for (const Point3& p : points) upright.push_back({p.z / 10, p.x, p.y});
-    const auto wall = connect_points(upright);
-    REQUIRE(wall);
-    CHECK(std::abs(double(wall.value().size()) - double(level.value().size())) < 20);
-    CHECK(connect_points(points, {.max_edge = 1}).value().empty());
-    CHECK(connect_points(points, {.max_edge = 1e9}).value().size() > level.value().size());
-    CHECK(connect_points(points, {.max_edge = -1}).error().code == ErrorCode::bad_option);
-}
-
-TEST_CASE("connect_points: a steep horizon that is narrow is still seen from above", "[planar]") {
-    std::vector<Point3> points;
-    for (int i = 0; i < 8; ++i)
-        for (int j = 0; j < 60; ++j)
-            points.push_back({2.0 * i, 2.0 * j, 20 * std::sin(0.1 * j) + 0.5 * j});
-    const auto strip = connect_points(points);
-    REQUIRE(strip);
-    CHECK(strip.value().size() == 2 * 7 * 59);
-    for (const Triangle& t : strip.value()) CHECK(doubled_area(points, t) == 4);
 }

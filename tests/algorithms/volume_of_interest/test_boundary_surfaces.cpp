@@ -11,12 +11,16 @@
 #include <catch2/catch.hpp>
 #include <gmpxx.h>
 
+#include "support/certified_inputs.hpp"
+#include "support/cut_cases.hpp"
+#include "support/effort.hpp"
 #include "support/boundary_bodies.hpp"
 #include "support/points.hpp"
 #include "support/solids.hpp"
 
 using namespace terrane;
 using namespace test_support;
+using namespace cut_cases;
 
 TEST_CASE("volume of interest: boundaries are closed and oriented outward", "[voi]") {
     const std::vector<Point2> star{{0, 0}, {4, 1}, {8, 0}, {7, 4}, {8, 8}, {4, 7}, {0, 8}, {1, 4}};
@@ -142,4 +146,10 @@ TEST_CASE("volume of interest: invalid boundaries are refused", "[voi]") {
     CHECK(closed_boundary(std::vector{cube(0, 2), cube(0, 2)}).error().code ==
           ErrorCode::improper_contact);
     CHECK(closed_boundary(std::vector<Surface>{}).error().code == ErrorCode::nothing_to_do);
+
+    // An open surface given as the boundary is refused.
+    const std::vector<Surface> sheet{level(0, 0, 0, 1, 1)};
+    const auto a = arrange(sheet);
+    const std::vector<std::uint32_t> all{0};
+    CHECK(locate(a.value(), all).error().code == ErrorCode::not_closed);
 }

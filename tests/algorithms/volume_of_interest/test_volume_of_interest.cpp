@@ -8,8 +8,6 @@
 #include <array>
 #include <cmath>
 #include <numeric>
-#include <random>
-#include <string>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -17,6 +15,7 @@
 
 #include "support/boundary_bodies.hpp"
 #include "support/certified_inputs.hpp"
+#include "support/cut_cases.hpp"
 #include "support/effort.hpp"
 #include "support/points.hpp"
 #include "support/solids.hpp"
@@ -25,85 +24,14 @@
 #include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
-#include <terrane/kernel/fraction.hpp>
 
 using namespace terrane;
 using namespace test_support;
+using namespace cut_cases;
 
 namespace {
 
-using Spot = std::array<mpq_class, 3>;
-
-std::vector<Spot> spots_of(const Arrangement& a) {
-    std::vector<Spot> spots;
-    for (const PointIndex v : a.vertices) {
-        const auto text = fractions(a.state->points, v, 10);
-        spots.push_back({mpq_class(text[0]), mpq_class(text[1]), mpq_class(text[2])});
-    }
-    return spots;
-}
-
-/// Computes twice the areas of a triangle's projections in rationals.
-Spot normal_of(const Spot& a, const Spot& b, const Spot& c) {
-    Spot n;
-    for (unsigned k = 0; k < 3; ++k) {
-        const unsigned u = (k + 1) % 3, v = (k + 2) % 3;
-        n[k] = (b[u] - a[u]) * (c[v] - a[v]) - (b[v] - a[v]) * (c[u] - a[u]);
-    }
-    return n;
-}
-
-/// An arrangement of surfaces and a boundary, and the result of the cut.
-struct Case {
-    std::vector<Surface> surfaces; ///< those of the boundary come last
-    std::vector<std::uint32_t> boundary;
-    Arrangement whole;
-    VolumeOfInterest cut;
-    std::vector<Where> where; ///< of the whole arrangement
-};
-
-Case cut(std::vector<Surface> surfaces, const std::vector<Surface>& boundary) {
-    Case c;
-    for (const Surface& s : boundary) {
-        c.boundary.push_back(static_cast<std::uint32_t>(surfaces.size()));
-        surfaces.push_back(s);
-    }
-    c.surfaces = std::move(surfaces);
-    auto whole = arrange(c.surfaces);
-    REQUIRE(whole);
-    c.whole = whole.value();
-    auto where = locate(c.whole, c.boundary);
-    INFO((where ? std::string() : where.error().message()));
-    REQUIRE(where);
-    c.where = std::move(where).value();
-    auto made = cut_to_volume(std::move(whole).value(), c.boundary);
-    REQUIRE(made);
-    c.cut = std::move(made).value();
-    return c;
-}
-
-/// Checks that the arrangement is the one that arrange() would find for these triangles alone.
-void check_consistent(const Arrangement& a) {
-    REQUIRE(a.parents_of.size() == a.triangles.size());
-    REQUIRE(a.surfaces_of.size() == a.triangles.size());
-    REQUIRE(a.state->patches.of.size() == a.triangles.size());
-    std::vector<bool> used(a.vertices.size(), false);
-    for (const Triangle& t : a.triangles)
-        for (const std::uint32_t v : t) used.at(v) = true;
-    CHECK(std::find(used.begin(), used.end(), false) == used.end());
-    CHECK(a.surfaces_of == surfaces_of_parents(a.inputs, a.parents_of));
-    const Adjacency by_surface = adjacency_of(group_edges(a.triangles, a.vertices.size()),
-                                              labels_of(a.surfaces_of, a.parents_of));
-    CHECK(a.intersection_edges == find_intersection_edges(by_surface, a.inputs, a.parents_of));
-    std::size_t inner = 0;
-    for (const auto& list : a.state->adjacency.inner) inner += list.size();
-    std::size_t sides = 2 * inner;
-    for (std::size_t e = 0; e < a.state->adjacency.edges.size(); ++e)
-        sides += a.state->adjacency.triangles_at[e].size();
-    CHECK(sides == 3 * a.triangles.size());
-}
-
-/// Computes the exact volumes of the blocks, and checks that they add up to that of the outside.
+/// Checks that the rest, in doubles, is a conforming mesh with the same blocks.
 std::vector<mpq_class> volumes_of(const Arrangement& a) {
     const auto volumes = find_volumes(a);
     REQUIRE(volumes);
@@ -153,42 +81,6 @@ void check_against_box(const Case& c, const Point3& low, const Point3& high) {
 }
 
 } // namespace
-
-TEST_CASE("volume of interest: an open surface is no boundary", "[voi]") {
-    const std::vector<Surface> sheet{level(0, 0, 0, 1, 1)};
-    const auto a = arrange(sheet);
-    const std::vector<std::uint32_t> all{0};
-    CHECK(locate(a.value(), all).error().code == ErrorCode::not_closed);
-}
-
-TEST_CASE("restricted: keeping everything changes nothing, keeping nothing leaves nothing",
-          "[voi]") {
-    const auto a = arrange(std::vector{cube(0, 4), level(2, -1, -1, 5, 5)}).value();
-    const Arrangement same = restricted(a, std::vector<bool>(a.triangles.size(), true));
-    CHECK(same.triangles == a.triangles);
-    CHECK(same.state->whole);
-    const Arrangement none = restricted(a, std::vector<bool>(a.triangles.size(), false));
-    CHECK(none.triangles.empty());
-    CHECK(none.vertices.empty());
-    CHECK_FALSE(none.state->whole);
-    check_consistent(none);
-    CHECK(find_volumes(none).value().block_count() == 0);
-}
-
-TEST_CASE("restricted: removing one surface leaves the arrangement of the others", "[voi]") {
-    // The cube cuts the level; without the cube its pieces are one region again.
-    const auto a = arrange(std::vector{cube(0, 4), level(2, -1, -1, 5, 5)}).value();
-    std::vector<bool> keep(a.triangles.size());
-    for (std::size_t t = 0; t < keep.size(); ++t) keep[t] = a.surfaces_of[t][0] == 1;
-    const Arrangement level_alone = restricted(a, keep);
-    check_consistent(level_alone);
-    CHECK(level_alone.intersection_edges.empty());
-    const auto rounded = round_to_doubles(level_alone);
-    REQUIRE(rounded);
-    CHECK(rounded.value().report.clean);
-    CHECK(rounded.value().regions.size() == 1);
-    CHECK(rounded.value().regions[0].area == Approx(36));
-}
 
 TEST_CASE("volume of interest: horizons and a fault in a box have the expected blocks", "[voi]") {
     const std::vector<Surface> model{level(3, -1, -1, 9, 9, "base"), level(5, -1, -1, 9, 9, "top"),

@@ -2,13 +2,12 @@
 #include <terrane/algorithms/volumes/region_points.hpp>
 
 #include <stop_token>
-#include <string>
 
 #include <catch2/catch.hpp>
 
 #include "support/points.hpp"
+#include "support/rounded.hpp"
 #include "support/solids.hpp"
-#include <terrane/algorithms/rounding/rounding.hpp>
 #include <terrane/io/files.hpp>
 
 using namespace terrane;
@@ -22,14 +21,10 @@ struct Model {
 };
 
 Model model_of(const std::vector<Surface>& surfaces) {
-    const auto arrangement = arrange(surfaces);
-    REQUIRE(arrangement);
-    auto rounded = round_to_doubles(arrangement.value());
-    REQUIRE(rounded);
-    REQUIRE(rounded.value().report.clean);
-    auto volumes = find_volumes(rounded.value().mesh);
+    Mesh mesh = mesh_of(surfaces);
+    auto volumes = find_volumes(mesh);
     REQUIRE(volumes);
-    return {std::move(rounded.value().mesh), std::move(volumes).value()};
+    return {std::move(mesh), std::move(volumes).value()};
 }
 
 /// Number of the box that a point lies strictly inside; the inner one where they are nested.

@@ -3,16 +3,15 @@
 
 #include <terrane/io/gocad/gocad.hpp>
 
+#include "support/read.hpp"
 #include "support/samples.hpp"
 
 using namespace terrane;
-using namespace terrane::test;
+using namespace test_support;
 
 namespace {
 
-Result<std::vector<Surface>> read(std::string_view text) {
-    return read_gocad(text, "a.ts", "a");
-}
+constexpr Reader parse{Format::gocad, "a.ts"};
 
 /// A TSurf with the given lines between its first line and END.
 std::string tsurf(std::string_view lines) {
@@ -20,7 +19,7 @@ std::string tsurf(std::string_view lines) {
 }
 
 Surface one(std::string_view text) {
-    const auto result = read(text);
+    const auto result = parse(text);
     REQUIRE(message_of(result) == "no error");
     REQUIRE(result.value().size() == 1);
     return result.value()[0];
@@ -78,11 +77,11 @@ TEST_CASE("GOCAD: ids may be used before they are defined", "[io][gocad]") {
 }
 
 TEST_CASE("GOCAD: ids count per object, other objects are passed over", "[io][gocad]") {
-    const auto result = read("GOCAD HeterogeneousGroup 1\nHEADER {\nname:g\n}\nBEGIN_MEMBERS\n" +
-                             tsurf("HEADER {\nname:x\n}\n" + three + "TRGL 1 2 3\n") +
-                             "GOCAD PLine 1\nILINE\nVRTX 1 0 0 0\nSEG 1 2\nEND\n" +
-                             tsurf("HEADER {\nname:y\n}\n" + three + "TRGL 3 2 1\n") + tsurf("") +
-                             "END_MEMBERS\nEND\n");
+    const auto result = parse("GOCAD HeterogeneousGroup 1\nHEADER {\nname:g\n}\nBEGIN_MEMBERS\n" +
+                              tsurf("HEADER {\nname:x\n}\n" + three + "TRGL 1 2 3\n") +
+                              "GOCAD PLine 1\nILINE\nVRTX 1 0 0 0\nSEG 1 2\nEND\n" +
+                              tsurf("HEADER {\nname:y\n}\n" + three + "TRGL 3 2 1\n") + tsurf("") +
+                              "END_MEMBERS\nEND\n");
     REQUIRE(message_of(result) == "no error");
     REQUIRE(result.value().size() == 3);
     CHECK(result.value()[0].name == "x");
@@ -147,7 +146,7 @@ TEST_CASE("GOCAD: broken files", "[io][gocad]") {
          "a.ts:8: AXIS_UNIT is \"km km km\", but \"m m m\" for the object in line 1"},
     };
     for (const auto& [text, code, message] : cases) {
-        const auto result = read(text);
+        const auto result = parse(text);
         CHECK(message_of(result) == message);
         if (!result) CHECK(result.error().code == code);
     }
@@ -165,7 +164,7 @@ TEST_CASE("GOCAD: a long chain of atoms ahead of their vertex is quick", "[io][g
 TEST_CASE("GOCAD: written and read back", "[io][gocad]") {
     auto mesh = awkward_mesh();
     mesh.surfaces[2].name = " with blanks around ";
-    const auto result = read(to_gocad(mesh));
+    const auto result = parse(to_gocad(mesh));
     REQUIRE(message_of(result) == "no error");
     const auto expected = split(mesh);
     REQUIRE(result.value().size() == expected.size());

@@ -6,7 +6,7 @@
 #include "support/samples.hpp"
 
 using namespace terrane;
-using namespace terrane::test;
+using namespace test_support;
 
 TEST_CASE("MEDIT: references tell surfaces, also where there are several", "[io][medit]") {
     const auto text = to_medit(awkward_mesh());

@@ -8,29 +8,24 @@
 
 #include <tetgen.h>
 
+#include "support/files.hpp"
+#include "support/rounded.hpp"
 #include "support/solids.hpp"
-#include <terrane/algorithms/rounding/rounding.hpp>
 #include <terrane/algorithms/volumes/region_points.hpp>
 #include <terrane/io/files.hpp>
 
 #include "support/samples.hpp"
 
 using namespace terrane;
-using namespace terrane::test;
+using namespace test_support;
 
 namespace {
 
 Mesh faulted() {
-    using namespace test_support;
     const std::vector<Surface> surfaces{box({0, 0, 0}, {8, 8, 8}, "box"),
                                         level(3, -1, -1, 9, 9, "base"),
                                         quad({2, -1, -1}, {2, 9, -1}, {5, 9, 9}, {5, -1, 9}, "F1")};
-    const auto exact = arrange(surfaces);
-    REQUIRE(exact);
-    auto rounded = round_to_doubles(exact.value());
-    REQUIRE(rounded);
-    REQUIRE(rounded.value().report.clean);
-    return std::move(rounded.value().mesh);
+    return mesh_of(surfaces);
 }
 
 /// What TetGen's reader makes of the file `path`, named without its extension.

@@ -11,7 +11,7 @@
 #include "support/samples.hpp"
 
 using namespace terrane;
-using namespace terrane::test;
+using namespace test_support;
 
 namespace {
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <catch2/catch.hpp>
 
-#include <cmath>
 #include <string>
 
 #include <terrane/io/files.hpp>
@@ -9,7 +8,7 @@
 #include "support/samples.hpp"
 
 using namespace terrane;
-using namespace terrane::test;
+using namespace test_support;
 
 namespace {
 

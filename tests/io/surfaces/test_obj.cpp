@@ -3,21 +3,20 @@
 
 #include <terrane/io/surfaces/obj.hpp>
 
+#include "support/read.hpp"
 #include "support/samples.hpp"
 
 using namespace terrane;
-using namespace terrane::test;
+using namespace test_support;
 
 namespace {
 
-Result<std::vector<Surface>> read(std::string_view text) {
-    return read_obj(text, "a.obj", "a");
-}
+constexpr Reader parse{Format::obj, "a.obj"};
 
 constexpr std::string_view four = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
 std::vector<Surface> faces(std::string_view text) {
-    const auto result = read(std::string(four) + std::string(text));
+    const auto result = parse(std::string(four) + std::string(text));
     REQUIRE(message_of(result) == "no error");
     return result.value();
 }
@@ -40,7 +39,7 @@ TEST_CASE("OBJ: polygons become fans", "[io][obj]") {
 }
 
 TEST_CASE("OBJ: a face may come before its vertices", "[io][obj]") {
-    const auto result = read("f 1 2 3\nv 0 0 0\nv 1 0 0 1.0\nv 0 1 0 0.5 0.5 0.5\n");
+    const auto result = parse("f 1 2 3\nv 0 0 0\nv 1 0 0 1.0\nv 0 1 0 0.5 0.5 0.5\n");
     REQUIRE(result);
     CHECK(result.value()[0].vertices.size() == 3);
 }
@@ -85,7 +84,7 @@ TEST_CASE("OBJ: broken files", "[io][obj]") {
         {crowd, unsupported, "a.obj:1: a group line with more than 256 names"},
     };
     for (const auto& [text, code, message] : cases) {
-        const auto result = read(text);
+        const auto result = parse(text);
         CHECK(message_of(result) == message);
         if (!result) CHECK(result.error().code == code);
     }

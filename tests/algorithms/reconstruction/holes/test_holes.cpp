@@ -12,10 +12,11 @@
 #include <catch2/catch.hpp>
 
 #include "support/effort.hpp"
+#include "support/loops.hpp"
 #include "support/points.hpp"
-#include "support/sheets.hpp"
-#include <terrane/algorithms/mesh/edges.hpp>
+#include "support/shapes.hpp"
 #include <terrane/algorithms/mesh/vectors.hpp>
+#include <terrane/algorithms/mesh/mesh.hpp>
 
 using namespace terrane;
 using namespace test_support;
@@ -24,12 +25,6 @@ namespace {
 
 constexpr auto all = [](int, int) { return true; };
 constexpr auto flat = [](double, double) { return 0.0; };
-
-std::vector<BorderLoop> loops_of(const Surface& s) {
-    auto loops = find_border_loops(s);
-    REQUIRE(loops);
-    return std::move(loops).value();
-}
 
 std::size_t count(const std::vector<BorderLoop>& loops, LoopKind kind) {
     return static_cast<std::size_t>(std::count_if(

@@ -10,7 +10,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "support/holed_surfaces.hpp"
+#include "support/shapes.hpp"
 
 using namespace terrane;
 using namespace test_support;

@@ -13,7 +13,8 @@
 #include <catch2/catch.hpp>
 
 #include "support/effort.hpp"
-#include "support/holed_surfaces.hpp"
+#include "support/loops.hpp"
+#include "support/shapes.hpp"
 #include <terrane/algorithms/check/check.hpp>
 
 using namespace terrane;
@@ -23,16 +24,6 @@ namespace {
 
 double wavy(double x, double y) {
     return 0.3 * std::sin(x) * std::cos(0.7 * y);
-}
-
-/// Returns the only hole, or the largest one.
-BorderLoop hole_of(const Surface& s) {
-    const auto loops = find_border_loops(s);
-    REQUIRE(loops);
-    for (const BorderLoop& l : loops.value())
-        if (l.kind != LoopKind::outer) return l;
-    FAIL("no hole");
-    return {};
 }
 
 std::size_t hole_count(const Surface& s) {
@@ -211,7 +202,7 @@ TEST_CASE("join: islands in a hole are joined to the filling", "[join]") {
 
 TEST_CASE("join: a hole in a fold that is no graph is joined", "[join]") {
     // Half a horizontal cylinder, then a flat limb: overhanging.
-    const Shape fold = [](double u, double v) {
+    const SheetShape fold = [](double u, double v) {
         const double angle = 1.6 * u;
         return Point3{3 * std::sin(angle), v, 3 * (1 - std::cos(angle))};
     };

@@ -10,21 +10,15 @@
 #include <catch2/catch.hpp>
 
 #include "support/effort.hpp"
+#include "support/loops.hpp"
 #include "support/points.hpp"
-#include "support/sheets.hpp"
+#include "support/shapes.hpp"
 #include <terrane/algorithms/check/check.hpp>
-#include <terrane/kernel/predicates.hpp>
 
 using namespace terrane;
 using namespace test_support;
 
 namespace {
-
-std::vector<BorderLoop> loops_of(const Surface& s) {
-    auto loops = find_border_loops(s);
-    REQUIRE(loops);
-    return std::move(loops).value();
-}
 
 std::size_t count_holes(const Surface& s) {
     const auto loops = loops_of(s);

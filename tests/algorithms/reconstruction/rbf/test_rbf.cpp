@@ -13,7 +13,7 @@
 #include <catch2/catch.hpp>
 
 #include "support/effort.hpp"
-#include "support/holed_surfaces.hpp"
+#include "support/shapes.hpp"
 #include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/reconstruction/joining/join.hpp>
 #include <terrane/algorithms/reconstruction/rbf/rbf_join.hpp>
@@ -117,10 +117,11 @@ TEST_CASE("rbf: smooth surfaces are filled many times better than by a plane", "
 }
 
 TEST_CASE("rbf: planes are filled exactly, in any direction", "[rbf]") {
-    for (const Shape& shape : {Shape(graph([](double x, double y) { return 0.3 * x - 0.2 * y; })),
-                               Shape([](double u, double v) {
-                                   return Point3{0.1 * u, u - v, v};
-                               })}) {
+    for (const SheetShape& shape :
+         {SheetShape(graph([](double x, double y) { return 0.3 * x - 0.2 * y; })),
+          SheetShape([](double u, double v) {
+              return Point3{0.1 * u, u - v, v};
+          })}) {
         const Surface flat = sheet(shape, 0, 0, 10, 10, 30, 30, 0.2);
         const Point3 middle = shape(5, 5);
         const Surface s = punched(flat, [&](const Point3& p) {
@@ -139,7 +140,7 @@ TEST_CASE("rbf: planes are filled exactly, in any direction", "[rbf]") {
 }
 
 TEST_CASE("rbf: a hole in a fold that is no graph is filled", "[rbf]") {
-    const Shape fold = [](double u, double v) { // turns by 200 degrees
+    const SheetShape fold = [](double u, double v) { // turns by 200 degrees
         const double angle = 0.7 * u;
         return Point3{2.5 * std::sin(angle), v, 2.5 * (1 - std::cos(angle))};
     };

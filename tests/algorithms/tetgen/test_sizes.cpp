@@ -11,9 +11,9 @@
 
 #include <catch2/catch.hpp>
 
+#include "support/rounded.hpp"
 #include "support/solids.hpp"
 #include <terrane/algorithms/mesh/vectors.hpp>
-#include <terrane/algorithms/rounding/rounding.hpp>
 #include <terrane/algorithms/tetrahedra/check_tetrahedra.hpp>
 
 using namespace terrane;
@@ -37,9 +37,7 @@ const Mesh& layers() {
         const std::vector<Surface> surfaces{
             cube(0, 8), level(3, -1, -1, 9, 9, "base"), level(5, -1, -1, 9, 9, "top"),
             quad({4, -1, -1}, {4, 4, -1}, {4, 4, 9}, {4, -1, 9}, "F1")};
-        auto rounded = round_to_doubles(arrange(surfaces).value());
-        REQUIRE(rounded.value().report.clean);
-        return std::move(rounded.value().mesh);
+        return mesh_of(surfaces);
     }();
     return mesh;
 }

@@ -10,9 +10,9 @@
 #include <catch2/catch.hpp>
 
 #include "support/points.hpp"
+#include "support/rounded.hpp"
 #include "support/solids.hpp"
 #include <terrane/algorithms/mesh/diffusion.hpp>
-#include <terrane/algorithms/rounding/rounding.hpp>
 #include <terrane/algorithms/tetgen/tetrahedra.hpp>
 #include <terrane/io/files.hpp>
 
@@ -20,15 +20,6 @@ using namespace terrane;
 using namespace test_support;
 
 namespace {
-
-Mesh mesh_of(const std::vector<Surface>& surfaces) {
-    const auto arrangement = arrange(surfaces);
-    REQUIRE(arrangement);
-    auto rounded = round_to_doubles(arrangement.value());
-    REQUIRE(rounded);
-    REQUIRE(rounded.value().report.clean);
-    return std::move(rounded.value().mesh);
-}
 
 struct Filled {
     Mesh mesh;

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/rounding/detail/state.hpp>
+
+#include "support/points.hpp"
+#include "support/rounded.hpp"
+#include "support/shapes.hpp"
+#include "support/soup_laws.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cstdint>
+#include <utility>
+
+namespace {
+
+using namespace terrane;
+using namespace test_support;
+
+/// Dirty points, and triangles each with itself as its parent.
+RoundingState state_of(std::vector<Point3> points, std::vector<Triangle> triangles) {
+    RoundingState state;
+    state.move.assign(points.size(), 0);
+    state.is_dirty.assign(points.size(), true);
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) state.parents_of.push_back(std::array{t});
+    state.points = std::move(points);
+    state.triangles = std::move(triangles);
+    return state;
+}
+
+} // namespace
+
+TEST_CASE("rounding: triangles that became a line leave no corner inside their neighbours' sides") {
+    // Two between the side 0 3 above and the chain 0 1 2 3 below it.
+    auto state = state_of({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {1, 2, 0}, {1, -2, 0}},
+                          {{0, 3, 4}, {0, 2, 3}, {0, 1, 2}, {1, 0, 5}, {2, 1, 5}, {3, 2, 5}});
+    state.is_dirty.assign(state.points.size(), false);
+    state.is_dirty[2] = true;
+    REQUIRE_FALSE(verify_conforming(state.points, state.triangles).empty());
+    CHECK(state.tidy({}));
+    CHECK(state.collapsed == 2);
+    CHECK(state.triangles ==
+          std::vector<Triangle>{{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {1, 0, 5}, {2, 1, 5}, {3, 2, 5}});
+    CHECK(state.parents_of.values == std::vector<std::uint32_t>{0, 0, 0, 3, 4, 5});
+    CHECK(state.is_dirty[1]);
+    CHECK(verify_conforming(state.points, state.triangles).empty());
+    CHECK_FALSE(state.tidy({}));
+}
+
+TEST_CASE("rounding: what is equal once it is divided is one triangle with both parents") {
+    auto state =
+        state_of({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {1, 1, 0}}, {{0, 2, 3}, {3, 1, 0}, {0, 1, 2}});
+    CHECK(state.tidy({}));
+    CHECK(state.triangles == std::vector<Triangle>{{0, 1, 3}, {1, 2, 3}});
+    CHECK(state.parents_of[0].size() == 2);
+    CHECK(state.parents_of[1].size() == 1);
+}

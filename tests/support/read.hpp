@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Reading surfaces from texts and from tests/data.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include <terrane/io/files.hpp>
+
+namespace test_support {
+
+/// Reads a text or bytes as the contents of a file in `format`; a surface without a name is "a".
+struct Reader {
+    terrane::Format format;
+    std::string_view file_name; ///< in messages: "a.obj"
+
+    terrane::Result<std::vector<terrane::Surface>> operator()(std::string_view contents) const {
+        return terrane::parse_surfaces(contents, file_name, format);
+    }
+};
+
+/// Reads a file of tests/data.
+inline std::vector<terrane::Surface> read_data(std::string_view name) {
+    auto surfaces = terrane::read_surfaces(std::filesystem::path(TERRANE_TEST_DATA) / name);
+    INFO(name << (surfaces ? "" : ": " + surfaces.error().message()));
+    REQUIRE(surfaces);
+    return std::move(surfaces).value();
+}
+
+} // namespace test_support
