@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Boxes of searches.
+// Boxes for tests of the search.
 #pragma once
 
 #include <algorithm>

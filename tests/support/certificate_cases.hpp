@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Certificates as the producer writes them, of OBJ files that exist in memory only.
+// Certificates written by the producer for OBJ files that exist in memory only.
 #pragma once
 
 #include <catch2/catch.hpp>
@@ -52,7 +52,7 @@ inline std::string certificate_of(const std::vector<File>& files, bool with_doub
     return to_certificate({records, all, exact.value(), with_doubles ? &rounded.value() : nullptr});
 }
 
-/// "R5 R7", or the message of the error where the text is no certificate.
+/// Returns the violated rules, as "R5 R7", or the error if the text is not a certificate.
 inline std::string verdict(const std::vector<InputFile>& files, const std::string& text) {
     const auto certificate = parse_certificate(text, "c.json");
     if (!certificate) return certificate.error().message();
@@ -64,13 +64,15 @@ inline std::string verdict(const std::vector<InputFile>& files, const std::strin
     return result;
 }
 
-/// A triangle pierces another; the ends of the intersection are no doubles.
+/// Returns two triangles, one of which pierces the other; the ends of the intersection are not
+/// representable as doubles.
 inline std::vector<File> pierced() {
     return {{"plane.obj", "v 0 0 0\nv 7 1 0\nv 1 9 0\ng plane\nf 1 2 3\n"},
             {"wall.obj", "v 2 1 -3\nv 3 7 -1\nv 2.5 3 5\ng wall\nf 1 2 3\n"}};
 }
 
-/// Overlap in one plane, a duplicate, a triangle without area, a wall; all points are doubles.
+/// Returns surfaces with an overlap in a plane, a duplicate, a triangle without area and a wall;
+/// all points of the arrangement are doubles.
 inline std::vector<File> overlapping() {
     return {{"model.obj", "v 0 0 0\nv 8 0 0\nv 0 8 0\nv 4 0 0\n"
                           "v 2 2 0\nv 10 2 0\nv 2 10 0\n"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The inputs of tests/certified that are one OBJ file, as models to try laws on.
+// The inputs of tests/certified that are a single OBJ file, as models for testing laws.
 #pragma once
 
 #include <catch2/catch.hpp>
@@ -19,7 +19,7 @@ struct Model {
     std::vector<terrane::Surface> surfaces;
 };
 
-/// By name, up to `most` triangles each.
+/// Returns the models with at most `most` triangles, by name.
 inline std::vector<Model> certified_inputs(std::size_t most = 1000) {
     const auto folder = std::filesystem::path(TERRANE_SOURCE_DIR) / "tests" / "certified";
     std::vector<Model> models;

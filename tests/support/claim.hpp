@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// An arrangement as the claim that the independent verifier judges.
+// Converts an arrangement to the claim that the independent verifier judges.
 #pragma once
 
 #include <sstream>
@@ -24,7 +24,7 @@ inline terrane::ArrangementClaim claim_of(const terrane::Arrangement& a) {
     return claim;
 }
 
-/// The surfaces as C++, with coordinates that read back as the same doubles.
+/// Returns the surfaces as C++ code, with coordinates that read back as the same doubles.
 inline std::string written_out(std::span<const terrane::Surface> surfaces) {
     std::ostringstream out;
     out << std::hexfloat;
@@ -39,7 +39,7 @@ inline std::string written_out(std::span<const terrane::Surface> surfaces) {
     return out.str();
 }
 
-/// What is wrong with the arrangement: empty if nothing.
+/// Returns the violations of an arrangement; empty if there are none.
 inline std::string flaws(std::span<const terrane::Surface> surfaces,
                          const terrane::Arrangement& a) {
     const auto violations = terrane::verify_arrangement(surfaces, claim_of(a));
@@ -50,7 +50,7 @@ inline std::string flaws(std::span<const terrane::Surface> surfaces,
     return all + written_out(surfaces);
 }
 
-/// The same when it has to be made first.
+/// Arranges the surfaces and returns the violations; empty if there are none.
 inline std::string flaws(std::span<const terrane::Surface> surfaces) {
     const auto a = terrane::arrange(surfaces);
     return a ? flaws(surfaces, a.value()) : a.error().message() + "\n" + written_out(surfaces);

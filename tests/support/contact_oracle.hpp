@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// How two triangles meet, judged by CGAL's intersection in its exact kernel and, for where the
-// points lie on them, by exact integers.
+// Judges how two triangles meet by CGAL's intersection in its exact kernel, and the positions of
+// the points on them by exact integers.
 #pragma once
 
 #include "support/oracle.hpp"
@@ -35,7 +35,7 @@ using Rational = CGAL::Exact_rational;
 using Spot = std::array<Rational, 3>;
 using Spots = std::vector<Spot>;
 
-/// Points of which no two are equal, with their exact twins.
+/// Distinct points with their exact twins.
 struct Corners {
     std::vector<Point3> points;
     std::vector<oracle::Point> exact; ///< times 2^-exponent
@@ -76,7 +76,7 @@ inline bool collinear(const Spot& a, const Spot& b, const Spot& c) {
     return true;
 }
 
-/// The corners of a convex polygon, without those between their neighbours, sorted.
+/// Returns the corners of a convex polygon, sorted, without those in line with their neighbours.
 inline Spots extreme(const Spots& polygon) {
     Spots cycle;
     for (const Spot& p : polygon)
@@ -108,7 +108,7 @@ struct Collect {
     }
 };
 
-/// Corners of the common part.
+/// Returns the corners of the intersection.
 inline Spots by_cgal(const Corners& corners, const Triangle& s, const Triangle& t) {
     const auto common = CGAL::intersection(corners.epeck(s), corners.epeck(t));
     return common ? extreme(boost::apply_visitor(Collect{}, *common)) : Spots{};
@@ -135,7 +135,7 @@ inline Spots by_terrane(const Corners& corners, const Triangle& s, const Triangl
     return spots;
 }
 
-/// Whether p lies on the triangle where `place` says.
+/// Tells whether p lies in the open simplex `place` of the triangle.
 inline bool is_at(const Corners& corners, const oracle::Point& p, const Triangle& t,
                   Simplex place) {
     std::array<oracle::Point, 3> c;
@@ -222,8 +222,8 @@ inline bool same_points_when_turned(const Corners& corners, const Triangle& s, c
     return a == b;
 }
 
-/// What is wrong with the answer for two triangles that differ in a corner at least; empty if
-/// nothing.
+/// Describes a flaw in the contact of two triangles that differ in at least one corner; empty if
+/// there is none.
 inline std::string flaw(const Corners& corners, const Triangle& s, const Triangle& t,
                         const std::optional<Contact>& contact) {
     const Spots spots = by_terrane(corners, s, t, contact);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The arrangement of two surfaces against CGAL's corefinement in its exact kernel: for each input
-// triangle the same points, number of parts and area; the same intersection edges; of two closed
-// surfaces the volumes of the four Booleans. What CGAL asks of its input is tested first.
+// Compares the arrangement of two surfaces with CGAL's corefinement in its exact kernel: for each
+// input triangle the points, the number of parts and the area; the intersection edges; for two
+// closed surfaces the volumes of the four Booleans. The conditions of CGAL on its input are tested
+// first.
 #pragma once
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>
@@ -12,10 +13,10 @@
 
 namespace corefine_oracle {
 
-/// What came of a comparison. CGAL's answer counts where none of its conditions is broken.
+/// The result of a comparison. CGAL's answer counts only if none of its conditions is violated.
 struct Outcome {
-    std::string flaw;          ///< where the answers differ; empty if nowhere
-    std::string skipped;       ///< the condition that is broken, or what CGAL declines
+    std::string flaw;          ///< a difference between the answers; empty if there is none
+    std::string skipped;       ///< the condition that is violated, or the refusal of CGAL
     std::size_t crossing = 0;  ///< intersection edges
     bool with_volumes = false; ///< the Booleans were compared too
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// How many random cases a test takes: all of them, or one in twenty where sanitizers slow each
-// down.
+// The number of random cases in a test: all of them, or one in twenty under sanitizers, which are
+// slow.
 #pragma once
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -21,7 +21,7 @@ inline constexpr int effort_divisor = 20;
 inline constexpr int effort_divisor = 1;
 #endif
 
-/// `full` cases, fewer under sanitizers, at least one.
+/// Returns `full`, or fewer under sanitizers, but at least one.
 constexpr int cases(int full) {
     return full / effort_divisor > 0 ? full / effort_divisor : 1;
 }

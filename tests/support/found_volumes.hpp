@@ -16,7 +16,7 @@ struct Found {
     terrane::Volumes volumes;
 };
 
-/// Arranges and finds the volumes.
+/// Arranges surfaces and finds their volumes.
 inline Found find_in(const std::vector<terrane::Surface>& surfaces) {
     auto arrangement = terrane::arrange(surfaces);
     REQUIRE(arrangement);

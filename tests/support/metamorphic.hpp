@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What must not change the arrangement: order, orientation, and, once undone, reflections, scales
-// and the names of the axes. An arrangement of something transformed is carried back by its
-// constructions, which name input vertices: the claim is the same, the vertices are the old ones.
+// Changes of the input that must not change the arrangement: order, orientation, and, once undone,
+// reflections, scales and permutations of the axes. The arrangement of transformed surfaces is
+// carried back by its constructions, which name input vertices: the same claim is made about the
+// original vertices.
 #pragma once
 
 #include "support/claim.hpp"
@@ -29,7 +30,8 @@ inline Surfaces changed(Surfaces surfaces, const Change& change) {
     return surfaces;
 }
 
-/// Vertices and triangles in another order, with other corners first and the other side up.
+/// Returns the surface with its vertices and triangles in another order, other first corners and
+/// other orientations.
 inline terrane::Surface shuffled(const terrane::Surface& surface, std::mt19937& random) {
     std::vector<std::uint32_t> place(surface.vertices.size());
     std::iota(place.begin(), place.end(), 0U);
@@ -45,7 +47,7 @@ inline terrane::Surface shuffled(const terrane::Surface& surface, std::mt19937& 
     return result;
 }
 
-/// All of them, in another order too.
+/// Shuffles each surface, and their order.
 inline Surfaces shuffled(const Surfaces& surfaces, std::mt19937& random) {
     Surfaces other;
     for (const terrane::Surface& s : surfaces) other.push_back(shuffled(s, random));
@@ -75,7 +77,7 @@ inline const std::array<Change, 3> reflections{[](const terrane::Point3& p) {
                                                    return terrane::Point3{p.x, p.y, -p.z};
                                                }};
 
-/// Times 2^k; nothing where that is beyond the range of doubles.
+/// Scales the surfaces by 2^k; none if this exceeds the range of doubles.
 inline Surfaces scaled(const Surfaces& surfaces, int k) {
     const auto times = [](const Surfaces& all, int e) {
         return changed(all, [e](const terrane::Point3& p) {
@@ -92,7 +94,7 @@ inline Surfaces scaled(const Surfaces& surfaces, int k) {
 
 using CornerSets = std::set<std::array<terrane::Point3, 3>>;
 
-/// Corners as points, sorted.
+/// Returns the triangles by their corners as points, sorted.
 inline CornerSets triangles_of(std::span<const terrane::Point3> vertices,
                                std::span<const terrane::Triangle> triangles) {
     CornerSets result;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Exact answers that share nothing with the kernel: points as homogeneous integers of GMP (doubles
-// times a common power of two), predicates as determinants of homogeneous rows.
+// Exact answers that share no code with the kernel: points are homogeneous integers of GMP (doubles
+// times a common power of two), predicates are determinants of homogeneous rows.
 #pragma once
 
 #include <algorithm>
@@ -57,7 +57,7 @@ inline Int scaled(double d, int exponent) {
     return i;
 }
 
-/// (x, y, z) / w, times a power of two that all points of a case have in common; w > 0.
+/// The point (x, y, z) / w, times a power of two that is common to all points of a case; w > 0.
 struct Point {
     Int x, y, z, w;
 };
@@ -85,7 +85,7 @@ inline Int determinant(const Row3& a, const Row3& b, const Row3& c) {
            a[2] * (b[0] * c[1] - b[1] * c[0]);
 }
 
-/// By complementary 2x2 minors (Laplace).
+/// Computes the determinant by complementary 2x2 minors (Laplace).
 inline Int determinant(const Row4& a, const Row4& b, const Row4& c, const Row4& d) {
     const auto upper = [&](int i, int j) -> Int { return a[i] * b[j] - a[j] * b[i]; };
     const auto lower = [&](int i, int j) -> Int { return c[i] * d[j] - c[j] * d[i]; };
@@ -120,21 +120,21 @@ inline Sign in_circle(Axis axis, const Point& a, const Point& b, const Point& c,
     return sign(determinant(row(a), row(b), row(c), row(d)));
 }
 
-/// Points with w = 1.
+/// Returns the turn from the direction a b to the direction c d, seen along an axis; w = 1.
 inline Sign turn2d(Axis axis, const Point& a, const Point& b, const Point& c, const Point& d) {
     const auto p = project(axis, a), q = project(axis, b), r = project(axis, c),
                s = project(axis, d);
     return sign((q[0] - p[0]) * (s[1] - r[1]) - (q[1] - p[1]) * (s[0] - r[0]));
 }
 
-/// Coefficients (n, e) of the plane n x + e w = 0 through three points with w = 1.
+/// Returns the coefficients (n, e) of the plane n x + e w = 0 through three points with w = 1.
 inline Row4 plane(const Point& a, const Point& b, const Point& c) {
     const Row3 u{b.x - a.x, b.y - a.y, b.z - a.z}, v{c.x - a.x, c.y - a.y, c.z - a.z};
     const Row3 n{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
     return {n[0], n[1], n[2], -(n[0] * a.x + n[1] * a.y + n[2] * a.z)};
 }
 
-/// The plane through line a b and parallel to `axis`.
+/// Returns the plane through the line a b that is parallel to `axis`.
 inline Row4 plane_along(Axis axis, const Point& a, const Point& b) {
     Point c = a;
     (axis == Axis::x ? c.x : axis == Axis::y ? c.y : c.z) += 1;
@@ -150,14 +150,14 @@ inline Point with_positive_weight(Point p) {
     return p;
 }
 
-/// On the line a b, weighted by the values at the other end.
+/// Returns the point on the line a b in the plane: each end is weighted by the value at the other.
 inline Point meet(const Point& a, const Point& b, const Row4& plane) {
     const Int at_a = value(plane, a), at_b = value(plane, b);
     return with_positive_weight(
         {at_b * a.x - at_a * b.x, at_b * a.y - at_a * b.y, at_b * a.z - at_a * b.z, at_b - at_a});
 }
 
-/// Cramer's rule.
+/// Returns the common point of three planes by Cramer's rule.
 inline Point meet(const Row4& a, const Row4& b, const Row4& c) {
     const auto minor = [&](int i, int j, int k) {
         return determinant(Row3{a[i], a[j], a[k]}, Row3{b[i], b[j], b[k]}, Row3{c[i], c[j], c[k]});
@@ -166,7 +166,8 @@ inline Point meet(const Row4& a, const Row4& b, const Row4& c) {
         {-minor(3, 1, 2), -minor(0, 3, 2), -minor(0, 1, 3), minor(0, 1, 2)});
 }
 
-/// The point of a construction; w = 0 where it is not defined. `input`: all input points, scaled.
+/// Returns the point of a construction; w = 0 if it is undefined. `input` are all input points,
+/// scaled.
 inline Point construct(const Construction& how, const std::vector<Point>& input) {
     const auto at = [&](int i) -> const Point& { return input[how.v[static_cast<unsigned>(i)]]; };
     switch (how.kind) {
@@ -182,7 +183,7 @@ inline Point construct(const Construction& how, const std::vector<Point>& input)
     }
 }
 
-/// -1, 0, 1: lexicographic.
+/// Compares two points lexicographically; returns -1, 0 or 1.
 inline int compare(const Point& p, const Point& q) {
     for (const auto coordinate : {&Point::x, &Point::y, &Point::z}) {
         const int c = cmp(p.*coordinate * q.w, q.*coordinate * p.w);
@@ -191,8 +192,8 @@ inline int compare(const Point& p, const Point& q) {
     return 0;
 }
 
-/// Whether `result` is the double nearest to numerator / denominator * 2^exponent, ties to even,
-/// beyond the largest one infinite. Denominator > 0.
+/// Tells whether `result` is the double nearest to numerator / denominator * 2^exponent, with ties
+/// to even, and infinite beyond the largest double. The denominator is > 0.
 inline bool is_nearest(double result, const Int& numerator, const Int& denominator, int exponent) {
     constexpr double infinity = HUGE_VAL;
     if (std::isnan(result)) return false;

@@ -25,7 +25,7 @@ struct Twins {
     int exponent = 0;
 };
 
-/// `count` different numbers below `end`, ascending.
+/// Returns `count` different numbers below `end`, ascending.
 inline std::vector<std::uint32_t> pick(Random& random, std::size_t count, std::size_t end) {
     std::set<std::uint32_t> picked;
     while (picked.size() < count)
@@ -33,7 +33,7 @@ inline std::vector<std::uint32_t> pick(Random& random, std::size_t count, std::s
     return {picked.begin(), picked.end()};
 }
 
-/// Of any kind; its lines and planes may share vertices.
+/// Returns a construction of any kind; its lines and planes may share vertices.
 inline Construction random_construction(Random& random, std::size_t inputs) {
     Construction how;
     how.kind = std::array{Kind::line_plane, Kind::three_planes,
@@ -76,7 +76,7 @@ inline Twins random_twins(Random& random, Family family, std::size_t inputs, int
     return t;
 }
 
-/// Any point of the store.
+/// Returns any point of the store.
 inline PointIndex any_point(Random& random, const Twins& t) {
     return static_cast<PointIndex>(random_int(random, 0, static_cast<int>(t.exact.size()) - 1));
 }

@@ -49,7 +49,6 @@ inline double random_real(Random& random, double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
 }
 
-/// Off by one ulp, down or up, or not at all; finite.
 /// Returns n points in a cube around `middle` whose edges are 2 * scale long.
 inline std::vector<Point3> random_points(std::size_t n, unsigned seed, double scale = 1,
                                          const Point3& middle = {}) {
@@ -64,6 +63,7 @@ inline std::vector<Point3> random_points(std::size_t n, unsigned seed, double sc
     return points;
 }
 
+/// Changes a number by one ulp, down or up, or not at all; the result is finite.
 inline double nudged(Random& random, double d) {
     const int step = random_int(random, -1, 1);
     const double next = std::nextafter(d, step * HUGE_VAL);
@@ -79,14 +79,15 @@ inline double any_double(Random& random) {
     return std::ldexp(mantissa, random_int(random, -1073, 1023));
 }
 
-/// Each coordinate by `make()`.
+/// Returns a point whose coordinates are results of make().
 template <class Make>
 Point3 point_of(const Make& make) {
     const double x = make(), y = make(), z = make();
     return {x, y, z};
 }
 
-/// Integers below 2^20 in size near a plane through the origin, times 2^exponent.
+/// Returns points with integers below 2^20 in size near a plane through the origin, times
+/// 2^exponent.
 inline std::vector<Point3> nearly_coplanar(Random& random, std::size_t count, int exponent) {
     const auto coordinate = [&] { return double(random_int(random, -511, 511)); };
     const Point3 u = point_of(coordinate), v = point_of(coordinate);
@@ -102,7 +103,7 @@ inline std::vector<Point3> nearly_coplanar(Random& random, std::size_t count, in
     return points;
 }
 
-/// On a plane as far as doubles go.
+/// Returns points on a plane, as nearly as doubles allow.
 inline std::vector<Point3> one_ulp_points(Random& random, std::size_t count) {
     const auto real = [&] { return random_real(random, -1, 1); };
     const Point3 a = point_of(real), u = point_of(real), v = point_of(real);
@@ -115,7 +116,8 @@ inline std::vector<Point3> one_ulp_points(Random& random, std::size_t count) {
     return points;
 }
 
-/// Products of two, three or four differences are about the smallest or largest doubles.
+/// Returns points for which products of two, three or four differences are about the smallest or
+/// largest doubles.
 inline std::vector<Point3> edge_of_range_points(Random& random, std::size_t count) {
     const int degree = random_int(random, 2, 4);
     const int exponent = random_int(random, 0, 1) ? 1020 / degree + random_int(random, -3, 6)
@@ -130,7 +132,7 @@ inline double lattice_number(Random& random) {
     return random_int(random, -2, 2);
 }
 
-/// One point of a family whose points do not depend on each other.
+/// Returns a point of a family whose points are independent of each other.
 inline Point3 single_point(Random& random, Family family) {
     const auto integer = [&] { return lattice_number(random); };
     const auto real = [&](double size) {

@@ -11,7 +11,8 @@
 
 namespace test_support {
 
-/// Coordinates on a small lattice (degenerate more often than not), on a fine one, or any.
+/// Makes models with coordinates on a small lattice (most of them degenerate), on a fine one, or
+/// with any coordinates.
 class ModelMaker {
 public:
     explicit ModelMaker(std::uint64_t seed) : random(seed), kind_(random_int(random, 0, 2)) {}

@@ -21,8 +21,8 @@ using terrane::Surface;
 using terrane::TetrahedralMesh;
 using terrane::Triangle;
 
-/// Three surfaces with awkward names and numbers; triangle 1 belongs to the first two, and no
-/// triangle uses vertex 3.
+/// Returns three surfaces with awkward names and numbers; triangle 1 belongs to the first two, and
+/// no triangle uses vertex 3.
 inline Mesh awkward_mesh() {
     Mesh mesh;
     mesh.surfaces = {{"top reservoir", Role::horizon},
@@ -45,7 +45,7 @@ inline Mesh awkward_mesh() {
     return mesh;
 }
 
-/// The same with numbers that float32 holds exactly.
+/// Returns the awkward mesh with numbers that float32 represents exactly.
 inline Mesh float_mesh() {
     auto mesh = awkward_mesh();
     mesh.vertices = {{0.5, -0.0, 1e-45f}, {4234567, 0.1f, -2238.25}, {3.4e38f, -1, 7},
@@ -53,8 +53,8 @@ inline Mesh float_mesh() {
     return mesh;
 }
 
-/// Two tetrahedra of regions 0 and 2 and the face between them, which two surfaces share, and a
-/// face on the box.
+/// Returns two tetrahedra of regions 0 and 2, the face between them, which belongs to two surfaces,
+/// and a face on the box.
 inline TetrahedralMesh two_tetrahedra() {
     TetrahedralMesh mesh;
     mesh.surfaces = {
@@ -70,7 +70,8 @@ inline TetrahedralMesh two_tetrahedra() {
     return mesh;
 }
 
-/// The same cut between the tetrahedra, but for vertex 0: nodes 5 and 6 are behind, with face 2.
+/// Returns two tetrahedra with a cut between them, except at vertex 0: nodes 5 and 6 are behind it,
+/// with face 2.
 inline TetrahedralMesh cut_tetrahedra() {
     auto mesh = two_tetrahedra();
     mesh.vertices.push_back(mesh.vertices[1]);
@@ -83,7 +84,7 @@ inline TetrahedralMesh cut_tetrahedra() {
     return mesh;
 }
 
-/// What a mesh is when each surface is taken for itself, with the vertices that it uses.
+/// Splits a mesh into its surfaces, each with the vertices that it uses.
 inline std::vector<Surface> split(const Mesh& mesh) {
     std::vector<Surface> result;
     for (std::uint32_t s = 0; s < mesh.surfaces.size(); ++s) {
@@ -109,7 +110,7 @@ inline std::vector<Surface> split(const Mesh& mesh) {
     return result;
 }
 
-/// Equal to the last bit: -0 is not 0.
+/// Tells whether two points are equal to the last bit: -0 is not 0.
 inline bool same_bits(const Point3& a, const Point3& b) {
     const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
     return bits(a.x) == bits(b.x) && bits(a.y) == bits(b.y) && bits(a.z) == bits(b.z);
@@ -122,7 +123,7 @@ inline bool same_bits(const std::vector<Point3>& a, const std::vector<Point3>& b
     return true;
 }
 
-/// The message of an error, or "no error".
+/// Returns the message of an error, or "no error".
 template <class T>
 std::string message_of(const Result<T>& result) {
     return result ? "no error" : result.error().message();
@@ -133,7 +134,7 @@ inline ErrorCode code_of(const terrane::Status& status) {
     return status ? ErrorCode::internal : status.error().code;
 }
 
-/// A broken input and what must be said about it.
+/// An invalid input and its expected error.
 struct Broken {
     std::string_view text;
     ErrorCode code;

@@ -134,7 +134,8 @@ inline std::function<bool(const Point3&)> disk(double x, double y, double r) {
     return [=](const Point3& p) { return std::hypot(p.x - x, p.y - y) < r; };
 }
 
-/// 24 x 24 cells of 10, one row of which climbs by `lift`, with a hole across the cliff.
+/// Returns a sheet of 24 x 24 cells of size 10, in one row of which it climbs by `lift`, with a
+/// hole across this cliff.
 inline Surface cliff(double lift) {
     return punched(sheet(graph([=](double x, double) {
                              return 10 * std::sin(x / 40) + (x > 115 ? lift : 0.0);
@@ -143,6 +144,7 @@ inline Surface cliff(double lift) {
                    disk(115, 110, 52));
 }
 
+/// Returns twice the area of a triangle seen along z, positive if it is counterclockwise.
 inline double doubled_area(std::span<const Point3> p, const Triangle& t) {
     return (p[t[1]].x - p[t[0]].x) * (p[t[2]].y - p[t[0]].y) -
            (p[t[1]].y - p[t[0]].y) * (p[t[2]].x - p[t[0]].x);

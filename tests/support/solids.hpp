@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Surfaces to make volumes from.
+// Surfaces that enclose or divide volumes.
 #pragma once
 
 #include <array>
@@ -36,7 +36,7 @@ inline Surface quad(const Point3& a, const Point3& b, const Point3& c, const Poi
     return s;
 }
 
-/// The six sides of a box, wound outward.
+/// Returns the six sides of a box, oriented outward.
 inline Surface box(const Point3& l, const Point3& h, std::string name = "box") {
     Surface s{std::move(name), Role::unknown, {}, {}};
     add_quad(s, {l.x, l.y, l.z}, {l.x, h.y, l.z}, {h.x, h.y, l.z}, {h.x, l.y, l.z});
@@ -52,7 +52,7 @@ inline Surface cube(double low, double high, std::string name = "cube") {
     return box({low, low, low}, {high, high, high}, std::move(name));
 }
 
-/// The level z over [x0, x1] x [y0, y1].
+/// Returns the level z over [x0, x1] x [y0, y1].
 inline Surface level(double z, double x0, double y0, double x1, double y1,
                      std::string name = "level") {
     return quad({x0, y0, z}, {x1, y0, z}, {x1, y1, z}, {x0, y1, z}, std::move(name));
@@ -64,7 +64,7 @@ inline Surface tetrahedron(const Point3& a, const Point3& b, const Point3& c, co
         std::move(name), Role::unknown, {a, b, c, d}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}};
 }
 
-/// A ring round `axis` (2: z), of n pieces with a square section.
+/// Returns a ring around `axis` (2: z) of n pieces with a square section.
 inline Surface torus(const Point3& centre, double large, double small, unsigned n, int axis = 2,
                      std::string name = "torus") {
     Surface s{std::move(name), Role::unknown, {}, {}};
@@ -89,7 +89,7 @@ inline Surface torus(const Point3& centre, double large, double small, unsigned 
     return s;
 }
 
-/// A strip with one half turn: one side only.
+/// Returns a strip with one half turn, which has only one side.
 inline Surface moebius_strip(unsigned n = 12, std::string name = "moebius") {
     Surface s{std::move(name), Role::unknown, {}, {}};
     const double pi = std::acos(-1.0);
@@ -107,7 +107,7 @@ inline Surface moebius_strip(unsigned n = 12, std::string name = "moebius") {
     return s;
 }
 
-/// Two pyramids on one square: eight triangles round a centre.
+/// Returns two pyramids on one square: eight triangles around a centre.
 inline Surface octahedron(const Point3& c, double r, std::string name = "octahedron") {
     Surface s{std::move(name),
               Role::unknown,

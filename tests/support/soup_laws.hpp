@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What must hold of the arrangement of any surfaces and of its doubles: each function says what
-// does not, in a sentence, or nothing. The judge is the independent verifier.
+// Laws for the arrangement of any surfaces and its rounded mesh. Each function describes a
+// violation in a sentence, or returns nothing. The independent verifier is the judge.
 #pragma once
 
 #include "support/metamorphic.hpp"
@@ -19,7 +19,7 @@ namespace soup_laws {
 using namespace terrane;
 using namespace test_support;
 
-/// Of the first violation, and how many there are.
+/// Describes the first violation, and states the number of violations.
 inline std::string sentence(std::span<const Violation> violations) {
     if (violations.empty()) return "";
     return name_of(violations[0].rule) + ": " + violations[0].sentence + " (" +
@@ -35,7 +35,8 @@ inline std::string arrangement_flaw(const Surfaces& surfaces, const Arrangement&
     return "";
 }
 
-/// Arrangements of the same in another order, reflected, turned, scaled; searched in all ways.
+/// Compares with arrangements of the same surfaces in another order, reflected, with permuted axes
+/// and scaled, by all search methods.
 inline std::string metamorphic_flaw(const Surfaces& surfaces, const Arrangement& a) {
     const auto digest = canonical_digest(surfaces, a);
     std::mt19937 random(1);
@@ -61,7 +62,8 @@ inline std::string metamorphic_flaw(const Surfaces& surfaces, const Arrangement&
     return "";
 }
 
-/// Searched in another way and with two threads it is the same to the last index.
+/// Compares with arrangements by another search method and with two threads, which must be equal to
+/// the last index.
 inline std::string run_flaw(const Surfaces& surfaces, const Arrangement& a) {
     for (const Search search : {Search::grid, Search::bvh}) {
         const auto made = arrange(surfaces, {.search = search}, {.threads = 2});
@@ -91,7 +93,7 @@ inline RoundedClaim claim_of(const RoundedMesh& rounded) {
     return claim;
 }
 
-/// What is conforming is arranged already.
+/// Checks that the arrangement of a conforming mesh is the mesh itself.
 inline std::string idempotence_flaw(const Mesh& mesh) {
     const auto surfaces = surfaces_of(mesh);
     const auto checked = check(surfaces);
@@ -108,7 +110,8 @@ inline std::string idempotence_flaw(const Mesh& mesh) {
     return "";
 }
 
-/// Doubles are conforming, or said not to be; everything else that is said of them is true.
+/// Checks that the rounded mesh is conforming or stated not to be, and that its other claims are
+/// true.
 inline std::string rounding_flaw(const Surfaces& surfaces, const Arrangement& a,
                                  const RoundingOptions& options = {}) {
     const auto made = round_to_doubles(a, options);
@@ -126,7 +129,7 @@ inline std::string rounding_flaw(const Surfaces& surfaces, const Arrangement& a,
     return rounded.report.clean ? idempotence_flaw(rounded.mesh) : "";
 }
 
-/// All of it.
+/// Arranges the surfaces and checks all laws.
 inline std::string flaw(const Surfaces& surfaces) {
     const auto made = arrange(surfaces);
     if (!made) return made.error().message();

@@ -21,7 +21,7 @@ using namespace terrane;
 
 inline const Box3 unit_box{{-1, -1, -1}, {2, 2, 2}};
 
-/// A mesh that grows surface by surface; equal points are one vertex.
+/// Builds a mesh surface by surface; equal points become one vertex.
 class MeshBuilder {
 public:
     std::uint32_t surface(const std::string& name) {
@@ -37,7 +37,7 @@ public:
         triangle(surface, a, b, c);
         triangle(surface, a, c, d);
     }
-    /// The sides of a box, wound outward; the vertical ones in two halves if split at a height.
+    /// Adds the six sides of a box, oriented outward.
     void block(std::uint32_t s, const Point3& l, const Point3& h) {
         quad(s, {l.x, l.y, l.z}, {l.x, h.y, l.z}, {h.x, h.y, l.z}, {h.x, l.y, l.z});
         quad(s, {l.x, l.y, h.z}, {h.x, l.y, h.z}, {h.x, h.y, h.z}, {l.x, h.y, h.z});
@@ -73,7 +73,7 @@ inline Mesh rectangle() {
     return builder.mesh();
 }
 
-/// n x n squares with an uneven height.
+/// Returns a sheet of n x n squares with uneven heights.
 inline Mesh uneven_sheet(unsigned n) {
     MeshBuilder builder;
     const std::uint32_t surface = builder.surface("horizon");

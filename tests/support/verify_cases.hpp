@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// True claims about small inputs, written out by hand, and what it takes to break them.
+// True claims about small inputs, written by hand, and functions that break them.
 #pragma once
 
 #include <terrane/algorithms/verify/verify.hpp>
@@ -18,7 +18,7 @@ using namespace terrane;
 
 using Indices = std::vector<std::uint32_t>;
 
-/// Inputs and what is claimed of them.
+/// Inputs and a claim about them.
 struct Case {
     std::vector<Surface> inputs;
     ArrangementClaim claim;
@@ -206,7 +206,7 @@ inline Case square_in_one() {
 
 // --- Judging ----------------------------------------------------------------------------------
 
-/// The rules that are broken, such as "R5 R7".
+/// Returns the violated rules, such as "R5 R7".
 inline std::string broken_rules(const std::vector<Violation>& violations) {
     std::set<int> rules;
     for (const Violation& v : violations) rules.insert(static_cast<int>(v.rule) + 1);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Volumes judged by other means than those that find them, with integers and rationals of GMP only.
+// Judges volumes by other methods than those that find them, with integers and rationals of GMP.
 //
-// - How many: by Alexander duality the number of volumes, the outside counted, is one more than the
-//   second Betti number of the triangles: the number of triangles less the rank of the boundary
-//   operator (mod 2).
-// - Which: on segments in any direction, what faces each other must be one volume, and the far end
-//   the outside.
-// - How large: sums of prisms over the plane z = 0.
+// - Their number: by Alexander duality the number of volumes, including the outside, is one more
+//   than the second Betti number of the triangles: the number of triangles minus the rank of the
+//   boundary operator (mod 2).
+// - Their sides: on segments in any direction, sides that face each other must bound one volume,
+//   and the far end is in the outside.
+// - Their measures: sums of prisms over the plane z = 0.
 #pragma once
 
 #include <algorithm>
@@ -40,7 +40,7 @@ public:
         for (const terrane::Triangle& t : triangles_) planes_.push_back(plane_of(t));
     }
 
-    /// Number of volumes without the outside.
+    /// Returns the number of volumes without the outside.
     [[nodiscard]] std::size_t block_count() const {
         std::map<std::array<std::uint32_t, 2>, std::size_t> rows;
         std::vector<std::vector<std::size_t>> columns;
@@ -57,7 +57,7 @@ public:
         return columns.size() - rank(std::move(columns));
     }
 
-    /// Exact volume of each block, [0]: of all but the outside.
+    /// Returns the exact volume of each block; [0] is that of all blocks.
     [[nodiscard]] std::vector<mpq_class> measures(const terrane::Volumes& volumes) const {
         std::vector<mpq_class> sums(volumes.measures.size());
         for (std::size_t t = 0; t < triangles_.size(); ++t) {
@@ -71,7 +71,8 @@ public:
         return sums;
     }
 
-    /// What is wrong on a random segment from a point inside to one far outside; empty if nothing.
+    /// Describes a flaw on a random segment from a point inside to one far outside; empty if there
+    /// is none.
     template <class Random>
     [[nodiscard]] std::string flaw_on_segment(const terrane::Volumes& volumes,
                                               Random& random) const {
@@ -97,7 +98,7 @@ public:
 private:
     using Int = mpz_class;
 
-    /// Positive where orient3d is.
+    /// Returns the plane of a triangle, which is positive where orient3d is.
     [[nodiscard]] oracle::Row4 plane_of(const terrane::Triangle& t) const {
         const auto row = [&](std::uint32_t v) {
             const oracle::Point& p = points_[v];
@@ -134,7 +135,8 @@ private:
         return q;
     }
 
-    /// Signed volume between the triangle and the plane z = 0: projected area times mean height.
+    /// Returns the signed volume between a triangle and the plane z = 0: the projected area times
+    /// the mean height.
     [[nodiscard]] mpq_class prism_under(const terrane::Triangle& t) const {
         std::array<std::array<mpq_class, 3>, 3> p;
         for (unsigned i = 0; i < 3; ++i)
@@ -147,7 +149,7 @@ private:
     void shift_up(mpq_class& q) const { q <<= static_cast<mp_bitcnt_t>(3 * exponent_); }
     void shift_down(mpq_class& q) const { q >>= static_cast<mp_bitcnt_t>(-3 * exponent_); }
 
-    /// From somewhere among the points to far outside of them.
+    /// Returns a segment from a point among the points to one far outside.
     template <class Random>
     std::array<oracle::Point, 2> segment(Random& random) const {
         const auto pick = [&](long most) {
@@ -167,7 +169,8 @@ private:
         return {from, to};
     }
 
-    /// Parameters along the segment; false where it touches an edge or starts on a triangle.
+    /// Finds the hits of a segment, by parameters along it; returns false if it touches an edge or
+    /// starts on a triangle.
     bool find_hits(const oracle::Point& from, const oracle::Point& to,
                    std::vector<std::pair<mpq_class, std::size_t>>& hits) const {
         for (std::size_t t = 0; t < triangles_.size(); ++t) {
