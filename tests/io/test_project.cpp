@@ -6,6 +6,7 @@
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -79,35 +80,35 @@ std::string message(const json& document) {
     return message_of(parse(document));
 }
 
-/// What of JSON Schema the schema uses; anything else fails the test.
+/// Judges a value by a keyword of JSON Schema that bounds it; none if the keyword is another one.
+std::optional<bool> within_bound(const std::string& word, const json& rule, const json& value) {
+    if (word == "minLength") return !value.is_string() || value.get<std::string>().size() >= rule;
+    if (word == "minimum") return !value.is_number() || value >= rule;
+    if (word == "maximum") return !value.is_number() || value <= rule;
+    if (word == "exclusiveMinimum") return !value.is_number() || value > rule;
+    if (word == "minItems") return !value.is_array() || value.size() >= rule;
+    if (word == "maxItems") return !value.is_array() || value.size() <= rule;
+    if (word == "minProperties") return !value.is_object() || value.size() >= rule;
+    if (word == "maxProperties") return !value.is_object() || value.size() <= rule;
+    return std::nullopt;
+}
+
+bool has_type(const json& type, const json& value) {
+    return (type == "object" && value.is_object()) || (type == "array" && value.is_array()) ||
+           (type == "string" && value.is_string()) || (type == "boolean" && value.is_boolean()) ||
+           (type == "number" && value.is_number()) ||
+           (type == "integer" && value.is_number_integer());
+}
+
+/// Judges a value by the part of JSON Schema that the schema uses; other keywords fail the test.
 bool holds(const json& schema, const json& value) {
     for (const auto& [word, rule] : schema.items()) {
-        if (word == "type") {
-            const bool good = (rule == "object" && value.is_object()) ||
-                              (rule == "array" && value.is_array()) ||
-                              (rule == "string" && value.is_string()) ||
-                              (rule == "boolean" && value.is_boolean()) ||
-                              (rule == "number" && value.is_number()) ||
-                              (rule == "integer" && value.is_number_integer());
-            if (!good) return false;
+        if (const auto bound = within_bound(word, rule, value)) {
+            if (!*bound) return false;
+        } else if (word == "type") {
+            if (!has_type(rule, value)) return false;
         } else if (word == "enum") {
             if (std::find(rule.begin(), rule.end(), value) == rule.end()) return false;
-        } else if (word == "minLength") {
-            if (value.is_string() && value.get<std::string>().size() < rule) return false;
-        } else if (word == "minimum") {
-            if (value.is_number() && value < rule) return false;
-        } else if (word == "maximum") {
-            if (value.is_number() && value > rule) return false;
-        } else if (word == "exclusiveMinimum") {
-            if (value.is_number() && value <= rule) return false;
-        } else if (word == "minItems") {
-            if (value.is_array() && value.size() < rule) return false;
-        } else if (word == "maxItems") {
-            if (value.is_array() && value.size() > rule) return false;
-        } else if (word == "minProperties") {
-            if (value.is_object() && value.size() < rule) return false;
-        } else if (word == "maxProperties") {
-            if (value.is_object() && value.size() > rule) return false;
         } else if (word == "required") {
             if (value.is_object())
                 for (const auto& key : rule)
