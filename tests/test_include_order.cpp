@@ -13,11 +13,13 @@
 #include <string>
 #include <vector>
 
+#include "support/paths.hpp"
+
 namespace fs = std::filesystem;
 
 namespace {
 
-const fs::path root = TERRANE_SOURCE_DIR;
+const fs::path root = test_support::source_dir();
 
 /// What stands between the brackets or quotes of each include, in order.
 std::vector<std::string> includes_of(const fs::path& file) {

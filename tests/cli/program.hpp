@@ -16,6 +16,7 @@
 #include <unistd.h>
 
 #include "support/files.hpp"
+#include "support/paths.hpp"
 
 namespace program_test {
 
@@ -58,9 +59,9 @@ public:
     }
     /// A line for the shell, in which $T is the program and $D is tests/data.
     [[nodiscard]] Outcome shell(const std::string& line) const {
-        const auto command = "cd '" + path_.string() +
-                             "' && T='" TERRANE_PROGRAM "' && D='" TERRANE_TEST_DATA "' && { " +
-                             line + " ; } >io/out 2>io/err </dev/null";
+        const auto command = "cd '" + path_.string() + "' && T='" + test_support::program() +
+                             "' && D='" + test_support::test_data() + "' && { " + line +
+                             " ; } >io/out 2>io/err </dev/null";
         const int code = std::system(command.c_str());
         Outcome outcome;
         outcome.status = WIFEXITED(code) ? WEXITSTATUS(code) : 128 + WTERMSIG(code);

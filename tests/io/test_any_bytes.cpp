@@ -16,6 +16,7 @@
 #include <terrane/io/surfaces/ply.hpp>
 #include <terrane/io/surfaces/stl.hpp>
 
+#include "support/paths.hpp"
 #include "support/samples.hpp"
 
 using namespace terrane;
@@ -87,10 +88,10 @@ TEST_CASE("readers are total", "[io][files]") {
     const auto mesh = float_mesh();
     std::vector<std::string> seeds{to_gocad(mesh), to_obj(mesh),       to_off(mesh),
                                    to_ply(mesh),   to_stl_ascii(mesh), to_stl(mesh).value()};
-    seeds.push_back(read_file(std::string(TERRANE_TEST_DATA) + "/ringmesh/split_cube.ml").value());
+    seeds.push_back(read_file(test_data() + "/ringmesh/split_cube.ml").value());
     for (const std::string format : {"irap", "zmap", "cps3", "asc", "xyz", "vs"})
-        for (const auto& seed : std::filesystem::directory_iterator(
-                 std::string(TERRANE_SOURCE_DIR) + "/fuzz/corpus/read_" + format))
+        for (const auto& seed :
+             std::filesystem::directory_iterator(source_dir() + "/fuzz/corpus/read_" + format))
             seeds.push_back(read_file(seed.path()).value());
     std::sort(seeds.begin(), seeds.end()); // folders are listed in any order
     std::mt19937 random(20240501);

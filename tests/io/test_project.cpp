@@ -14,6 +14,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include "support/paths.hpp"
 #include "support/samples.hpp"
 
 using namespace terrane;
@@ -23,7 +24,7 @@ using nlohmann::json;
 namespace {
 
 json schema() {
-    std::ifstream file(TERRANE_SOURCE_DIR "/io/project.schema.json");
+    std::ifstream file(source_dir() + "/io/project.schema.json");
     return json::parse(file);
 }
 

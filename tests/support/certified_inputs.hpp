@@ -3,6 +3,8 @@
 // The inputs of tests/certified that are a single OBJ file, as models for testing laws.
 #pragma once
 
+#include "support/paths.hpp"
+
 #include <catch2/catch.hpp>
 
 #include <algorithm>
@@ -21,7 +23,7 @@ struct Model {
 
 /// Returns the models with at most `most` triangles, by name.
 inline std::vector<Model> certified_inputs(std::size_t most = 1000) {
-    const auto folder = std::filesystem::path(TERRANE_SOURCE_DIR) / "tests" / "certified";
+    const auto folder = std::filesystem::path(test_support::source_dir()) / "tests" / "certified";
     std::vector<Model> models;
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
         const auto file = entry.path() / "input.obj";

@@ -3,6 +3,8 @@
 // Reading surfaces from texts and from tests/data.
 #pragma once
 
+#include "support/paths.hpp"
+
 #include <filesystem>
 #include <string_view>
 #include <utility>
@@ -26,7 +28,7 @@ struct Reader {
 
 /// Reads a file of tests/data.
 inline std::vector<terrane::Surface> read_data(std::string_view name) {
-    auto surfaces = terrane::read_surfaces(std::filesystem::path(TERRANE_TEST_DATA) / name);
+    auto surfaces = terrane::read_surfaces(std::filesystem::path(test_support::test_data()) / name);
     INFO(name << (surfaces ? "" : ": " + surfaces.error().message()));
     REQUIRE(surfaces);
     return std::move(surfaces).value();

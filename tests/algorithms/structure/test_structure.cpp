@@ -12,6 +12,7 @@
 #include <catch2/catch.hpp>
 
 #include "support/certified_inputs.hpp"
+#include "support/paths.hpp"
 #include "support/rounded.hpp"
 #include "support/solids.hpp"
 #include <terrane/algorithms/rounding/rounding.hpp>
@@ -221,7 +222,7 @@ TEST_CASE("structure: closed lines and dangling interfaces are found", "[structu
 }
 
 TEST_CASE("structure: modelA1 has the entities that RINGMesh counts", "[structure]") {
-    const auto surfaces = read_surfaces(std::string(TERRANE_TEST_DATA) + "/ringmesh/modelA1.ml");
+    const auto surfaces = read_surfaces(test_data() + "/ringmesh/modelA1.ml");
     REQUIRE(surfaces);
     const Built b = build(surfaces.value());
     CHECK(b.structure.corners.size() == 20);

@@ -15,6 +15,7 @@
 #include <terrane/algorithms/tetgen/detail/process.hpp>
 #include <terrane/io/files.hpp>
 
+#include "support/paths.hpp"
 #include "support/read.hpp"
 #include "support/rounded.hpp"
 #include "support/tetgen_cases.hpp"
@@ -335,7 +336,7 @@ TEST_CASE("tetrahedra: progress goes from 0 to 1", "[tetrahedra]") {
 
 TEST_CASE("tetrahedra: vertices of the mesh stay as they are, in what once failed too") {
     std::size_t filled = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(TERRANE_TEST_DATA "/regression")) {
+    for (const auto& entry : std::filesystem::directory_iterator(test_data() + "/regression")) {
         INFO(entry.path().filename().string());
         const auto surfaces = read_surfaces(entry.path());
         REQUIRE(surfaces);

@@ -9,6 +9,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "support/paths.hpp"
 #include "support/points.hpp"
 #include "support/rounded.hpp"
 #include "support/solids.hpp"
@@ -118,8 +119,7 @@ TEST_CASE("tetrahedra: random models, two methods agree", "[tetrahedra]") {
 
 TEST_CASE("tetrahedra: real models, two methods agree", "[tetrahedra]") {
     for (const std::string name : {"modelA1", "modelA2"}) {
-        const auto surfaces =
-            read_surfaces(std::string(TERRANE_TEST_DATA) + "/ringmesh/" + name + ".ml");
+        const auto surfaces = read_surfaces(test_data() + "/ringmesh/" + name + ".ml");
         REQUIRE(surfaces);
         const Filled f = fill(surfaces.value());
         CHECK(f.volumes.block_count() == (name == "modelA1" ? 4 : 12));

@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "support/paths.hpp"
 #include "support/points.hpp"
 #include "support/rounded.hpp"
 #include "support/solids.hpp"
@@ -71,7 +72,7 @@ TEST_CASE("region points: dangling sheets part nothing, real models have all", "
     const auto one = region_points(sheet.mesh, sheet.volumes);
     REQUIRE(one);
     CHECK(one.value().size() == 1);
-    const auto surfaces = read_surfaces(TERRANE_TEST_DATA "/ringmesh/modelA2.ml");
+    const auto surfaces = read_surfaces(test_data() + "/ringmesh/modelA2.ml");
     REQUIRE(surfaces);
     const Model real = model_of(surfaces.value());
     const auto points = region_points(real.mesh, real.volumes);

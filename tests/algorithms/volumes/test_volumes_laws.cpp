@@ -16,6 +16,7 @@
 
 #include "support/certified_inputs.hpp"
 #include "support/found_volumes.hpp"
+#include "support/paths.hpp"
 #include "support/points.hpp"
 #include "support/solids.hpp"
 #include "support/volume_oracle.hpp"
@@ -274,7 +275,7 @@ TEST_CASE("volumes: random planes through a box make as many blocks as Euler's f
 TEST_CASE("volumes: real models have the regions that they state", "[volumes]") {
     for (const std::string name : {"modelA1", "modelA2", "split_cube"}) {
         INFO(name);
-        const auto model = read_model(std::string(TERRANE_TEST_DATA) + "/ringmesh/" + name + ".ml");
+        const auto model = read_model(test_data() + "/ringmesh/" + name + ".ml");
         REQUIRE(model);
         const GocadModel& stated = model.value();
         const Found found = find_in(stated.surfaces);

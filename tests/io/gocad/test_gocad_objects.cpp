@@ -3,6 +3,7 @@
 
 #include <terrane/io/files.hpp>
 
+#include "support/paths.hpp"
 #include "support/samples.hpp"
 
 using namespace terrane;
@@ -10,7 +11,7 @@ using namespace test_support;
 
 namespace {
 
-const std::filesystem::path data = TERRANE_TEST_DATA;
+const std::filesystem::path data = test_data();
 
 GocadModel model_of(const char* name) {
     const auto result = read_model(data / "ringmesh" / name);

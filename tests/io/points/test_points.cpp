@@ -5,6 +5,7 @@
 
 #include <terrane/io/files.hpp>
 
+#include "support/paths.hpp"
 #include "support/samples.hpp"
 
 using namespace terrane;
@@ -97,7 +98,7 @@ TEST_CASE("points: broken files", "[io][points]") {
 }
 
 TEST_CASE("points: horizons of real surveys", "[io][points]") {
-    const std::string data = std::string(TERRANE_TEST_DATA) + "/gio/";
+    const std::string data = test_data() + "/gio/";
     const auto f3 = read_surfaces(data + "F3_FS6_ILXL.dat", std::nullopt, {.depth = true});
     REQUIRE(message_of(f3) == "no error");
     REQUIRE(f3.value().size() == 1);

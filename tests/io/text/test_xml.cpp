@@ -11,6 +11,8 @@
 #include <catch2/catch.hpp>
 #include <pugixml.hpp>
 
+#include "support/paths.hpp"
+
 using namespace terrane;
 
 TEST_CASE("XML: a reader gets each character back, in an element and in an attribute", "[io]") {
@@ -40,7 +42,7 @@ TEST_CASE("XML: text is escaped in one place of the sources only", "[io]") {
     std::vector<std::string> found;
     for (const std::string folder : {"kernel", "algorithms", "io", "cli"})
         for (const auto& entry : std::filesystem::recursive_directory_iterator(
-                 std::filesystem::path(TERRANE_SOURCE_DIR) / folder)) {
+                 std::filesystem::path(test_support::source_dir()) / folder)) {
             if (!entry.is_regular_file()) continue;
             std::ifstream file(entry.path());
             const std::string contents{std::istreambuf_iterator<char>(file), {}};

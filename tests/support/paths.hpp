@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Where the sources, the test data and the program are. Only paths.cpp is compiled with these paths,
+// so that a compiler's cache serves all checkouts.
+#pragma once
+
+#include <string>
+
+namespace test_support {
+
+std::string source_dir(); ///< the root of the repository
+std::string test_data();  ///< tests/data
+std::string program();    ///< the program under test
+
+} // namespace test_support
