@@ -142,7 +142,7 @@ void assert_invariants([[maybe_unused]] const Arrangement& a) {
     TERRANE_ASSERT(a.parents_of.size() == a.triangles.size());
     TERRANE_ASSERT(a.surfaces_of.size() == a.triangles.size());
     TERRANE_ASSERT_PARANOID(corners_below(a.triangles, a.vertices.size()));
-    TERRANE_ASSERT_PARANOID(all_below(a.vertices, a.points.size()));
+    TERRANE_ASSERT_PARANOID(all_below(a.vertices, a.state->points.size()));
     TERRANE_ASSERT_PARANOID(are_sorted_lists(a.parents_of, a.triangles.size()));
     TERRANE_ASSERT_PARANOID(are_sorted_lists(a.surfaces_of, a.triangles.size()));
     TERRANE_ASSERT_PARANOID(all_below(a.surfaces_of.values, a.surfaces.size()));

@@ -194,8 +194,6 @@ Result<Inputs> read_inputs(const FileOptions& options, Session& session) {
     return all;
 }
 
-}
-
 std::string name_of_inputs(const FileOptions& options) {
     const auto& first = options.inputs.front();
     const std::string name = first == "-" ? "standard input" : first;

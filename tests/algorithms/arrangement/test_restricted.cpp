@@ -22,11 +22,11 @@ TEST_CASE("restricted: keeping everything changes nothing, keeping nothing leave
     const auto a = arrange(std::vector{cube(0, 4), level(2, -1, -1, 5, 5)}).value();
     const Arrangement same = restricted(a, std::vector<bool>(a.triangles.size(), true));
     CHECK(same.triangles == a.triangles);
-    CHECK(same.whole);
+    CHECK(same.state->whole);
     const Arrangement none = restricted(a, std::vector<bool>(a.triangles.size(), false));
     CHECK(none.triangles.empty());
     CHECK(none.vertices.empty());
-    CHECK_FALSE(none.whole);
+    CHECK_FALSE(none.state->whole);
     check_consistent(none);
     CHECK(find_volumes(none).value().block_count() == 0);
 }

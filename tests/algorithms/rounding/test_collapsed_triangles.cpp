@@ -15,6 +15,7 @@
 namespace {
 
 using namespace terrane;
+using namespace terrane::rounding::detail;
 using namespace test_support;
 
 /// Twice the area, of triangles in the plane z = 0.

@@ -14,6 +14,7 @@
 namespace {
 
 using namespace terrane;
+using namespace terrane::rounding::detail;
 using namespace test_support;
 
 /// Dirty points, and triangles each with itself as its parent.

@@ -25,6 +25,7 @@
 #include "support/tetgen_cases.hpp"
 
 using namespace terrane;
+using namespace terrane::tetgen::detail;
 using namespace test_support;
 using namespace tetgen_cases;
 
