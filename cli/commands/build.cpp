@@ -254,8 +254,7 @@ private:
 
     Status write_surfaces(const fs::path& to) {
         WriteOptions options;
-        options.ascii =
-            true; // text STL, as binary STL would hold rounded coordinates that nobody checked
+        options.ascii = true; // binary STL would round the checked coordinates
         std::vector<RegionPoint> points;
         for (const std::string& format : project_.outputs.surfaces) {
             options.format = format_named(format);
@@ -319,9 +318,7 @@ private:
         if (!project_.outputs.certificate) return Done{};
         written_.emplace_back("certificate.json");
         const auto path = to / written_.back();
-        Arranged& arranged =
-            built_
-                .arranged; // the verifier takes names and roles from the files, not from the project
+        Arranged& arranged = built_.arranged; // the verifier reads the files, not the project
         for (std::size_t s = 0; s < read_.as_read.size(); ++s) {
             arranged.surfaces[s].name = read_.as_read[s].name;
             arranged.surfaces[s].role = read_.as_read[s].role;

@@ -62,10 +62,9 @@ Status check_folder(const std::string& path);
 
 struct Inputs {
     std::vector<Surface> surfaces;
-    std::vector<std::string> files; ///< per surface: the file it was read from
-    std::vector<std::size_t>
-        surfaces_of_file;            ///< per input on the command line: how many surfaces it has
-    std::vector<std::string> labels; ///< per surface: its name, made unique, on one line
+    std::vector<std::string> files;            ///< per surface: the file it was read from
+    std::vector<std::size_t> surfaces_of_file; ///< per input: number of surfaces read from it
+    std::vector<std::string> labels;           ///< per surface: its name, made unique, on one line
     std::size_t vertices = 0, triangles = 0;
     double seconds = 0;
 };

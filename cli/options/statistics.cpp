@@ -59,19 +59,18 @@ void add_statistics(Json& json, const RoundedMesh& rounded, double seconds) {
                       {"intersection_edges", m.intersection_edges.size()},
                       {"regions", rounded.regions.size()},
                       {"volumes", nullptr}};
-    json["rounding"] = {
-        {"iterations", r.rounds},
-        {"max_move", r.max_move},
-        {"deviation", r.deviation},
-        {"moves", r.moves}, // number of vertices per decade of their move: see RoundingReport
-        {"verified", r.clean},
-        {"naive_contacts", r.naive_contacts},
-        {"contacts", r.contacts.size()},
-        {"moved_input_vertices", r.moved_input_vertices},
-        {"merged_vertices", r.merged_vertices},
-        {"collapsed_triangles", r.collapsed_triangles},
-        {"surfaces_with_lost_regions", r.lost_regions.size()},
-        {"vanished_input_triangles", r.vanished.size()}};
+    json["rounding"] = {{"iterations", r.rounds},
+                        {"max_move", r.max_move},
+                        {"deviation", r.deviation},
+                        {"moves", r.moves}, // vertices by decade of their move: see RoundingReport
+                        {"verified", r.clean},
+                        {"naive_contacts", r.naive_contacts},
+                        {"contacts", r.contacts.size()},
+                        {"moved_input_vertices", r.moved_input_vertices},
+                        {"merged_vertices", r.merged_vertices},
+                        {"collapsed_triangles", r.collapsed_triangles},
+                        {"surfaces_with_lost_regions", r.lost_regions.size()},
+                        {"vanished_input_triangles", r.vanished.size()}};
     json["seconds"]["round"] = seconds - rounded.report.seconds_regions;
     json["seconds"]["regions"] = rounded.report.seconds_regions;
 }

@@ -24,8 +24,7 @@ struct VolumeOptions {
     std::string polygon;             ///< x,y,x,y,..., or a file
     std::string between;             ///< z0,z1: bottom and top of the polygon's prism
     std::vector<std::string> within; ///< files of a closed surface
-    double extend =
-        0; ///< greatest length by which horizons that end inside are extended; 0: not at all
+    double extend = 0;               ///< longest extension of horizons that end inside; 0: none
 
     /// Tells whether a volume of interest is given at all.
     [[nodiscard]] bool wanted() const {

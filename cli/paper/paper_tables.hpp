@@ -26,7 +26,7 @@ struct PaperSettings {
     bool large = false;               ///< also the model of 6 800 000 triangles
     double limit = 60;                ///< seconds for one search by AB unbalanced
     std::vector<std::string> skipped; ///< names of methods
-    unsigned repeats = 5; ///< runs of anything that takes less than a second; the median counts
+    unsigned repeats = 5;             ///< runs of anything under a second; the median counts
 };
 
 /// One row: a model, the paper's times and those measured here.
@@ -40,8 +40,7 @@ struct PaperRow {
     std::size_t pairs = 0; ///< candidate pairs of a red and a blue box
     double mean_d = 0;     ///< mean number of triangles in the non-empty D_T
     std::size_t largest_d = 0;
-    double mean_looked_at =
-        0; ///< mean number of triangles in the grid cells visited for a T, where there are any
+    double mean_looked_at = 0; ///< mean number of triangles in the cells visited for a T
     ArrangeStatistics arrange;
     double seconds_regions = 0, seconds_round = 0;
     bool clean = false; ///< the rounded mesh was proven conforming

@@ -49,7 +49,7 @@ private:
     Run run_;
     std::atomic<Phase> phase_ = Phase::idle;
 
-    bool terminal_; ///< whether standard error is a terminal, which shows progress
+    bool terminal_;                                 ///< whether standard error is a terminal
     std::chrono::steady_clock::time_point started_; ///< guarded by mutex_, like all below
     std::mutex mutex_;
     std::string stage_; ///< empty: nothing to show
