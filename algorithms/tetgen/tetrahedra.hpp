@@ -55,31 +55,31 @@ struct TetrahedraOptions {
 /// are those of the mesh.
 ///
 /// (1) Without sizes and radius_edge_ratio, the faces on the mesh are its triangles, undivided,
-///    unless TetGen needs more vertices on them. Vertices added on a triangle are rounded to
-///    doubles next to it.
+///     unless TetGen needs more vertices on them. Vertices added on a triangle are rounded to
+///     doubles next to it.
 /// (2) The vertices are the used ones of the mesh in its order and bit by bit, then the eight
-///    corners of the box, then added ones.
+///     corners of the box, then added ones.
 /// (3) For each result it is proven exactly that all tetrahedra have positive volume, that the
-///    volumes add up to the box's, and that each face has a tetrahedron on either side or lies on
-///    the box. So the tetrahedra fill the box without overlap.
+///     volumes add up to the box's, and that each face has a tetrahedron on either side or lies on
+///     the box. So the tetrahedra fill the box without overlap.
 /// (4) Faces come in the order of their triangles and have their winding; faces on the box come
-///    last, counterclockwise seen from outside.
+///     last, counterclockwise seen from outside.
 /// (5) Regions are the parts into which the mesh divides the box, found by diffusion over the
-///    tetrahedra (the paper, section 3: regions one dimension up). They have the numbers of
-///    find_volumes(mesh). It is checked at every face that regions and volumes correspond one to
-///    one.
+///     tetrahedra (the paper, section 3: regions one dimension up). They have the numbers of
+///     find_volumes(mesh). It is checked at every face that regions and volumes correspond one to
+///     one.
 /// (6) The same arguments give the same result, unless one of the ways of asking TetGen runs out of
-///    time.
+///     time.
 ///
-/// The mesh must be conforming, as TetGen may crash or run forever on another. TetGen runs in a process
-/// of its own: nothing is printed, a crash is returned as an error, a stop request ends it at once, and
-/// calls from several threads do not disturb each other. If it fails, or (3) does not hold, it is asked
-/// again in other ways.
+/// The mesh must be conforming, as TetGen may crash or run forever on another. TetGen runs in a
+/// process of its own: nothing is printed, a crash is returned as an error, a stop request ends it
+/// at once, and calls from several threads do not disturb each other. If it fails, or (3) does not
+/// hold, it is asked again in other ways.
 ///
 /// Errors: improper_contact with the place, bad_index, bad_number, bad_option, nothing_to_do (no
 /// triangle and no box), interrupted, timed_out (in all ways), out_of_memory, unsupported (too
-/// large for TetGen, or surfaces too close for its tolerance), internal; cannot_open if the
-/// helper program can't be found or run. An error about the helper has its path as the place.
+/// large for TetGen, or surfaces too close for its tolerance), internal; cannot_open if the helper
+/// program can't be found or run. An error about the helper has its path as the place.
 ///
 /// Source: TetGen 1.5 (H. Si).
 Result<TetrahedralMesh> tetrahedralize(const ConformingMesh& mesh, const Volumes& volumes,

@@ -37,10 +37,10 @@ private:
 /// Starts the helper, sends it data and receives its reply. The destructor kills and reaps it.
 ///
 /// (1) A call returns within some 50 ms of a stop request and of the end of the time limit,
-///    whatever the helper does.
+///     whatever the helper does.
 /// (2) The helper gets three descriptors and no other: a socket as its standard input and output,
-///    and a pipe as its standard error. SIGINT, SIGTERM and SIGHUP are blocked in it, as the caller
-///    decides about them. No other signal is blocked, even if the caller blocks it.
+///     and a pipe as its standard error. SIGINT, SIGTERM and SIGHUP are blocked in it, as the
+///     caller decides about them. No other signal is blocked, even if the caller blocks it.
 /// (3) No signal reaches the caller: data that the helper does not read raise no SIGPIPE.
 ///
 /// Errors about the helper itself, rather than about TetGen, have its path as their place:

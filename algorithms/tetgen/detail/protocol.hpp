@@ -3,11 +3,11 @@
 // The messages between the library and TetGen's helper program, which run on the same machine.
 //
 // Request: RequestHeader; points as 3 doubles each; facets + 1 offsets into the corners (uint32);
-// corners (uint32); per facet a bound on the area of its faces, infinite for no bound, or no bounds at
-// all (double); regions as x, y, z and the largest volume of a tetrahedron (double).
+// corners (uint32); per facet a bound on the area of its faces, infinite for no bound, or no bounds
+// at all (double); regions as x, y, z and the largest volume of a tetrahedron (double).
 //
-// Reply: ReplyHeader. If its status is `done`, there follow: points as 3 doubles each; tetrahedra as 4
-// corners each (uint32); faces on facets as 3 corners each (uint32); per face 1 + its facet
+// Reply: ReplyHeader. If its status is `done`, there follow: points as 3 doubles each; tetrahedra
+// as 4 corners each (uint32); faces on facets as 3 corners each (uint32); per face 1 + its facet
 // (uint32).
 #pragma once
 

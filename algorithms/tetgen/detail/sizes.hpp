@@ -2,13 +2,13 @@
 //
 // Turns wanted edge lengths into the bounds that TetGen takes.
 //
-// A length L becomes the volume of a regular tetrahedron with that edge, L^3 / (6 sqrt 2), in blocks,
-// and the area of its faces, L^2 sqrt(3) / 4, on surfaces. A block uses its own length, or else
-// edge_length and max_volume; a triangle uses the least length of its surfaces and of the blocks on
-// its sides. TetGen 1.5.0 keeps these bounds, except in its last step, which improves shapes and may
-// make volumes a fifth larger. It does not keep the sizes of its other way, lengths at points (-m):
-// with 0.5 asked for on a fault in a box of 8, faces had areas up to that of an edge length of 0.93;
-// with bounds on areas, up to 0.4995.
+// A length L becomes the volume of a regular tetrahedron with that edge, L^3 / (6 sqrt 2), in
+// blocks, and the area of its faces, L^2 sqrt(3) / 4, on surfaces. A block uses its own length, or
+// else edge_length and max_volume; a triangle uses the least length of its surfaces and of the
+// blocks on its sides. TetGen 1.5.0 keeps these bounds, except in its last step, which improves
+// shapes and may make volumes a fifth larger. It does not keep the sizes of its other way, lengths
+// at points (-m): with 0.5 asked for on a fault in a box of 8, faces had areas up to that of an
+// edge length of 0.93; with bounds on areas, up to 0.4995.
 #pragma once
 
 #include <cmath>
