@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// From surfaces to a mesh of doubles: extended to the boundary of a volume of interest, sealed,
-// arranged, cut, rounded; each of them where it is asked for.
+// Makes a mesh of doubles from surfaces. They are extended to the boundary of a volume of interest,
+// sealed, arranged, cut and rounded; each of the optional steps happens if it is asked for.
 #pragma once
 
 #include <optional>
@@ -18,19 +18,23 @@
 
 namespace terrane {
 
+/// Options of arrange_within().
 struct ArrangeWithinOptions {
     ArrangeOptions arrange{};
     RoundingOptions rounding{};
-    double seal = 0;   ///< distance of gaps that are closed, unit of the input; 0: none
-    double extend = 0; ///< limit for horizons that end inside, unit of the input; 0: none
+    double seal = 0;   ///< largest width of gaps to close, unit of the input; 0: none
+    double extend = 0; ///< longest extension of horizons that end inside, unit of the input; 0:
+                       ///< none
 };
 
+/// The gaps that were closed.
 struct SealReport {
-    double distance = 0; ///< as asked for
+    double distance = 0; ///< the option seal
     std::vector<SealChange> changes{};
     double left = 0; ///< see Sealed
 };
 
+/// The arrangement, its rounded mesh, and the reports of all steps. Times are in seconds.
 struct Arranged {
     std::vector<Surface> surfaces; ///< the input with the triangles by which gaps were closed, then
                                    ///< the boundary

@@ -10,7 +10,7 @@
 namespace terrane {
 namespace {
 
-/// Adds what follows from the volumes.
+/// Adds what follows from the volumes: structure, free borders and times.
 Result<Model> finished(Model model, const Run& run) {
     Stopwatch watch;
     model.structure = build_structure(model.mesh, model.volumes);
@@ -20,7 +20,7 @@ Result<Model> finished(Model model, const Run& run) {
     return model;
 }
 
-/// Gives the volumes of the mesh the numbers of their matches; what has none comes last.
+/// Gives the volumes of the mesh the numbers of their matches. Those without a match come last.
 void number(const Volumes& found, const std::vector<std::uint32_t>& match, Model& model) {
     const std::size_t count = model.exact_volumes.size();
     model.made = static_cast<std::size_t>(std::count(match.begin(), match.end(), UINT32_MAX));
@@ -28,11 +28,11 @@ void number(const Volumes& found, const std::vector<std::uint32_t>& match, Model
     model.volumes = renumbered(found, match, count);
     model.number_of = match;
     auto next = static_cast<std::uint32_t>(count);
-    for (std::uint32_t& n : model.number_of) // as renumbered() does
+    for (std::uint32_t& n : model.number_of) // the same numbers as from renumbered()
         if (n == UINT32_MAX) n = next++;
 }
 
-/// Per volume its own number.
+/// Returns the volumes' own numbers, in order.
 std::vector<std::uint32_t> own_numbers(const Volumes& volumes) {
     std::vector<std::uint32_t> numbers(volumes.measures.size());
     std::iota(numbers.begin(), numbers.end(), 0U);

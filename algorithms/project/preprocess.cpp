@@ -81,7 +81,7 @@ Result<std::vector<Layer>> order_of(const Project& project, const Names& names) 
     return order;
 }
 
-/// The surfaces of a mesh, each with the vertices that it uses.
+/// Splits a mesh into its surfaces, each with the vertices that it uses.
 std::vector<Surface> surfaces_of(const Mesh& mesh) {
     std::vector<Surface> all;
     std::vector<std::vector<std::uint32_t>> members(mesh.surfaces.size()); // triangles of each

@@ -93,7 +93,7 @@ Result<std::vector<std::uint32_t>> surfaces_to_split(const Model& model,
 
 // ---- Results ------------------------------------------------------------------------------------
 
-/// Gives regions the numbers of the model's blocks.
+/// Gives the regions the numbers of the model's blocks.
 void renumber(const Model& model, FilledBlocks& filled) {
     const auto& shown = model.number_of;
     const std::size_t count = model.volumes.measures.size();
@@ -102,12 +102,12 @@ void renumber(const Model& model, FilledBlocks& filled) {
     std::vector<RegionVolume> volumes(count);
     for (std::size_t r = 0; r < filled.report.volumes.size(); ++r)
         volumes[shown[r]] = filled.report.volumes[r];
-    for (std::size_t r = 0; r < count; ++r) // too thin for doubles: nothing to compare
+    for (std::size_t r = 0; r < count; ++r) // a block too thin for doubles has nothing to compare
         if (std::find(shown.begin(), shown.end(), r) == shown.end()) volumes[r].equal = true;
     filled.report.volumes = std::move(volumes);
 }
 
-/// Takes the outside away where it is not wanted, and splits nodes.
+/// Removes the outside unless it is wanted, and splits nodes.
 Status finish(const TetrahedraRequest& request, std::span<const std::uint32_t> split,
               TetrahedralMesh& mesh, std::size_t& added_nodes) {
     if (!request.outside) mesh = without_outside(std::move(mesh));

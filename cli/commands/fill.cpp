@@ -26,7 +26,7 @@ struct FillCommand {
     FillOptions settings;
     std::string method = "kriging";       ///< or rbf
     std::string model = "auto";           ///< of the variogram
-    std::string smoothing = no_smoothing; ///< as it was said
+    std::string smoothing = no_smoothing; ///< text of the option
     std::string holes = default_holes;
     bool list = false;
     std::string map;    ///< empty: none
@@ -52,7 +52,7 @@ Examples:
   terrane fill horizons.ts -o filled.ts --holes 1,3 --points invented.csv
   terrane fill fold.obj -o filled.obj --method rbf)";
 
-/// Per hole, whether it is to be filled.
+/// Tells for each hole whether it is to be filled. Errors: bad_option.
 Result<std::vector<bool>> chosen_holes(const FillCommand& command, const FillWork& work) {
     auto chosen = wanted_holes(work);
     if (command.holes == default_holes) return chosen;
@@ -116,7 +116,7 @@ Result<std::vector<Output>> plan(const FillCommand& command) {
     return outputs;
 }
 
-/// All holes of all surfaces.
+/// Makes one task per surface, each with all of its holes.
 std::vector<FillTask> tasks_of(const FillCommand& command, const Inputs& inputs) {
     FillOptions options = command.settings;
     if (command.method == "rbf") options.method = FillMethod::rbf;
@@ -126,7 +126,7 @@ std::vector<FillTask> tasks_of(const FillCommand& command, const Inputs& inputs)
     return tasks;
 }
 
-/// Fills and writes; whether no hole that was chosen had to stay open.
+/// Fills the chosen holes and writes the results. The value is true if no chosen hole stayed open.
 Result<bool> fill_and_write(const FillCommand& command, const std::vector<Output>& outputs,
                             const Inputs& inputs, FillWork& work, Session& session) {
     const auto chosen = chosen_holes(command, work);

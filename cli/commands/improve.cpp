@@ -44,7 +44,7 @@ Examples:
   terrane improve model.ml -o model.vtp --max-deviation 5 --histogram model.svg
   terrane improve model.ml -o model.vtp --edge-length 400 --edge-length-of F1=150 --turn 15)";
 
-/// A positive number, all of the text; none where it is something else.
+/// Parses a positive number that takes up the whole text; returns none for anything else.
 std::optional<double> positive(const std::string& text) {
     std::size_t used = 0;
     double value = 0;
@@ -117,7 +117,7 @@ Result<ExitStatus> improve_files(const ImproveCommand& command, Session& session
 
     const auto arranged = arrange_and_round(inputs.value(), command.settings, session, statistics);
     if (!arranged) return arranged.error();
-    if (!options.edge_length_of.empty()) // with the boundary of a volume of interest
+    if (!options.edge_length_of.empty()) // the boundary of a volume of interest added surfaces
         options.edge_length_of.resize(inputs.value().labels.size());
     print(summary_stream(files), summary(inputs.value(), arranged.value()));
     bool clean = arranged.value().rounded.report.clean;

@@ -38,7 +38,7 @@ Examples:
   terrane layer basin.ts --layer top=1 --layer middle=3 --layer base=2 -o basin.vtp
   terrane layer basin.ts --layer top=1 --layer base=2 --min-thickness 5 -o basin.obj)";
 
-/// The files of the two ways to call it, in files.inputs.
+/// Puts the input files into files.inputs, whichever of the two ways to call the command was used.
 Status plan_inputs(LayerCommand& command) {
     const bool pair = !command.hard.empty() || !command.soft.empty();
     if (pair) {

@@ -74,7 +74,7 @@ Error usage(std::string sentence, std::string place) {
     return {ErrorCode::bad_option, std::move(sentence), std::move(place)};
 }
 
-// The folder must be there: it is better to say so before an hour of work than after it.
+// Checks the folder before the work starts, as a missing one would otherwise show only at the end.
 Status check_folder(const std::string& path) {
     if (path == "-") return Done{};
     const auto parent = fs::path(path).parent_path();

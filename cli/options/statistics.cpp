@@ -10,7 +10,7 @@
 namespace terrane::cli {
 namespace {
 
-/// MiB; Linux counts in KiB.
+/// Returns the peak resident memory in MiB; getrusage counts in KiB on Linux.
 double peak_memory() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
@@ -62,7 +62,7 @@ void add_statistics(Json& json, const RoundedMesh& rounded, double seconds) {
     json["rounding"] = {{"iterations", r.rounds},
                         {"max_move", r.max_move},
                         {"deviation", r.deviation},
-                        {"moves", r.moves}, // see RoundingReport: vertices by decade of their move
+                        {"moves", r.moves}, // vertices by decade of their move: see RoundingReport
                         {"verified", r.clean},
                         {"naive_contacts", r.naive_contacts},
                         {"contacts", r.contacts.size()},

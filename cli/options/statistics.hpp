@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What --stats writes. docs/reference/statistics.md lists its keys.
+// The document that --stats writes. docs/reference/statistics.md lists its keys.
 #pragma once
 
 #include <cstddef>
@@ -15,15 +15,17 @@ namespace terrane::cli {
 
 using Json = nlohmann::ordered_json;
 
-/// input, output, search, predicates, rounding, seconds; those of the stages that were run.
+/// Starts the document with the version, the input's counts and the time of reading. add_statistics
+/// adds the keys of the stages that were run.
 Json statistics_of(const Inputs& inputs);
 void add_statistics(Json& json, const Arrangement& arrangement, Search asked);
 void add_statistics(Json& json, const RoundedMesh& rounded, double seconds);
 
-/// Adds the total time and the peak of memory, and writes; nothing for an empty path.
+/// Adds the total time and the peak memory, and writes the document; does nothing for an empty
+/// path.
 Status write_statistics(Json json, const std::string& path, double total_seconds);
 
-/// Indented text; bytes that are no UTF-8 become U+FFFD.
+/// Returns indented text; bytes that are not UTF-8 become U+FFFD.
 std::string text_of(const Json& json);
 
 } // namespace terrane::cli

@@ -16,7 +16,7 @@
 namespace terrane::cli {
 namespace {
 
-/// Median of several runs, or the one run where it takes a second or more.
+/// Returns the median of several runs, or the time of the first run if it takes a second or more.
 template <class Work>
 double median_seconds(unsigned repeats, const Work& work) {
     std::vector<double> seconds;
@@ -47,7 +47,8 @@ RedAndBlue boxes_of_surfaces(const std::vector<Surface>& surfaces) {
     return all;
 }
 
-/// AB unbalanced may take hours: stops at the limit and says how far it came.
+/// Times AB unbalanced, which may take hours: it stops at the limit, and `share` is the part done
+/// by then.
 double measure_ab(const RedAndBlue& all, double limit, double& share) {
     Stopwatch watch;
     double seconds = 0;
@@ -83,7 +84,7 @@ double measure_search(Search method, const RedAndBlue& all, const PaperSettings&
     });
 }
 
-/// How many red triangles there are to test for each blue one.
+/// Counts the red triangles to be tested for each blue one.
 void measure_d(const RedAndBlue& all, PaperRow& row) {
     std::vector<std::size_t> count(all.boxes.size() - all.red);
     for (const auto& [red, blue] : candidate_pairs(all.boxes, all.groups, Search::bvh))
@@ -104,7 +105,7 @@ void measure_d(const RedAndBlue& all, PaperRow& row) {
     row.mean_looked_at = mean(looked_at, looking);
 }
 
-/// Region detection by itself, on the mesh of doubles.
+/// Times region detection alone, on the mesh of doubles.
 double measure_regions(const Mesh& mesh, unsigned repeats) {
     return median_seconds(repeats, [&] {
         const Adjacency adjacency = adjacency_of(group_edges(mesh.triangles, mesh.vertices.size()),

@@ -15,13 +15,13 @@
 namespace terrane::cli {
 namespace {
 
-constexpr std::size_t most_holes = 30; ///< holes on the terminal
+constexpr std::size_t most_holes = 30; ///< printed
 
 const char* name_of_kind(const BorderLoop& loop) {
     return loop.kind == LoopKind::hole ? "hole" : "fault gap";
 }
 
-/// What the method itself expects; else what it misses of data that are left out.
+/// Reports the error that the method expects, else the one measured at data left out.
 std::string error_text(const FillReport& r) {
     if (std::isfinite(r.expected_error))
         return fmt::format("expected error {:.4g}", r.expected_error);
@@ -146,7 +146,7 @@ std::string csv_of(const FillWork& work) {
 }
 
 std::string map_of(const FillWork& work) {
-    std::vector<Surface> before; // as they were given: without the triangles that came after
+    std::vector<Surface> before; // the input surfaces, without the triangles added
     for (const HoledSurface& s : work.surfaces) {
         before.push_back(s.filled);
         before.back().vertices.resize(s.given_vertices);

@@ -17,7 +17,7 @@ constexpr std::size_t most_regions = 50; ///< listed on the terminal
 
 struct Comparison {
     std::size_t blocks = 0;
-    std::size_t equal = 0;      ///< exactly
+    std::size_t equal = 0;      ///< volumes that agree exactly
     double most_difference = 0; ///< cubic unit
 };
 
@@ -66,7 +66,7 @@ std::string radius_edge_text(const TetrahedraShape& shape) {
     return text;
 }
 
-/// JSON has no infinity.
+/// Returns null for an infinite value, which JSON does not have.
 Json number_or_null(double value) {
     return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
@@ -77,7 +77,7 @@ Json spread_json(const ShapeSpread& spread) {
             {"max", number_or_null(spread.largest)}};
 }
 
-/// How many tetrahedra each region has.
+/// Counts the tetrahedra of each region.
 std::vector<std::size_t> counts_of_regions(const TetrahedralMesh& mesh) {
     std::vector<std::size_t> counts(mesh.region_count);
     for (const std::uint32_t region : mesh.region_of) ++counts[region];

@@ -75,7 +75,7 @@ void Session::on_interrupt() {
     _exit(static_cast<int>(ExitStatus::bad_input));
 }
 
-/// Nothing in the first second.
+/// Draws the progress line, but not in the first second.
 void Session::show() {
     const std::lock_guard lock(mutex_);
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started_;

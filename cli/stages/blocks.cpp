@@ -20,8 +20,7 @@ namespace {
 constexpr std::size_t most_blocks = 50; ///< listed on the terminal
 constexpr std::size_t most_leaks = 20;
 
-// ---- What is said
-// --------------------------------------------------------------------------------
+// ---- Text
 
 std::string blocks_text(const Model& model) {
     const auto& blocks = model.structure.blocks;
@@ -56,7 +55,7 @@ std::string structure_text(const Model& model) {
                        counted(s.corners.size(), "corner"), lines.empty() ? "" : ", " + lines);
 }
 
-/// Surfaces of which a part has the same volume on both sides.
+/// Lists the surfaces of which a part has the same block on both sides.
 std::string dangling_text(const Inputs& inputs, const Model& model) {
     std::vector<double> area(inputs.labels.size()), dangling(inputs.labels.size()),
         border(inputs.labels.size());
@@ -75,7 +74,7 @@ std::string dangling_text(const Inputs& inputs, const Model& model) {
     return text.empty() ? "no surface dangles\n" : "surfaces that dangle:\n" + text;
 }
 
-/// Where surfaces end near others, the smallest gaps first.
+/// Lists where surfaces end near others, the smallest gaps first.
 std::string leaks_text(const Inputs& inputs, const Model& model) {
     const auto leaks = leaks_of(model.borders);
     if (leaks.empty()) return {};
@@ -91,14 +90,13 @@ std::string leaks_text(const Inputs& inputs, const Model& model) {
     return text;
 }
 
-// ---- What is written
-// -----------------------------------------------------------------------------
+// ---- Files
 
 std::vector<std::int32_t> as_cells(const std::vector<std::uint32_t>& values) {
     return {values.begin(), values.end()};
 }
 
-/// One column of the sides.
+/// Returns the block on one side of each triangle.
 std::vector<std::int32_t> side_cells(const Volumes& volumes, std::size_t side) {
     std::vector<std::int32_t> values;
     for (const auto& sides : volumes.of_sides)

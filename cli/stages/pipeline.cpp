@@ -20,7 +20,7 @@ constexpr std::size_t most_areas = 3;     ///< printed per surface
 constexpr std::size_t most_surfaces = 40; ///< printed
 constexpr std::size_t most_pairs = 20;    ///< printed
 
-/// What the summary says of one surface.
+/// Numbers of one surface in the summary.
 struct SurfaceTally {
     std::size_t triangles = 0; ///< of the output
     std::vector<double> areas; ///< of its regions

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What each command does, seen from outside.
+// Tests each command from outside.
 #include <sstream>
 
 #include <catch2/catch.hpp>
@@ -190,7 +190,7 @@ TEST_CASE("cli: arrange puts a point into each block for TetGen", "[cli]") {
             CHECK((x > 0 && y > 0 && z > 0 && x + y + z < 4));
         }
     }
-    REQUIRE(folder.run("convert " + in + " b.smesh").status == 0); // blocks are not looked for
+    REQUIRE(folder.run("convert " + in + " b.smesh").status == 0); // does not look for blocks
     CHECK(contains(folder.read("b.smesh"), "# regions\n0\n"));
 }
 

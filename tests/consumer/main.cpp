@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// A program of someone else's: two squares that cross and a closed tetrahedron, arranged, rounded,
-// checked, verified and measured, by the installed headers alone.
+// A user's program: it arranges, rounds, checks, verifies and measures two squares that cross and a
+// closed tetrahedron, with the installed headers alone.
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -40,14 +40,14 @@ std::vector<terrane::Surface> surfaces() {
              .triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}}};
 }
 
-/// The exact coordinates of some vertex are all of `coordinates`.
+/// Tells whether some vertex has exactly these coordinates.
 bool has_vertex(const terrane::Arrangement& a, const std::array<std::string, 3>& coordinates) {
     for (std::uint32_t v = 0; v < a.vertices.size(); ++v)
         if (a.coordinates(v) == coordinates) return true;
     return false;
 }
 
-/// What the library says of its exact result, as the verifier wants it.
+/// Converts the exact result of the library to the claim that the verifier judges.
 terrane::ArrangementClaim claim_of(const terrane::Arrangement& a) {
     terrane::ArrangementClaim claim;
     for (std::uint32_t v = 0; v < a.vertices.size(); ++v)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The laws of point_store.hpp by number, then all predicates and coordinates against exact
-// integers.
+// Tests the laws of point_store.hpp by number, then compares all predicates and coordinates with
+// exact integers.
 #include "support/point_store_cases.hpp"
 
 #include <terrane/kernel/predicates.hpp>
@@ -35,7 +35,7 @@ bool lies_on_its_lines_and_planes(const PointStore& store, PointIndex p) {
     return store.orient2d(how.axis, how.v[2], how.v[3], p) == Sign::Zero;
 }
 
-/// A construction that gives input point `v`: a line through it meets a plane through it.
+/// Constructs a point equal to input point `v`, by a line and a plane through it.
 Construction copy_of(Random& random, std::uint32_t v, std::size_t inputs) {
     for (;;) {
         const auto w = pick(random, 4, inputs);
@@ -49,7 +49,7 @@ Construction copy_of(Random& random, std::uint32_t v, std::size_t inputs) {
     }
 }
 
-/// < 0, 0, > 0: d compared with numerator / denominator * 2^exponent; denominator > 0.
+/// Compares d with numerator / denominator * 2^exponent: < 0, 0 or > 0; denominator > 0.
 int compare(double d, const oracle::Int& numerator, const oracle::Int& denominator, int exponent) {
     if (std::isinf(d)) return d > 0 ? 1 : -1;
     const int unit = std::min(exponent, oracle::Binary(d).exponent);
@@ -68,15 +68,15 @@ bool enclosed(const Twins& t, PointIndex p) {
     return true;
 }
 
-/// Whether the errors are no less than half a step between doubles, and 0 only where the enclosure
-/// has no width.
+/// Tells whether the errors are at least half a step between doubles, and 0 only where the
+/// enclosure has no width.
 bool errors_are_bounds(const Twins& t, PointIndex p) {
     const Enclosure e = t.store.enclosure(p);
     const Point3& n = t.store.nearest(p);
     const std::array nearest{n.x, n.y, n.z};
     const auto errors = t.store.rounding_errors(p);
     for (unsigned k = 0; k < 3; ++k) {
-        double step = 0; // the larger of the two; none to infinity
+        double step = 0; // the larger of the two steps; none to infinity
         for (const double end : {e.low[k], e.high[k]})
             if (std::isfinite(end)) step = std::max(step, std::fabs(end - nearest[k]));
         if (std::isinf(nearest[k])) step = 0;
@@ -119,7 +119,7 @@ TEST_CASE("point store law 1: predicates agree with their namesakes on input poi
     for (const Family family : all_families)
         for (int i = 0; i < cases(60); ++i) {
             Twins t = twins_of(points_of(random, family, 8));
-            std::vector<std::array<PointIndex, 2>> same; // input point, a constructed copy
+            std::vector<std::array<PointIndex, 2>> same; // input point and its constructed copy
             for (std::uint32_t v = 0; v < 8; ++v)
                 if (append(t, copy_of(random, v, 8)))
                     same.push_back({v, static_cast<PointIndex>(t.store.size() - 1)});
@@ -185,7 +185,7 @@ TEST_CASE("point store law 3: compare is the lexicographic order of the exact po
             }
         REQUIRE(ok);
     });
-    CHECK(equal > cases(2000)); // equal points under different names are common in these families
+    CHECK(equal > cases(2000)); // equal points with other constructions are common here
 }
 
 TEST_CASE("point store law 4: points on a line are ordered along it") {
@@ -205,7 +205,7 @@ TEST_CASE("point store law 4: points on a line are ordered along it") {
             const UpwardRounding guard;
             std::sort(line.begin(), line.end(),
                       [&](PointIndex p, PointIndex q) { return order(t.store, p, q) < 0; });
-            // along the line, times the weight; the same direction for all steps
+            // Steps along the line, times the weight; all steps have the same direction.
             const auto& a = t.exact[0];
             const auto& b = t.exact[1];
             const oracle::Row4 along{b.x - a.x, b.y - a.y, b.z - a.z, 0};
@@ -231,7 +231,7 @@ TEST_CASE(
 }
 
 TEST_CASE("point store: enclosures have ends where intervals overflow") {
-    // The crossing is next to the second point: nearer than doubles can tell.
+    // The crossing is nearer to the second point than doubles can resolve.
     Twins t = twins_of({{0, 0, -0x1p812}, {-1, 0, -1}, {-1, 0, 0}, {0, 0, 0}});
     Construction how;
     how.kind = Kind::line_line;
@@ -262,7 +262,8 @@ TEST_CASE("orient2d, orient3d, in_circle and side_of_plane agree with exact inte
 }
 
 TEST_CASE("one point has many constructions") {
-    // (1, 1, 1) by a line and a plane, three planes, two lines, in thirds and with other vertices
+    // (1, 1, 1) by a line and a plane, by three planes, by two lines, in thirds, and from other
+    // vertices.
     const std::vector<Point3> input{{0, 0, 0}, {3, 3, 3}, {1, 0, 0}, {1, 5, 1}, {1, 0, 7},
                                     {0, 1, 0}, {5, 1, 1}, {0, 1, 7}, {0, 0, 1}, {7, 0, 1},
                                     {0, 7, 1}, {1, 1, 1}, {2, 2, 2}, {1, 1, 9}};
@@ -280,7 +281,7 @@ TEST_CASE("one point has many constructions") {
         CHECK(store.equal(11, p));
         CHECK(store.equal(p, 14));
         CHECK(store.nearest(p) == Point3{1, 1, 1});
-        CHECK(store.rounding_errors(p) == std::array{0.0, 0.0, 0.0}); // though the share is 1/3
+        CHECK(store.rounding_errors(p) == std::array{0.0, 0.0, 0.0}); // though the parameter is 1/3
         CHECK(order(store, 0, p) == -1);
         CHECK(order(store, 12, p) == 1);
     }

@@ -50,7 +50,7 @@ struct Case {
     std::vector<std::uint32_t> boundary;
     Arrangement whole;
     VolumeOfInterest cut;
-    std::vector<Where> where; ///< of the whole arrangement
+    std::vector<Where> where; ///< per triangle of the whole arrangement
 };
 
 inline Case cut(std::vector<Surface> surfaces, const std::vector<Surface>& boundary) {

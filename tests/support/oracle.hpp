@@ -27,7 +27,7 @@ using terrane::Point3;
 using terrane::Sign;
 using Int = mpz_class;
 
-/// d = mantissa * 2^exponent, mantissa odd or 0.
+/// A double as mantissa * 2^exponent, with an odd mantissa or 0.
 struct Binary {
     std::int64_t mantissa = 0;
     int exponent = INT_MAX;
@@ -49,7 +49,7 @@ inline int lowest_exponent(std::span<const Point3> points) {
     return lowest == INT_MAX ? 0 : lowest;
 }
 
-/// d / 2^exponent.
+/// Returns d / 2^exponent.
 inline Int scaled(double d, int exponent) {
     const Binary b(d);
     Int i(static_cast<long>(b.mantissa));
