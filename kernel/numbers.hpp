@@ -21,7 +21,7 @@ namespace terrane {
 
 /// An interval that encloses a real number; valid only under an UpwardRounding in the same thread.
 #ifdef TERRANE_SHADOW
-using Interval = shadow::Interval;
+using Interval = shadow::IntervalWithTwin;
 #else
 using Interval = CGAL::Interval_nt<false>;
 #endif

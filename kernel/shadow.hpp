@@ -81,36 +81,38 @@ private:
 };
 
 /// CGAL's interval, with a twin.
-class Interval {
+class IntervalWithTwin {
 public:
     using Plain = CGAL::Interval_nt<false>;
 
-    Interval() : Interval(0.0) {}
-    Interval(double d) : plain_(d), twin_(d) {}           // NOLINT: implicit, as the plain one
-    Interval(int i) : Interval(static_cast<double>(i)) {} // NOLINT: implicit, as the plain one
-    Interval(double low, double high) : plain_(low, high), twin_(Twin::unknown()) {}
+    IntervalWithTwin() : IntervalWithTwin(0.0) {}
+    IntervalWithTwin(double d) : plain_(d), twin_(d) {} // NOLINT: implicit, as the plain one
+    IntervalWithTwin(int i) :
+        IntervalWithTwin(static_cast<double>(i)) {} // NOLINT: implicit, as the plain one
+    IntervalWithTwin(double low, double high) : plain_(low, high), twin_(Twin::unknown()) {}
     /// Constructs the enclosure of a number that is known exactly.
-    Interval(double low, double high, const Twin& twin) : Interval(Plain(low, high), twin) {}
+    IntervalWithTwin(double low, double high, const Twin& twin) :
+        IntervalWithTwin(Plain(low, high), twin) {}
 
     [[nodiscard]] double inf() const { return plain_.inf(); }
     [[nodiscard]] double sup() const { return plain_.sup(); }
 
-    friend Interval operator-(const Interval& a) { return {-a.plain_, -a.twin_}; }
-    friend Interval operator+(const Interval& a, const Interval& b) {
+    friend IntervalWithTwin operator-(const IntervalWithTwin& a) { return {-a.plain_, -a.twin_}; }
+    friend IntervalWithTwin operator+(const IntervalWithTwin& a, const IntervalWithTwin& b) {
         return {a.plain_ + b.plain_, a.twin_ + b.twin_};
     }
-    friend Interval operator-(const Interval& a, const Interval& b) {
+    friend IntervalWithTwin operator-(const IntervalWithTwin& a, const IntervalWithTwin& b) {
         return {a.plain_ - b.plain_, a.twin_ - b.twin_};
     }
-    friend Interval operator*(const Interval& a, const Interval& b) {
+    friend IntervalWithTwin operator*(const IntervalWithTwin& a, const IntervalWithTwin& b) {
         return {a.plain_ * b.plain_, a.twin_ * b.twin_};
     }
-    friend Interval operator/(const Interval& a, const Interval& b) {
+    friend IntervalWithTwin operator/(const IntervalWithTwin& a, const IntervalWithTwin& b) {
         return {a.plain_ / b.plain_, a.twin_ / b.twin_};
     }
 
 private:
-    Interval(const Plain& plain, const Twin& twin) : plain_(plain), twin_(twin) {
+    IntervalWithTwin(const Plain& plain, const Twin& twin) : plain_(plain), twin_(twin) {
         TERRANE_ASSERT(twin_.is_in(plain_.inf(), plain_.sup()));
     }
 
