@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Builds the model of a project from its surfaces. Holes are filled, horizons put in order, surfaces
-// extended to the boundary of a volume of interest, sealed, arranged, cut by it, rounded and
-// improved, blocks found and filled with tetrahedra; each optional step happens if the project asks
-// for it. The caller reads and writes the files:
+// Builds the model of a project from its surfaces. Holes are filled, horizons put in order,
+// surfaces extended to the boundary of a volume of interest, sealed, arranged, cut by it, rounded
+// and improved, blocks found and filled with tetrahedra; each optional step happens if the project
+// asks for it. The caller reads and writes the files:
 //
 //   // io/project.hpp, io/project_inputs.hpp
 //   const auto project = terrane::read_project("project.json");
