@@ -12,8 +12,7 @@
 namespace terrane {
 namespace {
 
-constexpr double worth_tilting =
-    0.8; ///< largest ratio of median edges that favours the tilted plane
+constexpr double worth_tilting = 0.8; ///< ratio of median edges below which the plane is tilted
 
 /// Returns two axes in the plane of least squares and its normal, as rows.
 Eigen::Matrix3d best_axes(std::span<const Point3> points, const Eigen::Vector3d& centre,
