@@ -20,7 +20,7 @@
 namespace terrane {
 namespace {
 
-/// Parents are input triangles: those that became the faces, and their duplicates.
+/// Returns the parents of each triangle: the input triangles of its faces, and their duplicates.
 IndexLists<std::uint32_t>
 parents_of_faces(const Soup& soup, const IndexLists<std::uint32_t>& faces_of, const Run& run) {
     auto by_first = soup.duplicates;
@@ -57,7 +57,7 @@ parents_of_faces(const Soup& soup, const IndexLists<std::uint32_t>& faces_of, co
     return parents;
 }
 
-/// A triangle is in the patch of its face; in none where it has several faces.
+/// Assigns each triangle to the patch of its face, or to none if it has several faces.
 InjectivePatches patches_of_faces(InjectivePatches of_soup,
                                   const IndexLists<std::uint32_t>& faces_of, const Run& run) {
     InjectivePatches patches;
@@ -71,7 +71,8 @@ InjectivePatches patches_of_faces(InjectivePatches of_soup,
     return patches;
 }
 
-/// Pairs of which one has a constructed point on it, as input triangles.
+/// Returns the near pairs of which at least one triangle has a constructed point, as input
+/// triangles.
 std::vector<CandidatePair> neighbours_of_divided(const Soup& soup, const Retriangulation& division,
                                                  const Run& run) {
     std::vector<char> has_constructed(soup.triangles.size(), 0);
@@ -91,7 +92,7 @@ std::vector<CandidatePair> neighbours_of_divided(const Soup& soup, const Retrian
     return neighbours;
 }
 
-/// By patch, and by surface where there is none.
+/// Labels triangles by patch, and those without a patch by surface.
 Labels labels_of(const Soup& soup, const InjectivePatches& patches, const Run& run) {
     Labels labels(patches.of.size());
     const auto count = static_cast<std::uint32_t>(patches.axis.size());
@@ -106,8 +107,8 @@ Labels labels_of(const Soup& soup, const InjectivePatches& patches, const Run& r
     return labels;
 }
 
-/// Points in use become vertices: input ones by number, constructed ones in lexicographic order.
-/// Returns the vertex of each point.
+/// Makes the points in use vertices: input points by number, then constructed points in
+/// lexicographic order. Returns the vertex of each point.
 std::vector<std::uint32_t> name_vertices(Arrangement& a, const PointStore& points,
                                          std::span<const PointIndex> ascending, const Run& run) {
     const auto inputs = static_cast<PointIndex>(points.input_count());
@@ -137,7 +138,7 @@ Error interrupted() {
     return {ErrorCode::interrupted, "stopped on request", ""};
 }
 
-/// What arrangement.hpp says of the arrays.
+/// Asserts the properties that arrangement.hpp states for the arrays.
 void assert_invariants([[maybe_unused]] const Arrangement& a) {
     TERRANE_ASSERT(a.parents_of.size() == a.triangles.size());
     TERRANE_ASSERT(a.surfaces_of.size() == a.triangles.size());
@@ -174,7 +175,7 @@ Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
     report(0.3);
     if (run.stop.stop_requested()) return interrupted();
 
-    // (c) contacts, (d) equal points merged, (e) triangulation of what is touched, (f) one mesh
+    // (c) contacts, (d) equal points, (e) triangulation of the faces with contacts, (f) one mesh
     Retriangulation division =
         retriangulate(std::move(soup.points), soup.triangles, candidates, run);
     if (run.stop.stop_requested()) return interrupted();
@@ -228,7 +229,7 @@ std::shared_ptr<const ExactState> empty_state() {
 
 ExactState& own_state(Arrangement& a) {
     if (a.state.use_count() != 1) a.state = std::make_shared<ExactState>(*a.state);
-    return const_cast<ExactState&>(*a.state); // made without const, here or by arrange
+    return const_cast<ExactState&>(*a.state); // created non-const, here or by arrange
 }
 
 const Point3& Arrangement::nearest(std::uint32_t vertex) const {
@@ -255,7 +256,7 @@ Result<Arrangement> arrange(std::span<const Surface> surfaces, const ArrangeOpti
                             const Run& run) {
     if (const auto valid = validate(surfaces, run); !valid) return valid.error();
     return guarded("for the arrangement", "arrange", [&]() -> Result<Arrangement> {
-        // In one arena all stages find the threads awake.
+        // Within one arena the threads stay awake from stage to stage.
         Result<Arrangement> arranged = Error{};
         with_threads(run, [&] { arranged = arrange_checked(surfaces, options, run); });
         return arranged;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Builds the model of a project from its surfaces. Holes are filled, horizons put in order, surfaces
-// extended to the boundary of a volume of interest, sealed, arranged, cut by it, rounded and
-// improved, blocks found and filled with tetrahedra; each optional step happens if the project asks
-// for it. The caller reads and writes the files:
+// Builds the model of a project from its surfaces. Holes are filled, horizons put in order,
+// surfaces extended to the boundary of a volume of interest, sealed, arranged, cut by it, rounded
+// and improved, blocks found and filled with tetrahedra; each optional step happens if the project
+// asks for it. The caller reads and writes the files:
 //
 //   // io/project.hpp, io/project_inputs.hpp
 //   const auto project = terrane::read_project("project.json");
@@ -42,9 +42,9 @@ enum class BuildStage : std::uint8_t { preprocess, arrange, improve, blocks, tet
 
 /// The model of a project, and the result of each stage.
 struct Built {
-    Preprocessed preprocessed{};
+    Preprocessed preprocessed{};       ///< filled holes and ordered layers; empty: none asked for
     std::vector<std::string> labels{}; ///< per surface of the mesh: its name, made unique
-    Arranged arranged{};
+    Arranged arranged{};               ///< the arrangement and its rounded mesh
     std::optional<ImprovedAndMeasured> improved{}; ///< where the project asks for it
     std::optional<Model> model{};                  ///< there at the end
     std::optional<FilledBlocks> filled{};          ///< where the project has outputs.tetrahedra
@@ -52,8 +52,8 @@ struct Built {
 
 /// Callbacks that follow the progress of build(), which calls them from its caller's thread.
 struct BuildObserver {
-    std::function<void(BuildStage)> begins{};
-    std::function<void(BuildStage, const Built&)> ended{}; ///< with what was built so far
+    std::function<void(BuildStage)> begins{};              ///< called before a stage
+    std::function<void(BuildStage, const Built&)> ended{}; ///< after it, with the results so far
 };
 
 /// Returns the tetrahedra that a project asks for; errors about them name the project's keys.

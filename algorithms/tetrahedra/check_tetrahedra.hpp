@@ -27,7 +27,7 @@ struct RegionVolume {
     bool equal = false;    ///< whether the two volumes are exactly equal
 };
 
-/// What check_tetrahedra() found.
+/// The findings of check_tetrahedra().
 struct TetrahedraReport {
     std::vector<std::string> violations; ///< one sentence each; empty: no violation
     std::vector<RegionVolume> volumes;   ///< per volume; [0], the outside, is not compared

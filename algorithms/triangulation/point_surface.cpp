@@ -12,9 +12,9 @@
 namespace terrane {
 namespace {
 
-constexpr double worth_tilting = 0.8; ///< of the length of edges, that must be left at most
+constexpr double worth_tilting = 0.8; ///< ratio of median edges below which the plane is tilted
 
-/// Two axes in the best plane and its normal, as rows.
+/// Returns two axes in the plane of least squares and its normal, as rows.
 Eigen::Matrix3d best_axes(std::span<const Point3> points, const Eigen::Vector3d& centre,
                           double scale) {
     Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
@@ -30,8 +30,8 @@ Eigen::Matrix3d best_axes(std::span<const Point3> points, const Eigen::Vector3d&
     return axes;
 }
 
-/// The points as seen along the normal of the best plane; none where that is within 45 degrees of
-/// z.
+/// Projects the points along the normal of the plane of least squares. Returns nothing if the
+/// normal is within 45 degrees of z.
 std::vector<Point3> flattened(std::span<const Point3> points) {
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();
     double scale = 0;
@@ -60,7 +60,7 @@ double longest_edge(std::span<const Point3> points, const Triangle& t) {
     return longest;
 }
 
-/// Of all edges, those between two triangles counted twice; 0 for none.
+/// Returns the median edge length, where edges between two triangles count twice; 0 without edges.
 double median_edge(std::span<const Point3> points, std::span<const Triangle> triangles,
                    bool in_plane) {
     std::vector<double> lengths;

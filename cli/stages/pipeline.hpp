@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// From input files to a rounded mesh, and the report on it: shared by the commands that arrange.
+// Makes a rounded mesh from input files and reports on it: shared by the commands that arrange.
 #pragma once
 
 #include <optional>

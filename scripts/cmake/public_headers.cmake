@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-# The public interface: the headers that are installed, by library. They include no other header of
-# ours (tests/test_include_order.cpp), nor one of a library that the user would have to install.
+# Lists the public headers, which are installed, by library. They include only each other
+# (tests/test_include_order.cpp) and no header of a library that users would have to install.
 set(terrane_headers
     terrane.hpp
     kernel/construction.hpp

@@ -266,7 +266,7 @@ TEST_CASE("cli: build: tetrahedra with sizes and cuts, by name", "[cli]") {
     CHECK(contains(msh, "$Periodic"));
     CHECK(contains(msh, "\"region 2: top/base|"));
     CHECK(contains(c.folder.read("fine/tetrahedra.inp"), "NSET=F1_PAIRS_BACK, UNSORTED"));
-    // By name instead of number, and with the outside.
+    // The same block is named by its name instead of its number, and the outside is filled.
     const auto name_at = msh.find("\"region 2: ") + 11;
     const auto name = msh.substr(name_at, msh.find('"', name_at) - name_at);
     json["tetrahedra"] = Json{{"size_in", Json{{name, 0.7}}}, {"split", Json::array({"F1"})}};

@@ -197,7 +197,7 @@ inline int compare(const Point& p, const Point& q) {
 inline bool is_nearest(double result, const Int& numerator, const Int& denominator, int exponent) {
     constexpr double infinity = HUGE_VAL;
     if (std::isnan(result)) return false;
-    // All in units of 2^-1076: half of the smallest distance is still an integer.
+    // In units of 2^-1076, half of the smallest distance is still an integer.
     const auto units = [](double d, bool positive) -> Int {
         if (std::isinf(d)) return Int((positive ? Int(1) : Int(-1)) << (1024 + 1076));
         return scaled(d, -1076);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// terrane-tetgen: reads one request (see protocol.hpp) on standard input, has TetGen carry it out
-// and writes one reply on standard output. The library starts it as a process of its own, so that
+// terrane-tetgen reads one request (see protocol.hpp) from standard input, has TetGen carry it out
+// and writes one reply to standard output. The library starts it as a process of its own, so that
 // TetGen's asserts, crashes and prints cost the caller nothing, and so that it can be killed.
 //
 // This file is LGPL. The program made from it contains TetGen, which is AGPL-3.0-or-later, so that

@@ -32,7 +32,7 @@ TEST_CASE("restricted: keeping everything changes nothing, keeping nothing leave
 }
 
 TEST_CASE("restricted: removing one surface leaves the arrangement of the others", "[voi]") {
-    // The cube cuts the level; without the cube its pieces are one region again.
+    // The cube cuts the level; without the cube, its pieces are one region again.
     const auto a = arrange(std::vector{cube(0, 4), level(2, -1, -1, 5, 5)}).value();
     std::vector<bool> keep(a.triangles.size());
     for (std::size_t t = 0; t < keep.size(); ++t) keep[t] = a.surfaces_of[t][0] == 1;

@@ -91,7 +91,7 @@ std::vector<std::optional<double>> expected_heights(const std::vector<Surface>& 
     return z;
 }
 
-/// Number of bits in which sums and products of these coordinates are exact.
+/// A number with enough bits for sums and products of these coordinates to be exact.
 using Exactly = mpf_class;
 constexpr unsigned exact_bits = 1024;
 

@@ -72,7 +72,8 @@ TEST_CASE("vertical order: agrees with clipped polygons in rationals", "[layers]
     std::mt19937_64 random(21);
     int above = 0, below = 0, same = 0, apart = 0;
     for (int i = 0; i < test_support::cases(30000); ++i) {
-        // Few places, so that corners on edges and shared edges are common; heights may be equal.
+        // There are few positions, so that corners on edges and shared edges are common; heights
+        // may be equal.
         std::uniform_int_distribution<int> place(0, 2 + i % 4), level(0, i % 3 == 0 ? 2 : 9);
         const auto corner = [&](int shift) {
             return Point3{static_cast<double>(place(random)), static_cast<double>(place(random)),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Sizes of tetrahedra per block and per surface.
+// Tests the sizes of tetrahedra per block and per surface.
 #include <terrane/algorithms/tetgen/tetrahedra.hpp>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ using namespace test_support;
 
 namespace {
 
-/// Volumes may be a fifth larger than asked after TetGen's improvement of shapes.
+/// Bounds on volumes are exceeded by up to a fifth when TetGen improves shapes.
 constexpr double slack = 1.5;
 
 double regular_volume(double edge) {
@@ -31,7 +31,8 @@ double regular_area(double edge) {
     return edge * edge * std::sqrt(3.0) / 4;
 }
 
-/// A box of 8 with two horizons and a fault that ends in it: blocks 1 (below), 2, 3 (above).
+/// Returns a box of 8 with two horizons and a fault that ends in it: blocks 1 (below), 2, 3
+/// (above).
 const Mesh& layers() {
     static const Mesh mesh = [] {
         const std::vector<Surface> surfaces{
@@ -45,8 +46,8 @@ const Mesh& layers() {
 struct Made {
     TetrahedralMesh mesh;
     std::vector<std::size_t> counts;   ///< per block
-    std::vector<double> largest;       ///< per block: volume of a tetrahedron
-    std::vector<double> largest_areas; ///< per surface: of a face
+    std::vector<double> largest;       ///< per block: largest volume of a tetrahedron
+    std::vector<double> largest_areas; ///< per surface: largest area of a face
 };
 
 Made make(const TetrahedraOptions& options) {
@@ -94,7 +95,7 @@ TEST_CASE("tetrahedra: a size in one block holds there, and not in others", "[te
         const double edge = block == 0 ? 1.5 : 0.7;
         const Made made = make({.block_sizes = {{block, edge}}});
         CAPTURE(block);
-        CHECK(plain.largest[block] > slack * regular_volume(edge)); // else nothing is shown
+        CHECK(plain.largest[block] > slack * regular_volume(edge)); // else the test shows nothing
         CHECK(made.largest[block] <= slack * regular_volume(edge));
         CHECK(made.counts[block] > 2 * plain.counts[block]);
         for (std::uint32_t other = 0; other < 4; ++other)
@@ -135,7 +136,7 @@ TEST_CASE("tetrahedra: a size of a surface holds for its faces, and grades from 
         CHECK(made.counts[block] > plain.counts[block]);
         CHECK(made.largest[block] > 4 * regular_volume(0.4));
     }
-    // Longer than what holds anyway: no effect.
+    // A length above the one that applies anyway has no effect.
     CHECK(make({.edge_length = 2, .surface_sizes = {{3, 5}}}).mesh.tetrahedra ==
           make({.edge_length = 2}).mesh.tetrahedra);
 }

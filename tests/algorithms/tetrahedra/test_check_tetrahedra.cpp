@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Tetrahedra against blocks: diffusion over tetrahedra and shells with lines must agree.
+// Compares tetrahedra with blocks: diffusion over tetrahedra must agree with shells and lines.
 #include <terrane/algorithms/tetrahedra/check_tetrahedra.hpp>
 
 #include <algorithm>
@@ -47,7 +47,8 @@ std::string all(const std::vector<std::string>& violations) {
     return text;
 }
 
-/// Checks; says how many blocks have exactly the volume of their tetrahedra.
+/// Checks the tetrahedra; returns the number of blocks whose volume equals exactly that of their
+/// tetrahedra.
 std::size_t check_and_count_equal(const Filled& f) {
     const auto report = check_tetrahedra(f.tetrahedra, f.mesh, f.volumes);
     INFO(all(report.violations));
