@@ -9,6 +9,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <terrane/algorithms/intersection/intersection.hpp>
+
 #include <limits>
 #include <span>
 
