@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Derives the static error bounds: it evaluates the polynomials of the predicates in plain doubles
-// and bounds the rounding error of each. All static filters take their numbers from here. The
-// bounds hold in any rounding mode.
+// Evaluates the polynomials of the predicates in plain doubles and bounds the rounding error of
+// each. All static filters take their numbers from here. The bounds hold in any rounding mode.
 //
 // One operation errs by at most `unit` times its true result, in any rounding mode. Below, U, V, A,
 // B and C are the largest absolute differences that enter each factor.

@@ -54,7 +54,7 @@ public:
     }
 
 private:
-    // Each thread treats classes of its own; points at one place have one class.
+    // Each thread handles classes of its own; points at one place have one class.
     void name_first(const std::vector<Point3>& points, const std::vector<std::uint32_t>& others,
                     std::vector<std::uint32_t>& first) {
         constexpr std::size_t few = 8192; // points
@@ -72,8 +72,8 @@ private:
             1, 1);
     }
 
-    // Marks the classes with several points. Each thread reads all points and treats the classes of
-    // its own range of words.
+    // Marks the classes with several points. Each thread reads all points and handles the classes
+    // of its own range of words.
     void find_shared_classes() {
         std::vector<std::uint64_t> taken(words_, 0);
         shared_.assign(words_, 0);

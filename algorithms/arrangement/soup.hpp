@@ -17,7 +17,7 @@
 
 namespace terrane {
 
-/// The triangles of all surfaces without degenerate and repeated ones, which are listed instead.
+/// The triangles of all surfaces. Degenerate and repeated triangles are left out and listed.
 /// Input vertices and triangles are numbered through all surfaces, in order.
 struct Soup {
     std::vector<Point3> points;              ///< all input vertices

@@ -25,7 +25,7 @@ struct BorderEdge {
 };
 
 /// The border of a patch in one projection. It tests whether the border consists of disjoint loops
-/// that wind round every point 0 or 1 times in all.
+/// that wind around every point 0 or 1 times in all.
 class Border {
 public:
     Border(std::span<const Point3> points, Axis axis, std::span<const BorderEdge> edges) :
@@ -95,7 +95,7 @@ private:
         return (p < q) == (r < q);
     }
 
-    /// Returns how often all loops except that of v wind round v. None of them contains v.
+    /// Returns how often all loops except that of v wind around v. None of them contains v.
     int winding(std::uint32_t v, const std::vector<std::uint32_t>& loop_of) const {
         const double y = at(v).v;
         int sum = 0;
@@ -205,7 +205,7 @@ private:
         return std::find(group_.begin(), group_.end(), no_group) == group_.end();
     }
 
-    /// Counts the triangles per surface; those of one surface mostly are consecutive.
+    /// Counts the triangles per surface. Triangles of one surface usually are consecutive.
     void count_surfaces() {
         const auto parts = parts_of_ranges<std::vector<std::size_t>>(
             surface_of_.size(), run_, [&](std::size_t first, std::size_t last) {
@@ -368,7 +368,7 @@ private:
     }
 
     /// Whether more than half of the sides of a surface's triangles are border. Trying the surface
-    /// as a whole is then not worth while, and each of its pieces is proven quickly.
+    /// as a whole is then not worthwhile, and each of its pieces is proven quickly.
     [[nodiscard]] bool is_scattered(std::uint32_t patch, std::size_t border) const {
         constexpr std::size_t few = 64; // triangles
         return !size_of_.empty() && size_of_[patch] > few && 2 * border > 3 * size_of_[patch];

@@ -3,7 +3,7 @@
 // Finds patches of surfaces that provably do not intersect themselves, so that their triangles need
 // no pair tests. Guarantee: two triangles of one patch share a common vertex, a common edge, or
 // nothing. The proof shows that some projection is injective on the patch, because the patch's
-// border winds round each point at most once and does not touch itself; see statements (2) to (4)
+// border winds around each point at most once and does not touch itself; see statements (2) to (4)
 // of docs/explanation/injective-patches.md. Cost: linear, plus a box search and exact tests of the
 // border edges.
 #pragma once

@@ -49,7 +49,7 @@ std::optional<Simplex> place_from_sides(const Signs& inside) {
     }
     if (zeros == 0) return Simplex::face;
     if (zeros == 1) return edge(zero);
-    return corner((other + 2) % 3); // the corner opposite to the only edge that is not in line
+    return corner((other + 2) % 3); // opposite to the edge that is not in line with the point
 }
 
 /// Two triangles and the predicates evaluated for them so far. Index k is 0 for the first triangle
@@ -142,8 +142,8 @@ std::optional<Simplex> TrianglePair::pierce(unsigned k, unsigned i) const {
     const Sign up = sides_[k][next(i)];
     Signs inside{};
     for (unsigned j = 0; j < 3; ++j) {
-        // Seen along a line that goes up through a counterclockwise triangle, each edge of the
-        // triangle runs to the left.
+        // Around a line that goes up through a counterclockwise triangle, each edge of the triangle
+        // runs counterclockwise.
         inside[j] = up * orient3d(at(k, i), at(k, next(i)), at(o, j), at(o, next(j)));
         if (inside[j] == Sign::Negative) return std::nullopt;
     }

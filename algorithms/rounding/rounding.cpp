@@ -238,7 +238,7 @@ std::vector<CandidatePair> Rounding::first_contacts() {
 }
 
 /// Performs one round. Returns false if snapping multiplied the contacts so much that dividing them
-/// is not worth while.
+/// is not worthwhile.
 bool Rounding::snap_round(std::span<const CandidatePair> pairs, const SnapGrid& grid) {
     changed_ = true;
     snap_corners(pairs, grid);

@@ -196,10 +196,10 @@ double least_rise(const Sizes& there, double longest, double d) {
     return 128 * d * ratio * ratio;
 }
 
-/// A part beyond the end of a line on which two faces cross has corners above and below the plane.
+/// A part that passes the end of a line on which two faces cross has corners above and below.
 /// The functional that measures the distance e beyond the edge is therefore rotated about the edge
-/// towards the height h, until two corners have equal values. Corners `before` the edge must all
-/// rise on the same side.
+/// towards the height h, until two corners have equal values. All corners `before` the edge must
+/// rise by more than `least` on the same side.
 template <class Leaves>
 bool leaves_turned(const std::array<double, 3>& e, const std::array<double, 3>& h,
                    const std::array<bool, 3>& before, double least, const Leaves& leaves) {
