@@ -16,7 +16,6 @@
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/intersection/contact_kind.hpp>
 #include <terrane/algorithms/layers/layers.hpp>
-#include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/algorithms/mesh/region_point.hpp>
 #include <terrane/algorithms/mesh/shared_mesh.hpp>
@@ -28,17 +27,14 @@
 #include <terrane/algorithms/project/project.hpp>
 #include <terrane/algorithms/quality/deviation.hpp>
 #include <terrane/algorithms/quality/improve.hpp>
-#include <terrane/algorithms/quality/improve_back.hpp>
 #include <terrane/algorithms/quality/improve_measured.hpp>
 #include <terrane/algorithms/quality/quality.hpp>
 #include <terrane/algorithms/reconstruction/fill.hpp>
 #include <terrane/algorithms/reconstruction/holes/filling.hpp>
 #include <terrane/algorithms/reconstruction/holes/holes.hpp>
-#include <terrane/algorithms/reconstruction/joining/join.hpp>
 #include <terrane/algorithms/reconstruction/kriging/fill_kriging.hpp>
 #include <terrane/algorithms/reconstruction/kriging/variogram.hpp>
 #include <terrane/algorithms/reconstruction/rbf/rbf.hpp>
-#include <terrane/algorithms/reconstruction/rbf/rbf_join.hpp>
 #include <terrane/algorithms/regions/regions.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
 #include <terrane/algorithms/sealing/sealing.hpp>
@@ -52,7 +48,6 @@
 #include <terrane/algorithms/tetrahedra/check_tetrahedra.hpp>
 #include <terrane/algorithms/tetrahedra/split_nodes.hpp>
 #include <terrane/algorithms/tetrahedra/tetrahedra_shape.hpp>
-#include <terrane/algorithms/tetrahedra/without_outside.hpp>
 #include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
 #include <terrane/algorithms/volume_of_interest/extension.hpp>
 #include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>

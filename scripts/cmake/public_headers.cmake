@@ -11,7 +11,6 @@ set(terrane_headers
     algorithms/core/process_memory.hpp
     algorithms/core/result.hpp
     algorithms/core/run.hpp
-    algorithms/mesh/labels.hpp
     algorithms/mesh/mesh.hpp
     algorithms/mesh/region_point.hpp
     algorithms/mesh/shared_mesh.hpp
@@ -33,16 +32,13 @@ set(terrane_headers
     algorithms/layers/layers.hpp
     algorithms/quality/deviation.hpp
     algorithms/quality/improve.hpp
-    algorithms/quality/improve_back.hpp
     algorithms/quality/improve_measured.hpp
     algorithms/quality/quality.hpp
     algorithms/reconstruction/holes/filling.hpp
     algorithms/reconstruction/holes/holes.hpp
-    algorithms/reconstruction/joining/join.hpp
     algorithms/reconstruction/kriging/fill_kriging.hpp
     algorithms/reconstruction/kriging/variogram.hpp
     algorithms/reconstruction/rbf/rbf.hpp
-    algorithms/reconstruction/rbf/rbf_join.hpp
     algorithms/reconstruction/fill.hpp
     algorithms/sealing/sealing.hpp
     algorithms/volume_of_interest/boundary_surfaces.hpp
@@ -53,7 +49,6 @@ set(terrane_headers
     algorithms/tetrahedra/check_tetrahedra.hpp
     algorithms/tetrahedra/split_nodes.hpp
     algorithms/tetrahedra/tetrahedra_shape.hpp
-    algorithms/tetrahedra/without_outside.hpp
     algorithms/tetgen/fill_blocks.hpp
     algorithms/tetgen/tetgen_helper.hpp
     algorithms/tetgen/tetrahedra.hpp
