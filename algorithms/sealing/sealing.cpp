@@ -16,6 +16,7 @@
 #include <terrane/algorithms/arrangement/restricted.hpp>
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
+#include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/mesh/triangle_tree.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/sealing/border_extension.hpp>
@@ -341,8 +342,11 @@ private:
 Result<Sealed> seal(std::vector<Surface> surfaces, const SealOptions& options, const Run& run) {
     if (!(options.distance > 0) || !std::isfinite(options.distance))
         return Error{ErrorCode::bad_option, "the distance must be positive", "seal"};
-    return guarded("for sealing", "sealing",
-                   [&] { return Sealing(std::move(surfaces), options, run)(); });
+    const StageTimer timer(run, "seal");
+    return guarded("for sealing", "sealing", [&] {
+        const Run inner = timer.inside();
+        return Sealing(std::move(surfaces), options, inner)();
+    });
 }
 
 std::vector<NamedConstant> seal_constants() {

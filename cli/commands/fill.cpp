@@ -181,7 +181,7 @@ Result<ExitStatus> fill_files(const FillCommand& command, Session& session) {
     if (!work) return work.error();
     print(summary_stream(command.files),
           borders_text(work.value()) + (command.list ? holes_table(work.value()) : ""));
-    Json statistics = statistics_of(inputs.value());
+    Json statistics = statistics_of(inputs.value(), session.times());
     bool whole = true;
     if (!command.list) {
         const auto filled =

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/cli/session/console.hpp>
 
 namespace terrane::cli {
@@ -28,13 +27,12 @@ std::string line_of(const std::string& label, const LayerReport& r) {
 
 Result<Layered> layer_inputs(const Inputs& inputs, const std::vector<Layer>& order,
                              const LayerOptions& options, Session& session, Json& statistics) {
-    Stopwatch watch;
     session.begin("layers", Phase::computing);
     auto layered = stack_layers(inputs.surfaces, order, options, session.run());
     session.end_stage();
     if (!layered) return layered.error();
     statistics["layers"] = json_of(inputs, layered.value().reports);
-    statistics["seconds"]["layers"] = watch.lap();
+    statistics["seconds"]["layers"] = session.times().latest("layers");
     return layered;
 }
 
