@@ -470,4 +470,8 @@ Result<RoundedMesh> round_to_doubles(const Arrangement& arrangement, const Round
     });
 }
 
+std::vector<NamedConstant> rounding_constants() {
+    return rounding::detail::named_constants();
+}
+
 } // namespace terrane

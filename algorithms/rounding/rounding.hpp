@@ -21,6 +21,7 @@
 #include <terrane/algorithms/arrangement/arrangement.hpp>
 #include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/check/conforming.hpp>
+#include <terrane/algorithms/core/named_constant.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
@@ -72,5 +73,8 @@ struct RoundedMesh {
 /// regions of the mesh, which are not rounding).
 Result<RoundedMesh> round_to_doubles(const Arrangement& arrangement,
                                      const RoundingOptions& options = {}, const Run& run = {});
+
+/// The constants that decide how contacts are repaired; they are documented in detail/tuning.hpp.
+std::vector<NamedConstant> rounding_constants();
 
 } // namespace terrane

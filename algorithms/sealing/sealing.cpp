@@ -215,7 +215,7 @@ private:
 
     [[nodiscard]] std::vector<ExtensionTriangle> new_strips(bool along) {
         const Distances distances(kept_, options_.distance);
-        const Distances farther(kept_, 2 * options_.distance);
+        const Distances farther(kept_, constants.end_reach * options_.distance);
         std::vector<StripEdge> edges;
         const auto done = edges_with_strip();
         for (Gap& gap : gaps(distances)) {

@@ -205,14 +205,13 @@ private:
             if (!done.contacts.empty())
                 refused_ += "terrane: what was invented meets other triangles\n" +
                             contacts_text(*done.filled, done.contacts);
-            statistics_["holes"] = json_of(*done.filled);
+            add_statistics(statistics_, *done.filled);
             statistics_["seconds"]["fill"] = session_.times().latest("fill");
         }
         if (done.stack) {
             said += text_of(inputs_, done.layers, *done.stack);
             refused_ = contacts_text(*done.stack);
-            statistics_["layers"] = json_of(inputs_, done.layers);
-            statistics_["seconds"]["layers"] = session_.times().latest("layers");
+            add_statistics(statistics_, inputs_, done.layers, session_.times());
         }
         journal_.say(said);
         if (!refused_.empty()) refused_ += "terrane: nothing written\n";

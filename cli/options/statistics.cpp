@@ -5,6 +5,7 @@
 
 #include <sys/resource.h>
 
+#include <terrane/algorithms/triangulation/point_surface.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 
 namespace terrane::cli {
@@ -25,6 +26,7 @@ Json statistics_of(const Inputs& inputs, const StageTimes& times) {
     json["input"] = {{"surfaces", inputs.labels.size()},
                      {"triangles", inputs.triangles},
                      {"vertices", inputs.vertices}};
+    add_constants(json, "read", point_constants());
     json["seconds"]["read"] = times.latest("read");
     return json;
 }
@@ -73,9 +75,15 @@ void add_statistics(Json& json, const RoundedMesh& rounded, const StageTimes& ti
                         {"collapsed_triangles", r.collapsed_triangles},
                         {"surfaces_with_lost_regions", r.lost_regions.size()},
                         {"vanished_input_triangles", r.vanished.size()}};
+    add_constants(json, "round", rounding_constants());
     const double regions = times.latest("round/regions");
     json["seconds"]["round"] = times.latest("round") - regions;
     json["seconds"]["regions"] = regions;
+}
+
+void add_constants(Json& json, const char* stage, std::span<const NamedConstant> constants) {
+    Json& all = json["constants"][stage];
+    for (const NamedConstant& c : constants) all[std::string(c.name)] = c.value;
 }
 
 Status write_statistics(Json json, const std::string& path, double total_seconds) {

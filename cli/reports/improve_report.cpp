@@ -84,6 +84,7 @@ std::string improve_text(const ImprovedAndMeasured& measured, const Inputs& inpu
 }
 
 void add_statistics(Json& json, const ImprovedAndMeasured& measured, const StageTimes& times) {
+    add_constants(json, "improve", improve_constants());
     json["seconds"]["improve"] = times.latest("improve");
     json["seconds"]["measure"] = times.latest("measure");
     const Improved& improved = measured.improved;

@@ -138,6 +138,8 @@ std::string filled_text(const FilledBlocks& filled) {
 }
 
 void add_statistics(Json& json, const FilledBlocks& filled, const StageTimes& times) {
+    add_constants(json, "structure", structure_constants()); // they decide the names of regions
+    add_constants(json, "tetrahedralize", tetrahedra_constants());
     json["seconds"]["tetrahedralize"] = times.latest("tetrahedralize");
     json["seconds"]["check"] = times.latest("check");
     json["seconds"]["split"] = times.latest("split");

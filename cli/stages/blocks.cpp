@@ -188,6 +188,7 @@ private:
 } // namespace
 
 void add_statistics(Json& json, const Model& model, const StageTimes& times) {
+    add_constants(json, "structure", structure_constants());
     json["seconds"]["volumes"] = times.latest("volumes");
     json["seconds"]["structure"] = times.latest("structure");
     json["output"]["volumes"] = model.block_count();

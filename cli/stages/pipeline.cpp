@@ -9,6 +9,7 @@
 
 #include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
+#include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
 #include <terrane/cli/reports/seal_report.hpp>
 #include <terrane/cli/session/console.hpp>
 
@@ -130,9 +131,11 @@ void add_statistics(Json& statistics, const Arranged& arranged, Search asked, co
                     const StageTimes& times) {
     if (arranged.extended) {
         add_statistics(statistics, *arranged.extended);
+        add_constants(statistics, "extend", extension_constants());
         statistics["seconds"]["extend"] = times.latest("extend");
     }
     if (arranged.sealed) {
+        add_constants(statistics, "seal", seal_constants());
         statistics["seconds"]["seal"] = times.latest("seal");
         add_statistics(statistics, *arranged.sealed, inputs);
     }
@@ -140,6 +143,7 @@ void add_statistics(Json& statistics, const Arranged& arranged, Search asked, co
     add_arrangement_times(statistics, arranged.sealed ? "seal/arrange" : "arrange", times);
     if (arranged.cut) {
         add_statistics(statistics, *arranged.cut, inputs);
+        add_constants(statistics, "volume_of_interest", boundary_constants());
         statistics["seconds"]["volume_of_interest"] = times.latest("volume of interest");
     }
     add_statistics(statistics, arranged.rounded, times);
