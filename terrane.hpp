@@ -14,6 +14,7 @@
 #include <terrane/algorithms/core/process_memory.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
+#include <terrane/algorithms/core/stage_times.hpp>
 #include <terrane/algorithms/intersection/contact_kind.hpp>
 #include <terrane/algorithms/layers/layers.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>

@@ -12,7 +12,7 @@
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/invariants.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
-#include <terrane/algorithms/core/stopwatch.hpp>
+#include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/intersection/injective_patches.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/kernel/fraction.hpp>
@@ -156,7 +156,7 @@ Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
     const auto report = [&](double share) {
         if (run.progress) run.progress("arrange", share);
     };
-    Stopwatch watch;
+    StageTimer step(run, "prepare");
     Arrangement a;
     for (const Surface& s : surfaces) a.surfaces.push_back({s.name, s.role});
 
@@ -164,14 +164,14 @@ Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
     Soup soup = merge_surfaces(surfaces, run);
     InjectivePatches patches = find_injective_patches(soup.points, soup.triangles, soup.surface_of,
                                                       soup.edges, run, soup.turns);
-    a.statistics.seconds_prepare = watch.lap();
     report(0.1);
 
     // (b) candidate pairs
+    step.next("search");
     const auto candidates =
         candidate_pairs({soup.points, soup.triangles}, patches.of, options.search, run);
     TERRANE_ASSERT_PARANOID(is_sorted_unique(candidates));
-    a.statistics.seconds_search = watch.lap();
+    step.stop();
     report(0.3);
     if (run.stop.stop_requested()) return interrupted();
 
@@ -185,10 +185,8 @@ Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
     a.statistics.divided = d.divided;
     a.statistics.constructed_points = division.ascending.size();
     a.statistics.predicates = d.predicates;
-    a.statistics.seconds_intersect = d.seconds_intersect;
-    a.statistics.seconds_triangulate = d.seconds_triangulate;
-    watch.lap();
 
+    step.next("assemble");
     a.inputs = {soup.first_input_triangle, soup.first_input_vertex, soup.duplicates};
     a.degenerate = soup.degenerate;
     const auto state = std::make_shared<ExactState>();
@@ -214,7 +212,7 @@ Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
         soup.edges, labels,
         {a.triangles, division.faces_of, division.unchanged_as, vertex_of, a.vertices.size()}, run);
     a.intersection_edges = find_intersection_edges(state->adjacency, a.inputs, a.parents_of);
-    a.statistics.seconds_stitch = d.seconds_stitch + watch.lap();
+    step.stop();
     assert_invariants(a);
     report(1);
     return a;
@@ -258,7 +256,9 @@ Result<Arrangement> arrange(std::span<const Surface> surfaces, const ArrangeOpti
     return guarded("for the arrangement", "arrange", [&]() -> Result<Arrangement> {
         // Within one arena the threads stay awake from stage to stage.
         Result<Arrangement> arranged = Error{};
-        with_threads(run, [&] { arranged = arrange_checked(surfaces, options, run); });
+        const StageTimer timer(run, "arrange");
+        const Run inner = timer.inside();
+        with_threads(run, [&] { arranged = arrange_checked(surfaces, options, inner); });
         return arranged;
     });
 }

@@ -43,11 +43,6 @@ struct ArrangeStatistics {
     std::size_t divided = 0;            ///< input triangles that were triangulated
     std::size_t constructed_points = 0; ///< distinct points that are no input vertices
     PredicateCounts predicates;         ///< signs decided by each stage
-    double seconds_prepare = 0;         ///< for the soup and the injective patches
-    double seconds_search = 0;          ///< for candidate pairs
-    double seconds_intersect = 0;       ///< for contacts and their points
-    double seconds_triangulate = 0;     ///< for the triangulation of faces
-    double seconds_stitch = 0;          ///< for vertices, parents and intersection edges
 };
 
 /// The exact points of an arrangement and the data that later stages need. It is opaque to users of
@@ -93,6 +88,9 @@ struct Arrangement {
 
 /// Computes the arrangement of surfaces. Errors: bad_number (a coordinate is not finite),
 /// bad_index, unsupported (indices beyond 32 bits), interrupted, out_of_memory, internal.
+/// Times: arrange, with the steps prepare (soup and injective patches), search (candidate pairs),
+/// intersect (contacts and their points), triangulate (faces), stitch (unique triangles) and
+/// assemble (vertices, parents, intersection edges).
 Result<Arrangement> arrange(std::span<const Surface> surfaces, const ArrangeOptions& options = {},
                             const Run& run = {});
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include <terrane/algorithms/core/parallel.hpp>
-#include <terrane/algorithms/core/stopwatch.hpp>
+#include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/triangulation/triangulation.hpp>
 #include <terrane/kernel/predicates.hpp>
 
@@ -312,7 +312,7 @@ private:
 
 Retriangulation retriangulate(std::vector<Point3> points, std::span<const Triangle> triangles,
                               std::span<const CandidatePair> candidates, const Run& run) {
-    Stopwatch watch;
+    StageTimer step(run, "intersect");
     Retriangulation out;
     const TriangleSoup soup{points, triangles}; // moving the vector does not move the points
     Contacts contacts = find_contacts(soup, std::move(points), candidates, run);
@@ -321,17 +321,16 @@ Retriangulation retriangulate(std::vector<Point3> points, std::span<const Triang
     PointOrder order = order_points(soup, contacts, run);
     out.statistics.improper_contacts = contacts.improper;
     out.statistics.predicates += contacts.predicates;
-    out.statistics.seconds_intersect = watch.lap();
 
+    step.next("triangulate");
     const auto parts = divide_faces(soup, contacts, order, run, out.statistics);
     if (run.stop.stop_requested()) return out;
-    out.statistics.seconds_triangulate = watch.lap();
 
+    step.next("stitch");
     Stitcher(soup, contacts, parts, run, out)();
     out.points = std::move(contacts.points);
     out.ascending = std::move(order.ascending);
     out.near = std::move(contacts.near);
-    out.statistics.seconds_stitch = watch.lap();
     return out;
 }
 

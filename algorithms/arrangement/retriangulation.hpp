@@ -17,12 +17,11 @@
 
 namespace terrane {
 
-/// Counts, and times in seconds.
+/// Counts what a retriangulation did.
 struct RetriangulationStatistics {
     std::size_t improper_contacts = 0; ///< pairs of triangles
     std::size_t divided = 0;           ///< triangles that were triangulated
     PredicateCounts predicates;
-    double seconds_intersect = 0, seconds_triangulate = 0, seconds_stitch = 0;
 };
 
 /// Conforming, unique triangles. Each triangle of the soup is exactly the union of the triangles
@@ -45,7 +44,8 @@ struct Retriangulation {
 
 /// Retriangulates a soup; points and triangles are those of a TriangleSoup. `candidates` must
 /// contain all pairs that meet improperly. Check run.stop afterwards: a stopped run leaves the
-/// result unfinished. Throws std::logic_error if an assertion fails.
+/// result unfinished. Throws std::logic_error if an assertion fails. Times: intersect, triangulate
+/// and stitch.
 Retriangulation retriangulate(std::vector<Point3> points, std::span<const Triangle> triangles,
                               std::span<const CandidatePair> candidates, const Run& run);
 

@@ -43,10 +43,6 @@ struct Arranged {
     std::optional<VolumeReport> cut;                     ///< with a volume of interest
     std::optional<SealReport> sealed;                    ///< where asked for
     std::optional<std::vector<ExtendedBorder>> extended; ///< where asked for
-    double seconds_extend = 0,                           ///< time of the extension
-        seconds_seal = 0,                                ///< time of arranging with sealing
-        seconds_cut = 0,   ///< time of the cut by the volume of interest
-        seconds_round = 0; ///< time of rounding
 };
 
 /// Arranges and rounds the surfaces. `boundary` is that of a volume of interest; empty: there is

@@ -33,8 +33,6 @@ struct Model {
     std::vector<FreeBorder> borders{};      ///< where surfaces end
     std::size_t lost = 0;                   ///< exact blocks that the mesh lacks
     std::size_t made = 0;                   ///< blocks of the mesh that match no exact one
-    double seconds_volumes = 0;             ///< time of finding the volumes
-    double seconds_structure = 0;           ///< time of building the structure
 
     /// Returns the number of exact blocks, without the outside.
     [[nodiscard]] std::size_t block_count() const { return exact_volumes.size() - 1; }

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include <terrane/algorithms/core/stopwatch.hpp>
+#include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
 
 namespace terrane {
@@ -108,22 +108,22 @@ std::vector<Surface> surfaces_of(const Mesh& mesh) {
 
 Status fill(const std::vector<FillTask>& tasks, std::vector<Surface>& surfaces, const Run& run,
             Preprocessed& done) {
-    Stopwatch watch;
-    auto work = find_holes(surfaces, tasks, run);
+    const StageTimer timer(run, "fill");
+    const Run inner = timer.inside();
+    auto work = find_holes(surfaces, tasks, inner);
     if (!work) return work.error();
-    if (auto filled = fill_holes(surfaces, wanted_holes(*work), *work, run); !filled) return filled;
-    auto contacts = contacts_of_new(*work, run);
+    if (auto filled = fill_holes(surfaces, wanted_holes(*work), *work, inner); !filled)
+        return filled;
+    auto contacts = contacts_of_new(*work, inner);
     if (!contacts) return contacts.error();
     done.contacts = std::move(*contacts);
     for (const HoledSurface& s : work->surfaces) surfaces[s.task.surface] = s.filled;
     done.filled = std::move(*work);
-    done.seconds_fill = watch.lap();
     return Done{};
 }
 
 Status stack(const std::vector<Layer>& order, double min_thickness, std::vector<Surface>& surfaces,
              const Run& run, Preprocessed& done) {
-    Stopwatch watch;
     if (run.progress) run.progress("layers", 0);
     auto layered = stack_layers(surfaces, order, {.min_thickness = min_thickness}, run);
     if (!layered) return layered.error();
@@ -132,7 +132,6 @@ Status stack(const std::vector<Layer>& order, double min_thickness, std::vector<
         surfaces[order[i].surface] = std::move(replaced[i]);
     done.layers = std::move(layered->reports);
     done.stack = std::move(layered->rounded.report);
-    done.seconds_layers = watch.lap();
     return Done{};
 }
 

@@ -22,8 +22,6 @@ struct Preprocessed {
     std::vector<NewContact> contacts{};    ///< of fillings with other triangles of their surface
     std::vector<LayerReport> layers{};     ///< where the project has "layers" and filling succeeded
     std::optional<RoundingReport> stack{}; ///< of the stack of layers
-    double seconds_fill = 0,               ///< time of filling holes
-        seconds_layers = 0;                ///< time of ordering layers
 
     /// Tells whether the surfaces can be used: no wanted hole stays open, no filling meets other
     /// triangles, and the stack of layers is conforming.

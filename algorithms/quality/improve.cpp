@@ -10,6 +10,7 @@
 #include <terrane/algorithms/check/conforming.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
+#include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/algorithms/quality/detail/constants.hpp>
 #include <terrane/algorithms/quality/detail/operations.hpp>
@@ -385,14 +386,16 @@ std::string_view name_of(WorstCause cause) {
 }
 
 Result<Improved> improve(const Mesh& mesh, const ImproveOptions& options, const Run& run) {
+    const StageTimer timer(run, "improve");
     return guarded("to improve the mesh", "improve",
-                   [&] { return improve_unproven(mesh, options, run); });
+                   [&] { return improve_unproven(mesh, options, timer.inside()); });
 }
 
 Result<Improved> improve(const ConformingMesh& mesh, const ImproveOptions& options,
                          const Run& run) {
+    const StageTimer timer(run, "improve");
     return guarded("to improve the mesh", "improve",
-                   [&] { return improve_proven(mesh, options, run); });
+                   [&] { return improve_proven(mesh, options, timer.inside()); });
 }
 
 std::vector<NamedConstant> improve_constants() {

@@ -17,8 +17,6 @@ struct ImprovedAndMeasured {
     Improved improved;                 ///< the improved mesh, with its report
     std::vector<Deviation> deviations; ///< per surface, measured
     std::vector<double> bounds_back;   ///< per surface: bound of the distance from old to new
-    double seconds_improve = 0,        ///< time of improving
-        seconds_measure = 0;           ///< time of measuring
 
     /// Tells whether the mesh before is proven to be within the bounds of the improved one as well.
     [[nodiscard]] bool is_near_back() const;

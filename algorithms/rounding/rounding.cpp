@@ -14,7 +14,7 @@
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
-#include <terrane/algorithms/core/stopwatch.hpp>
+#include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/intersection/intersection.hpp>
 #include <terrane/algorithms/mesh/work_hook.hpp>
 #include <terrane/algorithms/regions/regions_over.hpp>
@@ -305,11 +305,10 @@ void Rounding::report_vanished() {
 /// arrangement.
 void Rounding::find_first_regions() {
     if (changed_) return;
-    Stopwatch watch;
+    const StageTimer step(run_, "regions");
     const Arrangement& a = arrangement_;
     regions_ = find_regions(state_.points, state_.triangles, a.surfaces_of, a.state->adjacency,
                             a.intersection_edges, run_);
-    out_.report.seconds_regions = watch.lap();
 }
 
 void Rounding::finish(std::span<const CandidatePair> pairs) {
@@ -335,7 +334,7 @@ void Rounding::finish(std::span<const CandidatePair> pairs) {
     mesh.triangles = std::move(state_.triangles);
     mesh.parents_of = std::move(state_.parents_of);
     if (changed_) {
-        Stopwatch watch;
+        const StageTimer step(run_, "regions"); // with intersection edges
         const InputTriangles& inputs = arrangement_.inputs;
         mesh.surfaces_of = surfaces_of_parents(inputs, mesh.parents_of, run_);
         const Adjacency adjacency =
@@ -344,7 +343,6 @@ void Rounding::finish(std::span<const CandidatePair> pairs) {
         mesh.intersection_edges = find_intersection_edges(adjacency, inputs, mesh.parents_of);
         regions_ = find_regions(mesh.vertices, mesh.triangles, mesh.surfaces_of, adjacency,
                                 mesh.intersection_edges, run_);
-        out_.report.seconds_regions = watch.lap();
     } else {
         mesh.intersection_edges = arrangement_.intersection_edges;
     }
@@ -465,9 +463,15 @@ Result<RoundedMesh> round_to_doubles(const Arrangement& arrangement, const Round
                                      const Run& run) {
     return guarded("for the rounding", "rounding", [&]() -> Result<RoundedMesh> {
         Result<RoundedMesh> rounded = Error{};
-        with_threads(run, [&] { rounded = round_all(arrangement, options, run); });
+        const StageTimer timer(run, "round");
+        const Run inner = timer.inside();
+        with_threads(run, [&] { rounded = round_all(arrangement, options, inner); });
         return rounded;
     });
+}
+
+std::vector<NamedConstant> rounding_constants() {
+    return rounding::detail::named_constants();
 }
 
 } // namespace terrane

@@ -21,6 +21,7 @@
 #include <terrane/algorithms/arrangement/arrangement.hpp>
 #include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/check/conforming.hpp>
+#include <terrane/algorithms/core/named_constant.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
@@ -55,8 +56,6 @@ struct RoundingReport {
     std::size_t moved_input_vertices = 0;  ///< number of input vertices that moved
     std::size_t merged_vertices = 0;       ///< number of points that were merged with another one
     std::size_t collapsed_triangles = 0;   ///< number of triangles that lost their area
-    double seconds_regions = 0;            ///< part of the time spent on intersection edges and
-                                           ///< regions of the mesh, which are not rounding
     std::vector<LostRegions> lost_regions; ///< surfaces with fewer regions than the exact ones
     std::vector<std::uint32_t> vanished;   ///< input triangles without any part left, ascending
 };
@@ -70,8 +69,12 @@ struct RoundedMesh {
 };
 
 /// Rounds an arrangement. Errors: interrupted, out_of_memory, bad_number (a constructed point is
-/// beyond the largest double), internal.
+/// beyond the largest double), internal. Times: round, with the step regions (intersection edges and
+/// regions of the mesh, which are not rounding).
 Result<RoundedMesh> round_to_doubles(const Arrangement& arrangement,
                                      const RoundingOptions& options = {}, const Run& run = {});
+
+/// The constants that decide how contacts are repaired; they are documented in detail/tuning.hpp.
+std::vector<NamedConstant> rounding_constants();
 
 } // namespace terrane

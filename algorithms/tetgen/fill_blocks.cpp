@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
-#include <terrane/algorithms/core/stopwatch.hpp>
+#include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/tetrahedra/split_nodes.hpp>
 #include <terrane/algorithms/tetrahedra/without_outside.hpp>
@@ -125,7 +125,7 @@ Status finish(const TetrahedraRequest& request, std::span<const std::uint32_t> s
 
 Result<FilledBlocks> fill_blocks(const Model& model, const TetrahedraRequest& request,
                                  const Run& run) {
-    Stopwatch watch;
+    StageTimer timer(run, "tetrahedralize");
     if (run.progress) run.progress("tetrahedralize", 0);
     const SurfaceLabels labels = unique_labels(model.mesh->surfaces);
     const auto options = options_of(model, labels, request);
@@ -133,21 +133,21 @@ Result<FilledBlocks> fill_blocks(const Model& model, const TetrahedraRequest& re
     const auto split = surfaces_to_split(model, labels, request.split);
     if (!split) return split.error();
     const Volumes volumes = volumes_as_found(model);
-    auto made = tetrahedralize(model.mesh, volumes, *options, run);
+    auto made = tetrahedralize(model.mesh, volumes, *options, timer.inside());
     if (!made) return made.error();
     FilledBlocks filled;
     filled.tetrahedra = std::move(*made);
-    filled.seconds_tetrahedralize = watch.lap();
 
+    timer.next("check");
     if (run.progress) run.progress("check tetrahedra", 0);
     filled.report = check_tetrahedra(filled.tetrahedra, model.mesh, volumes);
-    filled.seconds_check = watch.lap();
+    timer.next("split");
     renumber(model, filled);
     if (filled.report.violations.empty())
         if (auto done = finish(request, *split, filled.tetrahedra, filled.added_nodes); !done)
             return done.error();
     for (const ModelBlock& block : model.structure.blocks) filled.block_names.push_back(block.name);
-    filled.seconds_split = watch.lap();
+    timer.stop();
     if (run.stop.stop_requested()) return Error{ErrorCode::interrupted, "", ""};
     return filled;
 }

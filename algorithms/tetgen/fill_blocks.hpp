@@ -44,9 +44,6 @@ struct FilledBlocks {
     TetrahedraReport report;              ///< likewise; with the outside, before splitting
     std::vector<std::string> block_names; ///< names of the blocks, by region
     std::size_t added_nodes = 0;          ///< number of nodes that splitting added
-    double seconds_tetrahedralize = 0;    ///< time of TetGen
-    double seconds_check = 0;             ///< time of the checks
-    double seconds_split = 0;             ///< time of splitting nodes
 };
 
 /// Fills the blocks with tetrahedra, checks these against mesh and volumes, and splits nodes. If

@@ -16,6 +16,7 @@
 #include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/algorithms/tetgen/detail/assembly.hpp>
+#include <terrane/algorithms/tetgen/detail/constants.hpp>
 #include <terrane/algorithms/tetgen/detail/process.hpp>
 #include <terrane/algorithms/tetgen/detail/sizes.hpp>
 #include <terrane/algorithms/tetgen/tetgen_helper.hpp>
@@ -29,9 +30,6 @@ namespace terrane {
 using namespace tetgen::detail;
 
 namespace {
-
-constexpr double smallest_ratio = 1.1;
-constexpr double most_tetrahedra = 5e8; // TetGen counts in int
 
 // ---- 1. Options and mesh are sound ------------------------------------------------------------
 
@@ -55,9 +53,9 @@ Status check_options(const TetrahedraOptions& options) {
             return bad_option("box must have finite corners, low < high in each coordinate");
     }
     const auto& ratio = options.radius_edge_ratio;
-    if (ratio && !(std::isfinite(*ratio) && *ratio >= smallest_ratio))
-        return bad_option(
-            fmt::format("radius_edge_ratio must be at least {}, not {}", smallest_ratio, *ratio));
+    if (ratio && !(std::isfinite(*ratio) && *ratio >= constants.least_ratio))
+        return bad_option(fmt::format("radius_edge_ratio must be at least {}, not {}",
+                                      constants.least_ratio, *ratio));
     if (!(options.time_limit > 0)) return bad_option("time_limit must be positive");
     if (Status length = check_length("edge_length", options.edge_length); !length) return length;
     return check_length("max_volume", options.max_volume);
@@ -81,10 +79,9 @@ Box3 enlarged_bounds(std::span<const Point3> points, double margin) {
     const auto largest = [](const Point3& p) {
         return std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
     };
-    constexpr double least = 0x1p-40; // of the largest coordinate: room between doubles
     const double add = std::max(
         margin * std::max({box.high.x - box.low.x, box.high.y - box.low.y, box.high.z - box.low.z}),
-        least * std::max(largest(box.low), largest(box.high)));
+        constants.least_margin * std::max(largest(box.low), largest(box.high)));
     const auto below = [&](double x) { return std::min(x - add, std::nextafter(x, -HUGE_VAL)); };
     const auto above = [&](double x) { return std::max(x + add, std::nextafter(x, HUGE_VAL)); };
     box.low = {below(box.low.x), below(box.low.y), below(box.low.z)};
@@ -199,9 +196,9 @@ Status check_count(const Volumes& volumes, const Box3& scaled_box, const Sizes& 
         rest -= measure;
         if (sizes.in_volumes[v].bounded()) count += measure / scaled.volume_in(v);
     }
-    if (count <= most_tetrahedra) return Done{};
-    return bad_option(
-        fmt::format("the wanted sizes would need more than {} tetrahedra", most_tetrahedra));
+    if (count <= constants.most_tetrahedra) return Done{};
+    return bad_option(fmt::format("the wanted sizes would need more than {} tetrahedra",
+                                  constants.most_tetrahedra));
 }
 
 /// Turns wanted edge lengths into volumes of regular tetrahedra and areas of their faces.
@@ -359,6 +356,10 @@ Result<TetrahedralMesh> tetrahedralize(const Mesh& mesh, const TetrahedraOptions
                                        const Run& run) {
     return guarded("for the tetrahedra", "tetrahedralize",
                    [&] { return prove_and_fill(mesh, options, run); });
+}
+
+std::vector<NamedConstant> tetrahedra_constants() {
+    return tetgen::detail::named_constants();
 }
 
 } // namespace terrane

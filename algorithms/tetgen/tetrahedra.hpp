@@ -6,8 +6,10 @@
 
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 #include <terrane/algorithms/check/conforming.hpp>
+#include <terrane/algorithms/core/named_constant.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
@@ -88,5 +90,8 @@ Result<TetrahedralMesh> tetrahedralize(const ConformingMesh& mesh, const Volumes
 /// Proves that the mesh is conforming, finds its volumes, and fills it as above.
 Result<TetrahedralMesh> tetrahedralize(const Mesh& mesh, const TetrahedraOptions& options,
                                        const Run& run);
+
+/// Lists the constants that decide the result and are not options.
+std::vector<NamedConstant> tetrahedra_constants();
 
 } // namespace terrane

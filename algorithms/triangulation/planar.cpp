@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <terrane/algorithms/mesh/edges.hpp>
+#include <terrane/algorithms/triangulation/detail/constants.hpp>
 #include <terrane/algorithms/triangulation/triangulation.hpp>
 #include <terrane/kernel/numbers.hpp>
 #include <terrane/kernel/predicates.hpp>
@@ -18,7 +19,7 @@ namespace terrane {
 namespace {
 
 constexpr double largest = 1e300;
-constexpr double surroundings = 1024; ///< distance of the corners, relative to the points' extent
+constexpr double surroundings = triangulation::detail::constants.surroundings;
 
 using EdgeList = std::vector<std::array<std::uint32_t, 2>>;
 

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include <terrane/algorithms/core/named_constant.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
@@ -28,5 +29,8 @@ struct ConnectOptions {
 Result<std::vector<Triangle>> connect_points(std::span<const Point3> points,
                                              const ConnectOptions& options = {},
                                              const Run& run = {});
+
+/// Lists the constants that decide the result and are not options.
+std::vector<NamedConstant> point_constants();
 
 } // namespace terrane

@@ -12,6 +12,7 @@
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
+#include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/sealing/border_extension.hpp>
 #include <terrane/algorithms/sealing/extension_faces.hpp>
@@ -258,8 +259,9 @@ Result<Extended> extend_to_boundary(std::vector<Surface> surfaces,
                                     const ExtendOptions& options, const Run& run) {
     if (!(options.limit > 0) || !std::isfinite(options.limit))
         return Error{ErrorCode::bad_option, "the limit must be positive", "extend"};
+    const StageTimer timer(run, "extend");
     return guarded("to extend surfaces", "extend",
-                   [&] { return extend(std::move(surfaces), boundary, options, run); });
+                   [&] { return extend(std::move(surfaces), boundary, options, timer.inside()); });
 }
 
 std::vector<NamedConstant> extension_constants() {

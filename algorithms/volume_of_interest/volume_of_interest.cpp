@@ -13,6 +13,7 @@
 #include <terrane/algorithms/arrangement/restricted.hpp>
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
+#include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 
@@ -241,8 +242,9 @@ Result<VolumeOfInterest> cut(Arrangement a, std::span<const std::uint32_t> bound
 
 Result<VolumeOfInterest> cut_to_volume(Arrangement a, std::span<const std::uint32_t> boundary,
                                        const Run& run) {
+    const StageTimer timer(run, "volume of interest");
     return guarded("for the volume of interest", "volume of interest",
-                   [&] { return cut(std::move(a), boundary, run); });
+                   [&] { return cut(std::move(a), boundary, timer.inside()); });
 }
 
 } // namespace terrane

@@ -86,12 +86,11 @@ std::string arrange_table(const PaperTable& table) {
                             "prepare", "search", "intersect", "triangulate", "stitch", "round",
                             "total", "doubles", "paper's best / total");
     for (const PaperRow& row : table.rows) {
-        const ArrangeStatistics& a = row.arrange;
+        const auto& a = row.arrange;
         text += fmt::format("{:<15}{:>9.4f}{:>9.4f}{:>11.4f}{:>13.4f}{:>9.4f}{:>9.4f}{:>9.4f}{:>9}"
                             "{:>26}\n",
-                            row.triangles, a.seconds_prepare, a.seconds_search, a.seconds_intersect,
-                            a.seconds_triangulate, a.seconds_stitch, row.seconds_round, row.total(),
-                            row.clean ? "clean" : "improper", gain_text(row));
+                            row.triangles, a[0], a[1], a[2], a[3], a[4], row.seconds_round,
+                            row.total(), row.clean ? "clean" : "improper", gain_text(row));
     }
     return text;
 }

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/project/build.hpp>
@@ -135,7 +136,7 @@ private:
     }
 
     Status read() {
-        Stopwatch watch;
+        StageTimer timer(session_.run(), "read");
         journal_.note("read");
         session_.begin("read", Phase::computing);
         auto inputs = terrane::read_inputs(project_, session_.run());
@@ -146,8 +147,8 @@ private:
         inputs_.labels = unique_labels(infos_of(read_.build.surfaces));
         inputs_.vertices = read_.vertices;
         inputs_.triangles = read_.triangles;
-        inputs_.seconds = watch.lap();
-        statistics_ = statistics_of(inputs_);
+        timer.stop();
+        statistics_ = statistics_of(inputs_, session_.times());
         return Done{};
     }
 
@@ -177,20 +178,21 @@ private:
             return preprocessed(built.preprocessed);
         case BuildStage::arrange:
             inputs_.labels = built.labels;
-            add_statistics(statistics_, built.arranged, Search::automatic, inputs_);
+            add_statistics(statistics_, built.arranged, Search::automatic, inputs_,
+                           session_.times());
             journal_.say(summary(inputs_, built.arranged));
             if (!built.arranged.rounded.conforming)
                 refused_ = offending_pairs(inputs_, built.arranged) +
                            "terrane: no blocks without a conforming mesh; nothing written\n";
             return;
         case BuildStage::improve:
-            add_statistics(statistics_, *built.improved);
+            add_statistics(statistics_, *built.improved, session_.times());
             return journal_.say(improve_text(*built.improved, inputs_));
         case BuildStage::blocks:
-            add_statistics(statistics_, *built.model);
+            add_statistics(statistics_, *built.model, session_.times());
             return journal_.say(model_text(inputs_, *built.model));
         case BuildStage::tetrahedra:
-            add_statistics(statistics_, *built.filled);
+            add_statistics(statistics_, *built.filled, session_.times());
             return journal_.say(filled_text(*built.filled));
         }
     }
@@ -203,14 +205,13 @@ private:
             if (!done.contacts.empty())
                 refused_ += "terrane: what was invented meets other triangles\n" +
                             contacts_text(*done.filled, done.contacts);
-            statistics_["holes"] = json_of(*done.filled);
-            statistics_["seconds"]["fill"] = done.seconds_fill;
+            add_statistics(statistics_, *done.filled);
+            statistics_["seconds"]["fill"] = session_.times().latest("fill");
         }
         if (done.stack) {
             said += text_of(inputs_, done.layers, *done.stack);
             refused_ = contacts_text(*done.stack);
-            statistics_["layers"] = json_of(inputs_, done.layers);
-            statistics_["seconds"]["layers"] = done.seconds_layers;
+            add_statistics(statistics_, inputs_, done.layers, session_.times());
         }
         journal_.say(said);
         if (!refused_.empty()) refused_ += "terrane: nothing written\n";

@@ -181,7 +181,7 @@ Result<ExitStatus> fill_files(const FillCommand& command, Session& session) {
     if (!work) return work.error();
     print(summary_stream(command.files),
           borders_text(work.value()) + (command.list ? holes_table(work.value()) : ""));
-    Json statistics = statistics_of(inputs.value());
+    Json statistics = statistics_of(inputs.value(), session.times());
     bool whole = true;
     if (!command.list) {
         const auto filled =
@@ -189,7 +189,7 @@ Result<ExitStatus> fill_files(const FillCommand& command, Session& session) {
         if (!filled) return filled.error();
         whole = filled.value();
     }
-    statistics["holes"] = json_of(work.value());
+    add_statistics(statistics, work.value());
     if (const auto done = write_statistics(statistics, command.files.stats, total.lap()); !done)
         return done.error();
     return whole ? ExitStatus::done : ExitStatus::negative;

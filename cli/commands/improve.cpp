@@ -113,7 +113,7 @@ Result<ExitStatus> improve_files(const ImproveCommand& command, Session& session
     if (!inputs) return inputs.error();
     ImproveOptions options = command.options;
     if (const auto set = set_lengths(command, inputs.value(), options); !set) return set.error();
-    Json statistics = statistics_of(inputs.value());
+    Json statistics = statistics_of(inputs.value(), session.times());
 
     const auto arranged = arrange_and_round(inputs.value(), command.settings, session, statistics);
     if (!arranged) return arranged.error();
@@ -130,7 +130,7 @@ Result<ExitStatus> improve_files(const ImproveCommand& command, Session& session
             improve_and_measure(*arranged.value().rounded.conforming, options, session.run());
         session.end_stage();
         if (!measured) return measured.error();
-        add_statistics(statistics, measured.value());
+        add_statistics(statistics, measured.value(), session.times());
         print(summary_stream(files), improve_text(measured.value(), inputs.value()));
         const Mesh& mesh = measured.value().improved.mesh;
         const auto narrow = stl_is_conforming(mesh, files, outputs.value(), session);

@@ -112,7 +112,7 @@ Result<ExitStatus> layer_files(LayerCommand& command, Session& session) {
     if (!outputs) return outputs.error();
     const auto inputs = read_inputs(files, session);
     if (!inputs) return inputs.error();
-    Json statistics = statistics_of(inputs.value());
+    Json statistics = statistics_of(inputs.value(), session.times());
     const auto order = order_of(command, inputs.value());
     if (!order) return order.error();
 

@@ -112,7 +112,7 @@ Result<FilledBlocks> fill(const Arranged& arranged, const TetrahedraRequest& wis
     if (!model) return model.error();
     auto filled = fill_blocks(*model, wishes, session.run());
     session.end_stage();
-    if (filled) add_statistics(statistics, *filled);
+    if (filled) add_statistics(statistics, *filled, session.times());
     return filled;
 }
 
@@ -141,7 +141,7 @@ Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Se
     auto inputs = read_inputs(files, session);
     if (!inputs) return inputs.error();
     if (const auto set = set_roles(command.roles, inputs.value()); !set) return set.error();
-    Json statistics = statistics_of(inputs.value());
+    Json statistics = statistics_of(inputs.value(), session.times());
 
     const auto arranged = arrange_and_round(inputs.value(), command.settings, session, statistics);
     if (!arranged) return arranged.error();

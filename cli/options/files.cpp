@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <terrane/algorithms/core/stopwatch.hpp>
+#include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/cli/session/console.hpp>
 
@@ -169,7 +169,7 @@ Result<std::vector<Output>> plan_outputs(const FileOptions& options, OutputKind 
 }
 
 Result<Inputs> read_inputs(const FileOptions& options, Session& session) {
-    Stopwatch watch;
+    const StageTimer timer(session.run(), "read");
     Inputs all;
     session.begin("read", Phase::idle);
     for (const auto& path : options.inputs) {
@@ -190,7 +190,6 @@ Result<Inputs> read_inputs(const FileOptions& options, Session& session) {
     if (std::max(all.vertices, all.triangles) >= UINT32_MAX)
         return Error{ErrorCode::unsupported, "more than 4294967294 vertices or triangles", ""};
     all.labels = unique_labels(infos_of(all.surfaces));
-    all.seconds = watch.lap();
     return all;
 }
 

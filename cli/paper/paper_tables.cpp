@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <chrono>
 #include <functional>
+#include <numeric>
 
 #include <terrane/algorithms/arrangement/soup.hpp>
+#include <terrane/algorithms/core/stage_times.hpp>
 #include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/algorithms/mesh/edges.hpp>
 #include <terrane/algorithms/regions/regions_over.hpp>
@@ -117,9 +119,14 @@ double measure_regions(const Mesh& mesh, unsigned repeats) {
 
 Status measure_arrange(const std::vector<Surface>& surfaces, const PaperSettings& settings,
                        const Run& run, PaperRow& row) {
-    auto exact = arrange(surfaces, {}, run);
+    StageTimes times;
+    Run timed = run;
+    timed.timing = times.observer();
+    auto exact = arrange(surfaces, {}, timed);
     if (!exact) return exact.error();
-    row.arrange = exact.value().statistics;
+    for (std::size_t i = 0; i < arrange_steps.size(); ++i)
+        row.arrange[i] = times.latest(std::string("arrange/") + arrange_steps[i]);
+    row.arrange.back() += times.latest("arrange/assemble");
     Stopwatch watch;
     const auto rounded = round_to_doubles(exact.value(), {}, run);
     if (!rounded) return rounded.error();
@@ -162,8 +169,7 @@ std::vector<Model> models_of(int number, bool large) {
 } // namespace
 
 double PaperRow::total() const {
-    return arrange.seconds_prepare + arrange.seconds_search + arrange.seconds_intersect +
-           arrange.seconds_triangulate + arrange.seconds_stitch + seconds_round;
+    return std::accumulate(arrange.begin(), arrange.end(), seconds_round);
 }
 
 Result<PaperTable> measure_table(int number, const PaperSettings& settings, const Run& run) {

@@ -22,6 +22,9 @@ constexpr std::array paper_methods{Search::grid, Search::ab, Search::ab_balanced
 using MethodTimes = std::array<double, paper_methods.size()>;
 constexpr double not_measured = -1;
 
+/// What the arrangement spends its time on.
+constexpr std::array arrange_steps{"prepare", "search", "intersect", "triangulate", "stitch"};
+
 struct PaperSettings {
     bool large = false;               ///< also the model of 6 800 000 triangles
     double limit = 60;                ///< seconds for one search by AB unbalanced
@@ -41,7 +44,7 @@ struct PaperRow {
     double mean_d = 0;     ///< mean number of triangles in the non-empty D_T
     std::size_t largest_d = 0;
     double mean_looked_at = 0; ///< mean number of triangles in the cells visited for a T
-    ArrangeStatistics arrange;
+    std::array<double, arrange_steps.size()> arrange{}; ///< seconds of each step
     double seconds_regions = 0, seconds_round = 0;
     bool clean = false; ///< the rounded mesh was proven conforming
 

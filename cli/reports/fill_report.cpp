@@ -9,6 +9,9 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/reconstruction/joining/join.hpp>
+#include <terrane/algorithms/reconstruction/kriging/fill_kriging.hpp>
+#include <terrane/algorithms/reconstruction/rbf/rbf.hpp>
 #include <terrane/cli/reports/fill_map.hpp>
 #include <terrane/cli/session/console.hpp>
 
@@ -102,7 +105,7 @@ std::string contacts_text(const FillWork& work, std::span<const NewContact> cont
     return text;
 }
 
-Json json_of(const FillWork& work) {
+void add_statistics(Json& json, const FillWork& work) {
     Json list = Json::array();
     const auto known = [](double value) { return std::isfinite(value) ? Json(value) : Json(); };
     for (const NumberedHole& hole : work.holes) {
@@ -126,7 +129,19 @@ Json json_of(const FillWork& work) {
         if (!hole.refused.empty()) entry["refused"] = hole.refused;
         list.push_back(std::move(entry));
     }
-    return list;
+    json["holes"] = std::move(list);
+    add_constants(json, "holes", hole_constants());
+    const auto is_filled_by = [&](FillMethod method) {
+        return std::any_of(work.holes.begin(), work.holes.end(), [&](const NumberedHole& hole) {
+            return (hole.report || !hole.refused.empty()) &&
+                   work.surfaces[hole.task].task.options.method == method;
+        });
+    };
+    if (is_filled_by(FillMethod::kriging)) add_constants(json, "kriging", kriging_constants());
+    if (is_filled_by(FillMethod::rbf)) {
+        add_constants(json, "rbf", rbf_constants());
+        add_constants(json, "join", join_constants());
+    }
 }
 
 std::string csv_of(const FillWork& work) {

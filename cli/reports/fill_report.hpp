@@ -28,8 +28,8 @@ std::string refusals_text(const FillWork& work);
 /// are none.
 std::string contacts_text(const FillWork& work, std::span<const NewContact> contacts);
 
-/// Returns the holes and their fillings for --stats, one entry per hole.
-Json json_of(const FillWork& work);
+/// Adds the key holes, one entry per hole, and the constants of the methods in use.
+void add_statistics(Json& json, const FillWork& work);
 
 /// Returns the added points with their expected errors, as CSV.
 std::string csv_of(const FillWork& work);

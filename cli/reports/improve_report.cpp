@@ -83,9 +83,10 @@ std::string improve_text(const ImprovedAndMeasured& measured, const Inputs& inpu
     return text + deviation_text(measured, inputs);
 }
 
-void add_statistics(Json& json, const ImprovedAndMeasured& measured) {
-    json["seconds"]["improve"] = measured.seconds_improve;
-    json["seconds"]["measure"] = measured.seconds_measure;
+void add_statistics(Json& json, const ImprovedAndMeasured& measured, const StageTimes& times) {
+    add_constants(json, "improve", improve_constants());
+    json["seconds"]["improve"] = times.latest("improve");
+    json["seconds"]["measure"] = times.latest("measure");
     const Improved& improved = measured.improved;
     const ImproveReport& r = improved.report;
     json["output"]["triangles"] = improved.mesh->triangles.size();

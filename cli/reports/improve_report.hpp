@@ -16,8 +16,8 @@ namespace terrane::cli {
 /// measured.
 std::string improve_text(const ImprovedAndMeasured& measured, const Inputs& inputs);
 
-/// Adds "improve" (counts of operations), "quality" (before, after) and "deviation".
-void add_statistics(Json& json, const ImprovedAndMeasured& measured);
+/// Adds "improve" (counts of operations), "quality" (before, after), "deviation" and the times.
+void add_statistics(Json& json, const ImprovedAndMeasured& measured, const StageTimes& times);
 
 /// Draws the histograms of triangle quality as SVG, after the paper's Figure 19.
 std::string histogram_of(const ImproveReport& report);

@@ -137,10 +137,12 @@ std::string filled_text(const FilledBlocks& filled) {
     return text + report_text(filled.report);
 }
 
-void add_statistics(Json& json, const FilledBlocks& filled) {
-    json["seconds"]["tetrahedralize"] = filled.seconds_tetrahedralize;
-    json["seconds"]["check"] = filled.seconds_check;
-    json["seconds"]["split"] = filled.seconds_split;
+void add_statistics(Json& json, const FilledBlocks& filled, const StageTimes& times) {
+    add_constants(json, "structure", structure_constants()); // they decide the names of regions
+    add_constants(json, "tetrahedralize", tetrahedra_constants());
+    json["seconds"]["tetrahedralize"] = times.latest("tetrahedralize");
+    json["seconds"]["check"] = times.latest("check");
+    json["seconds"]["split"] = times.latest("split");
     const TetrahedralMesh& mesh = filled.tetrahedra;
     json["output"]["volumes"] = mesh.region_count - 1;
     Json volumes = Json::array();

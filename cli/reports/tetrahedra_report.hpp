@@ -25,6 +25,6 @@ Json report_json(const TetrahedraReport& report);
 std::string filled_text(const FilledBlocks& filled);
 
 /// Adds counts, volumes, checks and times of the tetrahedra.
-void add_statistics(Json& json, const FilledBlocks& filled);
+void add_statistics(Json& json, const FilledBlocks& filled, const StageTimes& times);
 
 } // namespace terrane::cli

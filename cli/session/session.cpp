@@ -33,6 +33,7 @@ Session::Session(unsigned threads) :
         stage_ = stage;
         share_ = share;
     };
+    run_.timing = times_.observer();
     const auto set = interrupts();
     pthread_sigmask(SIG_BLOCK, &set, nullptr);
     watcher_ = std::jthread([this](const std::stop_token& over) { watch(over); });

@@ -12,6 +12,7 @@
 #include <thread>
 
 #include <terrane/algorithms/core/run.hpp>
+#include <terrane/algorithms/core/stage_times.hpp>
 
 namespace terrane::cli {
 
@@ -32,6 +33,8 @@ public:
     Session& operator=(const Session&) = delete;
 
     [[nodiscard]] const Run& run() const { return run_; }
+    /// How long the stages took that have ended.
+    [[nodiscard]] const StageTimes& times() const { return times_; }
     [[nodiscard]] bool stopped() const { return source_.stop_requested(); }
 
     /// Shows the name of a stage and sets the phase, which decides what an interrupt does.
@@ -46,6 +49,7 @@ private:
     void clear_line();
 
     std::stop_source source_;
+    StageTimes times_;
     Run run_;
     std::atomic<Phase> phase_ = Phase::idle;
 

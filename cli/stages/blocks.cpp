@@ -187,9 +187,10 @@ private:
 
 } // namespace
 
-void add_statistics(Json& json, const Model& model) {
-    json["seconds"]["volumes"] = model.seconds_volumes;
-    json["seconds"]["structure"] = model.seconds_structure;
+void add_statistics(Json& json, const Model& model, const StageTimes& times) {
+    add_constants(json, "structure", structure_constants());
+    json["seconds"]["volumes"] = times.latest("volumes");
+    json["seconds"]["structure"] = times.latest("structure");
     json["output"]["volumes"] = model.block_count();
     Json volumes = Json::array();
     for (std::size_t b = 1; b < model.exact_volumes.size(); ++b)
@@ -210,7 +211,7 @@ Result<Model> find_model(const Arranged& arranged, Session& session, Json& stati
     session.begin("volumes", Phase::computing);
     auto model = make_model(arranged.exact, arranged.rounded.conforming.value(), session.run());
     session.end_stage();
-    if (model) add_statistics(statistics, *model);
+    if (model) add_statistics(statistics, *model, session.times());
     return model;
 }
 

@@ -17,7 +17,7 @@ namespace terrane::cli {
 Result<Model> find_model(const Arranged& arranged, Session& session, Json& statistics);
 
 /// Adds the model's counts, volumes and times to the statistics.
-void add_statistics(Json& statistics, const Model& model);
+void add_statistics(Json& statistics, const Model& model, const StageTimes& times);
 
 /// Reports blocks, structure, dangling surfaces and leaks.
 std::string model_text(const Inputs& inputs, const Model& model);

@@ -26,7 +26,8 @@ std::string text_of(const Inputs& inputs, std::span<const LayerReport> reports,
 /// is conforming.
 std::string contacts_text(const RoundingReport& rounding);
 
-/// Returns one entry per layer, for the statistics.
-Json json_of(const Inputs& inputs, std::span<const LayerReport> reports);
+/// Adds the key layers, one entry per layer, with the time and the constants of the rounding.
+void add_statistics(Json& json, const Inputs& inputs, std::span<const LayerReport> reports,
+                    const StageTimes& times);
 
 } // namespace terrane::cli

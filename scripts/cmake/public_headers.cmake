@@ -11,6 +11,7 @@ set(terrane_headers
     algorithms/core/process_memory.hpp
     algorithms/core/result.hpp
     algorithms/core/run.hpp
+    algorithms/core/stage_times.hpp
     algorithms/mesh/mesh.hpp
     algorithms/mesh/region_point.hpp
     algorithms/mesh/shared_mesh.hpp

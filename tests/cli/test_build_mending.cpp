@@ -120,6 +120,8 @@ TEST_CASE("cli: build fills holes, so that what they let through becomes two blo
             points += hole["filled"]["points"].get<std::size_t>();
         }
         CHECK(statistics["seconds"].contains("fill"));
+        CHECK(statistics["constants"].contains(method));
+        CHECK_FALSE(statistics["constants"].contains(method == "rbf" ? "kriging" : "rbf"));
         const auto csv = c.folder.read(method + "/invented.csv");
         CHECK(std::size_t(std::count(csv.begin(), csv.end(), '\n')) == points + 1);
         CHECK(c.folder.read(method + "/filled.svg").starts_with("<svg"));

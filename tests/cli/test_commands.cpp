@@ -43,7 +43,7 @@ TEST_CASE("cli: statistics have the promised keys", "[cli]") {
           "/rounding/max_move",   "/rounding/verified", "/seconds/read",
           "/seconds/search",      "/seconds/intersect", "/seconds/triangulate",
           "/seconds/round",       "/seconds/write",     "/seconds/total",
-          "/peak_rss_mb"}) {
+          "/peak_rss_mb",         "/constants/read",    "/constants/round/many"}) {
         INFO(key);
         CHECK(json.contains(Json::json_pointer(key)));
     }
@@ -52,6 +52,8 @@ TEST_CASE("cli: statistics have the promised keys", "[cli]") {
     CHECK(json["search"]["improper_contacts"] == 3382);
     CHECK(json["rounding"]["verified"] == true);
     CHECK(json["seconds"]["total"].get<double>() > 0);
+    CHECK(json["constants"]["round"]["coarse_digits_1"] == 16);
+    CHECK_FALSE(json["constants"].contains("improve")); // a stage that was not run
     CHECK(json["peak_rss_mb"].get<double>() > 1);
 }
 

@@ -6,6 +6,9 @@
 
 #include <array>
 #include <cstddef>
+#include <vector>
+
+#include <terrane/algorithms/core/named_constant.hpp>
 
 namespace terrane::rounding::detail {
 
@@ -29,5 +32,25 @@ struct RoundingTuning {
 };
 
 inline constexpr RoundingTuning rounding_tuning;
+
+/// Lists all constants by name, in the order of their declaration.
+inline std::vector<NamedConstant> named_constants() {
+    const RoundingTuning& t = rounding_tuning;
+    return {
+        {"fine_digits_1", static_cast<double>(t.fine_digits[0])},
+        {"fine_digits_2", static_cast<double>(t.fine_digits[1])},
+        {"fine_digits_3", static_cast<double>(t.fine_digits[2])},
+        {"coarse_digits_1", static_cast<double>(t.coarse_digits[0])},
+        {"coarse_digits_2", static_cast<double>(t.coarse_digits[1])},
+        {"coarse_digits_3", static_cast<double>(t.coarse_digits[2])},
+        {"coarse_digits_4", static_cast<double>(t.coarse_digits[3])},
+        {"coarse_digits_5", static_cast<double>(t.coarse_digits[4])},
+        {"many", static_cast<double>(t.many)},
+        {"crowded", static_cast<double>(t.crowded)},
+        {"multiplied", static_cast<double>(t.multiplied)},
+        {"widenings", static_cast<double>(t.widenings)},
+        {"shrinking", static_cast<double>(t.shrinking)},
+    };
+}
 
 } // namespace terrane::rounding::detail
