@@ -151,6 +151,46 @@ void assert_invariants([[maybe_unused]] const Arrangement& a) {
     TERRANE_ASSERT_PARANOID(is_sorted_unique(a.degenerate));
 }
 
+ArrangeStatistics statistics_of(std::size_t candidates, const Retriangulation& division) {
+    ArrangeStatistics all;
+    all.candidates = candidates;
+    all.improper_contacts = division.statistics.improper_contacts;
+    all.divided = division.statistics.divided;
+    all.constructed_points = division.ascending.size();
+    all.predicates = division.statistics.predicates;
+    return all;
+}
+
+/// Makes one mesh of the triangles after division, with what later stages ask of it.
+void assemble(Arrangement& a, Soup soup, InjectivePatches patches, Retriangulation division,
+              const Run& run) {
+    a.inputs = {soup.first_input_triangle, soup.first_input_vertex, soup.duplicates};
+    a.degenerate = soup.degenerate;
+    const auto state = std::make_shared<ExactState>();
+    a.state = state;
+    state->corners = std::move(soup.input_corners);
+    state->neighbours = neighbours_of_divided(soup, division, run);
+    const Labels labels = labels_of(soup, patches, run);
+    std::vector<std::uint32_t> vertex_of;
+    both(
+        run,
+        [&] {
+            a.parents_of = parents_of_faces(soup, division.faces_of, run);
+            a.surfaces_of = surfaces_of_parents(a.inputs, a.parents_of, run);
+        },
+        [&] {
+            state->patches = patches_of_faces(std::move(patches), division.faces_of, run);
+            state->points = std::move(division.points);
+            a.triangles = std::move(division.triangles);
+            vertex_of = name_vertices(a, state->points, division.ascending, run);
+        });
+    if (run.progress) run.progress("arrange", 0.9);
+    state->adjacency = adjacency_after(
+        soup.edges, labels,
+        {a.triangles, division.faces_of, division.unchanged_as, vertex_of, a.vertices.size()}, run);
+    a.intersection_edges = find_intersection_edges(state->adjacency, a.inputs, a.parents_of);
+}
+
 Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
                                     const ArrangeOptions& options, const Run& run) {
     const auto report = [&](double share) {
@@ -175,43 +215,15 @@ Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
     report(0.3);
     if (run.stop.stop_requested()) return interrupted();
 
-    // (c) contacts, (d) equal points, (e) triangulation of the faces with contacts, (f) one mesh
+    // (c) contacts, (d) equal points, (e) triangulation of the faces with contacts
     Retriangulation division =
         retriangulate(std::move(soup.points), soup.triangles, candidates, run);
     if (run.stop.stop_requested()) return interrupted();
-    const RetriangulationStatistics& d = division.statistics;
-    a.statistics.candidates = candidates.size();
-    a.statistics.improper_contacts = d.improper_contacts;
-    a.statistics.divided = d.divided;
-    a.statistics.constructed_points = division.ascending.size();
-    a.statistics.predicates = d.predicates;
+    a.statistics = statistics_of(candidates.size(), division);
 
+    // (f) one mesh
     step.next("assemble");
-    a.inputs = {soup.first_input_triangle, soup.first_input_vertex, soup.duplicates};
-    a.degenerate = soup.degenerate;
-    const auto state = std::make_shared<ExactState>();
-    a.state = state;
-    state->corners = std::move(soup.input_corners);
-    state->neighbours = neighbours_of_divided(soup, division, run);
-    const Labels labels = labels_of(soup, patches, run);
-    std::vector<std::uint32_t> vertex_of;
-    both(
-        run,
-        [&] {
-            a.parents_of = parents_of_faces(soup, division.faces_of, run);
-            a.surfaces_of = surfaces_of_parents(a.inputs, a.parents_of, run);
-        },
-        [&] {
-            state->patches = patches_of_faces(std::move(patches), division.faces_of, run);
-            state->points = std::move(division.points);
-            a.triangles = std::move(division.triangles);
-            vertex_of = name_vertices(a, state->points, division.ascending, run);
-        });
-    report(0.9);
-    state->adjacency = adjacency_after(
-        soup.edges, labels,
-        {a.triangles, division.faces_of, division.unchanged_as, vertex_of, a.vertices.size()}, run);
-    a.intersection_edges = find_intersection_edges(state->adjacency, a.inputs, a.parents_of);
+    assemble(a, std::move(soup), std::move(patches), std::move(division), run);
     step.stop();
     assert_invariants(a);
     report(1);

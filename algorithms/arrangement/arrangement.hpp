@@ -70,7 +70,7 @@ struct Arrangement {
                                            ///< surface; sorted, unique. The parents of an edge
                                            ///< are those of its triangles
     std::vector<std::uint32_t> degenerate; ///< input triangles without area, ascending
-    ArrangeStatistics statistics;          ///< counts and times
+    ArrangeStatistics statistics;          ///< counts
     std::shared_ptr<const ExactState> state = empty_state(); ///< never null; shared by copies
 
     /// Returns the doubles nearest to a vertex (an index into vertices).

@@ -20,7 +20,7 @@
 namespace terrane {
 namespace {
 
-using namespace improving;
+using namespace quality::detail;
 
 constexpr double pi = 3.14159265358979323846;
 
@@ -399,7 +399,7 @@ Result<Improved> improve(const ConformingMesh& mesh, const ImproveOptions& optio
 }
 
 std::vector<NamedConstant> improve_constants() {
-    return improving::named_constants();
+    return quality::detail::named_constants();
 }
 
 } // namespace terrane

@@ -19,7 +19,7 @@
 namespace terrane {
 namespace {
 
-using namespace improving;
+using namespace quality::detail;
 
 constexpr double endless = std::numeric_limits<double>::infinity();
 

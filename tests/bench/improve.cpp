@@ -170,9 +170,9 @@ Surface remesh(const Surface& in, const std::vector<PlacedEdge>& curves, double 
 }
 
 Remeshed by_cgal(const Mesh& mesh, const Settings& settings) {
-    const auto features =
-        improving::find_features(mesh, {ImproveOptions{}.crease_angle * std::acos(-1.0) / 180,
-                                        ImproveOptions{}.curve_angle * std::acos(-1.0) / 180});
+    const auto features = quality::detail::find_features(
+        mesh, {ImproveOptions{}.crease_angle * std::acos(-1.0) / 180,
+               ImproveOptions{}.curve_angle * std::acos(-1.0) / 180});
     std::vector<PlacedEdge> curves;
     for (const Edge& e : features.edges)
         curves.push_back(placed(mesh.vertices[e[0]], mesh.vertices[e[1]]));

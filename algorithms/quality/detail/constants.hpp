@@ -9,7 +9,7 @@
 
 #include <terrane/algorithms/core/named_constant.hpp>
 
-namespace terrane::improving {
+namespace terrane::quality::detail {
 
 /// Shapes are q of quality.hpp, from 0 (degenerate) to 1 (equilateral). None of these constants
 /// affects the guarantees of improve(): each change is proven whatever they are.
@@ -177,4 +177,4 @@ inline std::vector<NamedConstant> named_constants() {
     };
 }
 
-} // namespace terrane::improving
+} // namespace terrane::quality::detail

@@ -9,7 +9,7 @@
 #include <terrane/algorithms/quality/detail/constants.hpp>
 #include <terrane/algorithms/quality/detail/windows.hpp>
 
-namespace terrane::improving {
+namespace terrane::quality::detail {
 namespace {
 
 /// An edge of a curve, in the direction of the curve.
@@ -215,4 +215,4 @@ std::size_t slide_curves(RemeshContext& context) {
     return count;
 }
 
-} // namespace terrane::improving
+} // namespace terrane::quality::detail

@@ -11,7 +11,7 @@
 #include <terrane/algorithms/search/search.hpp>
 #include <terrane/kernel/predicates.hpp>
 
-namespace terrane::improving {
+namespace terrane::quality::detail {
 namespace {
 
 /// Exceeds the rounding error of quotients between 0 and 1, which is a few units in 2^-53. Edges
@@ -416,4 +416,4 @@ ReferenceSurface::above(const Point3& p, const Point3& normal, std::uint32_t hin
     return Place{place, way.end};
 }
 
-} // namespace terrane::improving
+} // namespace terrane::quality::detail

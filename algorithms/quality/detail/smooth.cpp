@@ -10,7 +10,7 @@
 #include <terrane/algorithms/quality/detail/constants.hpp>
 #include <terrane/algorithms/quality/detail/windows.hpp>
 
-namespace terrane::improving {
+namespace terrane::quality::detail {
 namespace {
 
 /// Computes the position proposed by trapezium drawing.
@@ -244,4 +244,4 @@ std::size_t improve_worst(RemeshContext& context, double below) {
     return count;
 }
 
-} // namespace terrane::improving
+} // namespace terrane::quality::detail

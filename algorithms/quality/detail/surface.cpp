@@ -12,7 +12,7 @@
 #include <terrane/algorithms/quality/detail/constants.hpp>
 #include <terrane/algorithms/quality/detail/windows.hpp>
 
-namespace terrane::improving {
+namespace terrane::quality::detail {
 namespace {
 
 /// Returns the class of a ratio from 1: there are four classes for each factor of two. Within a
@@ -435,4 +435,4 @@ std::size_t swap_edges(RemeshContext& context) {
     return count;
 }
 
-} // namespace terrane::improving
+} // namespace terrane::quality::detail

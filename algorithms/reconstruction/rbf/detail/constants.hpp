@@ -150,35 +150,9 @@ struct RbfConstants {
 
 inline constexpr RbfConstants constants;
 
-/// Lists all constants by name, in the order of their declaration.
-inline std::vector<NamedConstant> named_constants() {
+/// Lists the constants of the fit, by name, in the order of their declaration.
+inline std::vector<NamedConstant> named_constants_of_fit() {
     return {
-        {"graph_cosine", constants.graph_cosine},
-        {"steep_cosine", constants.steep_cosine},
-        {"worth_degree", constants.worth_degree},
-        {"worth_in_space", constants.worth_in_space},
-        {"worth_smoothing", constants.worth_smoothing},
-        {"exact", constants.exact},
-        {"least_distance", constants.least_distance},
-        {"offset_halvings", static_cast<double>(constants.offset_halvings)},
-        {"most_smoothed_data", static_cast<double>(constants.most_smoothed_data)},
-        {"enough_data", static_cast<double>(constants.enough_data)},
-        {"most_judged", static_cast<double>(constants.most_judged)},
-        {"most_error_points", static_cast<double>(constants.most_error_points)},
-        {"left_out_width", constants.left_out_width},
-        {"freedom_weight", constants.freedom_weight},
-        {"singular", constants.singular},
-        {"most_in_cell", static_cast<double>(constants.most_in_cell)},
-        {"ball_ratio", constants.ball_ratio},
-        {"lattice_step", constants.lattice_step},
-        {"thinning", constants.thinning},
-        {"least_cut", constants.least_cut},
-        {"long_edge", constants.long_edge},
-        {"long_edge_reach", constants.long_edge_reach},
-        {"mask_margin", constants.mask_margin},
-        {"mask_under", constants.mask_under},
-        {"mask_sure", constants.mask_sure},
-        {"most_sags", static_cast<double>(constants.most_sags)},
         {"degrees_1", static_cast<double>(constants.degrees[0])},
         {"degrees_2", static_cast<double>(constants.degrees[1])},
         {"degrees_3", static_cast<double>(constants.degrees[2])},
@@ -222,6 +196,41 @@ inline std::vector<NamedConstant> named_constants() {
         {"cut_corner", constants.cut_corner},
         {"over_surface", constants.over_surface},
     };
+}
+
+/// Lists all constants by name, in the order of their declaration.
+inline std::vector<NamedConstant> named_constants() {
+    std::vector<NamedConstant> all{
+        {"graph_cosine", constants.graph_cosine},
+        {"steep_cosine", constants.steep_cosine},
+        {"worth_degree", constants.worth_degree},
+        {"worth_in_space", constants.worth_in_space},
+        {"worth_smoothing", constants.worth_smoothing},
+        {"exact", constants.exact},
+        {"least_distance", constants.least_distance},
+        {"offset_halvings", static_cast<double>(constants.offset_halvings)},
+        {"most_smoothed_data", static_cast<double>(constants.most_smoothed_data)},
+        {"enough_data", static_cast<double>(constants.enough_data)},
+        {"most_judged", static_cast<double>(constants.most_judged)},
+        {"most_error_points", static_cast<double>(constants.most_error_points)},
+        {"left_out_width", constants.left_out_width},
+        {"freedom_weight", constants.freedom_weight},
+        {"singular", constants.singular},
+        {"most_in_cell", static_cast<double>(constants.most_in_cell)},
+        {"ball_ratio", constants.ball_ratio},
+        {"lattice_step", constants.lattice_step},
+        {"thinning", constants.thinning},
+        {"least_cut", constants.least_cut},
+        {"long_edge", constants.long_edge},
+        {"long_edge_reach", constants.long_edge_reach},
+        {"mask_margin", constants.mask_margin},
+        {"mask_under", constants.mask_under},
+        {"mask_sure", constants.mask_sure},
+        {"most_sags", static_cast<double>(constants.most_sags)},
+    };
+    const auto fit = named_constants_of_fit();
+    all.insert(all.end(), fit.begin(), fit.end());
+    return all;
 }
 
 } // namespace terrane::rbf::detail
