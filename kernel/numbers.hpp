@@ -10,6 +10,7 @@
 #include <CGAL/Mpzf.h>
 
 #include <optional>
+#include <type_traits>
 
 #include <terrane/kernel/predicate_counts.hpp>
 #include <terrane/kernel/sign.hpp>
@@ -20,6 +21,7 @@
 namespace terrane {
 
 /// An interval that encloses a real number; valid only under an UpwardRounding in the same thread.
+/// So certain_sign asks for its witness.
 #ifdef TERRANE_SHADOW
 using Interval = shadow::IntervalWithTwin;
 #else
@@ -30,13 +32,33 @@ using Interval = CGAL::Interval_nt<false>;
 /// division.
 using Exact = CGAL::Mpzf;
 
+/// Shows that an UpwardRounding is alive in this thread. Only such a guard makes one, so a function
+/// that takes a witness cannot be called without a guard. It has no data: passing it costs nothing.
+/// It must not outlive its guard, leave its thread, or be used under a ToNearest inside.
+class UpwardWitness {
+    friend class UpwardRounding;
+    constexpr explicit UpwardWitness(int) {} // not an aggregate, so {} makes none
+};
+static_assert(std::is_empty_v<UpwardWitness> && std::is_trivially_copyable_v<UpwardWitness>);
+
 /// Sets the rounding mode that Interval needs, in this thread, for its lifetime. Use one per thread
 /// and stage: switching costs more than a predicate. Ordinary double arithmetic rounds upward as
 /// well meanwhile, so only the static filters, whose bounds hold in any mode, may use doubles.
-using UpwardRounding = CGAL::Protect_FPU_rounding<true>;
+class UpwardRounding {
+public:
+    UpwardRounding() = default;
+    UpwardRounding(const UpwardRounding&) = delete;
+    UpwardRounding& operator=(const UpwardRounding&) = delete;
+
+    operator UpwardWitness() const& { return UpwardWitness(0); } // NOLINT: the guard is passed on
+    operator UpwardWitness() const&& = delete;                   // it would outlive the guard
+
+private:
+    CGAL::Protect_FPU_rounding<true> mode_;
+};
 
 /// Returns the sign if all numbers in the interval have the same one.
-inline std::optional<Sign> certain_sign(const Interval& i) {
+inline std::optional<Sign> certain_sign(UpwardWitness, const Interval& i) {
     if (i.inf() > 0) return Sign::Positive;
     if (i.sup() < 0) return Sign::Negative;
     if (i.inf() == 0 && i.sup() == 0) return Sign::Zero;

@@ -235,8 +235,8 @@ PointStore::IntervalPoint PointStore::interval(PointIndex p) const {
 }
 
 template <class Polynomial, class... P>
-Sign PointStore::filtered(const Polynomial& polynomial, P... points) const {
-    if (const auto sign = certain_sign(polynomial(interval(points)...))) {
+Sign PointStore::filtered(UpwardWitness upward, const Polynomial& polynomial, P... points) const {
+    if (const auto sign = certain_sign(upward, polynomial(interval(points)...))) {
         ++predicate_counts().interval;
         return *sign;
     }
@@ -267,29 +267,40 @@ std::strong_ordering PointStore::compare(PointIndex p, PointIndex q) const {
     return std::strong_ordering::equal;
 }
 
-Sign PointStore::orient2d(Axis axis, PointIndex a, PointIndex b, PointIndex c) const {
+Sign PointStore::orient2d(UpwardWitness upward, Axis axis, PointIndex a, PointIndex b,
+                          PointIndex c) const {
     if (is_input(a) && is_input(b) && is_input(c))
         return terrane::orient2d(axis, input_[a], input_[b], input_[c]);
-    return filtered([axis](const auto& p, const auto& q,
-                           const auto& r) { return polynomial::orient2d(axis, p, q, r); },
-                    a, b, c);
+    return filtered(
+        upward,
+        [axis](const auto& p, const auto& q, const auto& r) {
+            return polynomial::orient2d(axis, p, q, r);
+        },
+        a, b, c);
 }
 
-Sign PointStore::orient3d(PointIndex a, PointIndex b, PointIndex c, PointIndex d) const {
+Sign PointStore::orient3d(UpwardWitness upward, PointIndex a, PointIndex b, PointIndex c,
+                          PointIndex d) const {
     if (is_input(a) && is_input(b) && is_input(c) && is_input(d))
         return terrane::orient3d(input_[a], input_[b], input_[c], input_[d]);
-    return filtered([](const auto& p, const auto& q, const auto& r,
-                       const auto& s) { return polynomial::orient3d(p, q, r, s); },
-                    a, b, c, d);
+    return filtered(
+        upward,
+        [](const auto& p, const auto& q, const auto& r, const auto& s) {
+            return polynomial::orient3d(p, q, r, s);
+        },
+        a, b, c, d);
 }
 
-Sign PointStore::in_circle(Axis axis, PointIndex a, PointIndex b, PointIndex c,
-                           PointIndex d) const {
+Sign PointStore::in_circle(UpwardWitness upward, Axis axis, PointIndex a, PointIndex b,
+                           PointIndex c, PointIndex d) const {
     if (is_input(a) && is_input(b) && is_input(c) && is_input(d))
         return terrane::in_circle(axis, input_[a], input_[b], input_[c], input_[d]);
-    return filtered([axis](const auto& p, const auto& q, const auto& r,
-                           const auto& s) { return polynomial::in_circle(axis, p, q, r, s); },
-                    a, b, c, d);
+    return filtered(
+        upward,
+        [axis](const auto& p, const auto& q, const auto& r, const auto& s) {
+            return polynomial::in_circle(axis, p, q, r, s);
+        },
+        a, b, c, d);
 }
 
 Point3 nearest(std::span<const Point3> input, const Construction& how) {
@@ -297,8 +308,9 @@ Point3 nearest(std::span<const Point3> input, const Construction& how) {
     return round_exactly(construct_exactly(input, how));
 }
 
-Sign PointStore::side_of_plane(PointIndex a, PointIndex b, PointIndex c, PointIndex p) const {
-    return orient3d(a, b, c, p);
+Sign PointStore::side_of_plane(UpwardWitness upward, PointIndex a, PointIndex b, PointIndex c,
+                               PointIndex p) const {
+    return orient3d(upward, a, b, c, p);
 }
 
 } // namespace terrane

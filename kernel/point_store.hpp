@@ -104,15 +104,18 @@ public:
     /// known to be equal.
     [[nodiscard]] std::array<double, 3> rounding_errors(PointIndex p) const;
 
-    // The caller of the following predicates holds an UpwardRounding.
+    // Predicates; compare and equal are right in any rounding mode.
     [[nodiscard]] std::strong_ordering compare(PointIndex p, PointIndex q) const;
     [[nodiscard]] bool equal(PointIndex p, PointIndex q) const { return compare(p, q) == 0; }
-    [[nodiscard]] Sign orient2d(Axis axis, PointIndex a, PointIndex b, PointIndex c) const;
-    [[nodiscard]] Sign orient3d(PointIndex a, PointIndex b, PointIndex c, PointIndex d) const;
-    [[nodiscard]] Sign in_circle(Axis axis, PointIndex a, PointIndex b, PointIndex c,
-                                 PointIndex d) const;
+    [[nodiscard]] Sign orient2d(UpwardWitness upward, Axis axis, PointIndex a, PointIndex b,
+                                PointIndex c) const;
+    [[nodiscard]] Sign orient3d(UpwardWitness upward, PointIndex a, PointIndex b, PointIndex c,
+                                PointIndex d) const;
+    [[nodiscard]] Sign in_circle(UpwardWitness upward, Axis axis, PointIndex a, PointIndex b,
+                                 PointIndex c, PointIndex d) const;
     /// Returns orient3d(a, b, c, p) for input points a, b, c.
-    [[nodiscard]] Sign side_of_plane(PointIndex a, PointIndex b, PointIndex c, PointIndex p) const;
+    [[nodiscard]] Sign side_of_plane(UpwardWitness upward, PointIndex a, PointIndex b, PointIndex c,
+                                     PointIndex p) const;
 
 private:
     using IntervalPoint = polynomial::Coordinates<Interval, polynomial::One>;
@@ -133,7 +136,7 @@ private:
                                                               const Construction& how);
     [[nodiscard]] Rounded round(const Construction& how) const;
     template <class Polynomial, class... P>
-    Sign filtered(const Polynomial& polynomial, P... points) const;
+    Sign filtered(UpwardWitness upward, const Polynomial& polynomial, P... points) const;
 
     std::vector<Point3> input_;
     std::vector<Construction> constructed_;

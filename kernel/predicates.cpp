@@ -71,7 +71,7 @@ template <class Polynomial>
 Sign filtered(const Polynomial& polynomial) {
     {
         const UpwardRounding guard;
-        if (const auto sign = certain_sign(polynomial(Interval{}))) {
+        if (const auto sign = certain_sign(guard, polynomial(Interval{}))) {
             ++predicate_counts().interval;
             return *sign;
         }

@@ -27,8 +27,10 @@ struct PartBlock {
 /// Performs step (e): collects the points and segments of each face and triangulates it.
 class Divider {
 public:
-    Divider(const TriangleSoup& soup, const Contacts& contacts, const PointOrder& order) :
-        soup_(soup), contacts_(contacts), order_(order) {}
+    Divider(UpwardWitness upward, const TriangleSoup& soup, const Contacts& contacts,
+            const PointOrder& order) :
+        soup_(soup),
+        contacts_(contacts), order_(order), triangulate_(upward) {}
 
     /// Divides one face, given its pieces and crossings.
     void operator()(std::span<const FaceConstraint> pieces, std::uint32_t first_piece,
@@ -121,11 +123,11 @@ std::vector<Part> divide_faces(const TriangleSoup& soup, const Contacts& contact
     statistics.divided = faces.size();
     const std::span pieces(contacts.pieces);
     const std::span crossings(contacts.crossings);
-    const auto blocks =
-        for_blocks<PartBlock>(faces.size(), 64, run, [&](std::size_t first, std::size_t last) {
+    const auto blocks = for_blocks<PartBlock>(
+        faces.size(), 64, run, [&](UpwardWitness upward, std::size_t first, std::size_t last) {
             PartBlock block;
             const PredicateCounts before = predicate_counts();
-            Divider retriangulate(soup, contacts, order);
+            Divider retriangulate(upward, soup, contacts, order);
             for (std::size_t i = first; i < last; ++i) {
                 const Range& r = faces[i];
                 retriangulate(pieces.subspan(r.piece, r.piece_end - r.piece), r.piece,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <mutex>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -32,7 +33,8 @@ void with_threads(const Run& run, const Work& work) {
 
 /// Cuts [0, count) into blocks of fixed size, so that the result cannot depend on the threads, and
 /// returns the Block that work(first, last) makes of each, in order. Each block runs under an
-/// UpwardRounding. If the run is stopped, the remaining blocks stay empty.
+/// UpwardRounding; work that takes its witness is called as work(witness, first, last). If the run
+/// is stopped, the remaining blocks stay empty.
 template <class Block, class Work>
 std::vector<Block> for_blocks(std::size_t count, std::size_t block_size, const Run& run,
                               const Work& work) {
@@ -40,7 +42,11 @@ std::vector<Block> for_blocks(std::size_t count, std::size_t block_size, const R
     const auto one = [&](std::size_t b) {
         if (run.stop.stop_requested()) return;
         const UpwardRounding guard;
-        blocks[b] = work(b * block_size, std::min(count, (b + 1) * block_size));
+        const std::size_t first = b * block_size, last = std::min(count, first + block_size);
+        if constexpr (std::is_invocable_v<const Work&, UpwardWitness, std::size_t, std::size_t>)
+            blocks[b] = work(guard, first, last);
+        else
+            blocks[b] = work(first, last);
     };
     if (run.threads <= 1 || blocks.size() <= 1) {
         for (std::size_t b = 0; b < blocks.size(); ++b) one(b);

@@ -201,7 +201,6 @@ void sort_keys(const PointStore& store, std::vector<Key>& keys, const Run& run) 
         return store.compare(a.point, b.point) < 0;
     };
     const auto sort = [&](std::size_t first, std::size_t last) {
-        const UpwardRounding guard;
         for (std::size_t b = first; b < last; ++b)
             if (starts[b + 1] - starts[b] > 1) std::sort(at(b), at(b + 1), before);
     };
@@ -231,7 +230,6 @@ PointOrder order_points(const TriangleSoup& soup, const Contacts& contacts, cons
         for (std::size_t k = first; k < last; ++k) keys[k] = {store.nearest(used[k]).x, used[k]};
     });
     sort_keys(store, keys, run);
-    const UpwardRounding guard;
     for (std::size_t i = 0; i < keys.size(); ++i) used[i] = keys[i].point;
     PointOrder order;
     order.same_as.resize(store.size());

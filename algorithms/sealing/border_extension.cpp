@@ -161,11 +161,11 @@ private:
 
 } // namespace
 
-bool lies_on(const Arrangement& a, const Edge& edge, std::uint32_t input_triangle,
-             std::uint32_t from, std::uint32_t to) {
+bool lies_on(UpwardWitness upward, const Arrangement& a, const Edge& edge,
+             std::uint32_t input_triangle, std::uint32_t from, std::uint32_t to) {
     const Axis axis = axis_of(a, input_triangle);
     return std::all_of(edge.begin(), edge.end(), [&](std::uint32_t v) {
-        return a.state->points.orient2d(axis, from, to, a.vertices[v]) == Sign::Zero;
+        return a.state->points.orient2d(upward, axis, from, to, a.vertices[v]) == Sign::Zero;
     });
 }
 
@@ -193,7 +193,7 @@ std::vector<BorderEdge> open_border_edges(const Arrangement& a, std::vector<bool
                 for (unsigned k = 0; k < 3; ++k) {
                     const auto border = borders.find(key_of(s, c[k], c[(k + 1) % 3]));
                     if (border == borders.end() || border->second.triangle != p ||
-                        !lies_on(a, a.state->adjacency.edges[e], p, c[k], c[(k + 1) % 3]))
+                        !lies_on(guard, a, a.state->adjacency.edges[e], p, c[k], c[(k + 1) % 3]))
                         continue;
                     border->second.open.push_back(a.state->adjacency.edges[e]);
                     const auto own = a.surfaces_of[a.state->adjacency.triangles_at[e][0]];

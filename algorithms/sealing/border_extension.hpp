@@ -12,6 +12,7 @@
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
+#include <terrane/kernel/numbers.hpp>
 
 namespace terrane {
 
@@ -74,8 +75,8 @@ std::vector<ExtensionTriangle> make_strips(const Arrangement& arrangement,
 void append_strips(std::vector<Surface>& surfaces, std::span<const ExtensionTriangle> strips);
 
 /// Tells exactly whether both ends of an edge of the arrangement lie on the edge between two input
-/// vertices of a triangle that contains the edge. The caller holds an UpwardRounding.
-bool lies_on(const Arrangement& arrangement, const Edge& edge, std::uint32_t input_triangle,
-             std::uint32_t from, std::uint32_t to);
+/// vertices of a triangle that contains the edge.
+bool lies_on(UpwardWitness upward, const Arrangement& arrangement, const Edge& edge,
+             std::uint32_t input_triangle, std::uint32_t from, std::uint32_t to);
 
 } // namespace terrane

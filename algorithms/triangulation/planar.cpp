@@ -86,8 +86,8 @@ std::vector<Triangle> cells_of(std::span<const Point3> points,
     face.inner_points.assign(in_use.begin(), in_use.end());
     face.segments.assign(edges.begin(), edges.end());
     const PointStore store(std::move(all));
-    FaceTriangulation triangulate;
     const UpwardRounding guard;
+    FaceTriangulation triangulate(guard);
     const auto cells = triangulate(store, rank, face);
     return {cells.begin(), cells.end()};
 }

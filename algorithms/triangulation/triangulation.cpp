@@ -242,7 +242,7 @@ Sign FaceTriangulation::turn(Local a, Local b, Local c) const {
         return *sign;
     }
     if (on_one_line(a, b, c)) return Sign::Zero;
-    return store_->orient2d(axis_, points_[a], points_[b], points_[c]);
+    return store_->orient2d(upward_, axis_, points_[a], points_[b], points_[c]);
 }
 
 Sign FaceTriangulation::in_circle(const Cell& c, Local d) const {
@@ -251,7 +251,8 @@ Sign FaceTriangulation::in_circle(const Cell& c, Local d) const {
         ++predicate_counts().static_filter;
         return *sign;
     }
-    return store_->in_circle(axis_, points_[c.v[0]], points_[c.v[1]], points_[c.v[2]], points_[d]);
+    return store_->in_circle(upward_, axis_, points_[c.v[0]], points_[c.v[1]], points_[c.v[2]],
+                             points_[d]);
 }
 
 unsigned FaceTriangulation::index_in(Local cell, Local neighbour) const {

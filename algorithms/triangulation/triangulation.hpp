@@ -39,13 +39,15 @@ struct FaceInput {
     void clear();
 };
 
-/// Triangulates faces one after the other and reuses its arrays.
+/// Triangulates faces one after the other and reuses its arrays. It must not outlive the guard whose
+/// witness it is made with.
 class FaceTriangulation {
 public:
+    explicit FaceTriangulation(UpwardWitness upward) : upward_(upward) {}
+
     /// Returns the triangles of a face, oriented as its corners; valid until the next call. rank[p]
-    /// is the position of p in the lexicographic order of all points in use. The caller holds an
-    /// UpwardRounding. Expected cost: n^(4/3) for n points, plus the number of edges that segments
-    /// cross.
+    /// is the position of p in the lexicographic order of all points in use. Expected cost:
+    /// n^(4/3) for n points, plus the number of edges that segments cross.
     std::span<const std::array<PointIndex, 3>> operator()(const PointStore& points,
                                                           std::span<const std::uint32_t> rank,
                                                           const FaceInput& face);
@@ -102,6 +104,7 @@ private:
     [[nodiscard]] bool in_perturbed_circle(const Cell& c, Local d) const;
     [[nodiscard]] bool is_convex(Side s) const;
 
+    [[no_unique_address]] UpwardWitness upward_;
     const PointStore* store_ = nullptr;
     std::span<const std::uint32_t> rank_;
     Axis axis_ = Axis::z;

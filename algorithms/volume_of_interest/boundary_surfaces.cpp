@@ -194,7 +194,7 @@ std::vector<Triangle> Polygon::triangles() const {
     const auto rank = ranks_of(points);
     const PointStore store(points);
     const UpwardRounding guard;
-    FaceTriangulation triangulate;
+    FaceTriangulation triangulate(guard);
     const auto made = triangulate(store, rank, face);
     auto inside = enclosed({made.begin(), made.end()}, points.size(), std::move(segments));
     for (Triangle& t : inside)

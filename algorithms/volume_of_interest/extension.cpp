@@ -146,7 +146,7 @@ std::vector<ExtensionTriangle> strips_beyond(const Arrangement& a,
 
 /// Tells exactly whether a part of a strip inside the volume contains the outer edge of the strip
 /// or an outer corner, which means that the strip ends inside.
-bool ends_here(const Arrangement& a, std::uint32_t t, std::uint32_t parent,
+bool ends_here(UpwardWitness upward, const Arrangement& a, std::uint32_t t, std::uint32_t parent,
                const ExtensionTriangle& strip) {
     const Triangle &corners = a.state->corners[parent], &part = a.triangles[t];
     for (unsigned k = 0; k < 3; ++k) {
@@ -156,7 +156,8 @@ bool ends_here(const Arrangement& a, std::uint32_t t, std::uint32_t parent,
         for (unsigned i = 0; i < 3; ++i) {
             if (!strip.is_base[k] && a.vertices[part[i]] == corners[k]) return true;
             const Edge edge{part[i], part[(i + 1) % 3]};
-            if (is_outer && lies_on(a, edge, parent, corners[k], corners[next])) return true;
+            if (is_outer && lies_on(upward, a, edge, parent, corners[k], corners[next]))
+                return true;
         }
     }
     return false;
@@ -183,7 +184,7 @@ Result<std::vector<bool>> find_reached(std::vector<Surface> surfaces,
     for (std::uint32_t t = 0; t < a.value().triangles.size(); ++t) {
         if (where.value()[t] != Where::inside) continue;
         for (const std::uint32_t p : a.value().parents_of[t])
-            if (by_input[p] != none && ends_here(a.value(), t, p, strips[by_input[p]]))
+            if (by_input[p] != none && ends_here(guard, a.value(), t, p, strips[by_input[p]]))
                 reached[strips[by_input[p]].piece] = false;
     }
     return reached;

@@ -29,7 +29,6 @@ constexpr std::uint32_t none = UINT32_MAX;
 
 /// Returns the rank of each vertex in the lexicographic order.
 std::vector<std::uint32_t> lexicographic_ranks(const TriangleComplex& sheets) {
-    const UpwardRounding guard;
     std::vector<std::uint32_t> order(sheets.vertices.size());
     std::iota(order.begin(), order.end(), 0U);
     std::sort(order.begin(), order.end(), [&](std::uint32_t v, std::uint32_t w) {

@@ -129,8 +129,8 @@ void triangulate_one(benchmark::State& state) {
     face.corners = {0, 1, 2};
     for (PointIndex i = 3; i < points.size(); ++i) face.inner_points.push_back(i);
     for (PointIndex i = 3; i + 1 < points.size(); i += 2) face.segments.push_back({i, i + 1});
-    FaceTriangulation triangulation;
     const UpwardRounding guard;
+    FaceTriangulation triangulation(guard);
     for (auto _ : state) benchmark::DoNotOptimize(triangulation(store, rank, face));
 }
 

@@ -74,7 +74,9 @@ bool have_common_end(const FaceConstraint& a, const FaceConstraint& b) {
 /// Finds all crossings in a face by a sweep along the first axis of its projection.
 class FaceSweep {
 public:
-    FaceSweep(const TriangleSoup& soup, const Contacts& contacts, std::vector<NewCrossing>& out) :
+    FaceSweep(UpwardWitness upward, const TriangleSoup& soup, const Contacts& contacts,
+              std::vector<NewCrossing>& out) :
+        upward_(upward),
         soup_(soup), contacts_(contacts), out_(out) {}
 
     /// Tests pieces [first, last), which are those of one face.
@@ -129,8 +131,8 @@ private:
     Sign side(const InnerSegment& s, PointIndex p) const {
         const PointStore& store = contacts_.points;
         if (is_on_by_name(store.construction(p), s)) return Sign::Zero;
-        if (s.is_line) return store.orient2d(axis_, s.line[0], s.line[1], p);
-        return store.side_of_plane(s.plane[0], s.plane[1], s.plane[2], p);
+        if (s.is_line) return store.orient2d(upward_, axis_, s.line[0], s.line[1], p);
+        return store.side_of_plane(upward_, s.plane[0], s.plane[1], s.plane[2], p);
     }
 
     /// Whether the ends of the other segment lie strictly on both sides of the line of s.
@@ -159,6 +161,7 @@ private:
         return three_planes(soup_.triangles[face_], a.plane, b.plane);
     }
 
+    [[no_unique_address]] UpwardWitness upward_;
     const TriangleSoup& soup_;
     const Contacts& contacts_;
     std::vector<NewCrossing>& out_;
@@ -176,11 +179,11 @@ void find_crossings(const TriangleSoup& soup, Contacts& contacts, const Run& run
     const std::size_t faces = starts.size();
     starts.push_back(static_cast<std::uint32_t>(contacts.pieces.size()));
 
-    const auto blocks =
-        for_blocks<CrossingBlock>(faces, 64, run, [&](std::size_t first, std::size_t last) {
+    const auto blocks = for_blocks<CrossingBlock>(
+        faces, 64, run, [&](UpwardWitness upward, std::size_t first, std::size_t last) {
             CrossingBlock block;
             const PredicateCounts before = predicate_counts();
-            FaceSweep sweep(soup, contacts, block.crossings);
+            FaceSweep sweep(upward, soup, contacts, block.crossings);
             for (std::size_t f = first; f < last; ++f) sweep(starts[f], starts[f + 1]);
             block.predicates = predicate_counts() - before;
             return block;

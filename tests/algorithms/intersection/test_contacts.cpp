@@ -39,7 +39,6 @@ void check_order(const Used& used) {
     const PointOrder order = used.order(1);
     const PointStore& store = used.contacts.points;
     const auto count = static_cast<PointIndex>(store.size());
-    const UpwardRounding guard;
     bool ok = true;
     for (PointIndex a = 0; a < count; ++a)
         for (PointIndex b = 0; b < count; ++b) {

@@ -159,7 +159,7 @@ FaceInput random_face(Random& random, const Sheet& s, int percent, int segments)
 
 Triangles triangulate(const Sheet& s, const FaceInput& face) {
     const UpwardRounding guard;
-    FaceTriangulation triangulation;
+    FaceTriangulation triangulation(guard);
     const auto result = triangulation(s.store, s.rank, face);
     return {result.begin(), result.end()};
 }

@@ -153,7 +153,7 @@ private:
                     nodes.push_back(cube.corner(c));
         std::vector<double> values(nodes.size());
         for_blocks<char>(nodes.size(), 256, run_, [&](std::size_t a, std::size_t b) {
-            CGAL::Protect_FPU_rounding<true> nearest(CGAL_FE_TONEAREST);
+            const ToNearest mode;
             for (std::size_t n = a; n < b; ++n) values[n] = function_.value(place(nodes[n]));
             return '\0';
         });
