@@ -224,6 +224,8 @@ Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
     // (f) one mesh
     step.next("assemble");
     assemble(a, std::move(soup), std::move(patches), std::move(division), run);
+    a.statistics.triangles = a.triangles.size();
+    a.statistics.vertices = a.vertices.size();
     step.stop();
     assert_invariants(a);
     report(1);

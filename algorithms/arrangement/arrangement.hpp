@@ -36,12 +36,14 @@ struct ArrangeOptions {
     Search search = Search::automatic; ///< method that finds candidates; never changes the result
 };
 
-/// Counts and times of the steps.
+/// Counts of the steps. A part of an arrangement keeps those of the whole.
 struct ArrangeStatistics {
     std::size_t candidates = 0;         ///< pairs of triangles whose boxes overlap
     std::size_t improper_contacts = 0;  ///< pairs of input triangles that meet improperly
     std::size_t divided = 0;            ///< input triangles that were triangulated
     std::size_t constructed_points = 0; ///< distinct points that are no input vertices
+    std::size_t triangles = 0;          ///< of the result
+    std::size_t vertices = 0;           ///< of the result
     PredicateCounts predicates;         ///< signs decided by each stage
 };
 

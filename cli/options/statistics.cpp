@@ -39,8 +39,8 @@ void add_statistics(Json& json, const Arrangement& a, Search asked) {
                       {"candidates", s.candidates},
                       {"tests", s.candidates},
                       {"improper_contacts", s.improper_contacts}};
-    json["arrangement"] = {{"triangles", a.triangles.size()},
-                           {"vertices", a.vertices.size()},
+    json["arrangement"] = {{"triangles", s.triangles},
+                           {"vertices", s.vertices},
                            {"divided", s.divided},
                            {"constructed_points", s.constructed_points}};
     json["predicates"] = {{"static", s.predicates.static_filter},

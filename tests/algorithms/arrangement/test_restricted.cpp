@@ -25,6 +25,8 @@ TEST_CASE("restricted: keeping everything changes nothing, keeping nothing leave
     CHECK(same.state->whole);
     const Arrangement none = restricted(a, std::vector<bool>(a.triangles.size(), false));
     CHECK(none.triangles.empty());
+    CHECK(none.statistics.triangles == a.triangles.size()); // a part keeps the counts of the whole
+    CHECK(none.statistics.vertices == a.vertices.size());
     CHECK(none.vertices.empty());
     CHECK_FALSE(none.state->whole);
     check_consistent(none);
