@@ -244,15 +244,15 @@ ExactState& own_state(Arrangement& a) {
     return const_cast<ExactState&>(*a.state); // created non-const, here or by arrange
 }
 
-const Point3& Arrangement::nearest(std::uint32_t vertex) const {
+const Point3& Arrangement::nearest(VertexId vertex) const {
     return state->points.nearest(vertices[vertex]);
 }
 
-std::array<std::string, 3> Arrangement::coordinates(std::uint32_t vertex) const {
+std::array<std::string, 3> Arrangement::coordinates(VertexId vertex) const {
     return fractions(state->points, vertices[vertex], 10);
 }
 
-Construction Arrangement::construction(std::uint32_t vertex) const {
+Construction Arrangement::construction(VertexId vertex) const {
     return state->points.construction(vertices[vertex]);
 }
 

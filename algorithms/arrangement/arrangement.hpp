@@ -19,6 +19,7 @@
 #include <vector>
 
 #include <terrane/algorithms/arrangement/input_triangles.hpp>
+#include <terrane/algorithms/core/id.hpp>
 #include <terrane/algorithms/core/index_lists.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
@@ -76,11 +77,11 @@ struct Arrangement {
     std::shared_ptr<const ExactState> state = empty_state(); ///< never null; shared by copies
 
     /// Returns the doubles nearest to a vertex (an index into vertices).
-    [[nodiscard]] const Point3& nearest(std::uint32_t vertex) const;
+    [[nodiscard]] const Point3& nearest(VertexId vertex) const;
     /// Returns the exact coordinates of a vertex as reduced fractions: "-5/3", "7".
-    [[nodiscard]] std::array<std::string, 3> coordinates(std::uint32_t vertex) const;
+    [[nodiscard]] std::array<std::string, 3> coordinates(VertexId vertex) const;
     /// Returns how a vertex is constructed from input vertices.
-    [[nodiscard]] Construction construction(std::uint32_t vertex) const;
+    [[nodiscard]] Construction construction(VertexId vertex) const;
     /// Returns all input vertices, used or not.
     [[nodiscard]] std::span<const Point3> input_vertices() const;
     /// Returns the corners of all input triangles; each corner is the first input vertex with the

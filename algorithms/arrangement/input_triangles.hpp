@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <terrane/algorithms/core/id.hpp>
+
 namespace terrane {
 
 /// The numbering of input triangles and input vertices through all surfaces.
@@ -15,9 +17,9 @@ struct InputTriangles {
                                                           ///< same three points}, ascending
 
     /// Returns the surface of an input triangle.
-    [[nodiscard]] std::uint32_t surface_of(std::uint32_t triangle) const;
+    [[nodiscard]] SurfaceId surface_of(InputTriangleId triangle) const;
     /// Returns the first triangle with the same three points: itself if it is no duplicate.
-    [[nodiscard]] std::uint32_t first_same(std::uint32_t triangle) const;
+    [[nodiscard]] InputTriangleId first_same(InputTriangleId triangle) const;
 };
 
 } // namespace terrane

@@ -18,7 +18,8 @@ IndexLists<std::uint32_t> surfaces_of_parents(const InputTriangles& inputs,
             std::uint32_t s = 0; // usually the surface of the previous triangle
             for (std::size_t t = first; t < last; ++t) {
                 const std::uint32_t p = parents_of.values[t];
-                if (p < inputs.first[s] || p >= inputs.first[s + 1]) s = inputs.surface_of(p);
+                if (p < inputs.first[s] || p >= inputs.first[s + 1])
+                    s = inputs.surface_of(InputTriangleId(p));
                 surfaces.values[t] = s;
             }
         });
@@ -32,7 +33,7 @@ IndexLists<std::uint32_t> surfaces_of_parents(const InputTriangles& inputs,
         for (const std::uint32_t p : parents_of[t]) { // parents ascend, and so do their surfaces
             const bool same = inputs.first[s] <= p && p < inputs.first[s + 1];
             if (any && same) continue;
-            if (!same) s = inputs.surface_of(p);
+            if (!same) s = inputs.surface_of(InputTriangleId(p));
             surfaces.values.push_back(s);
             any = true;
         }
@@ -52,7 +53,8 @@ public:
     [[nodiscard]] bool agree(std::uint32_t s, std::uint32_t t) const {
         const auto p = parents_of_[s], q = parents_of_[t];
         if (p.size() == 1 && q.size() == 1)
-            return p[0] == q[0] || inputs_.surface_of(p[0]) == inputs_.surface_of(q[0]);
+            return p[0] == q[0] || inputs_.surface_of(InputTriangleId(p[0])) ==
+                                       inputs_.surface_of(InputTriangleId(q[0]));
         return signature(p) == signature(q);
     }
 
@@ -62,7 +64,8 @@ private:
     signature(std::span<const std::uint32_t> parents) const {
         std::vector<std::array<std::uint32_t, 2>> distinct;
         for (const std::uint32_t p : parents)
-            distinct.push_back({inputs_.surface_of(p), inputs_.first_same(p)});
+            distinct.push_back(
+                {inputs_.surface_of(InputTriangleId(p)), inputs_.first_same(InputTriangleId(p))});
         std::sort(distinct.begin(), distinct.end());
         distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
         std::vector<std::uint32_t> surfaces;

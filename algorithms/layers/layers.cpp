@@ -202,7 +202,8 @@ Result<Layered> stack_layers(std::span<const Surface> surfaces, std::span<const 
 Result<Layered> harden(const Surface& hard, const Surface& soft, Keep keep,
                        const LayerOptions& options, const Run& run) {
     const std::array<Surface, 2> both{hard, soft};
-    std::array<Layer, 2> order{Layer{1, 0}, Layer{0, 1}}; // the soft one is on top
+    std::array<Layer, 2> order{Layer{SurfaceId(1), 0},
+                               Layer{SurfaceId(0), 1}}; // the soft one is on top
     if (keep == Keep::lower) std::swap(order[0], order[1]);
     return stack_layers(both, order, options, run);
 }

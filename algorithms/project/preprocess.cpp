@@ -55,7 +55,7 @@ Result<std::vector<FillTask>> tasks_of(const Project& project, const Names& name
             if (std::any_of(tasks.begin(), tasks.end(),
                             [&](const FillTask& t) { return t.surface == s; }))
                 return at_key(project, key, names.labels[s] + " is in an entry before this one");
-            tasks.push_back({s, options_of(entry)});
+            tasks.push_back({SurfaceId(s), options_of(entry)});
         }
     }
     return tasks;
@@ -76,7 +76,7 @@ Result<std::vector<Layer>> order_of(const Project& project, const Names& names) 
         if (std::any_of(order.begin(), order.end(),
                         [&](const Layer& l) { return l.surface == found[0]; }))
             return at_key(project, key, name + " is in the order twice");
-        order.push_back({found[0], project.layers->order[i].hardness});
+        order.push_back({SurfaceId(found[0]), project.layers->order[i].hardness});
     }
     return order;
 }

@@ -393,7 +393,8 @@ void report_lost_regions(const Arrangement& a, RoundedMesh& rounded) {
     const auto before = regions_per_surface(a.surfaces.size(), exact.regions);
     const auto after = regions_per_surface(a.surfaces.size(), rounded.regions);
     for (std::uint32_t s = 0; s < before.size(); ++s)
-        if (after[s] < before[s]) rounded.report.lost_regions.push_back({s, before[s], after[s]});
+        if (after[s] < before[s])
+            rounded.report.lost_regions.push_back({SurfaceId(s), before[s], after[s]});
 }
 
 /// Makes the arrangement of the snapped input one of the original input: triangles that have the

@@ -21,6 +21,7 @@
 #include <terrane/algorithms/arrangement/arrangement.hpp>
 #include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/check/conforming.hpp>
+#include <terrane/algorithms/core/id.hpp>
 #include <terrane/algorithms/core/named_constant.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
@@ -37,9 +38,9 @@ struct RoundingOptions {
 
 /// A surface that lost regions because they were too thin for doubles.
 struct LostRegions {
-    std::uint32_t surface = 0; ///< index of the surface
-    std::size_t exact = 0;     ///< regions before rounding
-    std::size_t rounded = 0;   ///< regions after rounding
+    SurfaceId surface{};     ///< index of the surface
+    std::size_t exact = 0;   ///< regions before rounding
+    std::size_t rounded = 0; ///< regions after rounding
 };
 
 /// The moves, contacts and losses of rounding.

@@ -131,7 +131,9 @@ private:
             const ExtensionTriangle& strip = strips_[by_input_[p]];
             const Triangle& c = a_.state->corners[p];
             const unsigned k = strip.side;
-            if (!strip.is_fan && lies_on(upward, a_, edge, p, c[k], c[(k + 1) % 3])) return true;
+            if (!strip.is_fan &&
+                lies_on(upward, a_, edge, InputTriangleId(p), c[k], c[(k + 1) % 3]))
+                return true;
         }
         return false;
     }

@@ -55,7 +55,7 @@ Result<TetrahedraOptions> options_of(const Model& model, const SurfaceLabels& la
         const auto surfaces = surfaces_of(model, labels, size.of);
         if (!surfaces) return surfaces.error();
         for (const std::uint32_t s : surfaces.value())
-            options.surface_sizes.push_back({s, size.edge_length});
+            options.surface_sizes.push_back({SurfaceId(s), size.edge_length});
     }
     for (const NamedSize& size : request.size_in) {
         const auto block = block_of(model, size.of);
@@ -66,7 +66,7 @@ Result<TetrahedraOptions> options_of(const Model& model, const SurfaceLabels& la
                          fmt::format("block {} is too thin for doubles", block.value()),
                          size.of.place};
         options.block_sizes.push_back(
-            {static_cast<std::uint32_t>(own - shown.begin()), size.edge_length});
+            {BlockId(static_cast<std::uint32_t>(own - shown.begin())), size.edge_length});
     }
     return options;
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <terrane/algorithms/check/conforming.hpp>
+#include <terrane/algorithms/core/id.hpp>
 #include <terrane/algorithms/core/named_constant.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
@@ -25,14 +26,14 @@ struct Box3 {
 
 /// A wanted edge length on and near a surface.
 struct SurfaceSize {
-    std::uint32_t surface = 0; ///< index of a surface of the mesh
-    double edge_length = 0;    ///< wanted, > 0, unit of the mesh
+    SurfaceId surface{};    ///< index of a surface of the mesh
+    double edge_length = 0; ///< wanted, > 0, unit of the mesh
 };
 
 /// A wanted edge length in a block. Block 0 is the space between the mesh and the box.
 struct BlockSize {
-    std::uint32_t block = 0; ///< number that find_volumes(mesh) gives to it
-    double edge_length = 0;  ///< wanted, > 0, unit of the mesh
+    BlockId block{};        ///< number that find_volumes(mesh) gives to it
+    double edge_length = 0; ///< wanted, > 0, unit of the mesh
 };
 
 /// Options of tetrahedralize().

@@ -56,7 +56,7 @@ public:
     }
     /// Returns the point at which the strip aims from a vertex. The strip goes beyond it by half,
     /// to the limit.
-    [[nodiscard]] Point3 target(std::uint32_t surface, std::uint32_t vertex) const {
+    [[nodiscard]] Point3 target(SurfaceId surface, std::uint32_t vertex) const {
         const auto& edges = at_vertex_.at({surface, vertex});
         Point3 sum{};
         double weight = 0;
@@ -96,7 +96,7 @@ private:
 
     /// Adds the directions of the edges from a vertex on, weighted by their lengths within the
     /// window.
-    void walk(std::uint32_t surface, std::uint32_t vertex, std::uint32_t edge, Point3& sum,
+    void walk(SurfaceId surface, std::uint32_t vertex, std::uint32_t edge, Point3& sum,
               double& weight) const {
         double left = windows_[edge];
         while (true) {
@@ -146,7 +146,7 @@ std::vector<ExtensionTriangle> strips_beyond(const Arrangement& a,
 
 /// Tells exactly whether a part of a strip inside the volume contains the outer edge of the strip
 /// or an outer corner, which means that the strip ends inside.
-bool ends_here(UpwardWitness upward, const Arrangement& a, std::uint32_t t, std::uint32_t parent,
+bool ends_here(UpwardWitness upward, const Arrangement& a, TriangleId t, InputTriangleId parent,
                const ExtensionTriangle& strip) {
     const Triangle &corners = a.state->corners[parent], &part = a.triangles[t];
     for (unsigned k = 0; k < 3; ++k) {
@@ -184,7 +184,8 @@ Result<std::vector<bool>> find_reached(std::vector<Surface> surfaces,
     for (std::uint32_t t = 0; t < a.value().triangles.size(); ++t) {
         if (where.value()[t] != Where::inside) continue;
         for (const std::uint32_t p : a.value().parents_of[t])
-            if (by_input[p] != none && ends_here(guard, a.value(), t, p, strips[by_input[p]]))
+            if (by_input[p] != none &&
+                ends_here(guard, a.value(), TriangleId(t), InputTriangleId(p), strips[by_input[p]]))
                 reached[strips[by_input[p]].piece] = false;
     }
     return reached;

@@ -182,7 +182,7 @@ std::vector<OpenBorder> open_borders(const Arrangement& a, std::span<const std::
         for (std::uint32_t i = 0; i < open.size(); ++i) {
             const Point3 &p = places[open[i][0]], &q = places[open[i][1]];
             const auto [it, fresh] =
-                by_set.emplace(sets.find(i), OpenBorder{surface, 0, std::min(p, q)});
+                by_set.emplace(sets.find(i), OpenBorder{SurfaceId(surface), 0, std::min(p, q)});
             it->second.length += std::hypot(p.x - q.x, p.y - q.y, p.z - q.z);
             it->second.place = std::min({it->second.place, p, q});
         }

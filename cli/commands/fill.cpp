@@ -122,7 +122,8 @@ std::vector<FillTask> tasks_of(const FillCommand& command, const Inputs& inputs)
     if (command.method == "rbf") options.method = FillMethod::rbf;
     options.model = variogram_model_named(command.model);
     std::vector<FillTask> tasks;
-    for (std::uint32_t s = 0; s < inputs.surfaces.size(); ++s) tasks.push_back({s, options});
+    for (std::uint32_t s = 0; s < inputs.surfaces.size(); ++s)
+        tasks.push_back({SurfaceId(s), options});
     return tasks;
 }
 

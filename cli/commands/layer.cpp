@@ -71,7 +71,7 @@ Result<Layer> layer_named(const std::string& text, const Inputs& inputs) {
     if (found.empty()) return usage("no surface is called " + name, "--layer");
     if (found.size() > 1) // labels are unique
         std::erase_if(found, [&](std::uint32_t s) { return inputs.labels[s] != name; });
-    return Layer{found.at(0), hardness};
+    return Layer{SurfaceId(found.at(0)), hardness};
 }
 
 Result<std::vector<Layer>> order_of(const LayerCommand& command, const Inputs& inputs) {
@@ -81,7 +81,7 @@ Result<std::vector<Layer>> order_of(const LayerCommand& command, const Inputs& i
             if (inputs.surfaces_of_file[file] != 1)
                 return usage("must hold one surface, or name them with --layer",
                              file == 0 ? "--hard" : "--soft");
-        order = {{1, 0}, {0, 1}};
+        order = {{SurfaceId(1), 0}, {SurfaceId(0), 1}};
         if (command.keep == "lower") std::swap(order[0], order[1]);
         return order;
     }

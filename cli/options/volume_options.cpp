@@ -239,7 +239,7 @@ std::string text_of(std::span<const ExtendedBorder> borders, const Inputs& input
 void add_statistics(Json& json, std::span<const ExtendedBorder> borders) {
     Json list = Json::array();
     for (const ExtendedBorder& b : borders)
-        list.push_back({{"surface", b.surface},
+        list.push_back({{"surface", std::uint32_t{b.surface}},
                         {"reached", b.reached},
                         {"length", b.length},
                         {"place", {b.place.x, b.place.y, b.place.z}}});
@@ -258,7 +258,7 @@ void add_statistics(Json& json, const VolumeReport& report, const Inputs& inputs
                             {"open_length", cut.open_length}});
     }
     for (const OpenBorder& b : report.borders)
-        borders.push_back({{"surface", b.surface},
+        borders.push_back({{"surface", std::uint32_t{b.surface}},
                            {"length", b.length},
                            {"place", {b.place.x, b.place.y, b.place.z}}});
     json["volume_of_interest"] = {{"surfaces", std::move(surfaces)},

@@ -130,13 +130,13 @@ public:
             if (session.stopped()) return Error{ErrorCode::interrupted, "stopped on request", ""};
             if (s.blocks[b].interfaces.empty()) continue;
             extras_.block_files[b] = name("blocks/block_", b);
-            const auto part = block_part(model_.mesh, model_.volumes, s, b);
+            const auto part = block_part(model_.mesh, model_.volumes, s, BlockId(b));
             if (auto done = write_part(part, extras_.block_files[b]); !done) return done;
         }
         for (std::uint32_t i = 0; i < s.interfaces.size(); ++i) {
             if (session.stopped()) return Error{ErrorCode::interrupted, "stopped on request", ""};
             extras_.interface_files.push_back(name("interfaces/interface_", i));
-            const auto part = interface_part(model_.mesh, model_.volumes, s, i);
+            const auto part = interface_part(model_.mesh, model_.volumes, s, InterfaceId(i));
             if (auto done = write_part(part, extras_.interface_files[i]); !done) return done;
         }
         return write_json();

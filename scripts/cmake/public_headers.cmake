@@ -6,6 +6,7 @@ set(terrane_headers
     kernel/construction.hpp
     kernel/point.hpp
     kernel/predicate_counts.hpp
+    algorithms/core/id.hpp
     algorithms/core/index_lists.hpp
     algorithms/core/named_constant.hpp
     algorithms/core/process_memory.hpp

@@ -43,7 +43,7 @@ std::vector<terrane::Surface> surfaces() {
 /// Tells whether some vertex has exactly these coordinates.
 bool has_vertex(const terrane::Arrangement& a, const std::array<std::string, 3>& coordinates) {
     for (std::uint32_t v = 0; v < a.vertices.size(); ++v)
-        if (a.coordinates(v) == coordinates) return true;
+        if (a.coordinates(terrane::VertexId(v)) == coordinates) return true;
     return false;
 }
 
@@ -51,7 +51,7 @@ bool has_vertex(const terrane::Arrangement& a, const std::array<std::string, 3>&
 terrane::ArrangementClaim claim_of(const terrane::Arrangement& a) {
     terrane::ArrangementClaim claim;
     for (std::uint32_t v = 0; v < a.vertices.size(); ++v)
-        claim.vertices.push_back(a.construction(v));
+        claim.vertices.push_back(a.construction(terrane::VertexId(v)));
     claim.triangles = a.triangles;
     claim.parents_of = a.parents_of;
     claim.intersection_edges = a.intersection_edges;
@@ -64,11 +64,13 @@ void check_exact(const std::vector<terrane::Surface>& input, const terrane::Arra
     require(a.surfaces.size() == input.size(), "surfaces are those of the input");
     require(!a.intersection_edges.empty(), "the fault cuts the horizon");
     require(has_vertex(a, {"1", "4/5", "0"}), "the fault's side meets the horizon at (1, 4/5, 0)");
-    require(a.nearest(0) == a.input_vertices()[0], "an input vertex is its own nearest double");
+    require(a.nearest(terrane::VertexId(0)) == a.input_vertices()[0],
+            "an input vertex is its own nearest double");
     require(terrane::verify_arrangement(input, claim_of(a)).empty(),
             "the verifier has no objection");
     const terrane::Arrangement copy = a;
-    require(copy.coordinates(0) == a.coordinates(0), "a copy has the same points");
+    require(copy.coordinates(terrane::VertexId(0)) == a.coordinates(terrane::VertexId(0)),
+            "a copy has the same points");
     const auto volumes = terrane::find_volumes(a);
     require(volumes && volumes->block_count() == 1, "there is one block");
     require(volumes && terrane::exact_volumes(a, *volumes)[1] == "9/2", "its volume is 9/2");

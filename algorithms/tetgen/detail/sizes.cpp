@@ -121,7 +121,7 @@ Result<std::vector<RegionPoint>> points_of_bounded(const Mesh& mesh, const Volum
                                      "doubles was found in it",
                                      v),
                          ""};
-        points.push_back({*places[v], v});
+        points.push_back({*places[v], BlockId(v)});
     }
     return points;
 }

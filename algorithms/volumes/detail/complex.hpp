@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include <terrane/algorithms/core/id.hpp>
 #include <terrane/algorithms/core/index_lists.hpp>
 #include <terrane/algorithms/mesh/edges.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
@@ -41,8 +42,8 @@ constexpr std::uint32_t opposite(std::uint32_t side) {
 }
 
 /// Returns the side of the plane of a triangle on which a vertex lies: Positive in front.
-inline Sign side_of(UpwardWitness upward, const TriangleComplex& sheets, std::uint32_t triangle,
-                    std::uint32_t vertex) {
+inline Sign side_of(UpwardWitness upward, const TriangleComplex& sheets, TriangleId triangle,
+                    VertexId vertex) {
     const Triangle& p = sheets.planes[triangle];
     return sheets.points.side_of_plane(upward, p[0], p[1], p[2], sheets.vertices[vertex]);
 }

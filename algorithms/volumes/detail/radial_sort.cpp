@@ -50,7 +50,7 @@ private:
             return Sign::Zero;
         const auto [a, b, c] = sheets_.triangles[q.triangle];
         const std::uint32_t apex = a ^ b ^ c ^ low_ ^ q.high; // the third corner
-        const Sign side = side_of(upward_, sheets_, p.triangle, apex);
+        const Sign side = side_of(upward_, sheets_, TriangleId(p.triangle), VertexId(apex));
         return runs_along(sheets_.triangles[p.triangle], low_, p.high) ? side : -side;
     }
 

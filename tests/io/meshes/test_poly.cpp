@@ -82,7 +82,8 @@ TEST_CASE("TetGen: .poly and .smesh read back by its own reader", "[io][poly]") 
     TemporaryFolder folder;
     auto mesh = awkward_mesh();
     mesh.surfaces[0].name = "top # reservoir"; // in a comment, which TetGen must skip
-    const std::vector<RegionPoint> regions{{{0.1, -2, 3e-300}, 7}, {{1.0 / 3, 5, 6}, 8}};
+    const std::vector<RegionPoint> regions{{{0.1, -2, 3e-300}, BlockId(7)},
+                                           {{1.0 / 3, 5, 6}, BlockId(8)}};
     for (const std::string extension : {"poly", "smesh"}) {
         INFO(extension);
         REQUIRE(message_of(write_mesh(mesh, folder / ("a_" + extension + "." + extension),
