@@ -36,6 +36,16 @@ class TheTree(unittest.TestCase):
                      if f.startswith(top + "/") and f not in own_targets]
             self.assertEqual(listed, known)
 
+    def test_lists_the_public_headers_alike_everywhere(self):
+        public = set(include_graph.public_headers(ROOT))
+        self.assertGreater(len(public), 40)
+        included = set(include_graph.INCLUDE.findall((ROOT / "terrane.hpp").read_text()))
+        verifier = {h for h in public if h.startswith("algorithms/verify/")}
+        self.assertEqual(included, public - verifier)
+        documented = re.search(r"^INPUT +=((?:.*\\\n)*.*)", (ROOT / "scripts/Doxyfile").read_text(), re.M)
+        listed = set(documented.group(1).replace("\\", " ").split())
+        self.assertEqual(listed, public | {"terrane.hpp"})
+
 
 class Damage(unittest.TestCase):
     ORDER = ["kernel", "algorithms/mesh", "algorithms/check", "io"]
