@@ -14,11 +14,16 @@
 namespace terrane::cli {
 namespace {
 
-sigset_t interrupts() {
+/// Ends the watcher's sleep. By default the signal is ignored, so no other program is disturbed.
+constexpr int wake_signal = SIGURG;
+
+/// Returns the signals that the watcher waits for; all threads block them.
+sigset_t watched_signals() {
     sigset_t set;
     sigemptyset(&set);
     sigaddset(&set, SIGINT);
     sigaddset(&set, SIGTERM);
+    sigaddset(&set, wake_signal);
     return set;
 }
 
@@ -34,13 +39,14 @@ Session::Session(unsigned threads) :
         share_ = share;
     };
     run_.timing = times_.observer();
-    const auto set = interrupts();
+    const auto set = watched_signals();
     pthread_sigmask(SIG_BLOCK, &set, nullptr);
     watcher_ = std::jthread([this](const std::stop_token& over) { watch(over); });
 }
 
 Session::~Session() {
     watcher_.request_stop();
+    pthread_kill(watcher_.native_handle(), wake_signal); // else it would sleep until its next tick
     watcher_.join();
     clear_line();
 }
@@ -60,10 +66,11 @@ void Session::end_stage() {
 }
 
 void Session::watch(const std::stop_token& over) {
-    const auto set = interrupts();
+    const auto set = watched_signals();
     const timespec tick{0, 100'000'000};
     while (!over.stop_requested()) {
-        if (sigtimedwait(&set, nullptr, &tick) > 0) on_interrupt();
+        const int received = sigtimedwait(&set, nullptr, &tick);
+        if (received == SIGINT || received == SIGTERM) on_interrupt();
         if (terminal_) show();
     }
 }
