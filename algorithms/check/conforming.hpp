@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <span>
-#include <utility>
 
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
@@ -34,7 +33,7 @@ public:
     operator const Mesh&() const { return *mesh_; } // NOLINT: implicit on purpose
 
 private:
-    explicit ConformingMesh(SharedMesh mesh) : mesh_(std::move(mesh)) {}
+    explicit ConformingMesh(const SharedMesh& mesh) : mesh_(mesh) {}
     friend Result<ConformingMesh>
     prove_conforming(Mesh mesh, std::span<const std::uint32_t> label_of, const Run& run);
     friend class rounding::detail::RoundingProof;
