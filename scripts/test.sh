@@ -8,5 +8,7 @@ preset=${1:-release}
 
 scripts/setup.sh
 cmake --preset "$preset"
-cmake --build --preset "$preset" --target all all_verify_interface_header_sets # each public header alone
+targets=(all)
+[[ $preset == release ]] && targets+=(all_verify_interface_header_sets) # each public header alone
+cmake --build --preset "$preset" --target "${targets[@]}"
 ctest --preset "$preset"
