@@ -6,6 +6,7 @@
 #include <sys/resource.h>
 
 #include <terrane/algorithms/triangulation/point_surface.hpp>
+#include <terrane/cli/reports/pair_report.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 
 namespace terrane::cli {
@@ -75,6 +76,7 @@ void add_statistics(Json& json, const RoundedMesh& rounded, const StageTimes& ti
                         {"collapsed_triangles", r.collapsed_triangles},
                         {"surfaces_with_lost_regions", r.lost_regions.size()},
                         {"vanished_input_triangles", r.vanished.size()}};
+    if (r.pairs) json["rounding"]["pairs"] = json_of(*r.pairs);
     add_constants(json, "round", rounding_constants());
     const double regions = times.latest("round/regions");
     json["seconds"]["round"] = times.latest("round") - regions;
