@@ -78,6 +78,22 @@ std::vector<Surface> random_soup(std::mt19937& random) {
     return model;
 }
 
+/// Two surfaces of triangles that are nearly in one plane, at random.
+std::vector<Surface> nearly_coplanar_soup(std::mt19937& random) {
+    const double flat = std::ldexp(1, -30 - static_cast<int>(random() % 20));
+    std::uniform_real_distribution<double> at(0, 1), off(-flat, flat);
+    std::vector<Surface> model(2);
+    for (Surface& s : model)
+        for (std::uint32_t k = 0; k < 4; ++k) {
+            for (int i = 0; i < 3; ++i) {
+                const double x = at(random), y = at(random);
+                s.vertices.push_back({x, y, 0.3 * x + 0.2 * y + off(random)});
+            }
+            s.triangles.push_back({3 * k, 3 * k + 1, 3 * k + 2});
+        }
+    return model;
+}
+
 using Pairs = std::vector<std::array<std::uint32_t, 2>>;
 
 Pairs pairs_of(const RoundingReport& report) {
@@ -128,18 +144,18 @@ TEST_CASE("pair check: bounds clear most pairs of crossing sheets, in each of th
 }
 
 TEST_CASE("pair check: a full check finds what a broken shortcut hides") {
-    auto a = arranged(nearly_coplanar(8));
-    const auto sound = rounded(a, {.max_rounds = 0, .check = {PairCheck::full, true}});
-    REQUIRE_FALSE(sound.report.contacts.empty());
-    // Plants: separation is told of no pair of faces; all triangles are said to be one patch that
-    // nothing can make meet itself.
-    ExactState& state = own_state(a);
-    state.neighbours.clear();
-    std::fill(state.patches.of.begin(), state.patches.of.end(), no_group);
-    const auto fooled = rounded(a, {.max_rounds = 0});
-    CHECK(fooled.report.contacts.size() < sound.report.contacts.size());
-    const auto found = rounded(a, {.max_rounds = 0, .check = {PairCheck::full, false}});
-    CHECK(pairs_of(found.report) == pairs_of(sound.report));
+    constexpr RoundingOptions no_rounds{.max_rounds = 0}, full_no_rounds{0, full.check};
+    std::mt19937 random(8);
+    int hidden = 0;
+    for (int k = 0; k < 60; ++k) {
+        auto a = arranged(nearly_coplanar_soup(random));
+        const auto sound = rounded(a, full_no_rounds);
+        CHECK(pairs_of(rounded(a, no_rounds).report) == pairs_of(sound.report));
+        own_state(a).neighbours.clear(); // planted: separation is told of no pair of faces
+        hidden += rounded(a, no_rounds).report.contacts.size() < sound.report.contacts.size();
+        CHECK(pairs_of(rounded(a, full_no_rounds).report) == pairs_of(sound.report));
+    }
+    CHECK(hidden > 0);
 }
 
 TEST_CASE("pair check: meshes are proven conforming, or not, by either method") {
