@@ -97,8 +97,6 @@ private:
     void find_first_regions();
     void finish(std::span<const CandidatePair> pairs);
     [[nodiscard]] bool tests_all() const { return options_.check.method == PairCheck::full; }
-    void note_first_search(std::span<const std::uint32_t> parts,
-                           std::vector<std::uint32_t> patches);
     void report_moves();
     void report_vanished();
 
@@ -225,7 +223,6 @@ std::vector<CandidatePair> Rounding::first_contacts() {
                                       state_.points, state_.move, state_.triangles, a.parents_of},
                                      a.state->neighbours, run_);
         });
-    if (options_.check.count) first_search_.pairs = unproven.pairs;
     const auto improper = is_improper();
     std::vector<CandidatePair> pairs;
     {
@@ -245,22 +242,13 @@ std::vector<CandidatePair> Rounding::first_contacts() {
     sort_unique(unproven.parts);
     std::vector<std::uint32_t> patches(state_.triangles.size());
     for (std::uint32_t t = 0; t < patches.size(); ++t) patches[t] = patch_of(t);
-    if (options_.check.count) note_first_search(unproven.parts, patches);
+    if (options_.check.count) first_search_ = {unproven.pairs, unproven.parts, dirty, patches};
     if (unproven.parts.empty()) return pairs;
     const auto more = candidate_pairs_of({state_.points, state_.triangles}, unproven.parts, patches,
                                          improper, run_);
     pairs.insert(pairs.end(), more.begin(), more.end());
     sort_unique(pairs);
     return pairs;
-}
-
-void Rounding::note_first_search(std::span<const std::uint32_t> parts,
-                                 std::vector<std::uint32_t> patches) {
-    first_search_.patches = std::move(patches);
-    first_search_.is_part.assign(state_.triangles.size(), false);
-    for (const std::uint32_t t : parts) first_search_.is_part[t] = true;
-    first_search_.is_dirty.assign(state_.triangles.size(), false);
-    for (const std::uint32_t t : state_.found_dirty) first_search_.is_dirty[t] = true;
 }
 
 /// Performs one round. Returns false if snapping multiplied the contacts so much that dividing them

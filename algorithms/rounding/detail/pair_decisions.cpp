@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include <terrane/kernel/assertion.hpp>
 
@@ -35,6 +36,16 @@ std::vector<std::uint32_t> origins_of(const RoundingState& state,
 }
 
 } // namespace
+
+FirstSearch::FirstSearch(std::vector<CandidatePair> tested_pairs,
+                         std::span<const std::uint32_t> parts, std::span<const std::uint32_t> dirty,
+                         std::vector<std::uint32_t> patches_of) :
+    pairs(std::move(tested_pairs)),
+    is_part(patches_of.size(), false), is_dirty(patches_of.size(), false),
+    patches(std::move(patches_of)) {
+    for (const std::uint32_t t : parts) is_part[t] = true;
+    for (const std::uint32_t t : dirty) is_dirty[t] = true;
+}
 
 DecidedBy FirstSearch::decided_by(const CandidatePair& pair) const {
     if (is_dirty.empty()) return DecidedBy::exact_mesh;

@@ -23,6 +23,11 @@ namespace terrane::rounding::detail {
 /// How the first search decided pairs of triangles of the arrangement. Empty lists: it had nothing
 /// to decide, since no corner had moved.
 struct FirstSearch {
+    FirstSearch() = default;
+    /// The lists are of triangles; `tested` is sorted.
+    FirstSearch(std::vector<CandidatePair> tested, std::span<const std::uint32_t> parts,
+                std::span<const std::uint32_t> dirty, std::vector<std::uint32_t> patches_of);
+
     std::vector<CandidatePair> pairs;   ///< tested; sorted
     std::vector<bool> is_part;          ///< per triangle: tested against all but those of its patch
     std::vector<bool> is_dirty;         ///< per triangle: a corner has moved
