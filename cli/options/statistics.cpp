@@ -6,7 +6,6 @@
 #include <sys/resource.h>
 
 #include <terrane/algorithms/triangulation/point_surface.hpp>
-#include <terrane/cli/reports/pair_report.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 
 namespace terrane::cli {
@@ -81,6 +80,14 @@ void add_statistics(Json& json, const RoundedMesh& rounded, const StageTimes& ti
     const double regions = times.latest("round/regions");
     json["seconds"]["round"] = times.latest("round") - regions;
     json["seconds"]["regions"] = regions;
+}
+
+Json json_of(const PairCounts& pairs) {
+    return {{"tested", pairs.tested},
+            {"in_patches", pairs.in_patches},
+            {"separated", pairs.separated},
+            {"unmoved", pairs.unmoved},
+            {"apart", pairs.apart}};
 }
 
 void add_constants(Json& json, const char* stage, std::span<const NamedConstant> constants) {

@@ -32,12 +32,4 @@ std::string text_of(const std::optional<PairCounts>& pairs) {
                        pairs->separated, pairs->unmoved, pairs->apart);
 }
 
-Json json_of(const PairCounts& pairs) {
-    return {{"tested", pairs.tested},
-            {"in_patches", pairs.in_patches},
-            {"separated", pairs.separated},
-            {"unmoved", pairs.unmoved},
-            {"apart", pairs.apart}};
-}
-
 } // namespace terrane::cli
