@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // Tests each command from outside.
+#include <cstdint>
 #include <sstream>
 
 #include <catch2/catch.hpp>
