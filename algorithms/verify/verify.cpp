@@ -9,6 +9,7 @@
 #include <terrane/algorithms/verify/detail/contacts.hpp>
 #include <terrane/algorithms/verify/detail/indices.hpp>
 #include <terrane/algorithms/verify/detail/inputs.hpp>
+#include <terrane/algorithms/verify/detail/meetings.hpp>
 #include <terrane/algorithms/verify/detail/partition.hpp>
 #include <terrane/algorithms/verify/detail/rational.hpp>
 
@@ -242,8 +243,6 @@ void check_all_parents(const Inputs& inputs, std::span<const Vector4> input_poin
     }
 }
 
-// --- R7: intersection edges -------------------------------------------------------------------
-
 // --- R8: set aside ----------------------------------------------------------------------------
 
 void check_set_aside(const SetAside& truth, const ArrangementClaim& claim, Violations& found) {
@@ -296,6 +295,9 @@ std::vector<Violation> verify_arrangement(std::span<const Surface> inputs,
                                                   set_aside),
                 claim.intersection_edges, Rule::R7_intersection_edges, found);
             check_set_aside(set_aside, claim, found);
+            const verifier::ExactParts parts{joined, input_points, set_aside, claim, mesh};
+            verifier::check_orientation(parts, found);
+            verifier::check_meetings(parts, found);
         }
     }
     verifier::sort_by_rule(found);

@@ -238,7 +238,9 @@ TEST_CASE("certificate: what is no certificate is refused with its place") {
     };
     const std::vector<Case> cases{
         {[](Json& c) { c["format"] = "else"; }, "c.json, format: this is no terrane-certificate"},
-        {[](Json& c) { c["version"] = 2; }, "c.json, version: this version is not known"},
+        {[](Json& c) { c["version"] = 1; }, "c.json, version: version 2 is needed"},
+        {[](Json& c) { c["kind"] = "else"; },
+         "c.json, kind: this kind of certificate is not known"},
         {[](Json& c) { c.erase("digest"); }, "c.json: \"digest\" is missing"},
         {[](Json& c) { c["exact"]["more"] = 1; }, "c.json, exact: an unknown key"},
         {[](Json& c) {

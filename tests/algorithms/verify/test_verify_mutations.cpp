@@ -203,7 +203,7 @@ TEST_CASE("verify_arrangement refutes contacts") {
         {"an overlap left whole", overlap,
          [](Case& c) {
              drop_triangle(c.claim, 6);
-             c.claim.triangles[5] = {3, 4, 5};
+             c.claim.triangles[5] = {3, 5, 4};
              set_parents(c.claim, 0, {0});
              c.claim.intersection_edges.clear();
          },
