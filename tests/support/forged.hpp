@@ -55,8 +55,8 @@ inline Subject subject(const std::vector<File>& files,
         const std::string name = format.substr(0, format.find('-'));
         auto text = format_mesh(rounded->mesh, format_named(name).value(), options);
         REQUIRE(text);
-        outputs.push_back(record_output(text.value(), "out." + name,
-                                        options.ascii ? format : name, rounded->mesh));
+        outputs.push_back(record_output(text.value(), "out." + name, options.ascii ? format : name,
+                                        rounded->mesh));
         s.contents.push_back(std::move(text).value());
     }
     s.certificate = Json::parse(

@@ -3,8 +3,9 @@
 
 #include <bit>
 #include <charconv>
-#include <cmath>
 #include <utility>
+
+#include <terrane/algorithms/verify/detail/decimal.hpp>
 
 namespace terrane::verifier {
 
@@ -66,22 +67,27 @@ std::uint64_t LineScanner::integer() {
     const std::string_view text = word();
     std::uint64_t value = 0;
     const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (code != std::errc() || end != text.data() + text.size()) fail("a whole number is needed");
+    const bool padded = text.size() > 1 && text[0] == '0';
+    if (code != std::errc() || end != text.data() + text.size() || padded)
+        fail("a whole number is needed");
     return value;
 }
 
-double LineScanner::number() {
+template <class Real>
+Real LineScanner::number() {
     const std::string_view text = word();
-    double value = 0;
-    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (code != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
-        fail("a finite number is needed");
-    return value;
+    const auto value = shortest_decimal<Real>(text);
+    if (!value) fail("a number in the shortest form is needed");
+    return *value;
 }
+
+template double LineScanner::number<double>();
+template float LineScanner::number<float>();
 
 void LineScanner::expect_point(const Point3& point) {
     for (const double coordinate : {point.x, point.y, point.z})
-        if (!same_bits(number(), coordinate)) fail("another coordinate than in the certificate");
+        if (!same_bits(number<double>(), coordinate))
+            fail("another coordinate than in the certificate");
 }
 
 void LineScanner::end_line() {

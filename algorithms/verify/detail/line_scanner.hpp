@@ -27,7 +27,9 @@ public:
     /// Takes the next word of the line, which must be this one.
     void expect_word(std::string_view word);
     std::uint64_t integer();
-    double number();
+    /// Takes a float or a double, as the shortest decimal.
+    template <class Real>
+    Real number();
     /// Takes three numbers, which must be the bits of this point.
     void expect_point(const Point3& point);
     /// Checks that the line has no more words.

@@ -24,7 +24,8 @@ struct ExactParts {
 /// Reports the triangles whose normal points away from that of their first parent (R19).
 void check_orientation(const ExactParts& parts, Violations& found);
 
-/// Reports the vertices that the inputs do not force (R20). By R5 and R6, the parents of the
+/// Reports the vertices that the inputs do not force (R20). Precondition: the claim violates none of
+/// R3 to R6. By R5 and R6, the parents of the
 /// triangles at a vertex are all input triangles that contain it. The vertex is forced if it is a
 /// corner of one of them, or if no direction lies in the planes of all of them and along all of
 /// their edges that contain it. Otherwise all of them continue along this direction, and the

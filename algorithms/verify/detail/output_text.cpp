@@ -111,7 +111,7 @@ void compare_stl_ascii(std::string_view contents, const ExpectedMesh& expected) 
             in.next();
             in.expect_word("facet");
             in.expect_word("normal");
-            for (int i = 0; i < 3; ++i) (void)in.number();
+            for (int i = 0; i < 3; ++i) (void)in.number<float>();
             in.end_line();
             in.expect("outer loop");
             for (const std::uint32_t corner : expected.mesh.triangles[t]) {

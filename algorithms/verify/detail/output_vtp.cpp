@@ -194,33 +194,33 @@ private:
         return bytes.substr(8);
     }
 
-    /// Returns the contents of compressed blocks, of which all but the last have the same size.
+    /// Returns the contents of compressed blocks. Before them are their number, their size, the size
+    /// of the last one (0 if it is no smaller), and their compressed sizes.
     [[nodiscard]] std::string inflated(std::string_view text, std::size_t size) const {
-        constexpr std::size_t fixed = 3 * 8; // number of blocks, their size, size of the last
-        if (text.size() < base64_size(fixed)) in_.fail("the array is too short");
-        const std::size_t blocks = number_at(decoded(text.substr(0, base64_size(fixed)), in_), 0);
-        if (blocks > size) in_.fail("the array has another length"); // none is empty
-        const std::size_t header_size = base64_size(fixed + 8 * blocks);
-        if (text.size() < header_size) in_.fail("the array is too short");
+        constexpr std::size_t block = std::size_t(1) << 20;
+        const std::size_t blocks = (size + block - 1) / block;
+        const std::size_t header_size = base64_size(8 * (3 + blocks));
+        if (text.size() < header_size) in_.fail("the array has another length");
         const std::string header = decoded(text.substr(0, header_size), in_);
+        if (number_at(header, 0) != blocks || number_at(header, 1) != block ||
+            number_at(header, 2) != size % block)
+            in_.fail("the array has another length");
         const std::string data = decoded(text.substr(header_size), in_);
         std::string bytes(size, '\0');
-        std::size_t from = 0, to = 0;
+        std::size_t from = 0;
         for (std::size_t i = 0; i < blocks; ++i) {
             const std::uint64_t packed = number_at(header, 3 + i);
-            const bool partial = i + 1 == blocks && number_at(header, 2) != 0;
-            const std::uint64_t full = number_at(header, partial ? 2 : 1);
-            if (packed > data.size() - from || full > size - to)
-                in_.fail("the array has another length");
-            uLongf written = full;
-            if (uncompress(reinterpret_cast<Bytef*>(bytes.data() + to), &written,
-                           reinterpret_cast<const Bytef*>(data.data() + from), packed) != Z_OK ||
-                written != full)
+            if (packed > data.size() - from) in_.fail("the array has another length");
+            uLongf full = std::min(block, size - i * block);
+            const uLongf wanted = full;
+            uLong used = packed;
+            if (uncompress2(reinterpret_cast<Bytef*>(bytes.data() + i * block), &full,
+                            reinterpret_cast<const Bytef*>(data.data() + from), &used) != Z_OK ||
+                full != wanted || used != packed)
                 in_.fail("a block can't be decompressed");
             from += packed;
-            to += full;
         }
-        if (from != data.size() || to != size) in_.fail("the array has another length");
+        if (from != data.size()) in_.fail("the array has another length");
         return bytes;
     }
 

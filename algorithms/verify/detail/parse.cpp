@@ -4,12 +4,11 @@
 // counts as certified that was not judged.
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <initializer_list>
 #include <new>
 #include <utility>
 
+#include <terrane/algorithms/verify/detail/decimal.hpp>
 #include <terrane/algorithms/verify/detail/json.hpp>
 #include <terrane/algorithms/verify/verify_certificate.hpp>
 
@@ -84,14 +83,11 @@ public:
         if (kind() != JsonKind::string) fail("a string is needed");
         return json_.string(json_[value_]);
     }
-    /// Returns a double that is given as decimal text.
+    /// Returns a double that is given as a string, the shortest decimal that reads back as it.
     [[nodiscard]] double number() const {
-        const std::string_view text = string();
-        double value = 0;
-        const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-        if (code != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
-            fail("a finite number in quotes is needed");
-        return value;
+        const auto value = verifier::shortest_decimal<double>(string());
+        if (!value) fail("a finite number in quotes, in its shortest form, is needed");
+        return *value;
     }
 
     [[noreturn]] void fail(std::string sentence) const {

@@ -44,8 +44,7 @@ TEST_CASE("forged certificates: what stands around the text") {
     check_texts({
         {"byte order mark", [](std::string& t) { t = "\xEF\xBB\xBF" + t; },
          "c.json, line 1, column 1: a byte order mark"},
-        {"NUL behind the end", [](std::string& t) { t += '\0'; },
-         "there is more behind the end"},
+        {"NUL behind the end", [](std::string& t) { t += '\0'; }, "there is more behind the end"},
         {"NUL before the start", [](std::string& t) { t = std::string(1, '\0') + t; },
          "c.json, line 1, column 1: this is no JSON"},
         {"a second text", [](std::string& t) { t += "{}"; }, "there is more behind the end"},
@@ -63,8 +62,7 @@ TEST_CASE("forged certificates: keys") {
     check_texts({
         {"twice, of the whole", replaced("\"version\":2", "\"version\":2,\"version\":2"),
          "c.json, line 1, column 45: the key \"version\" is there twice"},
-        {"twice, with another value",
-         replaced("\"clean\":true", "\"clean\":false,\"clean\":true"),
+        {"twice, with another value", replaced("\"clean\":true", "\"clean\":false,\"clean\":true"),
          "the key \"clean\" is there twice"},
         {"twice, once with an escape",
          replaced("\"clean\":true", "\"cle\\u0061n\":false,\"clean\":true"),
@@ -126,12 +124,13 @@ TEST_CASE("forged certificates: decimals") {
         return replaced("\"rounded\":{\"vertices\":[[\"0\"", "\"rounded\":{\"vertices\":[[" + text);
     };
     const std::string place = "c.json, rounded.vertices[0][0]: ";
-    const std::string finite = place + "a finite number in quotes is needed";
+    const std::string finite = place + "a finite number in quotes, in its shortest form";
     check_texts({
         {"no quotes", coordinate("0"), place + "a string is needed"},
         {"empty", coordinate("\"\""), finite},
         {"blank before", coordinate("\" 0\""), finite},
         {"blank behind", coordinate("\"0 \""), finite},
+        {"another decimal of the same number", coordinate("\"0.0\""), finite},
         {"plus", coordinate("\"+0\""), finite},
         {"infinite", coordinate("\"inf\""), finite},
         {"beyond doubles", coordinate("\"1e400\""), finite},
@@ -163,8 +162,7 @@ TEST_CASE("forged certificates: strings") {
              t.replace(at, 64, std::string(64, 'A'));
          },
          "c.json, inputs[0].sha256: 64 lower-case hexadecimal digits are needed"},
-        {"short hash",
-         [](std::string& t) { t.erase(t.find("\"sha256\":\"") + 10, 1); },
+        {"short hash", [](std::string& t) { t.erase(t.find("\"sha256\":\"") + 10, 1); },
          "c.json, inputs[0].sha256: 64 lower-case hexadecimal digits are needed"},
     });
 }
