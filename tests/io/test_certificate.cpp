@@ -104,7 +104,7 @@ TEST_CASE("certificate: what is no JSON is refused with its place") {
     const auto c = parse_certificate("{\n  \"format\": terrane}", "c.json");
     REQUIRE_FALSE(c);
     CHECK(c.error().code == ErrorCode::bad_syntax);
-    CHECK(c.error().place == "c.json, line 2, column 14");
+    CHECK(c.error().place == "c.json, line 2, column 13");
     CHECK_FALSE(parse_certificate("", "c"));
     CHECK_FALSE(parse_certificate(std::string(100'000, '['), "c"));
     const auto whole = certificate_of(pierced());

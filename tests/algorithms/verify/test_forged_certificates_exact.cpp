@@ -52,10 +52,11 @@ void divide_in_middle(Json& part, std::size_t t, const Json& vertex) {
 } // namespace
 
 TEST_CASE("forged certificates: a spurious vertex, in both parts") {
-    // The square is at z = 0: its triangle 0 has the corners 0, 1, 2, and (4, 2) is within.
-    const std::vector<File> files{
-        {"square.obj", "v 0 0 0\nv 8 0 0\nv 8 8 0\nv 0 8 0\nv 4 2 0\nv 4 2 4\ng a\nf 1 2 3\n"
-                       "f 1 3 4\ng b\nf 1 2 6\n"}};
+    // The plane x = 4 of surface d crosses the line from corner 0 to surface c within triangle 0.
+    const std::vector<File> files{{"square.obj",
+                                   "v 0 0 0\nv 8 0 0\nv 8 8 0\nv 0 8 0\n"
+                                   "v 40 10 0\nv 41 10 0\nv 40 11 0\nv 4 20 0\nv 4 21 0\nv 4 20 1\n"
+                                   "g a\nf 1 2 3\nf 1 3 4\ng c\nf 5 6 7\ng d\nf 8 9 10\n"}};
     const Subject s = subject(files);
     std::size_t first = 0; // part of input triangle 0
     while (s.certificate["exact"]["parents"][first] != Json{0}) ++first;
@@ -63,14 +64,11 @@ TEST_CASE("forged certificates: a spurious vertex, in both parts") {
         divide_in_middle(c["exact"], first, how);
         divide_in_middle(c["rounded"], first, place);
     };
-    check_forgeries(s, {
-                           {"in the middle of a triangle, by lines that no triangle has",
-                            [&](Json& c) {
-                                // Input vertices: 0 to 3 the square, 4 to 6 the wall 1 2 6.
-                                divide(c, {"lp", 3, 1, 0, 2, 6}, {"4", "4", "0"});
-                            },
-                            "R20"},
-                       });
+    check_forgeries(s, {{"in the middle of a triangle, by a line that no triangle has",
+                         [&](Json& c) {
+                             divide(c, {"lp", 0, 4, 7, 8, 9}, {"4", "1", "0"});
+                         },
+                         "R20"}});
 }
 
 TEST_CASE("forged certificates: vertices that the inputs do not force") {
