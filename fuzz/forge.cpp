@@ -110,10 +110,26 @@ bool same_bits(const std::vector<Point3>& a, const std::vector<Point3>& b) {
     });
 }
 
+/// Tells whether a triangle of one part has the vertices of a triangle of the other, but faces the
+/// other side. The digest does not know sides.
+bool has_turned(const ArrangementClaim& a, const ArrangementClaim& b) {
+    if (a.vertices != b.vertices) return false;
+    const auto from_lowest = [](Triangle t) {
+        std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+        return t;
+    };
+    std::set<Triangle> known;
+    for (const Triangle& t : a.triangles) known.insert(from_lowest(t));
+    return std::ranges::any_of(b.triangles, [&](const Triangle& t) {
+        return known.contains(from_lowest({t[1], t[0], t[2]}));
+    });
+}
+
 /// Describes how an accepted certificate differs in meaning; empty if it does not. The stated
 /// bounds may be others: the verifier reports its own.
 std::string difference(const Certificate& a, const Certificate& b) {
     if (a.digest != b.digest) return "the digest";
+    if (has_turned(a.exact, b.exact)) return "a side";
     if (a.rounded.has_value() != b.rounded.has_value()) return "whether there are doubles";
     if (!a.rounded) return "";
     const RoundedClaim &x = *a.rounded, &y = *b.rounded;

@@ -367,6 +367,27 @@ void add_vertex(Certificate& c, const Arguments& n) {
     divide(rounded, n, static_cast<std::uint32_t>(rounded.vertices - 1), at_side);
 }
 
+/// Adds a vertex to the exact part, where a side of a triangle that runs between two input vertices
+/// meets the plane through three more. The doubles stay as they are.
+void add_exact_vertex(Certificate& c, const Arguments& n) {
+    auto& vertices = c.exact.vertices;
+    if (c.exact.triangles.empty() || !c.rounded) return;
+    const Triangle& t = c.exact.triangles[pick(n.a, c.exact.triangles.size())];
+    const Construction &u = vertices[t[n.b % 3]], &v = vertices[t[(n.b + 1) % 3]];
+    if (u.kind != Construction::Kind::input || v.kind != Construction::Kind::input) return;
+    std::size_t inputs = 0;
+    for (const CertifiedInput& input : c.inputs)
+        for (const CertifiedSurface& surface : input.surfaces) inputs += surface.vertices;
+    const auto input = [&](unsigned k) { return static_cast<std::uint32_t>(pick(k, inputs)); };
+    const Construction how{Construction::Kind::line_plane,
+                           Axis::x,
+                           {u.v[0], v.v[0], input(n.c), input(n.d), input(n.c + n.d + 1)}};
+    vertices.push_back(how);
+    Part exact = exact_part(c);
+    divide(exact, n, static_cast<std::uint32_t>(exact.vertices - 1), true);
+    c.rounded->max_move.reset();
+}
+
 void change_output(Certificate& c, const Arguments& n) {
     if (c.outputs.empty()) return;
     CertifiedOutput& output = c.outputs[0];
@@ -393,7 +414,7 @@ struct Change {
     void (*make)(Certificate&, const Arguments&);
 };
 
-const std::array<Change, 14> changes{{
+const std::array<Change, 15> changes{{
     {"construction changed", change_construction},
     {"vertex moved", move_vertex},
     {"bounds changed", change_bounds},
@@ -405,6 +426,7 @@ const std::array<Change, 14> changes{{
     {"unused vertices dropped", drop_unused_vertices},
     {"regions changed", change_regions},
     {"vertex added to both parts", add_vertex},
+    {"vertex added to the exact part", add_exact_vertex},
     {"output changed", change_output},
     {"conforming or not",
      [](Certificate& c, const Arguments&) { c.rounded->clean = !c.rounded->clean; }},
