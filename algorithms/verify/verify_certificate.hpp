@@ -12,7 +12,7 @@
 // (3) Each point of a triangle of the mesh is within `deviation` of each of its parents, and each
 //     point of an input triangle is within `deviation` of the triangles that name it (R13, R18).
 //     An input triangle without any is listed as vanished, and within `deviation` of triangles that
-//     name input triangles that it meets (R12). The verifier computes the deviation itself, and
+//     name input triangles that it meets (R12); so are thin parts of others that have vanished. The verifier computes the deviation itself, and
 //     refuses one that is larger than the largest that is accepted; see VerifyOptions.
 // (4) If the mesh has the triangles of the exact part, each vertex is within `max_move` of the
 //     exact vertex (R14).
@@ -124,6 +124,7 @@ struct Measured {
     double deviation = 0;     ///< upper bound, both ways; unit of the input
     double max_deviation = 0; ///< the largest that was accepted
     std::size_t vanished = 0; ///< number of input triangles with area of which nothing is left
+    std::size_t partly_vanished = 0; ///< number of those of which only a thin part is not left
 };
 
 /// What the verifier found.

@@ -218,6 +218,9 @@ std::string doubles_text(const Judgement& judged) {
                 : ", at their exact places";
     if (measured.vanished > 0)
         text += fmt::format("; {} vanished", counted(measured.vanished, "input triangle"));
+    if (measured.partly_vanished > 0)
+        text += fmt::format("; a thin part of {} vanished",
+                            counted(measured.partly_vanished, "input triangle"));
     return text;
 }
 
@@ -263,6 +266,7 @@ std::string verdict_json(const Judgement& judged) {
         json["deviation"] = measured->deviation;
         json["max_deviation"] = measured->max_deviation;
         json["vanished"] = measured->vanished;
+        json["partly_vanished"] = measured->partly_vanished;
     }
     for (const JudgedOutput& output : judged.outputs)
         json["outputs"].push_back({{"name", judged.certificate.outputs[output.number].name},

@@ -66,46 +66,7 @@ Squared farthest_from_parents(const RoundedParts& parts, Violations& found) {
     return farthest;
 }
 
-// --- (3) From an input triangle to the triangles that name it ---------------------------------
-
-bool sides_are_near(const RoundedParts& parts, std::uint32_t input, const Triangles& triangles) {
-    const auto corners = parts.input_corners(input);
-    for (std::size_t i = 0; i < 3; ++i)
-        if (!segment_is_near({corners[i], corners[(i + 1) % 3]}, parts.points, triangles,
-                             parts.quarter))
-            return false;
-    return true;
-}
-
-bool is_unchanged(const RoundedParts& parts, std::uint32_t input) {
-    const auto children = parts.children[input];
-    if (children.size() != 1) return false;
-    const auto value = [](const auto& corners) {
-        std::array<Vector4, 3> points{*corners[0], *corners[1], *corners[2]};
-        std::sort(points.begin(), points.end());
-        return points;
-    };
-    return value(parts.corners(children[0])) == value(parts.input_corners(input));
-}
-
-/// Judges one input triangle that has children. Returns false if it is not as far as (3) says.
-void check_covered(const RoundedParts& parts, std::uint32_t input, Violations& found) {
-    Triangles triangles;
-    for (const std::uint32_t child : parts.children[input])
-        triangles.push_back(parts.rounded.triangles[child]);
-    const Coverage coverage(parts.input_corners(input), parts.points, parts.quarter);
-    if (!coverage.holds(triangles))
-        found.push_back({Rule::R18_coverage,
-                         {input},
-                         "what is left of input triangle " + text(input) + " has a hole"});
-    else if (!sides_are_near(parts, input, triangles))
-        found.push_back(
-            {Rule::R18_coverage,
-             {input},
-             "what is left of input triangle " + text(input) + " does not reach its border"});
-}
-
-// --- (4) Vanished input triangles -------------------------------------------------------------
+// --- What is near an input triangle -------------------------------------------------------------
 
 /// The exact triangles at each exact vertex.
 IndexLists<std::uint32_t> triangles_at_vertices(const ArrangementClaim& exact) {
@@ -121,14 +82,14 @@ IndexLists<std::uint32_t> triangles_at_vertices(const ArrangementClaim& exact) {
     return result;
 }
 
-/// Finds what is left near an input triangle of which nothing is left.
+/// Finds what is left near an input triangle of which a part has vanished.
 class Neighbours {
 public:
     explicit Neighbours(const RoundedParts& parts) :
         parts_(parts), at_vertex_(triangles_at_vertices(parts.exact)),
         exact_children_(children_of(parts.exact.parents_of, parts.inputs.triangles.size())) {}
 
-    /// Returns the triangles that name an input triangle that the given one meets.
+    /// Returns the triangles that name an input triangle that the given one meets, or itself.
     [[nodiscard]] Triangles of(std::uint32_t input) const {
         Numbers inputs;
         for (const std::uint32_t part : exact_children_[input])
@@ -156,44 +117,88 @@ private:
     IndexLists<std::uint32_t> at_vertex_, exact_children_;
 };
 
-void check_vanished_triangles(const RoundedParts& parts, const Numbers& vanished,
-                              Violations& found) {
-    if (vanished.empty()) return;
-    const Neighbours neighbours(parts);
-    for (const std::uint32_t input : vanished) {
-        const bool thin =
-            within(squared_height(parts.input_corners(input)), mpz_class(2 * parts.quarter));
-        if (thin && sides_are_near(parts, input, neighbours.of(input))) continue;
-        found.push_back({Rule::R12_rounded_parents,
+// --- (3) From an input triangle to the triangles that name it ---------------------------------
+
+bool sides_are_near(const RoundedParts& parts, std::uint32_t input, const Triangles& triangles) {
+    const auto corners = parts.input_corners(input);
+    for (std::size_t i = 0; i < 3; ++i)
+        if (!segment_is_near({corners[i], corners[(i + 1) % 3]}, parts.points, triangles,
+                             parts.quarter))
+            return false;
+    return true;
+}
+
+bool is_unchanged(const RoundedParts& parts, std::uint32_t input) {
+    const auto children = parts.children[input];
+    if (children.size() != 1) return false;
+    const auto value = [](const auto& corners) {
+        std::array<Vector4, 3> points{*corners[0], *corners[1], *corners[2]};
+        std::sort(points.begin(), points.end());
+        return points;
+    };
+    return value(parts.corners(children[0])) == value(parts.input_corners(input));
+}
+
+/// Judges an input triangle that has children. Returns whether a part of it has vanished, so that
+/// only what it meets is near its sides.
+bool check_covered(const RoundedParts& parts, std::uint32_t input, const Neighbours& neighbours,
+                   Violations& found) {
+    Triangles triangles;
+    for (const std::uint32_t child : parts.children[input])
+        triangles.push_back(parts.rounded.triangles[child]);
+    const Coverage coverage(parts.input_corners(input), parts.points, parts.quarter);
+    if (!coverage.holds(triangles)) {
+        found.push_back({Rule::R18_coverage,
                          {input},
-                         "nothing is left of input triangle " + text(input) +
-                             (thin ? ", nor near it of what it meets"
-                                   : ", which is not as thin as the stated deviation")});
+                         "what is left of input triangle " + text(input) + " has a hole"});
+        return false;
     }
+    if (sides_are_near(parts, input, triangles)) return false;
+    if (sides_are_near(parts, input, neighbours.of(input))) return true;
+    found.push_back(
+        {Rule::R18_coverage,
+         {input},
+         "what is left of input triangle " + text(input) + " does not reach its border"});
+    return false;
+}
+
+// --- (4) Vanished input triangles -------------------------------------------------------------
+
+void check_vanished(const RoundedParts& parts, std::uint32_t input, const Neighbours& neighbours,
+                    Violations& found) {
+    const bool thin =
+        within(squared_height(parts.input_corners(input)), mpz_class(2 * parts.quarter));
+    if (thin && sides_are_near(parts, input, neighbours.of(input))) return;
+    found.push_back({Rule::R12_rounded_parents,
+                     {input},
+                     "nothing is left of input triangle " + text(input) +
+                         (thin ? ", nor near it of what it meets"
+                               : ", which is not as thin as the stated deviation")});
 }
 
 } // namespace
 
-double check_distances(const RoundedParts& parts, Violations& found) {
-    if (parts.same_triangles) return root_above(largest_move(parts, found), parts.scale);
+Distances check_distances(const RoundedParts& parts, Violations& found) {
+    if (parts.same_triangles) return {root_above(largest_move(parts, found), parts.scale), 0};
     Squared farthest = farthest_from_parents(parts, found);
-    Numbers vanished;
+    const Neighbours neighbours(parts);
+    Distances result;
     bool all_unchanged = true;
     for (std::uint32_t input = 0; input < parts.inputs.triangles.size(); ++input) {
         if (parts.set_aside.first_of[input] != input ||
-            std::ranges::binary_search(parts.set_aside.degenerate, input))
+            std::ranges::binary_search(parts.set_aside.degenerate, input) ||
+            is_unchanged(parts, input))
             continue;
-        if (is_unchanged(parts, input)) continue;
         all_unchanged = false;
         if (parts.children[input].empty())
-            vanished.push_back(input);
-        else
-            check_covered(parts, input, found);
+            check_vanished(parts, input, neighbours, found);
+        else if (check_covered(parts, input, neighbours, found))
+            ++result.partly_vanished;
     }
-    check_vanished_triangles(parts, vanished, found);
     const Squared proven{mpz_class(25 * parts.quarter * parts.quarter), 4}; // (5/2 c)^2
     if (!all_unchanged && farthest < proven) farthest = proven;
-    return root_above(farthest, parts.scale);
+    result.deviation = root_above(farthest, parts.scale);
+    return result;
 }
 
 } // namespace terrane::verifier

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <iterator>
 #include <utility>
 
@@ -88,6 +90,13 @@ void check_vanished_list(const RoundedParts& parts, Violations& found) {
 
 // --- R13, R14: what is stated about distances -------------------------------------------------
 
+/// Returns a number with some digits, for sentences.
+std::string decimal(double number) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.3g", number);
+    return text.data();
+}
+
 /// Checks the stated distances against each other and the largest that is accepted; returns whether
 /// the deviation is not above that.
 bool check_stated(const RoundedParts& parts, double accepted, Violations& found) {
@@ -104,7 +113,8 @@ bool check_stated(const RoundedParts& parts, double accepted, Violations& found)
     if (rounded.deviation <= accepted) return true;
     found.push_back({Rule::R13_deviation,
                      {},
-                     "the stated deviation is larger than the largest that is accepted"});
+                     "the stated deviation, " + decimal(rounded.deviation) +
+                         ", is larger than the largest that is accepted, " + decimal(accepted)});
     return false;
 }
 
@@ -113,9 +123,10 @@ void check_all(const RoundedParts& parts, double accepted, Verdict& verdict) {
     check_conforming(parts.rounded, found);
     check_degenerate_parents(parts, found);
     check_vanished_list(parts, found);
-    if (check_stated(parts, accepted, found))
-        verdict.measured = Measured{verifier::check_distances(parts, found), accepted,
-                                    parts.rounded.vanished.size()};
+    if (check_stated(parts, accepted, found)) {
+        const auto [deviation, partly] = verifier::check_distances(parts, found);
+        verdict.measured = Measured{deviation, accepted, parts.rounded.vanished.size(), partly};
+    }
     verifier::check_rounded_orientation(parts, found);
     verifier::check_intersection_edges(
         verifier::find_intersection_edges({parts.rounded.triangles, parts.rounded.parents_of},

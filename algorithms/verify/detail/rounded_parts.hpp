@@ -46,8 +46,14 @@ RoundedParts make_rounded_parts(const Inputs& inputs, const ArrangementClaim& ex
 /// Returns the largest deviation that is accepted where none is given; VerifyOptions defines it.
 double default_max_deviation(const Inputs& inputs);
 
+/// What check_distances() computes.
+struct Distances {
+    double deviation = 0;            ///< upper bound, both ways; unit of the input
+    std::size_t partly_vanished = 0; ///< input triangles of which a thin part is not left
+};
+
 /// Checks the distances between the mesh and the inputs, both ways (R12, R13, R14, R18), and
-/// returns an upper bound of them, unit of the input. Precondition: the stated deviation is not
+/// measures them. Precondition: the stated deviation is not
 /// above the largest that is accepted.
 ///
 /// (1) With the triangles of the exact part, each point of an exact triangle has an image in the
@@ -60,16 +66,16 @@ double default_max_deviation(const Inputs& inputs);
 ///     centroid is at most c away from the border, which it is if the radius of the inscribed
 ///     circle is at most 3/2 c (this is at most half of the smallest height, the centroid's distance
 ///     is a third of it). The sides are at most c away from the triangles that name the input
-///     triangle. So all of it is at most 5/2 c away from these.
+///     triangle. So all of it is at most 5/2 c away from these. Where the tip of a needle has
+///     vanished, its sides are at most c away from triangles that name what the needle meets.
 /// (4) An input triangle that has vanished has a height of at most 2 c, so that each point is at
 ///     most c away from the sides, and the sides are at most c away from triangles that name
 ///     neighbours.
-double check_distances(const RoundedParts& parts, Violations& found);
+Distances check_distances(const RoundedParts& parts, Violations& found);
 
 /// Reports the triangles that are turned over (R19). Where the triangles are those of the exact
 /// part, that part was judged. Otherwise a triangle faces the side that its first parent faces,
-/// unless its smallest height is at most the stated deviation, so that rounding can turn it; such
-/// a triangle has its sides in the opposite direction from its neighbours of the same parent.
+/// unless its smallest height is at most the stated deviation: rounding can turn such a triangle.
 void check_rounded_orientation(const RoundedParts& parts, Violations& found);
 
 /// Checks that regions are the parts into which intersection edges divide the surfaces (R16).
