@@ -260,9 +260,11 @@ TEST_CASE("certificate: what is no certificate is refused with its place") {
         {[](Json& c) { c["exact"]["vertices"][6].erase(1); },
          "c.json, exact.vertices[6]: an array of 6 is needed"},
         {[](Json& c) { c["rounded"]["vertices"][0][2] = "nan"; },
-         "c.json, rounded.vertices[0][2]: a finite number in quotes, in its shortest form, is needed"},
+         "c.json, rounded.vertices[0][2]: a finite number in quotes, in its shortest form, is "
+         "needed"},
         {[](Json& c) { c["rounded"]["vertices"][0][2] = "0x1"; },
-         "c.json, rounded.vertices[0][2]: a finite number in quotes, in its shortest form, is needed"},
+         "c.json, rounded.vertices[0][2]: a finite number in quotes, in its shortest form, is "
+         "needed"},
         {[](Json& c) { c["rounded"]["vertices"][0][2] = 1; },
          "c.json, rounded.vertices[0][2]: a string is needed"},
         {[](Json& c) { c["rounded"]["clean"] = 1; },
