@@ -22,9 +22,8 @@ std::vector<File> with_a_third() {
     return files;
 }
 
-/// A case whose doubles have other triangles than the exact result, since they were snapped.
-std::vector<File> snapped() {
-    std::ifstream in(test_support::source_dir() + "/tests/certified/turned_half/input.obj");
+std::vector<File> certified(const std::string& name) {
+    std::ifstream in(test_support::source_dir() + "/tests/certified/" + name + "/input.obj");
     const std::string text(std::istreambuf_iterator<char>(in), {});
     REQUIRE_FALSE(text.empty());
     return {{"input.obj", text}};
@@ -313,7 +312,7 @@ TEST_CASE("forged certificates: regions") {
 }
 
 TEST_CASE("forged certificates: doubles that were snapped") {
-    const Subject s = subject(snapped());
+    const Subject s = subject(certified("turned_half")); // other triangles than the exact part
     REQUIRE(s.certificate["rounded"]["max_move"].is_null());
     check_forgeries(s, {
                            doubles(
@@ -357,6 +356,26 @@ TEST_CASE("forged certificates: doubles that were snapped") {
                                },
                                "R12"),
                        });
+}
+
+TEST_CASE("verify_certificate: the tip of a needle that vanished is near what the needle meets") {
+    const Subject s = subject(certified("needle_tip"));
+    const auto certificate = parse_certificate(s.certificate.dump(), "c");
+    REQUIRE(certificate);
+    const auto verdict = verify_certificate(s.inputs, certificate.value());
+    CHECK(verdict.violations.empty());
+    REQUIRE(verdict.measured);
+    CHECK(verdict.measured->vanished == 0);
+    CHECK(verdict.measured->partly_vanished == 1);
+    // Without the sheet beside it, the tip would be missing.
+    Subject alone = s;
+    Json& r = alone.certificate["rounded"];
+    drop_children(r, {1, 2, 3});
+    r["vanished"] = {1, 2, 3};
+    seal(alone);
+    const auto rules = judged(alone);
+    CHECK(rules.find("R12") != std::string::npos);
+    CHECK(rules.find("R18") != std::string::npos);
 }
 
 TEST_CASE("verify_certificate: the largest deviation that is accepted") {
