@@ -5,9 +5,7 @@
 // means the same. The bytes are a list of changes, then the input as an OBJ file.
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -16,7 +14,6 @@
 #include <vector>
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>
-#include <terrane/algorithms/core/sha256.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
 #include <terrane/algorithms/verify/detail/digest.hpp>
 #include <terrane/algorithms/verify/verify_certificate.hpp>
