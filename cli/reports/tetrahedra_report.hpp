@@ -14,7 +14,7 @@ namespace terrane::cli {
 /// Whether the checks hold, how volumes compare, both histograms; classes without members left out.
 std::string report_text(const TetrahedraReport& report);
 
-/// A line per violation, for the terminal: the first ones and how many there are.
+/// Lists the violations, a line per kind.
 std::string violations_text(const TetrahedraReport& report);
 
 /// violations, exact_volumes, volume_difference, dihedral and radius_edge; see docs/reference/statistics.md.
