@@ -87,7 +87,7 @@ std::vector<Damage> damage_to_attributes() {
              const auto of = f.tetrahedra.face_triangle;
              keep_faces(f, [&](std::uint32_t i) { return of[i] != of[0]; });
          }},
-        {"a triangle without one of its faces", Defect::broken_outline,
+        {"a triangle without one of its faces", Defect::node_off_edge,
          [](Filled& f) {
              keep_faces(f, [at = face_at(f, f.on_faces[0])](std::uint32_t i) { return i != at; });
          }},

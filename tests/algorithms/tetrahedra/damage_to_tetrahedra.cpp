@@ -72,6 +72,18 @@ void add_mirrored_pair(Filled& f) {
     add(f, fresh, m.region_of[t]);
 }
 
+/// Moves a node far away; all tetrahedra are positive afterwards, each face has two, and some overlap.
+void move_out_of_star(Filled& f) {
+    TetrahedralMesh& m = f.tetrahedra;
+    const std::uint32_t node = f.inside.front();
+    Point3 low = m.vertices[0], high = low; // of the box
+    for (const Point3& p : m.vertices) low = std::min(low, p), high = std::max(high, p);
+    m.vertices[node] = {low.x + .77 * (high.x - low.x), low.y + .55 * (high.y - low.y),
+                        low.z + .91 * (high.z - low.z)};
+    for (auto& corners : m.tetrahedra)
+        if (!is_positive(m, corners)) std::swap(corners[0], corners[1]);
+}
+
 } // namespace
 
 std::vector<Damage> damage_to_tetrahedra() {
@@ -103,18 +115,17 @@ std::vector<Damage> damage_to_tetrahedra() {
              auto& corners = f.tetrahedra.tetrahedra[inner(f)];
              corners[3] = corners[2];
          }},
-        {"a flat tetrahedron between two others", Defect::no_volume,
-         [](Filled& f) { // a face of a triangle, divided on one side only
-             TetrahedralMesh& m = f.tetrahedra;
-             const std::uint32_t t = inner(f);
-             const auto [a, b, c, d] = m.tetrahedra[t];
-             const auto node = static_cast<std::uint32_t>(m.vertices.size());
-             m.vertices.push_back(point_between(m, std::array{a, b}));
-             m.tetrahedra[t] = {node, b, c, d};
-             add(f, {a, node, c, d}, m.region_of[t]);
-             add(f, {a, b, node, c}, m.region_of[t]);
-             add(f, {a, node, b, d}, m.region_of[t]);
+        {"a flat tetrahedron on the box", Defect::no_volume,
+         [](Filled& f) {
+             const auto& v = f.tetrahedra.vertices;
+             const auto low = std::min_element(v.begin(), v.end())->x;
+             std::vector<std::uint32_t> side;
+             for (std::uint32_t i = 0; i < v.size(); ++i)
+                 if (v[i].x == low) side.push_back(i);
+             add(f, {side.at(0), side.at(1), side.at(2), side.at(3)}, 0);
          }},
+        {"a node out of its star, the tetrahedra there turned to have a volume again",
+         Defect::crowded_face, move_out_of_star},
         {"a hole: all tetrahedra at a node inside removed", Defect::open_face,
          [](Filled& f) {
              const auto tetrahedra = f.tetrahedra.tetrahedra;
