@@ -15,6 +15,7 @@ struct Damage {
     const char* name;
     TetrahedraDefect expected;            ///< must be among what is found
     std::function<void(Filled&)> inflict; ///< needs a mesh after divide()
+    bool needs_outside = false;           ///< is about the outside or its box
 };
 
 /// Damage to places: nodes are moved, doubled, or lost.

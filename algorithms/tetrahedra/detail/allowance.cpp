@@ -41,7 +41,7 @@ constexpr std::array<Coordinate, 3> coordinates{&Point3::x, &Point3::y, &Point3:
 
 /// Whether p is between a and b in one coordinate, or no farther than e from there.
 bool between(double p, double a, double b, double e) {
-    const auto [low, high] = std::minmax(a, b);
+    const double low = std::min(a, b), high = std::max(a, b);
     return not_negative([&]<class N>(N) { return N(p) - N(low) + N(e); }) &&
            not_negative([&]<class N>(N) { return N(high) - N(p) + N(e); });
 }
@@ -92,17 +92,16 @@ bool near_edge(const Point3& p, const Point3& a, const Point3& b) {
 
 // A vector within the box of half sizes e has a product of |n.x| e.x + |n.y| e.y + |n.z| e.z with n
 // at most, and every smaller product occurs.
-bool near_plane(const Point3& p, const std::array<Point3, 3>& triangle) {
-    const auto& [a, b, c] = triangle;
-    const Point3 e = allowance(triangle);
-    const Point3 towards{factor(orient2d(Axis::x, a, b, c)), factor(orient2d(Axis::y, a, b, c)),
-                         factor(orient2d(Axis::z, a, b, c))};
+bool near_plane(const Point3& p, const std::array<Point3, 3>& t) {
+    const Point3 e = allowance(t);
+    const Point3 towards{factor(orient2d(Axis::x, t[0], t[1], t[2])),
+                         factor(orient2d(Axis::y, t[0], t[1], t[2])),
+                         factor(orient2d(Axis::z, t[0], t[1], t[2]))};
     const auto slack = [&]<class N>(double side) {
-        const auto origin = cartesian<N>(a);
-        const auto n =
-            cross(difference(cartesian<N>(b), origin), difference(cartesian<N>(c), origin));
+        const auto a = cartesian<N>(t[0]);
+        const auto n = cross(difference(cartesian<N>(t[1]), a), difference(cartesian<N>(t[2]), a));
         return n.x * N(towards.x) * N(e.x) + n.y * N(towards.y) * N(e.y) +
-               n.z * N(towards.z) * N(e.z) + N(side) * dot(n, difference(cartesian<N>(p), origin));
+               n.z * N(towards.z) * N(e.z) + N(side) * dot(n, difference(cartesian<N>(p), a));
     };
     return not_negative([&]<class N>(N) { return slack.template operator()<N>(1); }) &&
            not_negative([&]<class N>(N) { return slack.template operator()<N>(-1); });

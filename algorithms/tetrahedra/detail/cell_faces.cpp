@@ -192,7 +192,8 @@ private:
 
     void judge_on_box(const Triangle& key, std::uint32_t face, const Sides& sides) {
         const auto& v = subject_.made.vertices;
-        if (sides[0] != none || sides[1] == none || !box_.on_side(v[key[0]], v[key[1]], v[key[2]]))
+        if (!subject_.whole || sides[0] != none || sides[1] == none ||
+            !box_.on_side(v[key[0]], v[key[1]], v[key[2]]))
             subject_.findings.add(Defect::stray_face,
                                   "face {} is not on a side of the box, or not wound outward",
                                   face);

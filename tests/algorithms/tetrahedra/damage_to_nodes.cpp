@@ -151,7 +151,8 @@ std::vector<Damage> damage_to_nodes() {
              auto& v = f.tetrahedra.vertices;
              const auto most = std::max_element(v.begin(), v.end());
              most->x += size_of(f);
-         }},
+         },
+         true},
         {"a node that is not finite", Defect::unusable_lists,
          [](Filled& f) {
              f.tetrahedra.vertices[f.inside.front()].z = std::numeric_limits<double>::quiet_NaN();

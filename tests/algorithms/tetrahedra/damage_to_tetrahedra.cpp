@@ -95,7 +95,8 @@ std::vector<Damage> damage_to_tetrahedra() {
              const auto region = f.tetrahedra.region_of;
              const auto at = std::find(region.begin(), region.end(), 0U) - region.begin();
              remove(f, [&](std::uint32_t t) { return t == at; });
-         }},
+         },
+         true},
         {"a tetrahedron twice", Defect::crowded_face,
          [](Filled& f) {
              const std::uint32_t t = inner(f);
@@ -123,7 +124,8 @@ std::vector<Damage> damage_to_tetrahedra() {
              for (std::uint32_t i = 0; i < v.size(); ++i)
                  if (v[i].x == low) side.push_back(i);
              add(f, {side.at(0), side.at(1), side.at(2), side.at(3)}, 0);
-         }},
+         },
+         true},
         {"a node out of its star, the tetrahedra there turned to have a volume again",
          Defect::crowded_face, move_out_of_star},
         {"a hole: all tetrahedra at a node inside removed", Defect::open_face,
@@ -140,7 +142,7 @@ std::vector<Damage> damage_to_tetrahedra() {
          }},
         {"no tetrahedra at all", Defect::stray_face,
          [](Filled& f) { remove(f, [](std::uint32_t) { return true; }); }},
-        {"the box covered twice", Defect::box_not_filled, cover_twice},
+        {"the box covered twice", Defect::box_not_filled, cover_twice, true},
         {"overlapping tetrahedra that share all their faces", Defect::no_volume, add_mirrored_pair},
         {"a corner of a tetrahedron replaced by another node", Defect::open_face,
          [](Filled& f) {
