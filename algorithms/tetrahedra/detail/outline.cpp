@@ -20,9 +20,8 @@ struct PolygonSide {
 
 /// Whether p, which is on the line of the side, is on the side.
 bool on_side(Axis axis, const PolygonSide& side, const Point3& p) {
-    const auto [low, high] = std::minmax(project(axis, side.from), project(axis, side.to));
-    const Uv at = project(axis, p);
-    return low <= at && at <= high;
+    const Uv from = project(axis, side.from), to = project(axis, side.to), at = project(axis, p);
+    return std::min(from, to) <= at && at <= std::max(from, to);
 }
 
 /// Whether two sides have a common point.

@@ -3,7 +3,9 @@
 // Tetrahedra as TetGen makes them against blocks as find_volumes finds them: both must agree.
 #include <terrane/algorithms/tetrahedra/check_tetrahedra.hpp>
 
+#include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -94,6 +96,28 @@ TEST_CASE("tetrahedra: real models, two methods agree", "[tetrahedra]") {
         CHECK(f.volumes.block_count() == (name == "modelA1" ? 4 : 12));
         check_and_count_equal(f);
     }
+}
+
+TEST_CASE("check_tetrahedra: violations are counted, with a sentence about the first",
+          "[tetrahedra]") {
+    Filled f = fill(faulted);
+    auto& tetrahedra = f.tetrahedra.tetrahedra;
+    for (const std::size_t t : {3, 5, 8}) std::swap(tetrahedra[t][0], tetrahedra[t][1]);
+    const auto found = violations_of(f);
+    REQUIRE_FALSE(found.empty());
+    CHECK(found[0].defect == TetrahedraDefect::no_volume);
+    CHECK(found[0].count == 3);
+    CHECK(found[0].first.find("tetrahedron 3 at (") == 0);
+    CHECK(message(found[0]) == found[0].first + "; 2 more of this kind (no_volume)");
+    CHECK(message({TetrahedraDefect::open_face, 1, "alone"}) == "alone");
+    std::set<std::string_view> names;
+    for (auto defect = TetrahedraDefect::unusable_lists; defect <= TetrahedraDefect::wrong_volume;
+         defect = static_cast<TetrahedraDefect>(static_cast<int>(defect) + 1))
+        names.insert(name_of(defect));
+    CHECK(names.size() == 18);
+    CHECK(name_of(TetrahedraDefect::wrong_volume) == "wrong_volume");
+    CHECK(name_of(TetrahedraDefect::missing_vertex) == "missing_vertex");
+    CHECK(name_of(TetrahedraDefect::folded_faces) == "folded_faces");
 }
 
 TEST_CASE("adopt_volume_numbers: disagreement is an error with a place", "[tetrahedra]") {
