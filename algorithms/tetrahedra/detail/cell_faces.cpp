@@ -148,6 +148,8 @@ private:
     void stray(const ListedFace& listed) {
         subject_.findings.add(Defect::stray_face, "face {} is no face of a tetrahedron",
                               listed.face);
+        const std::uint32_t triangle = subject_.made.face_triangle[listed.face];
+        if (triangle != none) faces_at_[triangle].push_back(listed.face); // its cover is judged
     }
     void twice(const ListedFace& listed) {
         subject_.findings.add(Defect::stray_face, "face {} is listed twice", listed.face);

@@ -40,23 +40,21 @@ std::uint32_t face_at(const Filled& f, std::uint32_t node) {
     return 0;
 }
 
-/// Takes the node on an edge out of one of the triangles there: its two faces become one.
-void tear_edge(Filled& f) {
-    const std::uint32_t node = f.on_edges.back();
-    const TetrahedralMesh& m = f.tetrahedra;
-    const std::uint32_t triangle = m.face_triangle[face_at(f, node)];
-    std::vector<std::uint32_t> gone;
-    for (std::uint32_t i = 0; i < m.faces.size(); ++i)
-        if (m.face_triangle[i] == triangle) gone.push_back(i);
+/// Lists faces for one of the triangles at a divided edge that do not divide the edge: a single one,
+/// or three round another node.
+void tear_edge(Filled& f, bool in_three) {
+    const auto of = f.tetrahedra.face_triangle;
+    const std::uint32_t triangle = of[face_at(f, f.on_edges.back())];
+    const auto& v = f.tetrahedra.vertices;
     Triangle whole{};
-    const auto& v = m.vertices;
     for (std::size_t k = 0; k < 3; ++k)
         whole[k] = static_cast<std::uint32_t>(
             std::find(v.begin(), v.end(), f.mesh.vertices[f.mesh.triangles[triangle][k]]) -
             v.begin());
-    keep_faces(
-        f, [&](std::uint32_t i) { return std::find(gone.begin(), gone.end(), i) == gone.end(); });
-    list_face(f, whole, triangle);
+    keep_faces(f, [&](std::uint32_t i) { return of[i] != triangle; });
+    if (!in_three) return list_face(f, whole, triangle);
+    for (std::size_t k = 0; k < 3; ++k)
+        list_face(f, {whole[k], whole[(k + 1) % 3], f.inside[0]}, triangle);
 }
 
 void exchange_blocks(Filled& f, std::uint32_t a, std::uint32_t b) {
@@ -91,8 +89,12 @@ std::vector<Damage> damage_to_attributes() {
          [](Filled& f) {
              keep_faces(f, [at = face_at(f, f.on_faces[0])](std::uint32_t i) { return i != at; });
          }},
-        {"an edge that one of its triangles does not divide", Defect::torn_edge, tear_edge},
-        {"a triangle covered by a face that is no face", Defect::stray_face, tear_edge},
+        {"an edge that one of its triangles does not divide", Defect::torn_edge,
+         [](Filled& f) { tear_edge(f, false); }},
+        {"an edge that two divided triangles divide in different ways", Defect::torn_edge,
+         [](Filled& f) { tear_edge(f, true); }},
+        {"a triangle covered by a face that is no face", Defect::stray_face,
+         [](Filled& f) { tear_edge(f, false); }},
         {"a face listed twice", Defect::stray_face,
          [](Filled& f) {
              const std::uint32_t at = largest_faces(f).front();
