@@ -170,11 +170,21 @@ std::vector<Damage> damage_to_cuts() {
                  std::find(m.vertices.begin(), m.vertices.end(), m.vertices[last]) -
                  m.vertices.begin());
              for (auto& t : m.tetrahedra) std::replace(t.begin(), t.end(), last, first);
+             for (auto& face : m.faces) std::replace(face.begin(), face.end(), last, first);
          }},
         {"a face behind a cut with the nodes in front", Defect::wrong_twins,
          [](Filled& f) {
              const auto [front, back] = f.tetrahedra.twins[0];
              f.tetrahedra.faces[back] = f.tetrahedra.faces[front];
+         }},
+        {"a face behind a cut with one node in front", Defect::wrong_twins,
+         [](Filled& f) {
+             for (const auto& [front, back] : f.tetrahedra.twins)
+                 for (std::size_t k = 0; k < 3; ++k)
+                     if (f.tetrahedra.faces[back][k] != f.tetrahedra.faces[front][k]) {
+                         f.tetrahedra.faces[back][k] = f.tetrahedra.faces[front][k];
+                         return;
+                     }
          }},
         {"nodes of one tetrahedron apart where no cut is", Defect::wrong_twins,
          [](Filled& f) {
