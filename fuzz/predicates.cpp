@@ -185,15 +185,16 @@ void check_stored(Bytes& bytes, const Twins& t) {
     const Axis axis = any_axis(bytes);
     const auto order = t.store.compare(a, b);
     require((order > 0) - (order < 0) == oracle::compare(e(a), e(b)), "compare is wrong");
-    require(t.store.orient2d(axis, a, b, c) == oracle::orient2d(axis, e(a), e(b), e(c)),
+    require(t.store.orient2d(upward, axis, a, b, c) == oracle::orient2d(axis, e(a), e(b), e(c)),
             "orient2d of stored points is wrong");
-    require(t.store.orient3d(a, b, c, d) == oracle::orient3d(e(a), e(b), e(c), e(d)),
+    require(t.store.orient3d(upward, a, b, c, d) == oracle::orient3d(e(a), e(b), e(c), e(d)),
             "orient3d of stored points is wrong");
-    require(t.store.in_circle(axis, a, b, c, d) == oracle::in_circle(axis, e(a), e(b), e(c), e(d)),
+    require(t.store.in_circle(upward, axis, a, b, c, d) ==
+                oracle::in_circle(axis, e(a), e(b), e(c), e(d)),
             "in_circle of stored points is wrong");
     std::array<std::uint32_t, 3> plane{};
     pick(bytes, t.store.input_count(), plane);
-    require(t.store.side_of_plane(plane[0], plane[1], plane[2], d) ==
+    require(t.store.side_of_plane(upward, plane[0], plane[1], plane[2], d) ==
                 oracle::orient3d(e(plane[0]), e(plane[1]), e(plane[2]), e(d)),
             "side_of_plane is wrong");
 }

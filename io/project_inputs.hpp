@@ -14,11 +14,13 @@
 
 namespace terrane {
 
+/// The surfaces of a project as read from its files.
 struct ProjectInputs {
-    BuildInput build;                             ///< what terrane::build takes
+    BuildInput build;                             ///< the input of terrane::build
     std::vector<SurfaceInfo> as_read{};           ///< per surface: name and role in its file
     std::vector<std::size_t> surfaces_of_entry{}; ///< per entry of "surfaces": how many
-    std::size_t vertices = 0, triangles = 0;      ///< of the surfaces
+    std::size_t vertices = 0,                     ///< number in all surfaces
+        triangles = 0;                            ///< number in all surfaces
 };
 
 /// Reads the surfaces and makes the boundary of the volume of interest. Errors: those of

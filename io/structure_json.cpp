@@ -88,7 +88,7 @@ Json ranges(const std::vector<std::uint32_t>& numbers) {
 Json patches_json(const Structure& structure) {
     Json all = Json::array();
     for (const ModelPatch& patch : structure.patches)
-        all.push_back({{"interface", patch.interface},
+        all.push_back({{"interface", std::uint32_t{patch.interface}},
                        {"area", number(patch.area)},
                        {"triangles", ranges(patch.triangles)},
                        {"lines", patch.lines}});
@@ -111,7 +111,7 @@ Json lines_json(const Structure& structure) {
 Json corners_json(const Mesh& mesh, const Structure& structure) {
     Json all = Json::array();
     for (const ModelCorner& corner : structure.corners)
-        all.push_back({{"vertex", corner.vertex},
+        all.push_back({{"vertex", std::uint32_t{corner.vertex}},
                        {"position", position(mesh.vertices[corner.vertex])},
                        {"lines", corner.lines}});
     return all;
@@ -122,7 +122,7 @@ Json borders_json(std::span<const FreeBorder> borders) {
     for (const FreeBorder& border : borders) {
         Json gaps = Json::array();
         for (const BorderGap& gap : border.gaps)
-            gaps.push_back({{"surface", gap.surface},
+            gaps.push_back({{"surface", std::uint32_t{gap.surface}},
                             {"length", number(gap.length)},
                             {"least", number(gap.least)},
                             {"largest", number(gap.largest)},
@@ -139,8 +139,8 @@ Json borders_json(std::span<const FreeBorder> borders) {
 Json leaks_json(std::span<const FreeBorder> borders) {
     Json all = Json::array();
     for (const Leak& leak : leaks_of(borders))
-        all.push_back({{"from", leak.from},
-                       {"to", leak.to},
+        all.push_back({{"from", std::uint32_t{leak.from}},
+                       {"to", std::uint32_t{leak.to}},
                        {"borders", leak.borders},
                        {"length", number(leak.length)},
                        {"least", number(leak.least)},
@@ -181,7 +181,7 @@ Json seal_json(const StructureExtras& extras) {
     Json changes = Json::array();
     for (const SealChange& c : extras.seal_changes)
         changes.push_back({{"kind", c.kind == SealKind::extended ? "extended" : "trimmed"},
-                           {"surface", c.surface},
+                           {"surface", std::uint32_t{c.surface}},
                            {"length", c.length},
                            {"distance", c.largest},
                            {"place", {c.place.x, c.place.y, c.place.z}},

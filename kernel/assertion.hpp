@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Assertions state what holds by construction. A failed one throws std::logic_error, which stages
-// turn into ErrorCode::internal. Conditions decide nothing and change nothing.
+// Assertions state what holds by construction. A failed assertion throws std::logic_error, which
+// stages turn into ErrorCode::internal. Conditions have no side effects, and no result depends on
+// them.
 //
 //   TERRANE_ASSERT           always on: constant cost per call of a stage
 //   TERRANE_ASSERT_DEBUG     levels debug and paranoid: constant cost per access
@@ -30,7 +31,7 @@ namespace terrane::detail {
     ((condition) ? static_cast<void>(0)                                                            \
                  : ::terrane::detail::assertion_failed(#condition, __FILE__, __LINE__))
 
-// A condition that is off is compiled, so that it stays correct, but not evaluated.
+// A disabled condition is still compiled, so that it stays valid code, but never evaluated.
 #if TERRANE_ASSERTION_LEVEL >= 1
 #define TERRANE_ASSERT_DEBUG(condition) TERRANE_ASSERT(condition)
 #else

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Static filters for points that are known only up to a radius: what constructed points have in
-// place of doubles. Right in any rounding mode; std::nullopt where they cannot tell.
+// Static filters for points that are known only up to a radius, as constructed points are. They
+// hold in any rounding mode and return std::nullopt where they cannot decide.
 //
 // Laws (a test carries each number):
-// (1) A sign that is given is the sign for all points within the radii.
-// (2) With radius 0 they agree with orient2d and in_circle wherever they give a sign.
+// (1) A returned sign holds for all points within the radii.
+// (2) With radius 0 a returned sign is that of orient2d or in_circle.
 #pragma once
 
 #include <terrane/kernel/config.hpp>
@@ -24,9 +24,9 @@ struct ApproximatePoint {
     double u, v, radius;
 };
 
-/// Positive iff a, b, c turn left. With M the largest difference and E its error from the radii,
-/// the two products of differences are off by 2 (2 M E + E^2) from the radii, at most 5 M E for
-/// E <= M / 8, and by turn2d_factor unit M^2 from rounding.
+/// Returns Positive iff a, b, c turn left. Let M be the largest difference and E its error from the
+/// radii. The radii then change the two products of differences by 2 (2 M E + E^2), at most 5 M E
+/// for E <= M / 8; rounding changes them by turn2d_factor unit M^2.
 inline std::optional<Sign> filtered_orient2d(const ApproximatePoint& a, const ApproximatePoint& b,
                                              const ApproximatePoint& c) {
     const double bu = b.u - a.u, bv = b.v - a.v, cu = c.u - a.u, cv = c.v - a.v;
@@ -41,12 +41,14 @@ inline std::optional<Sign> filtered_orient2d(const ApproximatePoint& a, const Ap
     return Estimate{value, m * (turn2d_factor * unit * m + 6 * e)}.sign();
 }
 
-/// Positive iff d lies inside the circle through a, b, c (counterclockwise).
-/// First with the largest difference M and its error E from the radii: 12 monomials of degree 4 in
-/// the differences are off by 12 ((1 + E / M)^4 - 1) M^4 from the radii, at most 49 M^3 E for
-/// E <= M / 1024, and by in_circle_factor unit M^4 from rounding. Where that is too coarse, with
-/// the sizes of the terms: 11 unit times their sum from rounding, E times the sum of the partial
-/// derivatives from the radii, and 72 E^2 M^2 and less for all higher orders.
+/// Returns Positive iff d lies inside the circle through a, b, c (counterclockwise). Let M be the
+/// largest difference and E its error from the radii.
+/// (1) The first bound uses M alone. The radii change the 12 monomials of degree 4 in the
+///     differences by 12 ((1 + E / M)^4 - 1) M^4, at most 49 M^3 E for E <= M / 1024; rounding
+///     changes them by in_circle_factor unit M^4.
+/// (2) Where that is too coarse, the second bound uses the sizes of the terms. Rounding adds 11
+///     unit times their sum; the radii add E times the sum of the partial derivatives, and at most
+///     72 E^2 M^2 for all higher orders.
 inline std::optional<Sign> filtered_in_circle(const ApproximatePoint& a, const ApproximatePoint& b,
                                               const ApproximatePoint& c,
                                               const ApproximatePoint& d) {
@@ -63,7 +65,7 @@ inline std::optional<Sign> filtered_in_circle(const ApproximatePoint& a, const A
     const double m3 = m * m * m;
     TERRANE_ASSERT_SHADOW(shadow::in_circle(a, b, c, d)
                               .is_near(shadow::Twin(value), in_circle_factor * unit * m3 * m));
-    constexpr double factor = in_circle_factor + 1; // the radii round the bound once more
+    constexpr double factor = in_circle_factor + 1; // the radii add one rounding of the bound
     if (const auto sign = Estimate{value, m3 * (factor * unit * m + 56 * e)}.sign()) return sign;
     const double bc = std::fabs(bu * cv) + std::fabs(bv * cu);
     const double ca = std::fabs(cu * av) + std::fabs(cv * au);

@@ -13,10 +13,10 @@
 
 namespace terrane {
 
-/// A number of about 106 bits with a running bound of its error: the true value is within err of
-/// hi + lo. Correct only in the rounding mode "to nearest". Overflow makes err infinite or NaN, and
-/// nearest() then declines.
-/// Source: Dekker (1971) for the sums and products; the bounds are derived at each operation.
+/// A number of about 106 bits with a running error bound: the true value is within err of hi + lo.
+/// The bound holds only in the rounding mode "to nearest". Overflow makes err infinite or NaN;
+/// nearest() then returns std::nullopt. Source: Dekker (1971) for the sums and products; the bounds
+/// are derived at each operation.
 class DoubleDouble {
 public:
     DoubleDouble() = default;
@@ -26,8 +26,8 @@ public:
         return DoubleDouble(-a.hi_, -a.lo_, a.err_).stands_for([&] { return -a.twin(); });
     }
 
-    // The sum of the high parts is exact in two numbers; adding the three low ones rounds three
-    // times, each time by at most unit / 2 of what is added.
+    // Two numbers hold the sum of the high parts exactly. Adding the three low parts rounds three
+    // times, each time by at most unit / 2 times the terms added.
     friend DoubleDouble operator+(const DoubleDouble& a, const DoubleDouble& b) {
         const double s = a.hi_ + b.hi_, t = s - a.hi_;
         const double rest = (a.hi_ - (s - t)) + (b.hi_ - t);
@@ -39,8 +39,9 @@ public:
     }
     friend DoubleDouble operator-(const DoubleDouble& a, const DoubleDouble& b) { return a + -b; }
 
-    // The product of the high parts is exact in two numbers (fma); low times low is left out; the
-    // mixed terms and their sum round. Without low parts nothing is lost unless it underflows.
+    // Two numbers hold the product of the high parts exactly (fma). The product of the low parts is
+    // omitted; the mixed terms and their sum are rounded. The product of two doubles is exact
+    // unless it underflows.
     friend DoubleDouble operator*(const DoubleDouble& a, const DoubleDouble& b) {
         if (a.is_zero() || b.is_zero()) return {};
         const double p = a.hi_ * b.hi_, rest = std::fma(a.hi_, b.hi_, -p);
@@ -54,7 +55,7 @@ public:
         });
     }
 
-    // Two quotients of high parts; what they leave of the dividend bounds the error.
+    // The result is the sum of two quotients of high parts. The remainder bounds its error.
     friend DoubleDouble operator/(const DoubleDouble& a, const DoubleDouble& b) {
         if (a.is_zero()) return {};
         const DoubleDouble first(a.hi_ / b.hi_);
@@ -70,7 +71,7 @@ public:
         return q.stands_for(quotient);
     }
 
-    /// The double nearest to the true value, where the error leaves no doubt.
+    /// Returns the double nearest to the true value if the error bound decides which one it is.
     [[nodiscard]] std::optional<double> nearest() const {
         if (is_double()) return hi_ + 0.0; // never -0
         const double above = (std::nextafter(hi_, HUGE_VAL) - hi_) / 2;
@@ -80,30 +81,33 @@ public:
         return std::nullopt;
     }
 
-    /// The double that it is, without doubt.
+    /// Whether the true value is certainly the double value().
     [[nodiscard]] bool is_double() const { return lo_ == 0 && err_ == 0; }
 
-    /// Whether the true value may be the double nearest to it.
+    /// Whether the true value may be the double value().
     [[nodiscard]] bool may_be_double() const { return !(std::fabs(lo_) > err_); }
 
-    /// The high part, and how far the true value is from it at most.
+    /// Returns the high part.
     [[nodiscard]] double value() const { return hi_; }
+    /// Returns an upper bound of the distance between the true value and value().
     [[nodiscard]] double error() const { return (std::fabs(lo_) + err_) * (1 + 4 * unit); }
 
 private:
     static constexpr double unit = std::numeric_limits<double>::epsilon();
-    static constexpr double underflow = 0x1p-1000;    ///< more than an underflowing product loses
-    static constexpr double least_product = 0x1p-900; ///< of doubles, in two normal numbers
+    static constexpr double underflow = 0x1p-1000;    ///< exceeds the error of underflow
+    static constexpr double least_product = 0x1p-900; ///< larger products of two doubles are exact
+                                                      ///< in two normal numbers
 
     DoubleDouble(double hi, double lo, double err) : hi_(hi), lo_(lo), err_(err) {}
 
-    /// |high| >= |low| but for rounding; the factor covers the roundings of the bound itself.
+    /// Renormalises high + low, where |high| >= |low| up to rounding. The factor on the bound
+    /// covers the rounding of the bound itself.
     static DoubleDouble normal(double high, double low, double err) {
         const double s = high + low, t = s - high;
         return {s, (high - (s - t)) + (low - t), err * (1 + 0x1p-40)};
     }
 
-    // The exact twin, in shadow builds; otherwise these calls are nothing.
+    // The exact twin exists in shadow builds only; elsewhere these functions do nothing.
 #ifdef TERRANE_SHADOW
     [[nodiscard]] const shadow::Twin& twin() const {
         return twin_;

@@ -7,7 +7,7 @@
 namespace terrane {
 namespace {
 
-// An integer whose life is scoped.
+// Owner of a GMP integer.
 struct Integer {
     mpz_t z;
     Integer() { mpz_init(z); }
@@ -16,11 +16,11 @@ struct Integer {
     Integer& operator=(const Integer&) = delete;
 };
 
-// Exact numbers are dyadic: numerator / 2^k.
+// Owner of a GMP fraction. Exact numbers are dyadic: numerator / 2^k.
 struct Rational {
     mpq_t q;
     Rational() { mpq_init(q); }
-    explicit Rational(const Exact& e) : Rational() { // so that an exception from here on clears it
+    explicit Rational(const Exact& e) : Rational() { // if the body throws, the destructor runs
         e.export_to_mpq_t(q);
     }
     ~Rational() { mpq_clear(q); }
@@ -28,7 +28,7 @@ struct Rational {
     Rational& operator=(const Rational&) = delete;
 };
 
-/// MPFR's range of exponents, of this thread, for a while. An exception restores it, too.
+/// Sets MPFR's range of exponents in this thread; the destructor restores the previous range.
 class ExponentRange {
 public:
     ExponentRange(mpfr_exp_t low, mpfr_exp_t high) {
@@ -54,9 +54,9 @@ struct Float {
     Float& operator=(const Float&) = delete;
 };
 
-// A double is 53 bits; MPFR rounds to these, within double's range of exponents.
+// MPFR rounds quotient * 2^exponent to 53 bits within the exponent range of double.
 double round_to_double(const Integer& quotient, bool inexact, mpfr_exp_t exponent) {
-    // The quotient has at least 64 bits: a set lowest bit stands for all that was cut off.
+    // The quotient has at least 64 bits, so its lowest bit can stand for a remainder.
     Integer sticky;
     mpz_set(sticky.z, quotient.z);
     if (inexact) mpz_setbit(sticky.z, 0);
@@ -80,7 +80,7 @@ double nearest_quotient(const Exact& numerator, const Exact& denominator) {
     mpz_abs(n.z, n.z);
     mpz_abs(d.z, d.z);
     const auto bits = [](const Integer& i) { return static_cast<long>(mpz_sizeinbase(i.z, 2)); };
-    // Shift so that the integer quotient has 66 or 67 bits, its lowest one free for stickiness.
+    // The shift gives the integer quotient at least 67 bits, more than round_to_double needs.
     const long shift = 67 - (bits(n) - bits(d));
     if (shift > 0) mpz_mul_2exp(n.z, n.z, static_cast<mp_bitcnt_t>(shift));
     if (shift < 0) mpz_mul_2exp(d.z, d.z, static_cast<mp_bitcnt_t>(-shift));

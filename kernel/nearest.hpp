@@ -5,8 +5,8 @@
 
 namespace terrane {
 
-/// The double nearest to numerator / denominator, ties to even; denominator != 0. Correctly rounded
-/// also among the denormals; beyond the largest double an infinity.
+/// Returns the double nearest to numerator / denominator, ties to even; denominator != 0. The
+/// result is correctly rounded among the denormals as well; overflow gives an infinity.
 double nearest_quotient(const Exact& numerator, const Exact& denominator);
 
 } // namespace terrane

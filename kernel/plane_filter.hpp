@@ -11,16 +11,15 @@
 
 namespace terrane {
 
-/// The static filter of orient3d for many points against one plane, whose normal is made once.
+/// Static filter of orient3d for many points against one plane. The normal is computed once.
 ///
 /// Laws (a test carries each number):
-/// (1) A sign that side(p) gives is that of orient3d(a, b, c, p).
-/// Right in any rounding mode.
+/// (1) A sign returned by side(p) is that of orient3d(a, b, c, p), in any rounding mode.
 class PlaneFilter {
 public:
     PlaneFilter(const Point3& a, const Point3& b, const Point3& c) : plane_(a, b, c) {}
 
-    /// Never Zero.
+    /// Returns the side of p, never Zero; std::nullopt where the error bound does not decide.
     [[nodiscard]] std::optional<Sign> side(const Point3& p) const {
         const auto determinant = plane_.determinant(p);
         if (!determinant.in_range()) return std::nullopt;

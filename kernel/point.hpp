@@ -6,7 +6,7 @@
 
 namespace terrane {
 
-/// A point with double coordinates, in the unit of the file it came from. Finite.
+/// A point with finite double coordinates, in the unit of the file it came from.
 struct Point3 {
     double x = 0; ///< east, or as the file says
     double y = 0; ///< north, or as the file says

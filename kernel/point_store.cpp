@@ -14,7 +14,7 @@ namespace terrane {
 using polynomial::cartesian;
 using polynomial::One;
 
-/// One slot per constructed point; filled once, by whichever thread needs it first.
+/// One slot per constructed point, filled once by the first thread that needs the point.
 struct PointStore::Cache {
     std::vector<std::atomic<const ExactPoint*>> slots;
 
@@ -81,7 +81,7 @@ void PointStore::keep_constructed(std::span<const PointIndex> kept) {
 
 namespace {
 
-/// The next double above; infinity stays.
+/// Returns the next larger double; infinity stays infinity.
 double above(double d) {
     if (d == std::numeric_limits<double>::infinity()) return d;
     const auto bits = std::bit_cast<std::int64_t>(d + 0.0); // -0 is 0
@@ -91,12 +91,13 @@ double below(double d) {
     return -above(-d);
 }
 
-/// Half a step between doubles of this size: no true value is farther from the nearest one.
+/// Returns an upper bound of half the distance between doubles of this size, and so of the error of
+/// rounding to nearest.
 double half_step(double d) {
     return std::fabs(d) * 0x1p-53 + std::numeric_limits<double>::denorm_min();
 }
 
-// Files should not show zeros of either sign.
+// Adding 0.0 turns -0 into 0, which keeps "-0" out of files.
 Point3 round_exactly(const ExactPoint& p) {
     const auto quotient = [&](const Exact& x) { return nearest_quotient(x, p.w) + 0.0; };
     return {quotient(p.x), quotient(p.y), quotient(p.z)};
@@ -104,7 +105,7 @@ Point3 round_exactly(const ExactPoint& p) {
 
 using TwofoldPoint = std::array<DoubleDouble, 3>;
 
-/// Under the default rounding mode.
+/// Computes the point in DoubleDouble. The caller holds the default rounding mode.
 TwofoldPoint twofold_point(std::span<const Point3> input, const Construction& how) {
     const auto at = [&](std::uint32_t v) -> const Point3& { return input[v]; };
     const Point3& base = input[how.v[0]];
@@ -118,17 +119,19 @@ TwofoldPoint twofold_point(std::span<const Point3> input, const Construction& ho
         return from_base(h.x / h.w, h.y / h.w, h.z / h.w);
     }
     const auto [d, t, w] = polynomial::construct_on_line<DoubleDouble>(how, at);
-    const DoubleDouble share = t / w; // one division for three
+    const DoubleDouble share = t / w; // one division instead of three
     const auto p = from_base(d.x * share, d.y * share, d.z * share);
     const auto is_settled = [](const DoubleDouble& x) {
         return x.is_double() || !x.may_be_double();
     };
     if (is_settled(p[0]) && is_settled(p[1]) && is_settled(p[2])) return p;
-    return from_base(d.x * t / w, d.y * t / w, d.z * t / w); // may show that it is one
+    // Dividing last may show that a coordinate is a double.
+    return from_base(d.x * t / w, d.y * t / w, d.z * t / w);
 }
 
 #if defined(__x86_64__) && defined(__GNUC__)
-// The processor's own fused multiplication in place of calls of the C library's: the same numbers.
+// Uses the processor's fused multiply-add instead of calling the C library's; both give the same
+// numbers.
 [[gnu::target("fma"), gnu::flatten]] TwofoldPoint fused_point(std::span<const Point3> input,
                                                               const Construction& how) {
     return twofold_point(input, how);
@@ -151,7 +154,8 @@ ExactPoint construct_exactly(std::span<const Point3> input, const Construction& 
 
 } // namespace
 
-/// Where numbers of about 106 bits leave no doubt; under the default rounding mode.
+/// Rounds a point if numbers of about 106 bits decide every coordinate. The caller holds the
+/// default rounding mode.
 std::optional<PointStore::Rounded> PointStore::round_quickly(std::span<const Point3> input,
                                                              const Construction& how) {
     const TwofoldPoint p = has_fma ? fused_point(input, how) : twofold_point(input, how);
@@ -231,8 +235,8 @@ PointStore::IntervalPoint PointStore::interval(PointIndex p) const {
 }
 
 template <class Polynomial, class... P>
-Sign PointStore::filtered(const Polynomial& polynomial, P... points) const {
-    if (const auto sign = certain_sign(polynomial(interval(points)...))) {
+Sign PointStore::filtered(UpwardWitness upward, const Polynomial& polynomial, P... points) const {
+    if (const auto sign = certain_sign(upward, polynomial(interval(points)...))) {
         ++predicate_counts().interval;
         return *sign;
     }
@@ -240,7 +244,7 @@ Sign PointStore::filtered(const Polynomial& polynomial, P... points) const {
     return exact_sign(polynomial(exact(points)...));
 }
 
-// Rounding to nearest is monotone: where the nearest doubles differ, so do the coordinates.
+// Rounding to nearest is monotone: if the nearest doubles differ, the coordinates differ likewise.
 std::strong_ordering PointStore::compare(PointIndex p, PointIndex q) const {
     if (p == q) return std::strong_ordering::equal;
     const Point3 &a = nearest(p), &b = nearest(q);
@@ -263,29 +267,40 @@ std::strong_ordering PointStore::compare(PointIndex p, PointIndex q) const {
     return std::strong_ordering::equal;
 }
 
-Sign PointStore::orient2d(Axis axis, PointIndex a, PointIndex b, PointIndex c) const {
+Sign PointStore::orient2d(UpwardWitness upward, Axis axis, PointIndex a, PointIndex b,
+                          PointIndex c) const {
     if (is_input(a) && is_input(b) && is_input(c))
         return terrane::orient2d(axis, input_[a], input_[b], input_[c]);
-    return filtered([axis](const auto& p, const auto& q,
-                           const auto& r) { return polynomial::orient2d(axis, p, q, r); },
-                    a, b, c);
+    return filtered(
+        upward,
+        [axis](const auto& p, const auto& q, const auto& r) {
+            return polynomial::orient2d(axis, p, q, r);
+        },
+        a, b, c);
 }
 
-Sign PointStore::orient3d(PointIndex a, PointIndex b, PointIndex c, PointIndex d) const {
+Sign PointStore::orient3d(UpwardWitness upward, PointIndex a, PointIndex b, PointIndex c,
+                          PointIndex d) const {
     if (is_input(a) && is_input(b) && is_input(c) && is_input(d))
         return terrane::orient3d(input_[a], input_[b], input_[c], input_[d]);
-    return filtered([](const auto& p, const auto& q, const auto& r,
-                       const auto& s) { return polynomial::orient3d(p, q, r, s); },
-                    a, b, c, d);
+    return filtered(
+        upward,
+        [](const auto& p, const auto& q, const auto& r, const auto& s) {
+            return polynomial::orient3d(p, q, r, s);
+        },
+        a, b, c, d);
 }
 
-Sign PointStore::in_circle(Axis axis, PointIndex a, PointIndex b, PointIndex c,
-                           PointIndex d) const {
+Sign PointStore::in_circle(UpwardWitness upward, Axis axis, PointIndex a, PointIndex b,
+                           PointIndex c, PointIndex d) const {
     if (is_input(a) && is_input(b) && is_input(c) && is_input(d))
         return terrane::in_circle(axis, input_[a], input_[b], input_[c], input_[d]);
-    return filtered([axis](const auto& p, const auto& q, const auto& r,
-                           const auto& s) { return polynomial::in_circle(axis, p, q, r, s); },
-                    a, b, c, d);
+    return filtered(
+        upward,
+        [axis](const auto& p, const auto& q, const auto& r, const auto& s) {
+            return polynomial::in_circle(axis, p, q, r, s);
+        },
+        a, b, c, d);
 }
 
 Point3 nearest(std::span<const Point3> input, const Construction& how) {
@@ -293,8 +308,9 @@ Point3 nearest(std::span<const Point3> input, const Construction& how) {
     return round_exactly(construct_exactly(input, how));
 }
 
-Sign PointStore::side_of_plane(PointIndex a, PointIndex b, PointIndex c, PointIndex p) const {
-    return orient3d(a, b, c, p);
+Sign PointStore::side_of_plane(UpwardWitness upward, PointIndex a, PointIndex b, PointIndex c,
+                               PointIndex p) const {
+    return orient3d(upward, a, b, c, p);
 }
 
 } // namespace terrane

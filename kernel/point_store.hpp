@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Input points and the points constructed from them, named by index, with exact predicates.
+// Stores input points and the points constructed from them, and evaluates exact predicates on their
+// indices.
 //
-// Of a constructed point the nearest doubles are found at once, and which of them are the point's
-// very coordinates. A predicate on stored points tries intervals round these, then exact
-// homogeneous coordinates, made when first needed and kept. Where all points are input points it is
-// the predicate of predicates.hpp.
+// append() computes the doubles nearest to each constructed point and marks those that equal the
+// exact coordinates. A predicate tries intervals around these doubles first, then exact homogeneous
+// coordinates, which are computed when first needed and kept. If all its points are input points,
+// it calls its namesake in predicates.hpp.
 //
 // Laws (a test carries each number):
 // (1) Each predicate agrees with its namesake in predicates.hpp on input points, and keeps its laws
 //     on constructed ones.
 // (2) A constructed point lies on its lines and planes: side_of_plane and orient2d give Zero.
-// (3) compare is a strict total order of the points in space, lexicographic in x, y, z; it is equal
-//     iff the points are.
-// (4) Points on a line are ordered along it by compare, ascending or descending.
-// (5) nearest is the double that is nearest to each exact coordinate, ties to even; of constructed
-//     points 0 is never -0. rounding_errors bound how far it is from the coordinate.
+// (3) compare orders points in space lexicographically by x, y, z: a strict total order. Two
+//     indices compare equal iff their points coincide.
+// (4) compare orders the points of a line along it, in one direction or the other.
+// (5) nearest returns the double nearest to each exact coordinate, ties to even, and never -0 for
+//     constructed points. rounding_errors bounds its distance from the coordinate.
 #pragma once
 
 #include <terrane/kernel/config.hpp>
@@ -44,11 +45,13 @@ namespace terrane {
 /// Exact homogeneous coordinates, w > 0.
 using ExactPoint = polynomial::Coordinates<Exact, Exact>;
 
-/// Doubles around a point: low[k] <= coordinate k <= high[k], two steps apart or equal.
+/// A box of doubles around a point: low[k] <= coordinate k <= high[k]. The two are equal, or each
+/// is the next double below or above the nearest one.
 struct Enclosure {
     std::array<double, 3> low, high;
 };
 
+/// Points by index: the input points, then the constructed points. See the head of this file.
 class PointStore {
 public:
     PointStore();
@@ -68,42 +71,51 @@ public:
     }
     [[nodiscard]] std::span<const Point3> inputs() const { return input_; }
 
-    /// How the point is constructed; {input, v[0] = p} for an input point.
+    /// Returns the construction of a point; {input, v[0] = p} for an input point.
     [[nodiscard]] Construction construction(PointIndex p) const;
 
-    /// Calls work(first, last) for ranges that cut up [0, count), maybe several at a time.
+    /// A function that calls work(first, last) for ranges that partition [0, count), in any order
+    /// and possibly in several threads at a time.
     using Share = std::function<void(
         std::size_t count, const std::function<void(std::size_t first, std::size_t last)>& work)>;
 
-    /// Adds constructed points; the first gets index size(). Each construction must be defined
-    /// (line and plane not parallel, ...). Not to be called while another thread uses the store.
-    /// `share` may have the work done by several threads.
+    /// Appends constructed points; the first gets index size(). Each construction must be defined
+    /// (line and plane not parallel, ...). `share` may distribute the work over threads. No other
+    /// thread may use the store meanwhile.
     void append(std::span<const Construction> constructions, const Share& share = {});
 
-    /// Keeps of the constructed points those listed (ascending), in this order.
+    /// Keeps the listed constructed points (ascending indices) and drops the other constructed
+    /// points. The kept points are renumbered from input_count() in the same order.
     void keep_constructed(std::span<const PointIndex> kept);
 
+    /// Returns a box of doubles around the point.
     [[nodiscard]] Enclosure enclosure(PointIndex p) const;
-    /// The point in the projection along `axis`, for the filters of approximate.hpp.
+    /// Projects the point along `axis`, for the filters of ball_filter.hpp.
     [[nodiscard]] ApproximatePoint approximate(Axis axis, PointIndex p) const;
+    /// Returns the exact coordinates. Those of a constructed point are computed once and cached.
     [[nodiscard]] ExactPoint exact(PointIndex p) const;
+    /// Returns the doubles nearest to the point, by law (5).
     [[nodiscard]] const Point3& nearest(PointIndex p) const {
         TERRANE_ASSERT_DEBUG(p < size());
         return is_input(p) ? input_[p] : rounded_[p - input_.size()].nearest;
     }
 
-    /// How far each coordinate of nearest(p) is at most from that of the point; 0: it is the same.
+    /// Bounds the distance of each coordinate of nearest(p) from the exact one; 0 iff they are
+    /// known to be equal.
     [[nodiscard]] std::array<double, 3> rounding_errors(PointIndex p) const;
 
-    // Predicates. The caller holds an UpwardRounding.
+    // Predicates; compare and equal are right in any rounding mode.
     [[nodiscard]] std::strong_ordering compare(PointIndex p, PointIndex q) const;
     [[nodiscard]] bool equal(PointIndex p, PointIndex q) const { return compare(p, q) == 0; }
-    [[nodiscard]] Sign orient2d(Axis axis, PointIndex a, PointIndex b, PointIndex c) const;
-    [[nodiscard]] Sign orient3d(PointIndex a, PointIndex b, PointIndex c, PointIndex d) const;
-    [[nodiscard]] Sign in_circle(Axis axis, PointIndex a, PointIndex b, PointIndex c,
-                                 PointIndex d) const;
-    /// orient3d(a, b, c, p) of input points a, b, c.
-    [[nodiscard]] Sign side_of_plane(PointIndex a, PointIndex b, PointIndex c, PointIndex p) const;
+    [[nodiscard]] Sign orient2d(UpwardWitness upward, Axis axis, PointIndex a, PointIndex b,
+                                PointIndex c) const;
+    [[nodiscard]] Sign orient3d(UpwardWitness upward, PointIndex a, PointIndex b, PointIndex c,
+                                PointIndex d) const;
+    [[nodiscard]] Sign in_circle(UpwardWitness upward, Axis axis, PointIndex a, PointIndex b,
+                                 PointIndex c, PointIndex d) const;
+    /// Returns orient3d(a, b, c, p) for input points a, b, c.
+    [[nodiscard]] Sign side_of_plane(UpwardWitness upward, PointIndex a, PointIndex b, PointIndex c,
+                                     PointIndex p) const;
 
 private:
     using IntervalPoint = polynomial::Coordinates<Interval, polynomial::One>;
@@ -111,7 +123,7 @@ private:
 
     struct Rounded {
         Point3 nearest;
-        std::array<bool, 3> is_exact; ///< per coordinate: nearest is the point's own
+        std::array<bool, 3> is_exact; ///< per coordinate: nearest is the exact one
     };
 
     [[nodiscard]] bool is_double(PointIndex p, unsigned coordinate) const {
@@ -124,7 +136,7 @@ private:
                                                               const Construction& how);
     [[nodiscard]] Rounded round(const Construction& how) const;
     template <class Polynomial, class... P>
-    Sign filtered(const Polynomial& polynomial, P... points) const;
+    Sign filtered(UpwardWitness upward, const Polynomial& polynomial, P... points) const;
 
     std::vector<Point3> input_;
     std::vector<Construction> constructed_;
@@ -132,7 +144,7 @@ private:
     std::unique_ptr<Cache> cache_; ///< exact coordinates of the constructed points
 };
 
-/// The doubles nearest to a single construction's point.
+/// Returns the doubles nearest to the point of one construction on `input`.
 Point3 nearest(std::span<const Point3> input, const Construction& how);
 
 } // namespace terrane

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Each predicate's polynomial, once, over a number type. A point is (x, y, z) / w with w > 0.
-// Source: the determinants of any textbook, on coordinate differences (so that filters lose little
-// far from the origin); positive factors of w are dropped, since only the sign counts.
+// Defines each predicate's polynomial once, as a template over the number type. A point is
+// (x, y, z) / w with w > 0. The polynomials are the textbook determinants on coordinate
+// differences, so that filters lose little precision far from the origin. Positive factors of w are
+// dropped, because only the sign matters.
 #pragma once
 
 #include <terrane/kernel/construction.hpp>
@@ -10,7 +11,7 @@
 
 namespace terrane::polynomial {
 
-/// The weight of a Cartesian point: multiplying by it costs nothing.
+/// The weight of a Cartesian point; multiplying by it costs nothing.
 struct One {
     friend One operator*(One, One) { return {}; }
     template <class N>
@@ -23,7 +24,7 @@ struct One {
     }
 };
 
-/// N: number type, W: type of the weight (N or One).
+/// Homogeneous coordinates. N is the number type, W the type of the weight (N or One).
 template <class N, class W>
 struct Coordinates {
     N x, y, z;
@@ -45,13 +46,13 @@ struct Vector2 {
     N u, v;
 };
 
-/// (a - b) times the weights of a and b.
+/// Returns a - b, times the weights of a and b.
 template <class N, class V, class W>
 Vector<N> difference(const Coordinates<N, V>& a, const Coordinates<N, W>& b) {
     return {a.x * b.w - b.x * a.w, a.y * b.w - b.y * a.w, a.z * b.w - b.z * a.w};
 }
 
-/// The same in the projection that drops `axis`.
+/// Returns a - b in the projection that drops `axis`, times the weights of a and b.
 template <class N, class V, class W>
 Vector2<N> difference(Axis axis, const Coordinates<N, V>& a, const Coordinates<N, W>& b) {
     switch (axis) {
@@ -79,28 +80,28 @@ N cross(const Vector2<N>& a, const Vector2<N>& b) {
     return a.u * b.v - a.v * b.u;
 }
 
-/// > 0 iff direction c d lies to the left of direction a b in the projection.
+/// Positive iff direction c d lies to the left of direction a b in the projection.
 template <class N, class W>
 N turn2d(Axis axis, const Coordinates<N, W>& a, const Coordinates<N, W>& b,
          const Coordinates<N, W>& c, const Coordinates<N, W>& d) {
     return cross(difference(axis, b, a), difference(axis, d, c));
 }
 
-/// > 0 iff a, b, c turn left in the projection.
+/// Positive iff a, b, c turn left in the projection.
 template <class N, class A, class B, class C>
 N orient2d(Axis axis, const Coordinates<N, A>& a, const Coordinates<N, B>& b,
            const Coordinates<N, C>& c) {
     return cross(difference(axis, b, a), difference(axis, c, a));
 }
 
-/// > 0 iff d lies on the side of a, b, c from which they appear counterclockwise.
+/// Positive iff d lies on the side of the plane a, b, c from which they appear counterclockwise.
 template <class N, class A, class B, class C, class D>
 N orient3d(const Coordinates<N, A>& a, const Coordinates<N, B>& b, const Coordinates<N, C>& c,
            const Coordinates<N, D>& d) {
     return dot(cross(difference(b, a), difference(c, a)), difference(d, a));
 }
 
-/// > 0 iff d lies inside the circle through a, b, c (counterclockwise), in the projection.
+/// Positive iff d lies inside the circle through a, b, c (counterclockwise) in the projection.
 template <class N, class W>
 N in_circle(Axis axis, const Coordinates<N, W>& a, const Coordinates<N, W>& b,
             const Coordinates<N, W>& c, const Coordinates<N, W>& d) {
@@ -118,7 +119,7 @@ N in_circle(Axis axis, const Coordinates<N, W>& a, const Coordinates<N, W>& b,
            lc * (cross(ad, bd) * wa * wb);
 }
 
-/// Coordinates relative to the first vertex of a construction.
+/// The point (x, y, z) / w, relative to the first vertex of a construction.
 template <class N>
 struct Homogeneous {
     N x, y, z, w; ///< w of any sign, not zero if the construction is defined
@@ -131,7 +132,7 @@ struct OnLine {
     N t, w;
 };
 
-/// Where the line p q meets the plane through r with normal n, relative to p.
+/// Intersects the line p q with the plane through r with normal n; relative to p.
 template <class N>
 OnLine<N> line_meets_plane(const Coordinates<N, One>& p, const Coordinates<N, One>& q,
                            const Coordinates<N, One>& r, const Vector<N>& n) {
@@ -139,7 +140,7 @@ OnLine<N> line_meets_plane(const Coordinates<N, One>& p, const Coordinates<N, On
     return {d, dot(n, difference(r, p)), dot(n, d)};
 }
 
-/// Normal of the plane that contains direction d and is parallel to `axis`.
+/// Returns a normal of the plane that contains direction d and is parallel to `axis`.
 template <class N>
 Vector<N> normal_along(Axis axis, const Vector<N>& d) {
     const N zero(0.0);
@@ -153,7 +154,7 @@ Vector<N> normal_along(Axis axis, const Vector<N>& d) {
     }
 }
 
-/// Where three planes (three points each) meet, relative to c[0].
+/// Intersects three planes, each given by three points; relative to c[0].
 template <class N>
 Homogeneous<N> planes_meet(const Coordinates<N, One> (&c)[9]) {
     const auto n1 = cross(difference(c[1], c[0]), difference(c[2], c[0]));
@@ -167,11 +168,13 @@ Homogeneous<N> planes_meet(const Coordinates<N, One> (&c)[9]) {
             dot(n3, n12)};
 }
 
+/// Whether the construction intersects a line with a plane (kinds line_plane and line_line).
 inline bool is_on_line(const Construction& how) {
     return how.kind == Construction::Kind::line_plane || how.kind == Construction::Kind::line_line;
 }
 
-/// A construction's point where it is_on_line. input(i) gives Point3 of input vertex i.
+/// Computes the point of a construction for which is_on_line holds. input(i) returns the Point3 of
+/// input vertex i.
 template <class N, class Input>
 OnLine<N> construct_on_line(const Construction& how, const Input& input) {
     const auto at = [&](int i) { return cartesian<N>(input(how.v[static_cast<unsigned>(i)])); };
@@ -182,7 +185,8 @@ OnLine<N> construct_on_line(const Construction& how, const Input& input) {
                                 : normal_along(how.axis, difference(at(3), r)));
 }
 
-/// A construction's point relative to input[how.v[0]]. input(i) gives Point3 of input vertex i.
+/// Computes a construction's point relative to input(how.v[0]). input(i) returns the Point3 of
+/// input vertex i.
 template <class N, class Input>
 Homogeneous<N> construct(const Construction& how, const Input& input) {
     const auto at = [&](int i) { return cartesian<N>(input(how.v[static_cast<unsigned>(i)])); };

@@ -5,7 +5,7 @@
 
 namespace terrane {
 
-/// Which stage decided how many predicates.
+/// The number of predicates that each stage decided.
 struct PredicateCounts {
     std::uint64_t static_filter = 0; ///< by doubles with an error bound
     std::uint64_t interval = 0;      ///< by intervals of doubles
@@ -18,7 +18,7 @@ struct PredicateCounts {
         exact += o.exact;
         return *this;
     }
-    /// The counts since `b`, of each stage.
+    /// Subtracts the counts of each stage: the counts since `b`.
     friend PredicateCounts operator-(PredicateCounts a, const PredicateCounts& b) {
         a.static_filter -= b.static_filter;
         a.interval -= b.interval;

@@ -49,8 +49,9 @@ std::optional<Sign> static_in_circle(const Uv& a, const Uv& b, const Uv& c, cons
     return e.sign();
 }
 
-// The axis along which the normal is longest, by more than rounding can hide: each of its
-// coordinates is a minor of differences, off by at most 8 unit times the square of the largest.
+// Finds the axis along which the normal is longest, if it is so by more than the rounding error.
+// Each coordinate of the normal is a minor of differences, off by at most 8 unit times the square
+// of the largest difference.
 std::optional<Axis> static_projection_axis(const Point3& a, const Point3& b, const Point3& c) {
     const double bx = b.x - a.x, by = b.y - a.y, bz = b.z - a.z;
     const double cx = c.x - a.x, cy = c.y - a.y, cz = c.z - a.z;
@@ -58,19 +59,19 @@ std::optional<Axis> static_projection_axis(const Point3& a, const Point3& b, con
     if (!static_filter::range_of_degree2.contains(m, m)) return std::nullopt;
     const double x = std::fabs(by * cz - bz * cy), y = std::fabs(bz * cx - bx * cz),
                  z = std::fabs(bx * cy - by * cx);
-    const double bound = 2 * turn2d_factor * unit * m * m; // of two minors
+    const double bound = 2 * turn2d_factor * unit * m * m; // for the difference of two minors
     if (x > y + bound && x > z + bound) return Axis::x;
     if (y > z + bound && y > x + bound) return Axis::y;
     if (z > x + bound && z > y + bound) return Axis::z;
     return std::nullopt;
 }
 
-// Stages two and three. `polynomial` is generic over the number type.
+// Evaluates stages two and three. `polynomial` is generic over the number type.
 template <class Polynomial>
 Sign filtered(const Polynomial& polynomial) {
     {
         const UpwardRounding guard;
-        if (const auto sign = certain_sign(polynomial(Interval{}))) {
+        if (const auto sign = certain_sign(guard, polynomial(Interval{}))) {
             ++predicate_counts().interval;
             return *sign;
         }
@@ -86,7 +87,7 @@ polynomial::Vector<N> normal(const Point3& a, const Point3& b, const Point3& c) 
     return cross(difference(cartesian<N>(b), origin), difference(cartesian<N>(c), origin));
 }
 
-// |n.x|, |n.y|, |n.z| compared: > 0 iff |first| > |second|.
+// Compares coordinates of a normal by size: positive iff |first| > |second|.
 template <class N>
 N compare_squares(const N& first, const N& second) {
     return first * first - second * second;

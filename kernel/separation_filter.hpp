@@ -12,14 +12,16 @@
 
 namespace terrane {
 
-/// A static filter that tells many triangles from one: those that lie beyond its plane, or in a
-/// projection beyond one of its edges, with room for all vertices on them to go to nearest doubles.
+/// Static filter that separates many triangles from one. It succeeds for triangles on one side of
+/// the plane of the one, or in a projection on the outer side of one of its edges, at such a
+/// distance that the points of both triangles may be rounded to the nearest doubles.
 ///
 /// Laws (a test carries each number):
-/// (1) Of a triangle that leaves_clear tells from this one no point is nearer to this one than
-///     2^-51 (M + N), M and N the largest absolute coordinates of both. The points of a triangle
-///     are at most sqrt(3) 2^-53 M off when they are rounded.
-/// Right in any rounding mode. The bounds without room are those of static_filter_bounds.hpp.
+/// (1) If is_beside or is_beyond holds for a triangle, its distance from this one is at least
+///     2^-51 (M + N), where M and N are the largest absolute coordinates of the two triangles, in
+///     any rounding mode. Rounding to nearest moves a point of a triangle by at most
+///     sqrt(3) 2^-53 M.
+/// The bounds of static_filter_bounds.hpp are enlarged by that distance.
 class SeparationFilter {
 public:
     SeparationFilter(const Point3& a, const Point3& b, const Point3& c) :
@@ -29,13 +31,13 @@ public:
         size_ = std::max({size_of(a), size_of(b), size_of(c)});
     }
 
-    /// Whether the plane shows it.
+    /// Whether p, q, r lie on one side of the plane, far enough by law (1).
     [[nodiscard]] bool is_beside(const Point3& p, const Point3& q, const Point3& r) const {
         const int side = side_of_plane(p);
         return side != 0 && side_of_plane(q) == side && side_of_plane(r) == side;
     }
 
-    /// Whether an edge shows it.
+    /// Whether p, q, r lie on the outer side of an edge in a projection, far enough by law (1).
     [[nodiscard]] bool is_beyond(const Point3& p, const Point3& q, const Point3& r) const {
         const Axis axis = steepest();
         const std::array<Uv, 3> corners{static_filter::project(axis, at_[0]),
@@ -59,19 +61,20 @@ public:
 private:
     using Uv = static_filter::Uv;
 
-    static constexpr double share = 0x1p-50; ///< of the sizes: the room
+    static constexpr double share = 0x1p-50; ///< the distance, relative to the sum of the sizes
 
     static double size_of(const Point3& p) {
         return std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
     }
-    /// A guess; any axis is right.
+    /// Chooses the axis of the projection. Any axis is correct; a long normal separates more.
     [[nodiscard]] Axis steepest() const {
         const Point3& n = plane_.normal();
         const double x = std::fabs(n.x), y = std::fabs(n.y), z = std::fabs(n.z);
         return z >= x && z >= y ? Axis::z : x >= y ? Axis::x : Axis::y;
     }
 
-    /// 1, -1, or 0 where the value does not exceed its bound by more than `room`.
+    /// Returns the sign as 1 or -1; 0 where the value does not exceed its bound by more than
+    /// `room`.
     static int sign_with_room(const static_filter::Estimate& e, double room) {
         const double bound = e.bound + room;
         return e.value > bound ? 1 : e.value < -bound ? -1 : 0;
@@ -89,7 +92,7 @@ private:
 
     std::array<Point3, 3> at_;
     static_filter::Plane plane_;
-    double length_, size_; ///< at least that of the normal; of the largest absolute coordinate
+    double length_, size_; ///< L1 norm of the normal; largest absolute coordinate
 };
 
 } // namespace terrane

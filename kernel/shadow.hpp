@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Exact twins of filtered numbers, for builds with TERRANE_SHADOW only: each interval, each number
-// with a running bound and each static estimate knows the real number that it stands for, and
-// checks after every operation that its bound contains it. Such builds are slow, for tests alone.
+// Gives filtered numbers exact twins, in builds with TERRANE_SHADOW only. Each interval, each
+// number with a running bound and each static estimate carries the real number that it stands for,
+// and every operation checks that the bound contains it. Such builds are slow and meant for tests.
 #pragma once
 
 #include <terrane/kernel/config.hpp>
@@ -18,7 +18,8 @@
 
 namespace terrane::shadow {
 
-/// A rational number, or unknown: a number that came from nowhere, or a quotient by zero.
+/// A rational number, or unknown: an interval given by its limits alone, a number that is not
+/// finite, or a quotient by zero.
 class Twin {
 public:
     Twin() : numerator_(0), denominator_(1) {}
@@ -44,13 +45,14 @@ public:
     }
 
     [[nodiscard]] bool is_known() const { return known_; }
-    /// Whether it lies in [low, high]; also where it or a limit is not known.
+    /// Whether the number lies in [low, high]. An unknown number does, and a limit that is not
+    /// finite holds.
     [[nodiscard]] bool is_in(double low, double high) const {
         return !known_ ||
                ((!std::isfinite(low) || CGAL::sign((*this - Twin(low)).numerator_) >= 0) &&
                 (!std::isfinite(high) || CGAL::sign((Twin(high) - *this).numerator_) >= 0));
     }
-    /// Whether it differs from `value` by at most `bound`.
+    /// Whether the number differs from `value` by at most `bound`, or either is unknown.
     [[nodiscard]] bool is_near(const Twin& value, double bound) const {
         return !value.known_ || (*this - value).is_in(-bound, bound);
     }
@@ -78,37 +80,39 @@ private:
     bool known_ = true;
 };
 
-/// CGAL's interval with a twin.
-class Interval {
+/// CGAL's interval, with a twin.
+class IntervalWithTwin {
 public:
     using Plain = CGAL::Interval_nt<false>;
 
-    Interval() : Interval(0.0) {}
-    Interval(double d) : plain_(d), twin_(d) {}           // NOLINT: implicit, as the plain one
-    Interval(int i) : Interval(static_cast<double>(i)) {} // NOLINT: implicit, as the plain one
-    Interval(double low, double high) : plain_(low, high), twin_(Twin::unknown()) {}
-    /// Encloses a number that is known exactly.
-    Interval(double low, double high, const Twin& twin) : Interval(Plain(low, high), twin) {}
+    IntervalWithTwin() : IntervalWithTwin(0.0) {}
+    IntervalWithTwin(double d) : plain_(d), twin_(d) {} // NOLINT: implicit, as the plain one
+    IntervalWithTwin(int i) :
+        IntervalWithTwin(static_cast<double>(i)) {} // NOLINT: implicit, as the plain one
+    IntervalWithTwin(double low, double high) : plain_(low, high), twin_(Twin::unknown()) {}
+    /// Constructs the enclosure of a number that is known exactly.
+    IntervalWithTwin(double low, double high, const Twin& twin) :
+        IntervalWithTwin(Plain(low, high), twin) {}
 
     [[nodiscard]] double inf() const { return plain_.inf(); }
     [[nodiscard]] double sup() const { return plain_.sup(); }
 
-    friend Interval operator-(const Interval& a) { return {-a.plain_, -a.twin_}; }
-    friend Interval operator+(const Interval& a, const Interval& b) {
+    friend IntervalWithTwin operator-(const IntervalWithTwin& a) { return {-a.plain_, -a.twin_}; }
+    friend IntervalWithTwin operator+(const IntervalWithTwin& a, const IntervalWithTwin& b) {
         return {a.plain_ + b.plain_, a.twin_ + b.twin_};
     }
-    friend Interval operator-(const Interval& a, const Interval& b) {
+    friend IntervalWithTwin operator-(const IntervalWithTwin& a, const IntervalWithTwin& b) {
         return {a.plain_ - b.plain_, a.twin_ - b.twin_};
     }
-    friend Interval operator*(const Interval& a, const Interval& b) {
+    friend IntervalWithTwin operator*(const IntervalWithTwin& a, const IntervalWithTwin& b) {
         return {a.plain_ * b.plain_, a.twin_ * b.twin_};
     }
-    friend Interval operator/(const Interval& a, const Interval& b) {
+    friend IntervalWithTwin operator/(const IntervalWithTwin& a, const IntervalWithTwin& b) {
         return {a.plain_ / b.plain_, a.twin_ / b.twin_};
     }
 
 private:
-    Interval(const Plain& plain, const Twin& twin) : plain_(plain), twin_(twin) {
+    IntervalWithTwin(const Plain& plain, const Twin& twin) : plain_(plain), twin_(twin) {
         TERRANE_ASSERT(twin_.is_in(plain_.inf(), plain_.sup()));
     }
 
@@ -116,14 +120,14 @@ private:
     Twin twin_;
 };
 
-/// The cross product of b - a and d - c in a projection; points have u and v.
+/// Computes the cross product of b - a and d - c in a projection; points have u and v.
 template <class Uv>
 Twin turn2d(const Uv& a, const Uv& b, const Uv& c, const Uv& d) {
     return (Twin(b.u) - Twin(a.u)) * (Twin(d.v) - Twin(c.v)) -
            (Twin(b.v) - Twin(a.v)) * (Twin(d.u) - Twin(c.u));
 }
 
-/// The determinant of b - a, c - a, d - a.
+/// Computes the determinant of b - a, c - a, d - a.
 inline Twin orient3d(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
     const auto minus_a = [&](const Point3& p) {
         return std::array<Twin, 3>{Twin(p.x) - Twin(a.x), Twin(p.y) - Twin(a.y),
@@ -134,7 +138,7 @@ inline Twin orient3d(const Point3& a, const Point3& b, const Point3& c, const Po
            (b_[0] * c_[1] - b_[1] * c_[0]) * d_[2];
 }
 
-/// The determinant of in_circle; points have u and v.
+/// Computes the determinant of in_circle; points have u and v.
 template <class Uv>
 Twin in_circle(const Uv& a, const Uv& b, const Uv& c, const Uv& d) {
     const auto lifted = [&](const Uv& p) {

@@ -5,7 +5,7 @@
 
 namespace terrane {
 
-/// The sign of an exact real number. "Not sure" is std::optional<Sign>, never Zero.
+/// The sign of an exact real number. An undecided sign is an empty std::optional<Sign>, never Zero.
 enum class Sign : std::int8_t { Negative = -1, Zero = 0, Positive = 1 };
 
 constexpr Sign operator-(Sign s) {
@@ -15,7 +15,7 @@ constexpr Sign operator*(Sign a, Sign b) {
     return static_cast<Sign>(static_cast<int>(a) * static_cast<int>(b));
 }
 
-/// Sign of a number that compares with 0 exactly.
+/// Returns the sign of a number that compares with 0 exactly.
 template <class N>
 constexpr Sign sign_of(const N& value) {
     if (value > 0) return Sign::Positive;

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Static error bounds: the polynomials of the predicates in plain doubles, each with the bound of
-// its rounding error. All static filters take their numbers from here. Right in any rounding mode.
+// Evaluates the polynomials of the predicates in plain doubles and bounds the rounding error of
+// each. All static filters take their numbers from here. The bounds hold in any rounding mode.
 //
-// One operation is off by at most `unit` times its true result, in any rounding mode. Below, A B C
-// are the largest absolute differences that enter each factor.
-// (1) turn2d, degree 2: each difference is off by unit, each product adds unit: two products of
-//     size U V, each off by 3 unit, and a subtraction (2) make 8 unit U V.
-// (2) orient3d, degree 3: a minor of two products of size A B is off by 2 (3 unit) A B + 2 unit A B
-//     = 8 unit A B, as in (1); times a third difference, (2 A B C)(2 unit) more: 12 unit A B C;
-//     three of them 36, two additions (4 + 6) unit A B C. 46 unit A B C in all.
-// (3) in_circle, degree 4, M the largest difference of all: a minor is at most 2 M^2 and off by
-//     8 unit M^2, a lifted coordinate at most 2 M^2 and off by 8 unit M^2 (two squares off by 3
-//     each, a sum of size 2); their product at most 4 M^4, off by 36 unit M^4; three of them 108,
-//     two additions (8 + 12). 128 unit M^4 in all.
-// The factors below cover the terms of second order and the rounding of the bound itself, too.
-// (4) The bounds hold where products neither underflow nor overflow: all products of 2, 3, 4
-//     numbers within range_of_degree2, 3, 4 are normal.
+// One operation errs by at most `unit` times its true result, in any rounding mode. Below, U, V, A,
+// B and C are the largest absolute differences that enter each factor.
+// (1) turn2d, degree 2. Each difference errs by unit and each product adds unit. Two products of
+//     size U V with an error of 3 unit each, and a subtraction (2 unit), give 8 unit U V.
+// (2) orient3d, degree 3. A minor of two products of size A B errs by 8 unit A B, as in (1).
+//     Multiplying it by a third difference adds (2 A B C)(2 unit), which gives 12 unit A B C. Three
+//     such terms give 36 and two additions 4 + 6: 46 unit A B C in all.
+// (3) in_circle, degree 4, where M is the largest of all differences. A minor is at most 2 M^2 and
+//     errs by 8 unit M^2. So does a lifted coordinate (two squares that err by 3 unit each, and a
+//     sum of size 2). Their product is at most 4 M^4 and errs by 36 unit M^4. Three products give
+//     108 and two additions 8 + 12: 128 unit M^4 in all.
+// (4) The bounds hold unless products underflow or overflow. All products of 2, 3, 4 numbers within
+//     range_of_degree2, 3, 4 are normal.
+// The factors below also cover the terms of second order and the rounding of the bound itself.
 #pragma once
 
 #include <terrane/kernel/config.hpp>
@@ -41,11 +41,11 @@ namespace terrane::static_filter {
 
 constexpr double unit = std::numeric_limits<double>::epsilon();
 
-constexpr double turn2d_factor = 9;      ///< of unit U V, by (1)
-constexpr double orient3d_factor = 48;   ///< of unit A B C, by (2)
-constexpr double in_circle_factor = 132; ///< of unit M^4, by (3)
+constexpr double turn2d_factor = 9;      ///< times unit U V, by (1)
+constexpr double orient3d_factor = 48;   ///< times unit A B C, by (2)
+constexpr double in_circle_factor = 132; ///< times unit M^4, by (3)
 
-/// Sizes for which the bounds hold.
+/// The open range of sizes for which the bounds hold.
 struct Range {
     double low, high;
 
@@ -57,11 +57,11 @@ constexpr Range range_of_degree2{0x1p-480, 0x1p+500};
 constexpr Range range_of_degree3{0x1p-320, 0x1p+330};
 constexpr Range range_of_degree4{0x1p-240, 0x1p+250};
 
-/// A computed value and what it is off by at most.
+/// A computed value and the bound of its error.
 struct Estimate {
     double value, bound;
 
-    /// The sign, where the bound leaves no doubt; never Zero.
+    /// Returns the sign of the true value if the bound decides it; never Zero.
     [[nodiscard]] std::optional<Sign> sign() const {
         if (value > bound) return Sign::Positive;
         if (value < -bound) return Sign::Negative;
@@ -76,6 +76,7 @@ struct Uv {
     friend auto operator<=>(const Uv&, const Uv&) = default; ///< lexicographic
 };
 
+/// Projects a point along an axis.
 inline Uv project(Axis axis, const Point3& p) {
     switch (axis) {
     case Axis::x:
@@ -87,7 +88,7 @@ inline Uv project(Axis axis, const Point3& p) {
     }
 }
 
-/// The cross product of b - a and d - c, estimated by (1).
+/// The cross product of b - a and d - c, with the bound (1).
 class Turn2d {
 public:
     Turn2d(const Uv& a, const Uv& b, const Uv& c, const Uv& d) :
@@ -98,7 +99,7 @@ public:
         u_(std::max(std::fabs(bu_), std::fabs(cu_))), v_(std::max(std::fabs(bv_), std::fabs(cv_))) {
     }
 
-    /// Whether the product is zero since all differences of one coordinate are.
+    /// Whether the product is zero because all differences of one coordinate are.
     [[nodiscard]] bool is_zero() const {
         return u_ == 0 || v_ == 0;
     }
@@ -106,13 +107,13 @@ public:
     [[nodiscard]] bool in_range() const {
         return range_of_degree2.contains(std::min(u_, v_), std::max(u_, v_));
     }
-    /// In range only.
+    /// Returns the product and its bound. Precondition: in_range().
     [[nodiscard]] Estimate estimate() const {
         const Estimate e{bu_ * cv_ - bv_ * cu_, turn2d_factor * unit * u_ * v_};
         TERRANE_ASSERT_SHADOW(twin_.is_near(shadow::Twin(e.value), e.bound));
         return e;
     }
-    /// |u| + |v| of b - a.
+    /// Returns |u| + |v| of b - a.
     [[nodiscard]] double length() const {
         return std::fabs(bu_) + std::fabs(bv_);
     }
@@ -124,7 +125,7 @@ private:
     double bu_, bv_, cu_, cv_, u_, v_;
 };
 
-/// The plane of three points, for orient3d with any number of fourth points.
+/// The plane of three points, for orient3d with many fourth points.
 class Plane {
 public:
     Plane(const Point3& a, const Point3& b, const Point3& c) : origin_(a) {
@@ -152,7 +153,7 @@ public:
                   std::max(plane.largest_.z, std::fabs(d_.z))} {
         }
 
-        /// Whether it is zero since all differences of one coordinate are.
+        /// Whether the determinant is zero because all differences of one coordinate are.
         [[nodiscard]] bool is_zero() const {
             return size_.x == 0 || size_.y == 0 || size_.z == 0;
         }
@@ -162,7 +163,7 @@ public:
             return range_of_degree3.contains(std::min(std::min(x, y), z),
                                              std::max(std::max(x, y), z));
         }
-        /// By (2), in range only.
+        /// Returns the determinant and its bound (2). Precondition: in_range().
         [[nodiscard]] Estimate estimate() const {
             const auto& [x, y, z] = size_;
             const Estimate e{normal_.x * d_.x + normal_.y * d_.y + normal_.z * d_.z,
@@ -190,7 +191,7 @@ private:
 #ifdef TERRANE_SHADOW
     std::array<Point3, 3> points_;
 #endif
-    Point3 origin_, normal_, largest_; ///< largest absolute differences from the first point
+    Point3 origin_, normal_, largest_; ///< largest_: largest absolute differences from origin_
 };
 
 } // namespace terrane::static_filter

@@ -15,7 +15,7 @@ shift $(($# < 2 ? $# : 2))
 chosen=" $* "
 jobs=${FUZZ_JOBS:-$(nproc)}
 
-# name ~ target ~ file ~ the change, in Perl
+# Each line has the name of the bug, the target, the file and the change in Perl, separated by ~.
 mutations=(
     'orientation-sign~predicates~kernel/predicates.cpp~s/return \{p\.y, p\.z\};/return {p.z, p.y};/'
     'filter-bound~predicates~kernel/predicates.cpp~s/, 9 \* unit \* u \* v\)/, 0.25 * unit * u * v)/'

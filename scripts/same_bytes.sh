@@ -11,7 +11,7 @@ if [[ ! -e cli/CMakeLists.txt ]]; then
     exit 0
 fi
 
-presets=(release asan) # clang, debug, is compared with gcc, optimised
+presets=(release asan) # compares a debug build of clang with an optimised one of gcc
 data=tests/data
 cases=(
     "$data/ringmesh/split_cube.ml"

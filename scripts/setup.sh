@@ -11,7 +11,7 @@ packages=(
     libcgal-dev libgmp-dev libmpfr-dev nettle-dev libeigen3-dev libnanoflann-dev libtbb-dev
     libcli11-dev libfmt-dev nlohmann-json3-dev libpugixml-dev zlib1g-dev
     libtet1.5-dev catch2 libbenchmark-dev
-    python3-vtk9 python3-meshio gmsh # read the written files back, in tests only
+    python3-vtk9 python3-meshio gmsh # these read the written files back, in tests only
 )
 
 is_installed() {

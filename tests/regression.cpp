@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Inputs that once failed, named after what they broke: arranged, verified, rounded and checked, as
-// they are and transformed. Adding a file to the folder needs no compiling.
+// Arranges, verifies, rounds and checks inputs that once failed, which are named after what they
+// broke, both unchanged and transformed. Adding a file to the folder needs no compiling.
 //   regression FOLDER
 #include "support/soup_laws.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What public headers and the verifier may include, and how includes are written. Which folder may include which one is
-// checked by tests/test_include_graph.py.
+// Checks what public headers and the verifier may include, and how includes are written.
+// tests/test_include_graph.py checks which folder may include which.
 #include <catch2/catch.hpp>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace {
 
 const fs::path root = test_support::source_dir();
 
-/// What stands between the brackets or quotes of each include, in order.
+/// Returns the text between the brackets or quotes of each include, in order.
 std::vector<std::string> includes_of(const fs::path& file) {
     static const std::regex directive(R"(^\s*#\s*include\s*[<"]([^>"]+)[>"])");
     std::vector<std::string> result;
@@ -32,7 +32,7 @@ std::vector<std::string> includes_of(const fs::path& file) {
     return result;
 }
 
-/// "kernel/point.hpp" for <terrane/kernel/point.hpp>; empty for what is not ours.
+/// Returns "kernel/point.hpp" for <terrane/kernel/point.hpp>, and nothing for headers of others.
 std::string ours(const std::string& include) {
     const std::string prefix = "terrane/";
     return include.starts_with(prefix) ? include.substr(prefix.size()) : "";
@@ -54,7 +54,7 @@ bool is_verifier(const std::string& file) {
     return file.starts_with("algorithms/verify/");
 }
 
-/// The installed headers, as scripts/cmake/public_headers.cmake lists them.
+/// Returns the installed headers, as scripts/cmake/public_headers.cmake lists them.
 std::set<std::string> public_headers() {
     static const std::regex header(R"(^ +([a-z0-9_/]+\.hpp)\)?$)");
     std::set<std::string> result;
@@ -64,7 +64,7 @@ std::set<std::string> public_headers() {
     return result;
 }
 
-/// Headers of the standard library have neither a folder nor an extension.
+/// Tells a standard header by its name, which has neither a folder nor an extension.
 bool is_standard(const std::string& include) {
     return include.find_first_of("./") == std::string::npos;
 }
@@ -92,7 +92,7 @@ TEST_CASE("includes: public headers include public headers and the standard libr
             INFO(header << " includes " << include);
             const std::string target = ours(include);
             if (target.empty())
-                CHECK((is_standard(include) || include == "malloc.h")); // the C library's
+                CHECK((is_standard(include) || include == "malloc.h")); // of the C library
             else
                 CHECK(listed.count(target) == 1);
         }

@@ -12,7 +12,7 @@
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/invariants.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
-#include <terrane/algorithms/core/stopwatch.hpp>
+#include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/intersection/injective_patches.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/kernel/fraction.hpp>
@@ -20,7 +20,7 @@
 namespace terrane {
 namespace {
 
-/// Parents are input triangles: those that became the faces, and their duplicates.
+/// Returns the parents of each triangle: the input triangles of its faces, and their duplicates.
 IndexLists<std::uint32_t>
 parents_of_faces(const Soup& soup, const IndexLists<std::uint32_t>& faces_of, const Run& run) {
     auto by_first = soup.duplicates;
@@ -57,7 +57,7 @@ parents_of_faces(const Soup& soup, const IndexLists<std::uint32_t>& faces_of, co
     return parents;
 }
 
-/// A triangle is in the patch of its face; in none where it has several faces.
+/// Assigns each triangle to the patch of its face, or to none if it has several faces.
 InjectivePatches patches_of_faces(InjectivePatches of_soup,
                                   const IndexLists<std::uint32_t>& faces_of, const Run& run) {
     InjectivePatches patches;
@@ -71,7 +71,8 @@ InjectivePatches patches_of_faces(InjectivePatches of_soup,
     return patches;
 }
 
-/// Pairs of which one has a constructed point on it, as input triangles.
+/// Returns the near pairs of which at least one triangle has a constructed point, as input
+/// triangles.
 std::vector<CandidatePair> neighbours_of_divided(const Soup& soup, const Retriangulation& division,
                                                  const Run& run) {
     std::vector<char> has_constructed(soup.triangles.size(), 0);
@@ -91,7 +92,7 @@ std::vector<CandidatePair> neighbours_of_divided(const Soup& soup, const Retrian
     return neighbours;
 }
 
-/// By patch, and by surface where there is none.
+/// Labels triangles by patch, and those without a patch by surface.
 Labels labels_of(const Soup& soup, const InjectivePatches& patches, const Run& run) {
     Labels labels(patches.of.size());
     const auto count = static_cast<std::uint32_t>(patches.axis.size());
@@ -106,8 +107,8 @@ Labels labels_of(const Soup& soup, const InjectivePatches& patches, const Run& r
     return labels;
 }
 
-/// Points in use become vertices: input ones by number, constructed ones in lexicographic order.
-/// Returns the vertex of each point.
+/// Makes the points in use vertices: input points by number, then constructed points in
+/// lexicographic order. Returns the vertex of each point.
 std::vector<std::uint32_t> name_vertices(Arrangement& a, const PointStore& points,
                                          std::span<const PointIndex> ascending, const Run& run) {
     const auto inputs = static_cast<PointIndex>(points.input_count());
@@ -137,12 +138,12 @@ Error interrupted() {
     return {ErrorCode::interrupted, "stopped on request", ""};
 }
 
-/// What arrangement.hpp says of the arrays.
+/// Asserts the properties that arrangement.hpp states for the arrays.
 void assert_invariants([[maybe_unused]] const Arrangement& a) {
     TERRANE_ASSERT(a.parents_of.size() == a.triangles.size());
     TERRANE_ASSERT(a.surfaces_of.size() == a.triangles.size());
     TERRANE_ASSERT_PARANOID(corners_below(a.triangles, a.vertices.size()));
-    TERRANE_ASSERT_PARANOID(all_below(a.vertices, a.points.size()));
+    TERRANE_ASSERT_PARANOID(all_below(a.vertices, a.state->points.size()));
     TERRANE_ASSERT_PARANOID(are_sorted_lists(a.parents_of, a.triangles.size()));
     TERRANE_ASSERT_PARANOID(are_sorted_lists(a.surfaces_of, a.triangles.size()));
     TERRANE_ASSERT_PARANOID(all_below(a.surfaces_of.values, a.surfaces.size()));
@@ -150,44 +151,19 @@ void assert_invariants([[maybe_unused]] const Arrangement& a) {
     TERRANE_ASSERT_PARANOID(is_sorted_unique(a.degenerate));
 }
 
-Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
-                                    const ArrangeOptions& options, const Run& run) {
-    const auto report = [&](double share) {
-        if (run.progress) run.progress("arrange", share);
-    };
-    Stopwatch watch;
-    Arrangement a;
-    for (const Surface& s : surfaces) a.surfaces.push_back({s.name, s.role});
+ArrangeStatistics statistics_of(std::size_t candidates, const Retriangulation& division) {
+    ArrangeStatistics all;
+    all.candidates = candidates;
+    all.improper_contacts = division.statistics.improper_contacts;
+    all.divided = division.statistics.divided;
+    all.constructed_points = division.ascending.size();
+    all.predicates = division.statistics.predicates;
+    return all;
+}
 
-    // (a) one soup of distinct points and triangles
-    Soup soup = merge_surfaces(surfaces, run);
-    InjectivePatches patches = find_injective_patches(soup.points, soup.triangles, soup.surface_of,
-                                                      soup.edges, run, soup.turns);
-    a.statistics.seconds_prepare = watch.lap();
-    report(0.1);
-
-    // (b) candidate pairs
-    const auto candidates =
-        candidate_pairs({soup.points, soup.triangles}, patches.of, options.search, run);
-    TERRANE_ASSERT_PARANOID(is_sorted_unique(candidates));
-    a.statistics.seconds_search = watch.lap();
-    report(0.3);
-    if (run.stop.stop_requested()) return interrupted();
-
-    // (c) contacts, (d) equal points merged, (e) triangulation of what is touched, (f) one mesh
-    Retriangulation division =
-        retriangulate(std::move(soup.points), soup.triangles, candidates, run);
-    if (run.stop.stop_requested()) return interrupted();
-    const RetriangulationStatistics& d = division.statistics;
-    a.statistics.candidates = candidates.size();
-    a.statistics.improper_contacts = d.improper_contacts;
-    a.statistics.divided = d.divided;
-    a.statistics.constructed_points = division.ascending.size();
-    a.statistics.predicates = d.predicates;
-    a.statistics.seconds_intersect = d.seconds_intersect;
-    a.statistics.seconds_triangulate = d.seconds_triangulate;
-    watch.lap();
-
+/// Makes one mesh of the triangles after division, with what later stages ask of it.
+void assemble(Arrangement& a, Soup soup, InjectivePatches patches, Retriangulation division,
+              const Run& run) {
     a.inputs = {soup.first_input_triangle, soup.first_input_vertex, soup.duplicates};
     a.degenerate = soup.degenerate;
     const auto state = std::make_shared<ExactState>();
@@ -208,12 +184,49 @@ Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
             a.triangles = std::move(division.triangles);
             vertex_of = name_vertices(a, state->points, division.ascending, run);
         });
-    report(0.9);
+    if (run.progress) run.progress("arrange", 0.9);
     state->adjacency = adjacency_after(
         soup.edges, labels,
         {a.triangles, division.faces_of, division.unchanged_as, vertex_of, a.vertices.size()}, run);
     a.intersection_edges = find_intersection_edges(state->adjacency, a.inputs, a.parents_of);
-    a.statistics.seconds_stitch = d.seconds_stitch + watch.lap();
+}
+
+Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
+                                    const ArrangeOptions& options, const Run& run) {
+    const auto report = [&](double share) {
+        if (run.progress) run.progress("arrange", share);
+    };
+    StageTimer step(run, "prepare");
+    Arrangement a;
+    for (const Surface& s : surfaces) a.surfaces.push_back({s.name, s.role});
+
+    // (a) one soup of distinct points and triangles
+    Soup soup = merge_surfaces(surfaces, run);
+    InjectivePatches patches = find_injective_patches(soup.points, soup.triangles, soup.surface_of,
+                                                      soup.edges, run, soup.turns);
+    report(0.1);
+
+    // (b) candidate pairs
+    step.next("search");
+    const auto candidates =
+        candidate_pairs({soup.points, soup.triangles}, patches.of, options.search, run);
+    TERRANE_ASSERT_PARANOID(is_sorted_unique(candidates));
+    step.stop();
+    report(0.3);
+    if (run.stop.stop_requested()) return interrupted();
+
+    // (c) contacts, (d) equal points, (e) triangulation of the faces with contacts
+    Retriangulation division =
+        retriangulate(std::move(soup.points), soup.triangles, candidates, run);
+    if (run.stop.stop_requested()) return interrupted();
+    a.statistics = statistics_of(candidates.size(), division);
+
+    // (f) one mesh
+    step.next("assemble");
+    assemble(a, std::move(soup), std::move(patches), std::move(division), run);
+    a.statistics.triangles = a.triangles.size();
+    a.statistics.vertices = a.vertices.size();
+    step.stop();
     assert_invariants(a);
     report(1);
     return a;
@@ -228,18 +241,18 @@ std::shared_ptr<const ExactState> empty_state() {
 
 ExactState& own_state(Arrangement& a) {
     if (a.state.use_count() != 1) a.state = std::make_shared<ExactState>(*a.state);
-    return const_cast<ExactState&>(*a.state); // made without const, here or by arrange
+    return const_cast<ExactState&>(*a.state); // created non-const, here or by arrange
 }
 
-const Point3& Arrangement::nearest(std::uint32_t vertex) const {
+const Point3& Arrangement::nearest(VertexId vertex) const {
     return state->points.nearest(vertices[vertex]);
 }
 
-std::array<std::string, 3> Arrangement::coordinates(std::uint32_t vertex) const {
+std::array<std::string, 3> Arrangement::coordinates(VertexId vertex) const {
     return fractions(state->points, vertices[vertex], 10);
 }
 
-Construction Arrangement::construction(std::uint32_t vertex) const {
+Construction Arrangement::construction(VertexId vertex) const {
     return state->points.construction(vertices[vertex]);
 }
 
@@ -255,9 +268,11 @@ Result<Arrangement> arrange(std::span<const Surface> surfaces, const ArrangeOpti
                             const Run& run) {
     if (const auto valid = validate(surfaces, run); !valid) return valid.error();
     return guarded("for the arrangement", "arrange", [&]() -> Result<Arrangement> {
-        // In one arena all stages find the threads awake.
+        // Within one arena the threads stay awake from stage to stage.
         Result<Arrangement> arranged = Error{};
-        with_threads(run, [&] { arranged = arrange_checked(surfaces, options, run); });
+        const StageTimer timer(run, "arrange");
+        const Run inner = timer.inside();
+        with_threads(run, [&] { arranged = arrange_checked(surfaces, options, inner); });
         return arranged;
     });
 }

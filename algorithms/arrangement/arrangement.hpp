@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The exact arrangement of any number of surfaces, and of each with itself.
+// Computes the exact arrangement of any number of surfaces, which may also intersect themselves.
 //
 // Guarantees: the points are pairwise distinct; two triangles share a vertex, an edge, or nothing;
-// each input triangle with area is exactly the union of the triangles that name it as a parent. No
-// epsilon. The result depends on neither threads nor search method.
-// Cost: the box search, plus what touches: O(n log n) for surfaces that meet along curves.
+// each input triangle with area is exactly the union of the triangles that name it as a parent.
+// There is no epsilon. The result depends on neither threads nor search method.
+// Cost: that of the box search, plus that of the triangles that meet: O(n log n) for surfaces that
+// meet along curves.
 // Source: the paper, sections 2 and 3 (intersection, inclusion of the curve).
 #pragma once
 
@@ -18,6 +19,7 @@
 #include <vector>
 
 #include <terrane/algorithms/arrangement/input_triangles.hpp>
+#include <terrane/algorithms/core/id.hpp>
 #include <terrane/algorithms/core/index_lists.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
@@ -32,63 +34,66 @@ namespace terrane {
 
 /// Options of arrange().
 struct ArrangeOptions {
-    Search search = Search::automatic; ///< how candidates are found; never changes the result
+    Search search = Search::automatic; ///< method that finds candidates; never changes the result
 };
 
-/// What was done, for people and benchmarks.
+/// Counts of the steps. A part of an arrangement keeps those of the whole.
 struct ArrangeStatistics {
     std::size_t candidates = 0;         ///< pairs of triangles whose boxes overlap
     std::size_t improper_contacts = 0;  ///< pairs of input triangles that meet improperly
     std::size_t divided = 0;            ///< input triangles that were triangulated
     std::size_t constructed_points = 0; ///< distinct points that are no input vertices
+    std::size_t triangles = 0;          ///< of the result
+    std::size_t vertices = 0;           ///< of the result
     PredicateCounts predicates;         ///< signs decided by each stage
-    double seconds_prepare = 0;         ///< for the soup and the injective patches
-    double seconds_search = 0;          ///< for candidate pairs
-    double seconds_intersect = 0;       ///< for contacts and their points
-    double seconds_triangulate = 0;     ///< for the triangulation of faces
-    double seconds_stitch = 0;          ///< for vertices, parents and intersection edges
 };
 
-/// The exact points and what later stages need of the arrangement; exact_arrangement.hpp, which is
-/// the library's own, defines it.
+/// The exact points of an arrangement and the data that later stages need. It is opaque to users of
+/// the library; the internal header exact_arrangement.hpp defines it.
 struct ExactState;
 
-/// That of an arrangement without surfaces.
+/// Returns the state of an arrangement without surfaces.
 std::shared_ptr<const ExactState> empty_state();
 
-/// Input vertices and triangles are counted through all surfaces: vertex k of surface s is
-/// (vertices of the surfaces before s) + k; triangles likewise.
+/// The arrangement of surfaces. Input vertices and triangles are numbered through all surfaces:
+/// vertex k of surface s is (vertices of the surfaces before s) + k; triangles likewise.
 struct Arrangement {
-    std::vector<SurfaceInfo> surfaces;     ///< order of the input
-    InputTriangles inputs;                 ///< how input triangles are counted; duplicates
-    std::vector<PointIndex> vertices;      ///< the points in use: input ones by number, then
-                                           ///< constructed ones in lexicographic order
+    std::vector<SurfaceInfo> surfaces;     ///< in the order of the input
+    InputTriangles inputs;                 ///< numbering and duplicates of the input triangles
+    std::vector<PointIndex> vertices;      ///< the points in use: input points by number, then
+                                           ///< constructed points in lexicographic order
     std::vector<Triangle> triangles;       ///< indices into vertices; unique; oriented as the first
                                            ///< parent
     IndexLists<std::uint32_t> parents_of;  ///< per triangle: all input triangles that contain it,
-                                           ///< duplicates too; sorted, >= 1 (> 1: coplanar overlap)
+                                           ///< including duplicates; sorted, >= 1 (> 1: coplanar
+                                           ///< overlap)
     IndexLists<std::uint32_t> surfaces_of; ///< per triangle: surfaces of its parents, sorted, >= 1
-    std::vector<Edge> intersection_edges;  ///< in which more than two triangles meet, or two that
+    std::vector<Edge> intersection_edges;  ///< edges of more than two triangles, or of two that
                                            ///< differ in their number of distinct parents in some
                                            ///< surface; sorted, unique. The parents of an edge
-                                           ///< are those of the triangles at it
+                                           ///< are those of its triangles
     std::vector<std::uint32_t> degenerate; ///< input triangles without area, ascending
-    ArrangeStatistics statistics;          ///< what was done
+    ArrangeStatistics statistics;          ///< counts
     std::shared_ptr<const ExactState> state = empty_state(); ///< never null; shared by copies
 
-    /// The doubles nearest to a vertex (an index into vertices).
-    [[nodiscard]] const Point3& nearest(std::uint32_t vertex) const;
-    /// The exact coordinates of a vertex as reduced fractions: "-5/3", "7".
-    [[nodiscard]] std::array<std::string, 3> coordinates(std::uint32_t vertex) const;
-    /// How a vertex follows from input vertices.
-    [[nodiscard]] Construction construction(std::uint32_t vertex) const;
-    /// All input vertices, used or not.
+    /// Returns the doubles nearest to a vertex (an index into vertices).
+    [[nodiscard]] const Point3& nearest(VertexId vertex) const;
+    /// Returns the exact coordinates of a vertex as reduced fractions: "-5/3", "7".
+    [[nodiscard]] std::array<std::string, 3> coordinates(VertexId vertex) const;
+    /// Returns how a vertex is constructed from input vertices.
+    [[nodiscard]] Construction construction(VertexId vertex) const;
+    /// Returns all input vertices, used or not.
     [[nodiscard]] std::span<const Point3> input_vertices() const;
-    /// Per input triangle: its corners, each the first input vertex with the same coordinates.
+    /// Returns the corners of all input triangles; each corner is the first input vertex with the
+    /// same coordinates.
     [[nodiscard]] std::span<const Triangle> input_corners() const;
 };
 
-/// Errors: bad_number (a coordinate is not finite), bad_index, interrupted, out_of_memory.
+/// Computes the arrangement of surfaces. Errors: bad_number (a coordinate is not finite),
+/// bad_index, unsupported (indices beyond 32 bits), interrupted, out_of_memory, internal.
+/// Times: arrange, with the steps prepare (soup and injective patches), search (candidate pairs),
+/// intersect (contacts and their points), triangulate (faces), stitch (unique triangles) and
+/// assemble (vertices, parents, intersection edges).
 Result<Arrangement> arrange(std::span<const Surface> surfaces, const ArrangeOptions& options = {},
                             const Run& run = {});
 

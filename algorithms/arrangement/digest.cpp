@@ -113,7 +113,7 @@ private:
     }
 
     void add_duplicates() {
-        std::map<std::uint32_t, Hashes> same; // by the first of them
+        std::map<std::uint32_t, Hashes> same; // by the first triangle with the same points
         for (const auto& [t, first] : arrangement_.inputs.duplicates) {
             Hashes& all = same[first];
             if (all.empty()) all.push_back(inputs_[first]);
@@ -124,16 +124,16 @@ private:
 
     const Arrangement& arrangement_;
     const Run& run_;
-    Hashes points_;  ///< of all stored points
-    Hashes inputs_;  ///< of all input triangles
-    Hashes records_; ///< of all vertices, parents, edges, degenerate and duplicates
+    Hashes points_;  ///< per stored point
+    Hashes inputs_;  ///< per input triangle
+    Hashes records_; ///< all vertices, parents, edges, degenerate and duplicates
 };
 
 } // namespace
 
 std::string canonical_digest(std::span<const Surface> inputs, const Arrangement& arrangement,
                              const Run& run) {
-    const Run unstoppable{.threads = run.threads}; // it is over in a moment
+    const Run unstoppable{.threads = run.threads}; // hashing takes only a moment
     return Digest(inputs, arrangement, unstoppable)();
 }
 

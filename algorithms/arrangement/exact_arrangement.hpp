@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What an arrangement keeps for the stages after it and hides from users of the library.
+// Defines the state that an arrangement keeps for later stages and hides from users of the library.
 #pragma once
 
 #include <functional>
@@ -17,25 +17,27 @@
 
 namespace terrane {
 
-/// Indices into `vertices`, `triangles` and input triangles are those of the arrangement.
+/// The state of an arrangement. Indices of vertices, triangles and input triangles are those of the
+/// arrangement.
 struct ExactState {
     PointStore points;                     ///< all input vertices, and all constructed points
-    UninitializedVector<Triangle> corners; ///< per input triangle: input vertices at the first
-                                           ///< place where their coordinates occur
-    InjectivePatches patches;              ///< of the triangles: within one, none meet improperly
-    std::vector<CandidatePair> neighbours; ///< input triangles, one of them with constructed
-                                           ///< points, not both within one patch, that meet or may
-                                           ///< do so when points are rounded to nearest doubles;
-                                           ///< no duplicates; sorted
-    Adjacency adjacency;                   ///< of the triangles
-    bool whole = true;                     ///< false: some triangles were taken out, see
-                                           ///< restricted.hpp
-    /// Takes the same out of an arrangement of the same surfaces after a small move of their
-    /// vertices: rounding needs it where it arranges anew. Empty where `whole`, or not known.
+    UninitializedVector<Triangle> corners; ///< per input triangle: for each corner the first input
+                                           ///< vertex with the same coordinates
+    InjectivePatches patches;              ///< patches of the triangles; the triangles of a patch
+                                           ///< never meet improperly
+    std::vector<CandidatePair> neighbours; ///< pairs of input triangles that meet, or may meet when
+                                           ///< points are rounded to nearest doubles. At least one
+                                           ///< has constructed points; they are not both in one
+                                           ///< patch. No duplicates; sorted
+    Adjacency adjacency;                   ///< that of the triangles
+    bool whole = true;                     ///< false if triangles were removed, see restricted.hpp
+    /// Removes the same part from an arrangement of the same surfaces after a small move of their
+    /// vertices. Rounding needs it if it arranges again. Empty if `whole`, or if unknown.
     std::function<Result<Arrangement>(Arrangement, const Run&)> restrict_again{};
 };
 
-/// The state of an arrangement, to be changed: copied first where another arrangement shares it.
+/// Returns the state of an arrangement for modification. It is copied first if another arrangement
+/// shares it.
 ExactState& own_state(Arrangement& arrangement);
 
 } // namespace terrane

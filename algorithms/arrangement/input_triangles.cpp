@@ -5,15 +5,15 @@
 
 namespace terrane {
 
-std::uint32_t InputTriangles::surface_of(std::uint32_t triangle) const {
-    return static_cast<std::uint32_t>(std::upper_bound(first.begin(), first.end(), triangle) -
-                                      first.begin() - 1);
+SurfaceId InputTriangles::surface_of(InputTriangleId triangle) const {
+    const auto after = std::upper_bound(first.begin(), first.end(), std::uint32_t{triangle});
+    return SurfaceId(static_cast<std::uint32_t>(after - first.begin() - 1));
 }
 
-std::uint32_t InputTriangles::first_same(std::uint32_t triangle) const {
-    const auto it = std::lower_bound(duplicates.begin(), duplicates.end(), triangle,
+InputTriangleId InputTriangles::first_same(InputTriangleId triangle) const {
+    const auto it = std::lower_bound(duplicates.begin(), duplicates.end(), std::uint32_t{triangle},
                                      [](const auto& d, std::uint32_t t) { return d[0] < t; });
-    return it != duplicates.end() && (*it)[0] == triangle ? (*it)[1] : triangle;
+    return it != duplicates.end() && (*it)[0] == triangle ? InputTriangleId((*it)[1]) : triangle;
 }
 
 } // namespace terrane

@@ -5,19 +5,21 @@
 #include <cstdint>
 #include <vector>
 
+#include <terrane/algorithms/core/id.hpp>
+
 namespace terrane {
 
-/// Which input triangles are which: numbers count through all surfaces.
+/// The numbering of input triangles and input vertices through all surfaces.
 struct InputTriangles {
-    std::vector<std::uint32_t> first;                     ///< per surface, and the total at the end
-    std::vector<std::uint32_t> first_vertex;              ///< the same for input vertices
+    std::vector<std::uint32_t> first;        ///< per surface: its first triangle; then the total
+    std::vector<std::uint32_t> first_vertex; ///< per surface: its first vertex; then the total
     std::vector<std::array<std::uint32_t, 2>> duplicates; ///< {input triangle, the first with the
                                                           ///< same three points}, ascending
 
-    /// The surface that an input triangle is of.
-    [[nodiscard]] std::uint32_t surface_of(std::uint32_t triangle) const;
-    /// The first triangle with the same three points: itself where it is no duplicate.
-    [[nodiscard]] std::uint32_t first_same(std::uint32_t triangle) const;
+    /// Returns the surface of an input triangle.
+    [[nodiscard]] SurfaceId surface_of(InputTriangleId triangle) const;
+    /// Returns the first triangle with the same three points: itself if it is no duplicate.
+    [[nodiscard]] InputTriangleId first_same(InputTriangleId triangle) const;
 };
 
 } // namespace terrane

@@ -11,14 +11,15 @@ IndexLists<std::uint32_t> surfaces_of_parents(const InputTriangles& inputs,
                                               const IndexLists<std::uint32_t>& parents_of,
                                               const Run& run) {
     IndexLists<std::uint32_t> surfaces;
-    if (parents_of.values.size() == parents_of.size()) { // one each
+    if (parents_of.values.size() == parents_of.size()) { // one parent each
         surfaces.offsets = parents_of.offsets;
         surfaces.values.resize(parents_of.size());
         for_ranges(parents_of.size(), run, [&](std::size_t first, std::size_t last) {
-            std::uint32_t s = 0; // mostly that of the triangle before
+            std::uint32_t s = 0; // usually the surface of the previous triangle
             for (std::size_t t = first; t < last; ++t) {
                 const std::uint32_t p = parents_of.values[t];
-                if (p < inputs.first[s] || p >= inputs.first[s + 1]) s = inputs.surface_of(p);
+                if (p < inputs.first[s] || p >= inputs.first[s + 1])
+                    s = inputs.surface_of(InputTriangleId(p));
                 surfaces.values[t] = s;
             }
         });
@@ -29,10 +30,10 @@ IndexLists<std::uint32_t> surfaces_of_parents(const InputTriangles& inputs,
     std::uint32_t s = 0;
     for (std::size_t t = 0; t < parents_of.size(); ++t) {
         bool any = false;
-        for (const std::uint32_t p : parents_of[t]) { // they ascend, so do their surfaces
+        for (const std::uint32_t p : parents_of[t]) { // parents ascend, and so do their surfaces
             const bool same = inputs.first[s] <= p && p < inputs.first[s + 1];
             if (any && same) continue;
-            if (!same) s = inputs.surface_of(p);
+            if (!same) s = inputs.surface_of(InputTriangleId(p));
             surfaces.values.push_back(s);
             any = true;
         }
@@ -43,7 +44,7 @@ IndexLists<std::uint32_t> surfaces_of_parents(const InputTriangles& inputs,
 
 namespace {
 
-/// What must agree across an edge that is no intersection.
+/// Compares the parents of two triangles as intersection edges require.
 class Signatures {
 public:
     Signatures(const InputTriangles& inputs, const IndexLists<std::uint32_t>& parents_of) :
@@ -52,17 +53,19 @@ public:
     [[nodiscard]] bool agree(std::uint32_t s, std::uint32_t t) const {
         const auto p = parents_of_[s], q = parents_of_[t];
         if (p.size() == 1 && q.size() == 1)
-            return p[0] == q[0] || inputs_.surface_of(p[0]) == inputs_.surface_of(q[0]);
+            return p[0] == q[0] || inputs_.surface_of(InputTriangleId(p[0])) ==
+                                       inputs_.surface_of(InputTriangleId(q[0]));
         return signature(p) == signature(q);
     }
 
 private:
-    /// The surface of each distinct parent.
+    /// Returns the surface of each distinct parent, sorted.
     [[nodiscard]] std::vector<std::uint32_t>
     signature(std::span<const std::uint32_t> parents) const {
         std::vector<std::array<std::uint32_t, 2>> distinct;
         for (const std::uint32_t p : parents)
-            distinct.push_back({inputs_.surface_of(p), inputs_.first_same(p)});
+            distinct.push_back(
+                {inputs_.surface_of(InputTriangleId(p)), inputs_.first_same(InputTriangleId(p))});
         std::sort(distinct.begin(), distinct.end());
         distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
         std::vector<std::uint32_t> surfaces;

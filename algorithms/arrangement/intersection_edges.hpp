@@ -12,13 +12,13 @@
 
 namespace terrane {
 
-/// Sorted surfaces of each list of input triangles, each once.
+/// Returns for each list of input triangles their surfaces; sorted, unique.
 IndexLists<std::uint32_t> surfaces_of_parents(const InputTriangles& inputs,
                                               const IndexLists<std::uint32_t>& parents_of,
                                               const Run& run = {});
 
-/// The edges in which more than two triangles meet, or two that differ in the number of distinct
-/// parents they have in some surface (duplicates within one surface count once). Sorted.
+/// Finds the edges in which more than two triangles meet, or two that differ in the number of their
+/// distinct parents in some surface (duplicates within one surface count once). Sorted.
 std::vector<Edge> find_intersection_edges(const Adjacency& adjacency, const InputTriangles& inputs,
                                           const IndexLists<std::uint32_t>& parents_of);
 

@@ -35,7 +35,8 @@ void drop_unused_vertices(Arrangement& a) {
     numbers.rename(a.triangles);
 }
 
-/// By patch, and by surface where there is none; triangles with several parents have no label.
+/// Labels triangles by patch, and those without a patch by surface. Triangles with several parents
+/// get no label.
 Labels labels_of(const Arrangement& a) {
     const InjectivePatches& in = a.state->patches;
     const auto patches = static_cast<std::uint32_t>(in.axis.size());
@@ -49,7 +50,7 @@ Labels labels_of(const Arrangement& a) {
     return labels;
 }
 
-/// Keeps pairs of input triangles both of which have a part.
+/// Keeps the pairs of input triangles that both have a part left.
 void drop_neighbours_without_parts(const Arrangement& a, ExactState& state) {
     std::vector<bool> has_part(state.corners.size(), false);
     for (const std::uint32_t p : a.parents_of.values) has_part[p] = true;

@@ -7,17 +7,19 @@
 
 namespace terrane {
 
-/// The arrangement without some of its triangles: with `keep` (per triangle) false.
+/// Removes the triangles for which `keep` (per triangle) is false from an arrangement.
 ///
-/// (1) What is kept stays as it is: its points, corners, parents and patches, and the order of
-///     triangles and vertices. Vertices without a triangle go.
-/// (2) Adjacency, intersection edges and neighbours are those of the kept triangles alone. So
-///     rounding, volumes, structure and tetrahedra work on it as on any other.
-/// (3) Surfaces and the numbers of input triangles stay, also of those with nothing left.
+/// (1) The kept triangles keep their points, parents and patches, and triangles and vertices keep
+///     their order. Vertices without a triangle are removed.
+/// (2) Adjacency, intersection edges and neighbours are those of the kept triangles alone.
+///     Rounding, volumes, structure and tetrahedra therefore work as on any other arrangement.
+/// (3) Surfaces and the numbers of input triangles do not change, even if none of their triangles
+///     is kept.
 /// (4) Rounding may move input vertices, which is its last resort, only if restrict_again of the
-///     state is set (exact_arrangement.hpp). This function leaves it unchanged.
-/// (5) Input triangles are no longer the union of those that name them: `whole` of the state becomes
-///     false, and there is no certificate for it.
+///     state is set (exact_arrangement.hpp). This function does not change restrict_again.
+/// (5) Input triangles are no longer the unions of the triangles that name them. `whole` of the
+///     state becomes false, and no certificate can be written. If all triangles are kept, nothing
+///     changes.
 /// Cost: linear.
 Arrangement restricted(Arrangement arrangement, const std::vector<bool>& keep, const Run& run = {});
 

@@ -6,14 +6,14 @@
 #include <utility>
 
 #include <terrane/algorithms/core/parallel.hpp>
-#include <terrane/algorithms/core/stopwatch.hpp>
+#include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/triangulation/triangulation.hpp>
 #include <terrane/kernel/predicates.hpp>
 
 namespace terrane {
 namespace {
 
-/// A part of a divided triangle; corners by point.
+/// A part of a divided triangle.
 struct Part {
     std::uint32_t face;
     std::array<PointIndex, 3> corners;
@@ -24,13 +24,15 @@ struct PartBlock {
     PredicateCounts predicates;
 };
 
-/// Step (e): gathers what each face must contain and triangulates it.
+/// Performs step (e): collects the points and segments of each face and triangulates it.
 class Divider {
 public:
-    Divider(const TriangleSoup& soup, const Contacts& contacts, const PointOrder& order) :
-        soup_(soup), contacts_(contacts), order_(order) {}
+    Divider(UpwardWitness upward, const TriangleSoup& soup, const Contacts& contacts,
+            const PointOrder& order) :
+        soup_(soup),
+        contacts_(contacts), order_(order), triangulate_(upward) {}
 
-    /// One face: its pieces and crossings.
+    /// Divides one face, given its pieces and crossings.
     void operator()(std::span<const FaceConstraint> pieces, std::uint32_t first_piece,
                     std::span<const FaceCrossing> crossings, std::vector<Part>& out) {
         face_.clear();
@@ -79,7 +81,8 @@ private:
         }
     }
 
-    // Along a line, points are in lexicographic order, forwards or backwards.
+    // Sorts the points. The lexicographic order of points on an edge is their order along it,
+    // forwards or backwards.
     void finish_points() {
         for (unsigned e = 0; e < 3; ++e) {
             sort_unique(face_.edge_points[e]);
@@ -120,11 +123,11 @@ std::vector<Part> divide_faces(const TriangleSoup& soup, const Contacts& contact
     statistics.divided = faces.size();
     const std::span pieces(contacts.pieces);
     const std::span crossings(contacts.crossings);
-    const auto blocks =
-        for_blocks<PartBlock>(faces.size(), 64, run, [&](std::size_t first, std::size_t last) {
+    const auto blocks = for_blocks<PartBlock>(
+        faces.size(), 64, run, [&](UpwardWitness upward, std::size_t first, std::size_t last) {
             PartBlock block;
             const PredicateCounts before = predicate_counts();
-            Divider retriangulate(soup, contacts, order);
+            Divider retriangulate(upward, soup, contacts, order);
             for (std::size_t i = first; i < last; ++i) {
                 const Range& r = faces[i];
                 retriangulate(pieces.subspan(r.piece, r.piece_end - r.piece), r.piece,
@@ -142,7 +145,7 @@ std::vector<Part> divide_faces(const TriangleSoup& soup, const Contacts& contact
     return parts;
 }
 
-/// Step (f): one list of unique triangles, undivided ones included.
+/// Performs step (f): merges undivided triangles and parts into one list of unique triangles.
 class Stitcher {
 public:
     Stitcher(const TriangleSoup& soup, const Contacts& contacts, std::span<const Part> parts,
@@ -153,7 +156,7 @@ public:
     void operator()() {
         collect_repeated();
         out_.unchanged_as.resize(soup_.triangles.size());
-        // Parts that may repeat others are told from them one after the other.
+        // Parts that may be repeated require one thread.
         const std::size_t count = soup_.triangles.size();
         if (any_overlapped_)
             blocks_.push_back(stitch(0, count));
@@ -167,11 +170,11 @@ public:
     }
 
 private:
-    /// What comes of a range of the soup.
+    /// The triangles of a range of the soup.
     struct Block {
-        std::uint32_t start; ///< triangles before
+        std::uint32_t start; ///< number of triangles before the range
         std::vector<Triangle> triangles;
-        IndexLists<std::uint32_t> faces_of; ///< offsets count from the first triangle of all
+        IndexLists<std::uint32_t> faces_of; ///< offsets count from the first triangle of the soup
 
         [[nodiscard]] std::uint32_t next() const {
             return start + static_cast<std::uint32_t>(triangles.size());
@@ -190,8 +193,8 @@ private:
         return c;
     }
 
-    /// In the order of the soup; an undivided triangle is its own part (another may have it as
-    /// one).
+    /// Visits all parts in the order of the soup. An undivided triangle is its own part, and it may
+    /// be a part of another triangle as well.
     template <class Visit>
     void for_each_part(std::size_t first, std::size_t last, const Visit& visit) const {
         const auto before = [](const Part& p, std::size_t face) { return p.face < face; };
@@ -202,7 +205,8 @@ private:
         }
     }
 
-    // Only triangles that some coplanar one overlaps can have a part in common with another.
+    // Lists the faces of each part that may be repeated. Only triangles with a coplanar overlap can
+    // share a part with another triangle.
     void collect_repeated() {
         any_overlapped_ = std::find(contacts_.overlapped.begin(), contacts_.overlapped.end(),
                                     true) != contacts_.overlapped.end();
@@ -212,7 +216,8 @@ private:
         });
     }
 
-    /// Triangles that come of those before this one, where each has parts of its own.
+    /// Returns the number of triangles that result from the faces before this one, if no part is
+    /// repeated.
     std::uint32_t triangles_before(std::size_t face) const {
         if (face == 0) return 0;
         std::size_t count = face;
@@ -244,7 +249,7 @@ private:
             const std::size_t divided =
                 p == parts_.end() ? last : std::min<std::size_t>(last, p->face);
             add_whole(f, divided, block);
-            if (divided == last) break; // its parts, if any, are of the next range
+            if (divided == last) break; // its parts, if any, belong to the next range
             out_.unchanged_as[divided] = none;
             for (; p != parts_.end() && p->face == divided; ++p) add_part(*p, block);
             f = divided + 1;
@@ -252,7 +257,7 @@ private:
         return block;
     }
 
-    /// Undivided triangles, none of which is overlapped.
+    /// Adds the undivided triangles [first, last), none of which is overlapped.
     void add_whole(std::size_t first, std::size_t last, Block& block) {
         const auto whole = soup_.triangles.subspan(first, last - first);
         const std::uint32_t start = block.next();
@@ -309,26 +314,25 @@ private:
 
 Retriangulation retriangulate(std::vector<Point3> points, std::span<const Triangle> triangles,
                               std::span<const CandidatePair> candidates, const Run& run) {
-    Stopwatch watch;
+    StageTimer step(run, "intersect");
     Retriangulation out;
-    const TriangleSoup soup{points, triangles}; // the points stay where they are when moved
+    const TriangleSoup soup{points, triangles}; // moving the vector does not move the points
     Contacts contacts = find_contacts(soup, std::move(points), candidates, run);
     find_crossings(soup, contacts, run);
     if (run.stop.stop_requested()) return out;
     PointOrder order = order_points(soup, contacts, run);
     out.statistics.improper_contacts = contacts.improper;
     out.statistics.predicates += contacts.predicates;
-    out.statistics.seconds_intersect = watch.lap();
 
+    step.next("triangulate");
     const auto parts = divide_faces(soup, contacts, order, run, out.statistics);
     if (run.stop.stop_requested()) return out;
-    out.statistics.seconds_triangulate = watch.lap();
 
+    step.next("stitch");
     Stitcher(soup, contacts, parts, run, out)();
     out.points = std::move(contacts.points);
     out.ascending = std::move(order.ascending);
     out.near = std::move(contacts.near);
-    out.statistics.seconds_stitch = watch.lap();
     return out;
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Steps (c) to (f) of the arrangement on a soup of triangles: where they meet improperly they are
-// divided, and what coincides becomes one. Knows no surfaces: the arrangement uses it, and each
-// round of rounding.
+// Performs steps (c) to (f) of the arrangement on a triangle soup: divides triangles where they
+// meet improperly and merges coinciding parts. It knows nothing of surfaces; the arrangement and
+// each round of rounding use it.
 #pragma once
 
 #include <array>
@@ -17,17 +17,17 @@
 
 namespace terrane {
 
+/// Counts what a retriangulation did.
 struct RetriangulationStatistics {
     std::size_t improper_contacts = 0; ///< pairs of triangles
     std::size_t divided = 0;           ///< triangles that were triangulated
     PredicateCounts predicates;
-    double seconds_intersect = 0, seconds_triangulate = 0, seconds_stitch = 0;
 };
 
-/// Conforming, unique triangles; each triangle of the soup is exactly the union of those that name
-/// it.
+/// Conforming, unique triangles. Each triangle of the soup is exactly the union of the triangles
+/// that name it.
 struct Retriangulation {
-    PointStore points;                  ///< the soup's points, then constructed ones
+    PointStore points;                  ///< the soup's points, then constructed points
     std::vector<PointIndex> ascending;  ///< constructed points in use, in lexicographic order,
                                         ///< distinct from each other and from the soup's points
     std::vector<Triangle> triangles;    ///< corners by point; in the order of the soup; oriented
@@ -35,16 +35,17 @@ struct Retriangulation {
     IndexLists<std::uint32_t> faces_of; ///< per triangle: triangles of the soup that contain it,
                                         ///< ascending, >= 1
     std::vector<std::uint32_t>
-        unchanged_as;                ///< per triangle of the soup: the same triangle here, where
-                                     ///< it came out whole and alone; UINT32_MAX where not
+        unchanged_as;                ///< per triangle of the soup: its index in triangles if it is
+                                     ///< undivided and the only face there; else UINT32_MAX
     std::vector<CandidatePair> near; ///< candidates whose parts may meet when their points are
-                                     ///< rounded to nearest doubles; all others stay apart
+                                     ///< rounded to nearest doubles; the others stay apart
     RetriangulationStatistics statistics;
 };
 
-/// Triangles as in TriangleSoup. `candidates` must hold all pairs that meet improperly. Check
-/// run.stop afterwards: a stopped run leaves the result unfinished. Throws std::logic_error where a
-/// promise of the kernel is broken.
+/// Retriangulates a soup; points and triangles are those of a TriangleSoup. `candidates` must
+/// contain all pairs that meet improperly. Check run.stop afterwards: a stopped run leaves the
+/// result unfinished. Throws std::logic_error if an assertion fails. Times: intersect, triangulate
+/// and stitch.
 Retriangulation retriangulate(std::vector<Point3> points, std::span<const Triangle> triangles,
                               std::span<const CandidatePair> candidates, const Run& run);
 

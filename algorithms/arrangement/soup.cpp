@@ -14,11 +14,12 @@
 namespace terrane {
 namespace {
 
-// Per input vertex, the first one at the same place. Points are told apart by classes of hashes,
-// eight times as many as points: most are alone in theirs, and only the others are compared.
+// Finds for each input vertex the first vertex at the same place. Points are divided into classes
+// by a hash, with eight times as many classes as points. Most points are alone in their class; only
+// the others are compared.
 class Places {
 public:
-    /// Of the vertices of all surfaces, `count` of them.
+    /// Computes the classes of the vertices of all surfaces, which are `count` in number.
     Places(std::span<const Surface> surfaces, std::size_t count, const Run& run) : run_(run) {
         const auto shift = 64 - static_cast<unsigned>(std::bit_width(8 * count + 64));
         words_ = (std::size_t{1} << (64 - shift)) / 64;
@@ -33,7 +34,8 @@ public:
         }
     }
 
-    /// `points`: all these vertices.
+    /// Returns the first vertex at the place of each vertex. `points` are the vertices of all
+    /// surfaces.
     [[nodiscard]] std::vector<std::uint32_t> first_at_same(const std::vector<Point3>& points) {
         find_shared_classes();
         std::vector<std::uint32_t> first(points.size());
@@ -52,7 +54,7 @@ public:
     }
 
 private:
-    // Points of one place are of one class: each thread has classes of its own.
+    // Each thread handles classes of its own; points at one place have one class.
     void name_first(const std::vector<Point3>& points, const std::vector<std::uint32_t>& others,
                     std::vector<std::uint32_t>& first) {
         constexpr std::size_t few = 8192; // points
@@ -70,7 +72,8 @@ private:
             1, 1);
     }
 
-    // Each thread looks at all points and has classes of its own, in words of its own.
+    // Marks the classes with several points. Each thread reads all points and handles the classes
+    // of its own range of words.
     void find_shared_classes() {
         std::vector<std::uint64_t> taken(words_, 0);
         shared_.assign(words_, 0);
@@ -91,7 +94,7 @@ private:
     const Run& run_;
     std::size_t words_ = 0;
     UninitializedVector<std::uint32_t> class_of_; ///< per point
-    std::vector<std::uint64_t> shared_;           ///< a bit per class: it has several points
+    std::vector<std::uint64_t> shared_;           ///< a bit per class: 1 if it has several points
 };
 
 Sign turn_of(const std::vector<Point3>& points, const Triangle& t) {
@@ -107,8 +110,8 @@ bool has_area(const std::vector<Point3>& points, const Triangle& t, Sign turn) {
 
 using Pairs = std::vector<std::array<std::uint32_t, 2>>;
 
-// Whether two triangles may have the same corners, of which this is the lowest: they are at two
-// edges of it then. A look at the sides tells, in most cases.
+// Whether two triangles may have the same corners, with the vertex of these sides as the lowest.
+// Two edges at that vertex then have both triangles. In most cases the sides alone exclude this.
 bool may_repeat(std::span<const EdgeSides::Side> of_low) {
     constexpr std::size_t few = 16;
     if (of_low.size() < 4) return false;
@@ -127,8 +130,8 @@ bool may_repeat(std::span<const EdgeSides::Side> of_low) {
     return false;
 }
 
-// Triangles that have the same corners as an earlier one, with the first of these. Two such
-// triangles are at the edge of their two lower vertices.
+// Returns the triangles that have the same corners as an earlier one, each with the first of these.
+// Such triangles share the edge of their two lower vertices.
 Pairs repeated_triangles(const Soup& soup, std::size_t first_vertex, std::size_t last_vertex) {
     Pairs repeated, by_third;
     const auto add = [&](std::uint32_t low, std::uint32_t high, auto sides) {
@@ -154,7 +157,7 @@ Pairs repeated_triangles(const Soup& soup, std::size_t first_vertex, std::size_t
     return repeated;
 }
 
-// Per triangle, the first one with the same corners; nothing if all differ.
+// Returns for each triangle the first one with the same corners; nothing if all differ.
 std::vector<std::uint32_t> first_with_same_corners(const Soup& soup, const Run& run) {
     const auto parts = parts_of_ranges<Pairs>(
         soup.edges.starts.size() - 1, run,
@@ -169,7 +172,7 @@ std::vector<std::uint32_t> first_with_same_corners(const Soup& soup, const Run& 
     return first;
 }
 
-// Keeps the distinct triangles of the soup, lists the rest.
+// Keeps the distinct triangles of the soup and lists the others.
 void set_duplicates_aside(Soup& soup, const Run& run) {
     const auto first = first_with_same_corners(soup, run);
     if (first.empty()) return;
@@ -208,7 +211,7 @@ void name_corners(Soup& soup, std::span<const Surface> surfaces,
     }
 }
 
-// Those with an area.
+// Takes the input triangles with an area and lists the others.
 void take_triangles(Soup& soup, const Run& run) {
     UninitializedVector<Sign> turns; // per input triangle
     turns.resize(soup.input_corners.size());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Step (a) of the arrangement: all surfaces as one soup of distinct points and distinct triangles.
+// Performs step (a) of the arrangement: merges all surfaces into one soup of distinct points and
+// distinct triangles.
 #pragma once
 
 #include <array>
@@ -16,29 +17,29 @@
 
 namespace terrane {
 
-/// Triangles without area and repeated ones are set aside, by number; nothing else changes.
-/// Input vertices and triangles are counted through all surfaces, in order.
+/// The triangles of all surfaces. Degenerate and repeated triangles are left out and listed.
+/// Input vertices and triangles are numbered through all surfaces, in order.
 struct Soup {
     std::vector<Point3> points;              ///< all input vertices
-    UninitializedVector<Triangle> triangles; ///< the distinct ones with area; corners are the first
-                                             ///< input vertex with these coordinates
+    UninitializedVector<Triangle> triangles; ///< the distinct ones with area; each corner is the
+                                             ///< first input vertex with its coordinates
     UninitializedVector<Triangle>
-        input_corners; ///< per input triangle: the same, degenerate or not
+        input_corners; ///< per input triangle, degenerate or not: its corners, chosen likewise
     UninitializedVector<std::uint32_t> input_of;   ///< per triangle: its input triangle, ascending
     UninitializedVector<std::uint32_t> surface_of; ///< per triangle: the surface of input_of
     UninitializedVector<Sign> turns;               ///< per triangle: its orientation seen along z
     std::vector<std::uint32_t> degenerate;         ///< input triangles without area, ascending
     std::vector<std::array<std::uint32_t, 2>> duplicates; ///< {input triangle, the first with the
                                                           ///< same three points}, ascending
-    EdgeSides edges;                                      ///< of the triangles
+    EdgeSides edges;                                      ///< those of the triangles
     std::vector<std::uint32_t> first_input_triangle;      ///< per surface, and the total at the end
     std::vector<std::uint32_t> first_input_vertex;        ///< per surface, and the total at the end
 };
 
-/// Cost: linear (hashing), one predicate per triangle.
+/// Merges surfaces. Cost: linear (hashing), one predicate per triangle.
 Soup merge_surfaces(std::span<const Surface> surfaces, const Run& run = {});
 
-/// Per triangle, its box.
+/// Returns the box of each triangle.
 std::vector<Box> boxes_of(std::span<const Point3> points, std::span<const Triangle> triangles);
 
 } // namespace terrane

@@ -18,7 +18,7 @@
 namespace terrane {
 namespace {
 
-/// Contacts of one block of pairs.
+/// Returns the improper contacts among some pairs.
 std::vector<ImproperContact> contacts_of(const Soup& soup, std::span<const CandidatePair> pairs) {
     std::vector<ImproperContact> found;
     for (const CandidatePair& p : pairs) {
@@ -28,7 +28,7 @@ std::vector<ImproperContact> contacts_of(const Soup& soup, std::span<const Candi
         ImproperContact c;
         c.triangles = {soup.input_of[p.first], soup.input_of[p.second]};
         c.kind = kind_of(*contact);
-        // The last point: common vertices come first.
+        // Common vertices come first, so the last point is not one of them.
         const Construction& how = contact->points[contact->point_count - 1u].how;
         c.place = nearest(soup.points, how);
         found.push_back(c);
@@ -36,7 +36,8 @@ std::vector<ImproperContact> contacts_of(const Soup& soup, std::span<const Candi
     return found;
 }
 
-/// Borders, non-manifold edges and components, from the distinct triangles with area.
+/// Counts free border edges and components and lists non-manifold edges, among the distinct
+/// triangles with area.
 void describe_edges(const Soup& soup, CheckReport& report) {
     DisjointSets components(soup.triangles.size());
     std::vector<std::uint32_t> surfaces;

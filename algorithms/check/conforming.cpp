@@ -56,7 +56,7 @@ Status distinct_points(std::span<const Point3> points, std::span<const Triangle>
     return Done{};
 }
 
-/// The first pair of triangles that meets improperly.
+/// Returns the first pair of triangles that meet improperly.
 std::optional<CandidatePair> first_contact(std::span<const Point3> points,
                                            std::span<const Triangle> triangles,
                                            std::span<const std::uint32_t> label_of,

@@ -17,19 +17,20 @@ namespace rounding::detail {
 class RoundingProof; // rounding.cpp defines it
 }
 
-/// A mesh that was proven conforming, by exact predicates on its doubles: every two triangles share
-/// a vertex, an edge, or nothing; none is degenerate or repeated; no two vertices in use are at one
-/// place. Only a prover makes such a mesh: prove_conforming, round_to_doubles, improve. It can't be
-/// changed, so stages that need a conforming mesh take it without another proof. Copies share it.
+/// A mesh that exact predicates on its doubles have proven conforming: every two triangles share a
+/// vertex, an edge, or nothing; none is degenerate or repeated; no two vertices in use are at one
+/// place. Only prove_conforming, round_to_doubles and improve create such meshes. A ConformingMesh
+/// can't be changed, so stages that need a conforming mesh accept it without another proof. Copies
+/// share the mesh.
 class ConformingMesh {
 public:
-    /// The mesh, without its proof.
+    /// Returns the mesh, without its proof.
     [[nodiscard]] const SharedMesh& mesh() const { return mesh_; }
-    /// The mesh.
+    /// Returns the mesh.
     [[nodiscard]] const Mesh& operator*() const { return *mesh_; }
-    /// A member of the mesh.
+    /// Returns a pointer to the mesh, for access to its members.
     [[nodiscard]] const Mesh* operator->() const { return &*mesh_; }
-    /// The mesh.
+    /// Converts to the mesh.
     operator const Mesh&() const { return *mesh_; } // NOLINT: implicit on purpose
 
 private:
@@ -41,20 +42,21 @@ private:
     SharedMesh mesh_;
 };
 
-/// Done where the triangles are a conforming mesh, by exact predicates on the doubles: every two
+/// Checks by exact predicates on the doubles whether triangles form a conforming mesh: every two
 /// share a vertex, an edge, or nothing; none is degenerate or repeated; no two vertices in use are
-/// at one place. label_of: per triangle, any; triangles that hang together and have the same one
-/// are tried as a whole, see patches.hpp.
-/// Errors: bad_number, bad_index; improper_contact with the first place where it is not;
-/// interrupted. Cost: that of find_injective_patches, then a box search and one test per pair of boxes.
+/// at one place. label_of: any number per triangle; connected triangles with equal labels are
+/// tested as a whole where possible (injective_patches.hpp).
+/// Errors: bad_number, bad_index; improper_contact with the first place where the mesh is not
+/// conforming; interrupted. Cost: that of find_injective_patches, then a box search and one test
+/// per pair of overlapping boxes.
 Status conforming(std::span<const Point3> points, std::span<const Triangle> triangles,
                   std::span<const std::uint32_t> label_of, const Run& run = {});
 
-/// Proves that a mesh is conforming; labels, errors and cost as above.
+/// Proves that a mesh is conforming. Labels, errors and cost are those of conforming().
 Result<ConformingMesh> prove_conforming(Mesh mesh, std::span<const std::uint32_t> label_of,
                                         const Run& run = {});
 
-/// Proves that a mesh is conforming. The labels are the first surfaces of the triangles.
+/// Proves that a mesh is conforming, with the first surface of each triangle as its label.
 Result<ConformingMesh> prove_conforming(Mesh mesh, const Run& run = {});
 
 } // namespace terrane

@@ -17,26 +17,27 @@ void sort_unique(std::vector<T>& v) {
     v.erase(std::unique(v.begin(), v.end()), v.end());
 }
 
-/// Union-find; the lowest element stands for its set.
+/// Union-find over 0 .. n - 1. The lowest element represents its set.
 class DisjointSets {
 public:
     explicit DisjointSets(std::size_t n) : parent_(n) {
         std::iota(parent_.begin(), parent_.end(), std::uint32_t{0});
     }
+    /// Returns the representative of the set of i.
     std::uint32_t find(std::uint32_t i) {
         TERRANE_ASSERT_DEBUG(i < parent_.size());
         while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
         return i;
     }
     void join(std::uint32_t a, std::uint32_t b) {
-        if (parent_[a] == parent_[b]) return; // as mostly, once much is joined
+        if (parent_[a] == parent_[b]) return; // the usual case once most sets are joined
         a = find(a);
         b = find(b);
         parent_[std::max(a, b)] = std::min(a, b);
     }
-    /// The element that stands for each set, as long as nothing is joined after.
+    /// Returns the representative of each element; valid until the next join.
     const std::vector<std::uint32_t>& flattened() {
-        for (std::uint32_t& p : parent_) p = parent_[p]; // never above: already final
+        for (std::uint32_t& p : parent_) p = parent_[p]; // parents are lower, so already final
         return parent_;
     }
 

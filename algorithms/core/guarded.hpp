@@ -11,8 +11,8 @@
 
 namespace terrane {
 
-/// Returns what `work` returns, a Result. Lack of memory becomes out_of_memory at `place`; so does an
-/// array longer than any can be.
+/// Calls `work` and returns its Result. Lack of memory and arrays beyond the largest possible
+/// length become out_of_memory at `place`.
 template <class Work>
 auto guard_memory(std::string place, const Work& work,
                   std::string sentence = "there is not enough memory") -> decltype(work()) {
@@ -24,9 +24,9 @@ auto guard_memory(std::string place, const Work& work,
     return Error{ErrorCode::out_of_memory, std::move(sentence), std::move(place)};
 }
 
-/// Runs a stage and returns its Result. Lack of memory becomes out_of_memory, "not enough memory
-/// for the volumes" where `purpose` is "for the volumes"; a broken promise of ours, thrown as
-/// std::logic_error, becomes `internal` at `place`.
+/// Runs a stage and returns its Result. Lack of memory becomes out_of_memory: "not enough memory
+/// for the volumes" if `purpose` is "for the volumes". A failed assertion (std::logic_error)
+/// becomes `internal` at `place`.
 template <class Work>
 auto guarded(std::string_view purpose, std::string_view place, const Work& work)
     -> decltype(work()) {

@@ -14,20 +14,20 @@ struct IndexLists {
     std::vector<std::uint32_t> offsets{0}; ///< size() + 1, ascending from 0
     std::vector<T> values;                 ///< all lists, one after the other
 
-    /// Number of lists.
+    /// Returns the number of lists.
     [[nodiscard]] std::size_t size() const { return offsets.size() - 1; }
-    /// List i.
+    /// Returns list i.
     [[nodiscard]] std::span<const T> operator[](std::size_t i) const {
         return {values.data() + offsets[i], values.data() + offsets[i + 1]};
     }
-    /// Ends the list that was filled by values.push_back since the last call.
+    /// Ends the current list, which holds the values added to `values` since the last call.
     void close() { offsets.push_back(static_cast<std::uint32_t>(values.size())); }
-    /// Adds a list.
+    /// Appends a list.
     void push_back(std::span<const T> list) {
         values.insert(values.end(), list.begin(), list.end());
         close();
     }
-    /// All lists of another one, after these.
+    /// Appends all lists of `other`.
     void append(const IndexLists& other) {
         const auto start = static_cast<std::uint32_t>(values.size());
         values.insert(values.end(), other.values.begin(), other.values.end());

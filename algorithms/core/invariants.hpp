@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Conditions for assertions on lists. Each costs a pass over the list.
+// Defines conditions for assertions on lists. Each costs one pass over the list.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Constants of a stage by name, for reports.
+// Names the constants of a stage for reports.
 #pragma once
 
 #include <string_view>

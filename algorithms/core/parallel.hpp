@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <mutex>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -17,9 +18,9 @@
 
 namespace terrane {
 
-/// Carries out work with the threads of the run. Within another such work it has the same ones: an
-/// arena of its own would wait for threads that the outer one holds, and its threads would have to
-/// be woken. Not more than the machine has: TBB would print that it ignores the rest.
+/// Calls `work` with the threads of the run, but not more than the machine has: TBB would print
+/// that it ignores the rest. A nested call uses the threads of the outer one: an arena of its own
+/// would have to wake its threads, and to wait for those that the outer one holds.
 template <class Work>
 void with_threads(const Run& run, const Work& work) {
     if (run.threads <= 1) return work();
@@ -30,9 +31,10 @@ void with_threads(const Run& run, const Work& work) {
     arena.execute(work);
 }
 
-/// Cuts [0, count) into blocks of fixed size (so the result cannot depend on the threads), makes a
-/// Block for each by work(first, last) and returns them in order. Each block runs under an
-/// UpwardRounding. Stops early, with blocks left empty, when the run is stopped.
+/// Cuts [0, count) into blocks of fixed size, so that the result cannot depend on the threads, and
+/// returns the Block that work(first, last) makes of each, in order. Each block runs under an
+/// UpwardRounding; work that takes its witness is called as work(witness, first, last). If the run
+/// is stopped, the remaining blocks stay empty.
 template <class Block, class Work>
 std::vector<Block> for_blocks(std::size_t count, std::size_t block_size, const Run& run,
                               const Work& work) {
@@ -40,7 +42,11 @@ std::vector<Block> for_blocks(std::size_t count, std::size_t block_size, const R
     const auto one = [&](std::size_t b) {
         if (run.stop.stop_requested()) return;
         const UpwardRounding guard;
-        blocks[b] = work(b * block_size, std::min(count, (b + 1) * block_size));
+        const std::size_t first = b * block_size, last = std::min(count, first + block_size);
+        if constexpr (std::is_invocable_v<const Work&, UpwardWitness, std::size_t, std::size_t>)
+            blocks[b] = work(guard, first, last);
+        else
+            blocks[b] = work(first, last);
     };
     if (run.threads <= 1 || blocks.size() <= 1) {
         for (std::size_t b = 0; b < blocks.size(); ++b) one(b);
@@ -50,9 +56,9 @@ std::vector<Block> for_blocks(std::size_t count, std::size_t block_size, const R
     return blocks;
 }
 
-/// Calls work(first, last) for ranges that cut up [0, count), several at a time. What they write
-/// must not depend on where the cuts are. The rounding mode is the default one. `least`: of fewer a
-/// thread costs more than it spares.
+/// Calls work(first, last) for ranges that partition [0, count), several at a time. The results
+/// must not depend on the limits of the ranges. The rounding mode is the default one. `least` is
+/// the number of elements below which another range costs more than it saves.
 template <class Work>
 void for_ranges(std::size_t count, const Run& run, const Work& work,
                 std::size_t ranges_per_thread = 4, std::size_t least = 8192) {
@@ -66,7 +72,7 @@ void for_ranges(std::size_t count, const Run& run, const Work& work,
     });
 }
 
-/// The same with a result for each range, in order.
+/// Calls for_ranges and returns the results of the ranges in order.
 template <class Part, class Work>
 std::vector<Part> parts_of_ranges(std::size_t count, const Run& run, const Work& work,
                                   std::size_t ranges_per_thread = 4) {
@@ -85,7 +91,7 @@ std::vector<Part> parts_of_ranges(std::size_t count, const Run& run, const Work&
     return sorted;
 }
 
-/// All parts one after the other.
+/// Concatenates all parts.
 template <class T>
 std::vector<T> concatenated(std::vector<std::vector<T>> parts) {
     if (parts.empty()) return {};
@@ -95,7 +101,7 @@ std::vector<T> concatenated(std::vector<std::vector<T>> parts) {
     return all;
 }
 
-/// Both, at the same time if threads allow.
+/// Calls both functions, at the same time if the run has several threads.
 template <class First, class Second>
 void both(const Run& run, const First& first, const Second& second) {
     if (run.threads <= 1) {

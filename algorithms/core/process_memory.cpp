@@ -10,7 +10,7 @@
 namespace terrane {
 namespace {
 
-/// What GMP allocates with.
+/// GMP's memory functions.
 struct Functions {
     void* (*allocate)(std::size_t) = nullptr;
     void* (*reallocate)(void*, std::size_t, std::size_t) = nullptr;
@@ -29,7 +29,8 @@ void set(const Functions& f) {
     mp_set_memory_functions(f.allocate, f.reallocate, f.release);
 }
 
-// Like GMP's own, these are malloc, realloc and free: numbers from before may be freed after.
+// GMP's default functions call malloc, realloc and free, and so do these: numbers allocated before
+// the exchange may be freed after it.
 
 void* allocate(std::size_t size) {
     void* const memory = std::malloc(size);
@@ -52,7 +53,7 @@ void release(void* memory, std::size_t) {
 bool throw_on_gmp_out_of_memory() {
     const Functions before = current(), throwing{allocate, reallocate, release};
     if (before == throwing) return true;
-    set({}); // GMP's own
+    set({}); // GMP's default functions
     const bool untouched = before == current();
     set(untouched ? throwing : before);
     return untouched;

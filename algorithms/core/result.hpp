@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Errors as values: Result<T> is a T, or the Error that kept it from being made. Its functions are
-// those of std::expected (C++23) and mean the same.
+// Represents errors as values: Result<T> holds a T, or the Error that prevented it. Its functions
+// have the names and meanings of those of std::expected (C++23).
 #pragma once
 
 #include <cassert>
@@ -13,7 +13,7 @@
 
 namespace terrane {
 
-/// What went wrong, by kind. Each code has a test that provokes it.
+/// The kinds of errors. Each code has a test that provokes it.
 enum class ErrorCode {
     cannot_open,      ///< file missing, unreadable, or not writable
     bad_syntax,       ///< the file breaks its format
@@ -26,19 +26,19 @@ enum class ErrorCode {
     bad_option,       ///< an option's value makes no sense
     improper_contact, ///< triangles meet other than in a shared vertex or edge
     not_closed,       ///< a closed surface was needed
-    out_of_memory,
-    interrupted, ///< stop requested by the caller
-    timed_out,   ///< a limit of time that the caller set is over
-    internal,    ///< a promise was broken: please report
+    out_of_memory,    ///< not enough memory
+    interrupted,      ///< stop requested by the caller
+    timed_out,        ///< the caller's time limit has passed
+    internal,         ///< an assertion failed: please report
 };
 
 /// An error caused by data, as a value.
 struct Error {
-    ErrorCode code = ErrorCode::internal; ///< what went wrong, by kind
+    ErrorCode code = ErrorCode::internal; ///< the kind of error
     std::string sentence;                 ///< what is wrong, in a sentence without full stop
     std::string place;                    ///< "basin.ts:1204", "triangle 812", or empty
 
-    /// "basin.ts:1204: VRTX needs 3 numbers"
+    /// Returns the place and the sentence: "basin.ts:1204: VRTX needs 3 numbers".
     [[nodiscard]] std::string message() const {
         return place.empty() ? sentence : place + ": " + sentence;
     }
@@ -47,11 +47,12 @@ struct Error {
 template <class T>
 class Result;
 
-/// The value of a Status: success has none of its own.
+/// The value of a Status. It carries no data.
 struct Done {
     friend constexpr bool operator==(const Done&, const Done&) { return true; }
 };
-/// Success without a value, or an Error. What and_then and transform call may take no argument.
+/// Success without a value, or an Error. The functions given to and_then and transform may take no
+/// argument.
 using Status = Result<Done>;
 
 namespace core::detail {
@@ -61,7 +62,7 @@ constexpr bool is_result = false;
 template <class T>
 constexpr bool is_result<Result<T>> = true;
 
-/// Calls f(value); f() where the value is Done and f takes nothing.
+/// Calls f(value), or f() if the value is Done and f takes no argument.
 template <class F, class V>
 constexpr decltype(auto) call_with(F&& f, V&& value) {
     if constexpr (std::is_same_v<std::remove_cvref_t<V>, Done> && std::is_invocable_v<F>)
@@ -75,11 +76,11 @@ using CallResult = std::remove_cvref_t<decltype(call_with(std::declval<F>(), std
 
 } // namespace core::detail
 
-/// A value, or the error that kept it from being made.
+/// A value, or the error that prevented it.
 ///
-/// (1) operator*, operator-> and value() need ok(), error() needs !ok(): an assertion checks it.
+/// (1) operator*, operator-> and value() require ok(); error() requires !ok(). Assertions check it.
 ///     Without assertions value() and error() throw std::bad_variant_access; * and -> do not check.
-/// (2) and_then, or_else, transform and value_or of an rvalue move what it holds.
+/// (2) and_then, or_else, transform and value_or of an rvalue move its value or error.
 template <class T>
 class [[nodiscard]] Result {
 public:
@@ -87,7 +88,7 @@ public:
     // NOLINTNEXTLINE(readability-identifier-naming): the name is the standard's
     using value_type = T;
 
-    /// A value or an error becomes a Result without a cast.
+    /// Converts a value or an error to a Result implicitly.
     /// @{
     constexpr Result(T value) : state_(std::in_place_index<0>, std::move(value)) {}     // NOLINT
     constexpr Result(Error error) : state_(std::in_place_index<1>, std::move(error)) {} // NOLINT
@@ -100,7 +101,7 @@ public:
     constexpr explicit operator bool() const noexcept { return ok(); }
     /// @}
 
-    /// The value; see (1).
+    /// Returns the value; see (1).
     /// @{
     [[nodiscard]] constexpr const T& operator*() const& noexcept { return *held(); }
     [[nodiscard]] constexpr T& operator*() & noexcept { return *held(); }
@@ -112,7 +113,7 @@ public:
     [[nodiscard]] constexpr T& value() & { return assert(ok()), std::get<0>(state_); }
     [[nodiscard]] constexpr T&& value() && { return assert(ok()), std::get<0>(std::move(state_)); }
     /// @}
-    /// The error; see (1).
+    /// Returns the error; see (1).
     /// @{
     [[nodiscard]] constexpr const Error& error() const& {
         return assert(!ok()), std::get<1>(state_);
@@ -123,7 +124,7 @@ public:
     }
     /// @}
 
-    /// The value, or `other` where there is none.
+    /// Returns the value, or `other` if there is none.
     /// @{
     template <class U>
     [[nodiscard]] constexpr T value_or(U&& other) const& {
@@ -135,7 +136,7 @@ public:
     }
     /// @}
 
-    /// f(value), itself a Result; or the error.
+    /// Returns f(value), which is a Result, or the error.
     /// @{
     template <class F>
     constexpr auto and_then(F&& f) const& {
@@ -147,7 +148,7 @@ public:
     }
     /// @}
 
-    /// This value; or f(error), which is of the same type.
+    /// Returns this value, or f(error), which has the type of this Result.
     /// @{
     template <class F>
     constexpr Result or_else(F&& f) const& {
@@ -160,7 +161,7 @@ public:
     }
     /// @}
 
-    /// A Result of f(value), a Status where f returns nothing; or the error.
+    /// Returns a Result with f(value) (a Status if f returns void), or the error.
     /// @{
     template <class F>
     constexpr auto transform(F&& f) const& {

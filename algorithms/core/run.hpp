@@ -7,12 +7,17 @@
 
 namespace terrane {
 
-/// How a stage is carried out; never what it computes. Passed down by const&.
+/// Options that control how a stage runs and never affect its result. Passed on by const&.
 struct Run {
     unsigned threads = 1;   ///< >= 1; the result does not depend on it
-    std::stop_token stop{}; ///< requested: the stage ends with ErrorCode::interrupted
-    /// Called from the calling thread between steps: stage name and its share done, in [0, 1].
+    std::stop_token stop{}; ///< a requested stop ends the stage with ErrorCode::interrupted
+    /// Receives the name of the stage and the share of it that is done, in [0, 1]. It is called
+    /// between steps, in the calling thread.
     std::function<void(std::string_view stage, double share)> progress{};
+    /// Called when a stage, or a step of it, has ended, with its path ("arrange", "seal/arrange/search")
+    /// and its wall-clock time; steps count to their stage. Calls may come from several threads at a
+    /// time. StageTimes collects them.
+    std::function<void(std::string_view stage, double seconds)> timing{};
 };
 
 } // namespace terrane

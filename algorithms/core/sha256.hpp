@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// SHA-256, by the nettle library.
+// Computes SHA-256 hashes with the nettle library.
 #pragma once
 
 #include <array>
@@ -14,10 +14,10 @@
 
 namespace terrane {
 
-/// 32 bytes, compared as such.
+/// The 32 bytes of a hash, ordered lexicographically.
 using Hash = std::array<std::uint8_t, SHA256_DIGEST_SIZE>;
 
-/// Hashes what it is fed, as if joined.
+/// Hashes the concatenation of its inputs.
 class Sha256 {
 public:
     Sha256() { sha256_init(&state_); }
@@ -30,7 +30,7 @@ public:
         for (const Hash& hash : hashes) feed(hash);
     }
 
-    /// The hash of all that was fed; the object then starts anew.
+    /// Returns the hash of all inputs and resets the object.
     Hash finish() {
         Hash hash{};
         sha256_digest(&state_, hash.size(), hash.data());
@@ -41,13 +41,14 @@ private:
     sha256_ctx state_{};
 };
 
+/// Returns the hash of a text.
 inline Hash sha256(std::string_view text) {
     Sha256 state;
     state.feed(text);
     return state.finish();
 }
 
-/// 64 lower-case hexadecimal digits.
+/// Returns a hash as 64 lower-case hexadecimal digits.
 inline std::string hexadecimal(const Hash& hash) {
     constexpr std::string_view digits = "0123456789abcdef";
     std::string text;

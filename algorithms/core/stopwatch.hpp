@@ -6,9 +6,10 @@
 
 namespace terrane {
 
-/// Wall-clock seconds between calls of lap().
+/// Measures wall-clock time.
 class Stopwatch {
 public:
+    /// Returns the seconds since the previous call, or since the construction.
     double lap() {
         const auto now = std::chrono::steady_clock::now();
         return std::chrono::duration<double>(now - std::exchange(last_, now)).count();

@@ -7,8 +7,8 @@
 
 namespace terrane {
 
-/// Leaves elements made without a value as they come: a pass over a large array less where each
-/// element is written anyway.
+/// Allocator that default-initialises elements instead of zero-filling them. It saves one pass over
+/// an array whose elements are all overwritten anyway.
 template <class T>
 struct UninitializedAllocator : std::allocator<T> {
     // NOLINTBEGIN(readability-identifier-naming): the names are the standard's
@@ -27,7 +27,8 @@ struct UninitializedAllocator : std::allocator<T> {
     }
 };
 
-/// resize leaves new elements without a value. For types without a constructor of their own.
+/// A vector whose resize leaves new elements uninitialised, for types without a default constructor
+/// of their own.
 template <class T>
 using UninitializedVector = std::vector<T, UninitializedAllocator<T>>;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The kinds of improper contact: two triangles that share more than a common vertex or edge.
+// Classifies improper contacts: two triangles that share more than a common vertex or edge.
 #pragma once
 
 #include <array>
@@ -13,28 +13,28 @@ namespace terrane {
 
 struct Contact;
 
-/// How two triangles meet that should not.
+/// The kinds of improper contact.
 enum class ContactKind : std::uint8_t {
-    vertex_on_edge,
-    vertex_on_face,
-    edges_cross,     ///< in one point, inside both
-    edges_overlap,   ///< collinear, along a segment
-    edge_on_face,    ///< an edge lies in the other triangle
-    crossing,        ///< along a segment through the inside of at least one of them
-    coplanar_overlap ///< in an area
+    vertex_on_edge,  ///< a vertex lies inside an edge
+    vertex_on_face,  ///< a vertex lies inside a face
+    edges_cross,     ///< two edges meet in one point inside both
+    edges_overlap,   ///< two collinear edges share a segment
+    edge_on_face,    ///< a part of an edge lies in the other triangle's face
+    crossing,        ///< the triangles share a segment that lies along no edge of either
+    coplanar_overlap ///< coplanar triangles share an area
 };
 
-/// "vertex on edge", ...
+/// Returns the name of a kind in words: "vertex on edge", ...
 std::string_view name_of(ContactKind kind);
 
 /// Two triangles that meet other than in a shared vertex or edge.
 struct ImproperContact {
     std::array<std::uint32_t, 2> triangles{}; ///< input triangles, counted through all surfaces
     ContactKind kind{};                       ///< how they meet
-    Point3 place;                             ///< a point that both share, to the nearest double
+    Point3 place;                             ///< a common point, rounded to the nearest doubles
 };
 
-/// The kind of a contact, from its points' places alone.
+/// Returns the kind of a contact, derived from the places of its points alone.
 ContactKind kind_of(const Contact& contact);
 
 } // namespace terrane

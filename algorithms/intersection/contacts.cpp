@@ -17,14 +17,14 @@ using namespace intersection::detail;
 
 namespace {
 
-/// What comes of a range of candidates.
+/// The contacts of a range of candidates.
 struct PairBlock {
-    std::size_t improper = 0; ///< pairs
+    std::size_t improper = 0; ///< number of pairs
     std::vector<Construction> points;
     std::array<std::vector<FaceConstraint>, 2>
-        pieces;                            ///< of first and of second faces of pairs; ends
+        pieces;                            ///< on the first and on the second faces of pairs; ends
                                            ///< are indices into points
-    std::vector<std::uint32_t> overlapped; ///< faces
+    std::vector<std::uint32_t> overlapped; ///< faces with a coplanar overlap
     std::vector<CandidatePair> near;
     PredicateCounts predicates;
 
@@ -57,7 +57,7 @@ PairBlock test_pairs(const TriangleSoup& soup, std::span<const CandidatePair> pa
         return soup.points[soup.triangles[t][i]];
     };
     std::uint32_t last = UINT32_MAX;
-    std::optional<SeparationFilter> first; // pairs come sorted by it
+    std::optional<SeparationFilter> first; // reused, as pairs are sorted by their first triangle
     for (const CandidatePair& p : pairs) {
         const auto [f, g] = p;
         if (f != last) first.emplace(at(f, 0), at(f, 1), at(f, 2));
@@ -84,8 +84,8 @@ bool has_lower_face(const FaceConstraint& a, const FaceConstraint& b) {
     return a.face < b.face;
 }
 
-/// By face, those of equal faces in the order of pairs: where a face is the second of a pair before
-/// those where it is the first. These are sorted as they come.
+/// Sorts constraints by face, and those of one face in the order of pairs: pairs of which the face
+/// is the second triangle come before those of which it is the first. `of_first` is sorted already.
 std::vector<FaceConstraint> by_face(std::vector<FaceConstraint> of_first,
                                     std::vector<FaceConstraint> of_second) {
     std::stable_sort(of_second.begin(), of_second.end(), has_lower_face);
@@ -122,8 +122,8 @@ public:
 private:
     ConstructionTable table_;
     Contacts& contacts_;
-    std::array<std::vector<FaceConstraint>, 2> pieces_; ///< of first and of second faces of pairs
-    std::vector<PointIndex> index_;                     ///< of the points of a block
+    std::array<std::vector<FaceConstraint>, 2> pieces_; ///< on the first and the second faces
+    std::vector<PointIndex> index_;                     ///< per point of a block: its index
 };
 
 } // namespace
@@ -159,17 +159,17 @@ PointStore::Share sharing(const Run& run) {
 namespace {
 
 struct Key {
-    double x; // the nearest double: where two differ, they are in the order of the points
+    double x; // the nearest double; if two differ, their order is that of the points
     PointIndex point;
 };
 
-/// Into as many buckets as there are keys, by where their x lies between the lowest and the
-/// highest: a bucket's keys are all before those of the next. The starts of the buckets, and their
-/// end.
+/// Sorts the keys into as many buckets as there are keys, by the position of their x between the
+/// lowest and the highest. All keys of a bucket precede those of the next. Returns the starts of
+/// the buckets and the end of the last.
 std::vector<std::uint32_t> into_buckets(std::vector<Key>& keys) {
     const auto [low, high] = std::minmax_element(
         keys.begin(), keys.end(), [](const Key& a, const Key& b) { return a.x < b.x; });
-    // Halves: of finite numbers their difference is finite. A constructed point may be infinite.
+    // Halving keeps the difference of finite numbers finite. A constructed point may be infinite.
     const double start = low->x / 2, length = high->x / 2 - start;
     const double highest = static_cast<double>(keys.size() - 1);
     const double scale = highest / length;
@@ -189,7 +189,7 @@ std::vector<std::uint32_t> into_buckets(std::vector<Key>& keys) {
     return starts;
 }
 
-/// Sorts lexicographically.
+/// Sorts the keys by the lexicographic order of their points.
 void sort_keys(const PointStore& store, std::vector<Key>& keys, const Run& run) {
     if (keys.empty()) return;
     const auto starts = into_buckets(keys);
@@ -201,7 +201,6 @@ void sort_keys(const PointStore& store, std::vector<Key>& keys, const Run& run) 
         return store.compare(a.point, b.point) < 0;
     };
     const auto sort = [&](std::size_t first, std::size_t last) {
-        const UpwardRounding guard;
         for (std::size_t b = first; b < last; ++b)
             if (starts[b + 1] - starts[b] > 1) std::sort(at(b), at(b + 1), before);
     };
@@ -231,7 +230,6 @@ PointOrder order_points(const TriangleSoup& soup, const Contacts& contacts, cons
         for (std::size_t k = first; k < last; ++k) keys[k] = {store.nearest(used[k]).x, used[k]};
     });
     sort_keys(store, keys, run);
-    const UpwardRounding guard;
     for (std::size_t i = 0; i < keys.size(); ++i) used[i] = keys[i].point;
     PointOrder order;
     order.same_as.resize(store.size());

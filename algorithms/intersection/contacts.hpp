@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Steps (b), (c) and (d) of the arrangement: all improper contacts of a soup of triangles, sorted
-// by triangle, with their points in one store, equal points merged.
+// Performs steps (b), (c) and (d) of the arrangement: finds all improper contacts in a triangle
+// soup, sorts them by triangle, stores their points and identifies equal points.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,8 @@
 
 namespace terrane {
 
-/// Distinct triangles with area over distinct points (a triangle's corners differ, no two triangles
-/// have the same three; points that no triangle uses may repeat others).
+/// Distinct triangles with area over distinct points. No two triangles have the same three corners.
+/// Points that no triangle uses may repeat others.
 struct TriangleSoup {
     std::span<const Point3> points;
     std::span<const Triangle> triangles;
@@ -26,7 +26,7 @@ struct TriangleSoup {
 /// edge 0..2 of `other` where the two are coplanar.
 struct SupportLine {
     std::uint32_t other;
-    std::uint8_t edge = 3; ///< 3: the plane
+    std::uint8_t edge = 3; ///< 0..2: the edge; 3: the plane
 
     [[nodiscard]] bool is_plane() const { return edge == 3; }
 };
@@ -38,49 +38,53 @@ struct FaceConstraint {
     std::array<Simplex, 2> place;   ///< of the ends, on the face
     std::array<PointIndex, 2> ends; ///< equal for a point
 
-    /// Not a point, and not along an edge of the face.
+    /// Whether this is a segment that does not lie along an edge of the face.
     [[nodiscard]] bool is_inner_segment() const;
 };
 
-/// Where two inner segments of one face cross, strictly inside both.
+/// A crossing of two inner segments of one face, strictly inside both.
 struct FaceCrossing {
     std::uint32_t face;
     std::array<std::uint32_t, 2> pieces; ///< indices into Contacts::pieces
     PointIndex point;
 };
 
+/// The contacts of a triangle soup.
 struct Contacts {
     PointStore points;                   ///< the soup's points, then those of all contacts
     std::vector<FaceConstraint> pieces;  ///< by face, then in the order of pairs
     std::vector<FaceCrossing> crossings; ///< by face
-    std::vector<bool> overlapped;        ///< per triangle: some coplanar one overlaps it
+    std::vector<bool> overlapped;        ///< per triangle: whether a coplanar one overlaps it
     std::vector<CandidatePair> near;     ///< candidates that may meet when points are rounded to
                                          ///< nearest doubles
-    std::size_t candidates = 0;          ///< pairs of boxes
-    std::size_t improper = 0;            ///< pairs of triangles
+    std::size_t candidates = 0;          ///< number of candidate pairs
+    std::size_t improper = 0;            ///< number of pairs with an improper contact
     PredicateCounts predicates;
 };
 
-/// Has the work of PointStore::append done by the threads of the run.
+/// Returns a function with which PointStore::append distributes its work over the run's threads.
 PointStore::Share sharing(const Run& run);
 
-/// Step (b), (c): the pieces. The store takes `points`: those of the soup.
+/// Performs steps (b) and (c): tests all candidates and collects the points and segments that must
+/// appear in each triangle. `points` are the soup's points; the store of the result takes them
+/// over.
 Contacts find_contacts(const TriangleSoup& soup, std::vector<Point3> points,
                        std::span<const CandidatePair> candidates, const Run& run);
 
-/// Where segments cross inside a face: fills in crossings and appends their points.
+/// Finds where segments cross inside a face: fills `crossings` and appends their points.
 void find_crossings(const TriangleSoup& soup, Contacts& contacts, const Run& run);
 
-/// Equal points by name, and their order.
+/// The classes of equal points, and the order of the points.
 struct PointOrder {
-    std::vector<PointIndex> same_as; ///< per point: the one that stands for it (an input point, or
-                                     ///< the one with the smallest construction)
-    std::vector<std::uint32_t> rank; ///< per point in use: place in the lexicographic order
-    std::vector<PointIndex> ascending; ///< the constructed points that stand for themselves, in
+    std::vector<PointIndex> same_as;   ///< per point: the representative of the points equal to it
+                                       ///< (an input point, or that with the smallest construction)
+    std::vector<std::uint32_t> rank;   ///< per point in use: its place in the lexicographic order
+    std::vector<PointIndex> ascending; ///< the constructed points that are representatives, in
                                        ///< lexicographic order
 };
 
-/// Step (d): orders all constructed points and the corners of all faces with pieces, exactly.
+/// Performs step (d): orders all constructed points and the corners of all faces with pieces,
+/// exactly.
 PointOrder order_points(const TriangleSoup& soup, const Contacts& contacts, const Run& run);
 
 } // namespace terrane

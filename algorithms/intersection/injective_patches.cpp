@@ -18,14 +18,14 @@ namespace {
 
 constexpr std::array axes{Axis::z, Axis::x, Axis::y};
 
-/// An edge of the boundary of a patch, in the direction that leaves the patch on its left.
+/// An edge of a patch's border, directed so that the patch lies to its left.
 struct BorderEdge {
     std::uint32_t patch;
     std::uint32_t from, to;
 };
 
-/// A patch's border in one projection, and whether it is made of disjoint loops that wind round
-/// every point 0 or 1 times.
+/// The border of a patch in one projection. It tests whether the border consists of disjoint loops
+/// that wind around every point 0 or 1 times in all.
 class Border {
 public:
     Border(std::span<const Point3> points, Axis axis, std::span<const BorderEdge> edges) :
@@ -42,7 +42,7 @@ private:
         return static_filter::project(axis_, points_[v]);
     }
 
-    /// Every vertex of the border has one edge in and one out.
+    /// Whether every vertex of the border has one incoming and one outgoing edge. Sets by_from_.
     bool link() {
         by_from_.resize(edges_.size());
         std::vector<std::uint32_t> ends;
@@ -74,7 +74,7 @@ private:
         return false;
     }
 
-    /// Beyond a common vertex.
+    /// Whether two edges meet beyond a common vertex.
     bool meet(const BorderEdge& e, const BorderEdge& f) const {
         if (e.to == f.from && e.from == f.to) return true;
         if (e.to == f.from) return folds(e.from, e.to, f.to);
@@ -83,11 +83,11 @@ private:
         if (a == b && a != Sign::Zero) return false;
         const Sign c = orient(f.from, f.to, e.from), d = orient(f.from, f.to, e.to);
         if (c == d && c != Sign::Zero) return false;
-        // In line with each other and boxes that overlap: they meet, or are taken to.
+        // The edges meet, or they are collinear with overlapping boxes, which counts as meeting.
         return true;
     }
 
-    /// Whether b c runs back along a b.
+    /// Whether edge b c runs back along edge a b.
     bool folds(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
         if (orient(a, b, c) != Sign::Zero) return false;
         const auto p = at(a), q = at(b), r = at(c);
@@ -95,7 +95,7 @@ private:
         return (p < q) == (r < q);
     }
 
-    /// How often all loops but that of v wind round v, which lies on none of them.
+    /// Returns how often all loops except that of v wind around v. None of them contains v.
     int winding(std::uint32_t v, const std::vector<std::uint32_t>& loop_of) const {
         const double y = at(v).v;
         int sum = 0;
@@ -110,7 +110,7 @@ private:
         return sum;
     }
 
-    /// Left of each edge the sum of all winding numbers is 1.
+    /// Whether the winding numbers of all loops add up to 1 on the left of each edge.
     bool winds_once() {
         constexpr std::uint32_t none = UINT32_MAX;
         std::vector<std::uint32_t> loop_of(edges_.size(), none);
@@ -138,7 +138,7 @@ private:
         return true;
     }
 
-    static constexpr std::size_t most_loops = 1000; // the test is loops times edges
+    static constexpr std::size_t most_loops = 1000; // the test costs loops times edges
 
     std::span<const Point3> points_;
     Axis axis_;
@@ -157,7 +157,7 @@ public:
         known_turns_(turns), group_(triangles.size(), no_group) {}
 
     InjectivePatches operator()() {
-        // Whole surfaces first: nothing in the proof needs them to be connected.
+        // Whole surfaces come first: the proof does not require that a patch is connected.
         patch_of_ = surface_of_;
         count_surfaces();
         proven_.assign(size_of_.size(), std::nullopt);
@@ -167,7 +167,7 @@ public:
         label_.assign(surface_of_.begin(), surface_of_.end());
         find_components();
         prove();
-        // What is left is split where the orientation changes.
+        // The remaining components are split where the axis of the longest normal changes.
         bool any = false;
         for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
             if (group_[t] != no_group) continue;
@@ -182,7 +182,8 @@ public:
     }
 
 private:
-    /// Only a guess at what might project well.
+    /// Returns the number of the axis along which the normal is longest, up to rounding. It is only
+    /// a guess at a projection that may succeed.
     [[nodiscard]] std::uint32_t longest_axis(const Triangle& t) const {
         const Point3 &a = points_[t[0]], &b = points_[t[1]], &c = points_[t[2]];
         const double ux = b.x - a.x, uy = b.y - a.y, uz = b.z - a.z;
@@ -204,7 +205,7 @@ private:
         return std::find(group_.begin(), group_.end(), no_group) == group_.end();
     }
 
-    /// Triangles per surface: labels come in runs.
+    /// Counts the triangles per surface. Triangles of one surface usually are consecutive.
     void count_surfaces() {
         const auto parts = parts_of_ranges<std::vector<std::size_t>>(
             surface_of_.size(), run_, [&](std::size_t first, std::size_t last) {
@@ -239,7 +240,8 @@ private:
             number[p] = static_cast<std::uint32_t>(axis_.size());
             axis_.push_back(*proven_[p]);
         }
-        // What orientations a group has, a bit for each: most triangles find theirs noted.
+        // Notes the orientations in each group, one bit for each. Most triangles find their bit
+        // set.
         std::vector<unsigned char> seen(axis_.size(), 0);
         for_ranges(triangles_.size(), run_, [&](std::size_t first, std::size_t last) {
             for (std::size_t t = first; t < last; ++t) {
@@ -257,9 +259,10 @@ private:
                                                   : Sign::Zero);
     }
 
-    /// The sign of each open triangle in the projection; a patch with a degenerate one is unusable.
+    /// Computes the orientation of each open triangle in the projection. A patch with a degenerate
+    /// triangle is unusable.
     void find_turns(Axis axis) {
-        turns_.resize(triangles_.size()); // those of patches that are not tried are not looked at
+        turns_.resize(triangles_.size()); // entries of patches that are not tried are not read
         usable_.assign(proven_.size(), true);
         const bool is_known = axis == Axis::z && !known_turns_.empty();
         const auto flat = parts_of_ranges<std::vector<std::uint32_t>>(
@@ -279,7 +282,8 @@ private:
             for (const std::uint32_t patch : part) usable_[patch] = false;
     }
 
-    /// Connected over edges, same label, not yet in a group.
+    /// Makes patches of the triangles without a group: components connected across edges between
+    /// triangles with equal labels.
     void find_components() {
         DisjointSets sets(triangles_.size());
         edges_.for_each([&](std::uint32_t, std::uint32_t, auto sides) {
@@ -304,7 +308,8 @@ private:
         std::vector<std::uint32_t> unusable; ///< patches
     };
 
-    /// The sum of the triangles' boundaries, all counterclockwise, for the patches still open.
+    /// Computes the borders of the open patches: the sum of their triangles' boundaries, all
+    /// counterclockwise.
     void sum_borders() {
         const auto parts = parts_of_ranges<BorderPart>(
             edges_.starts.size() - 1, run_, [&](std::size_t first, std::size_t last) {
@@ -323,7 +328,7 @@ private:
         }
     }
 
-    /// The sides of most edges: two of one patch that run against each other.
+    /// Whether an edge has two sides of one patch that run against each other, as most edges have.
     [[nodiscard]] bool cancel(std::uint32_t low, std::uint32_t high,
                               std::span<const EdgeSides::Side> sides) const {
         if (sides.size() != 2) return false;
@@ -362,8 +367,8 @@ private:
         if (std::abs(sum) > 1) part.unusable.push_back(patch);
     }
 
-    /// Most sides of its triangles are border: not worth a try as a whole, each piece is soon
-    /// proven.
+    /// Whether more than half of the sides of a surface's triangles are border. Trying the surface
+    /// as a whole is then not worthwhile, and each of its pieces is proven quickly.
     [[nodiscard]] bool is_scattered(std::uint32_t patch, std::size_t border) const {
         constexpr std::size_t few = 64; // triangles
         return !size_of_.empty() && size_of_[patch] > few && 2 * border > 3 * size_of_[patch];
@@ -392,18 +397,18 @@ private:
     std::span<const std::uint32_t> surface_of_;
     const EdgeSides& edges_;
     const Run& run_;
-    std::span<const Sign> known_turns_;       ///< per triangle, along z; or none
-    std::vector<std::uint32_t> label_;        ///< triangles of one patch have the same
+    std::span<const Sign> known_turns_;       ///< per triangle, along z; or empty
+    std::vector<std::uint32_t> label_;        ///< per triangle; equal within a patch
     std::vector<std::uint32_t> group_;        ///< the result
     std::vector<Axis> axis_;                  ///< per group
-    std::vector<Sign> turn_;                  ///< per group: of all its triangles, or Zero
+    std::vector<Sign> turn_;                  ///< per group: that of all its triangles, or Zero
     UninitializedVector<Sign> turns_;         ///< per triangle, in the projection being tried
     std::span<const std::uint32_t> patch_of_; ///< per triangle without a group
-    std::vector<std::uint32_t> component_of_; ///< the same, after whole surfaces
+    std::vector<std::uint32_t> component_of_; ///< storage of patch_of_ after whole surfaces
     std::vector<std::optional<Axis>> proven_; ///< per patch
     std::vector<std::size_t> size_of_;        ///< per surface, while they are tried as a whole
     std::vector<bool> usable_;                ///< per patch, in the projection being tried
-    std::vector<BorderEdge> border_;          ///< of all patches, in the projection being tried
+    std::vector<BorderEdge> border_;          ///< borders in the projection being tried
 };
 
 } // namespace
@@ -433,7 +438,8 @@ std::vector<bool> recheck_injective_patches(
         if (p != no_group && holds[p] && turn_after(t, p) != turn_before(t, p)) holds[p] = false;
     }
     std::vector<BorderEdge> border;
-    for (std::size_t e = 0; e < adjacency.edges.size(); ++e) { // inner ones are within one patch
+    // Inner edges (adjacency.inner) lie within one patch, so all border edges are among the others.
+    for (std::size_t e = 0; e < adjacency.edges.size(); ++e) {
         const auto [low, high] = adjacency.edges[e];
         const auto sides = adjacency.triangles_at[e];
         for (const std::uint32_t t : sides) {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Patches of a surface that provably do not meet themselves: their triangles need no pair tests.
-//
-// Guarantee: two triangles of one patch share a common vertex, a common edge, or nothing.
-// Reason: some projection is injective on the patch, since the patch's border winds round each point
-// at most once and does not touch itself: statements (2) to (4) of
-// docs/explanation/injective-patches.md.
-// Cost: linear, plus a box search and exact tests of the border edges.
+// Finds patches of surfaces that provably do not intersect themselves, so that their triangles need
+// no pair tests. Guarantee: two triangles of one patch share a common vertex, a common edge, or
+// nothing. The proof shows that some projection is injective on the patch, because the patch's
+// border winds around each point at most once and does not touch itself; see statements (2) to (4)
+// of docs/explanation/injective-patches.md. Cost: linear, plus a box search and exact tests of the
+// border edges.
 #pragma once
 
 #include <cstdint>
@@ -23,28 +22,33 @@
 
 namespace terrane {
 
+/// Patches that are proven to be injective.
 struct InjectivePatches {
-    std::vector<std::uint32_t> of; ///< per triangle: its patch, or no_group where nothing was shown
-    std::vector<Axis> axis;        ///< per patch: the projection in which it is one-to-one
-    std::vector<Sign> turn;        ///< per patch: how all its triangles are oriented there, or Zero
+    std::vector<std::uint32_t> of; ///< per triangle: its patch, or no_group if there is no proof
+    std::vector<Axis> axis;        ///< per patch: a projection that is injective on it
+    std::vector<Sign> turn;        ///< per patch: the orientation of all its triangles in that
+                                   ///< projection; Zero if they differ
 };
 
-/// `edges` groups the sides of `triangles`; these are distinct, with area, over distinct points.
-/// `turns`: their orientations seen along z, where they are known already.
-/// Tried first: connected components of a surface, in each of the three projections; then their
-/// parts of like orientation.
+/// Finds injective patches. It tries (1) whole surfaces, (2) connected components of what remains,
+/// (3) connected parts of what remains whose normals are longest along the same axis; each in the
+/// three projections. `triangles` are distinct, with area, over distinct points, and `edges` groups
+/// their sides. `turns` are their orientations seen along z, if these are known already.
 InjectivePatches find_injective_patches(std::span<const Point3> points,
                                         std::span<const Triangle> triangles,
                                         std::span<const std::uint32_t> surface_of,
                                         const EdgeSides& edges, const Run& run = {},
                                         std::span<const Sign> turns = {});
 
-/// Shows the same again after some vertices have moved a little: per patch, whether it holds.
-/// patches.of counts the triangles given here (parts of those for which it was shown), turn(t) is
-/// the sign of triangle t in its patch's projection before the move, and is_moved says which
-/// vertices moved, `moved` lists the triangles at them, `adjacency` was made with patches.of. Cost:
-/// a predicate per triangle with a moved corner, and the borders of the patches that have a moved
-/// vertex on it.
+/// Proves injectivity again after some vertices have moved a little, and returns for each patch
+/// whether the proof succeeded. Cost: one predicate per triangle with a moved corner, and tests of
+/// the borders on which a vertex has moved.
+/// triangles: parts of the triangles for which injectivity was proven; patches.of refers to them.
+/// adjacency: that of the triangles, made with patches.of.
+/// moved: the triangles with a moved corner.
+/// is_moved: per vertex, whether it has moved.
+/// turn: returns the sign of a triangle in a projection before the move; called with the axis of
+/// its patch.
 std::vector<bool>
 recheck_injective_patches(std::span<const Point3> points, std::span<const Triangle> triangles,
                           const Adjacency& adjacency, std::span<const std::uint32_t> moved,

@@ -34,8 +34,8 @@ bool opposite(Sign a, Sign b) {
     return a * b == Sign::Negative;
 }
 
-/// Where a point lies on a triangle, from its sides with respect to the three directed edges
-/// (positive inside); none if outside.
+/// Returns the simplex on which a point lies, given its sides with respect to the three directed
+/// edges (positive inside); std::nullopt if it lies outside.
 std::optional<Simplex> place_from_sides(const Signs& inside) {
     unsigned zeros = 0, zero = 0, other = 0;
     for (unsigned j = 0; j < 3; ++j) {
@@ -49,13 +49,14 @@ std::optional<Simplex> place_from_sides(const Signs& inside) {
     }
     if (zeros == 0) return Simplex::face;
     if (zeros == 1) return edge(zero);
-    return corner((other + 2) % 3); // opposite to the edge with which the point is not in line
+    return corner((other + 2) % 3); // opposite to the edge that is not in line with the point
 }
 
-/// Two triangles and what is known of them so far. Index k is 0 for the first, 1 for the second.
+/// Two triangles and the predicates evaluated for them so far. Index k is 0 for the first triangle
+/// and 1 for the second.
 class TrianglePair {
 public:
-    /// What is found goes into `contact`: it is large.
+    /// `contact` receives the result; it is passed by reference because it is large.
     TrianglePair(std::span<const Point3> points, const Triangle& first, const Triangle& second,
                  std::optional<Contact>& contact) :
         points_(points),
@@ -93,14 +94,14 @@ private:
 
     std::span<const Point3> points_;
     std::array<Triangle, 2> t_;
-    // Per corner: the same vertex's corner of the other triangle, or `face` for none.
+    // Per corner: the corner of the other triangle that is the same vertex, or `face` for none.
     std::array<std::array<Simplex, 3>, 2> shared_{{{Simplex::face, Simplex::face, Simplex::face},
                                                    {Simplex::face, Simplex::face, Simplex::face}}};
     unsigned shared_count_ = 0;
-    std::array<Signs, 2> sides_{}; // of the corners of k with respect to the other's plane
+    std::array<Signs, 2> sides_{}; // sides of the corners of k with respect to the other's plane
     std::array<bool, 2> axis_known_{};
     std::array<Axis, 2> axis_{};
-    std::array<Sign, 2> turn_{}; // of triangle k in its projection
+    std::array<Sign, 2> turn_{}; // orientation of triangle k in its projection
     std::optional<Contact>& contact_;
 };
 
@@ -121,7 +122,7 @@ void TrianglePair::set_axis(unsigned k) {
     }
 }
 
-/// Corner i of triangle k, known to lie in the other's plane, on the other triangle.
+/// Locates corner i of triangle k, which lies in the other's plane, on the other triangle.
 std::optional<Simplex> TrianglePair::locate_in_plane(unsigned k, unsigned i) {
     if (is_shared(k, i)) return shared_[k][i];
     const unsigned o = 1 - k;
@@ -134,13 +135,15 @@ std::optional<Simplex> TrianglePair::locate_in_plane(unsigned k, unsigned i) {
     return place_from_sides(inside);
 }
 
-/// Where edge i of triangle k, whose ends lie on opposite sides of the other's plane, pierces it.
+/// Locates the point where edge i of triangle k pierces the other triangle. The ends of the edge
+/// lie on opposite sides of the other's plane.
 std::optional<Simplex> TrianglePair::pierce(unsigned k, unsigned i) const {
     const unsigned o = 1 - k;
     const Sign up = sides_[k][next(i)];
     Signs inside{};
     for (unsigned j = 0; j < 3; ++j) {
-        // Going up through a counterclockwise triangle, each of its edges runs to the left.
+        // Around a line that goes up through a counterclockwise triangle, each edge of the triangle
+        // runs counterclockwise.
         inside[j] = up * orient3d(at(k, i), at(k, next(i)), at(o, j), at(o, next(j)));
         if (inside[j] == Sign::Negative) return std::nullopt;
     }
@@ -178,7 +181,8 @@ void TrianglePair::add_edge_point(unsigned k, unsigned i, Simplex on_other) {
     }
 }
 
-/// The points in which corners and edges of triangle k meet the other triangle; not coplanar.
+/// Adds the points in which corners and edges of triangle k meet the other triangle. The triangles
+/// are not coplanar.
 void TrianglePair::cross_planes(unsigned k) {
     for (unsigned i = 0; i < 3; ++i) {
         if (sides_[k][i] == Sign::Zero) {
@@ -189,13 +193,13 @@ void TrianglePair::cross_planes(unsigned k) {
     }
 }
 
-/// All corners and crossings of the common polygon of two coplanar triangles.
+/// Adds all corners of the common polygon of two coplanar triangles.
 void TrianglePair::overlap_in_plane() {
     set_axis(0);
     axis_known_[1] = true;
     axis_[1] = axis_[0];
     turn_[1] = orient2d(axis_[1], at(1, 0), at(1, 1), at(1, 2));
-    // inside[k][j][i]: corner i of triangle k with respect to edge j of the other one
+    // inside[k][j][i]: side of corner i of triangle k with respect to edge j of the other triangle
     std::array<std::array<Signs, 3>, 2> inside{};
     for (unsigned k = 0; k < 2; ++k)
         for (unsigned j = 0; j < 3; ++j) {
@@ -220,7 +224,7 @@ void TrianglePair::overlap_in_plane() {
                 add_edge_point(0, i, edge(j));
 }
 
-/// Coplanar: the parts of the other triangle's edges that lie in triangle k.
+/// Collects the parts of the other triangle's edges that lie in triangle k, which is coplanar.
 void TrianglePair::collect_pieces(unsigned k) {
     for (std::uint8_t j = 0; j < 3; ++j) {
         std::array<std::uint8_t, 2> ends{};
@@ -240,8 +244,8 @@ bool TrianglePair::only_shared_corners() const {
     });
 }
 
-/// Whether the static filters alone show that triangle k lies strictly on one side of the other's
-/// plane, but for common corners of which there are at most two.
+/// Whether the static filters alone show that triangle k, except for at most two common corners,
+/// lies strictly on one side of the other's plane.
 bool TrianglePair::quickly_beside_plane(unsigned k) const {
     const PlaneFilter plane(at(1 - k, 0), at(1 - k, 1), at(1 - k, 2));
     std::optional<Sign> common;
@@ -251,12 +255,12 @@ bool TrianglePair::quickly_beside_plane(unsigned k) const {
         if (!s || (common && *common != *s)) return false;
         common = s;
     }
-    // Then all they share lies in the plane: the hull of the common corners.
+    // The triangles then share only points of the plane: the hull of the common corners.
     return true;
 }
 
-/// Whether in one projection, by the static filters alone, the line of an edge of triangle k has
-/// the other triangle strictly beyond it, but for common corners on that edge.
+/// Whether the static filters alone show that in one projection the other triangle, except for
+/// common corners on an edge of triangle k, lies strictly on the outer side of that edge's line.
 bool TrianglePair::quickly_beside_edge(unsigned k, Axis axis) const {
     const unsigned o = 1 - k;
     const auto turn = filtered_orient2d(axis, at(k, 0), at(k, 1), at(k, 2));
@@ -276,7 +280,7 @@ bool TrianglePair::quickly_beside_edge(unsigned k, Axis axis) const {
     return false;
 }
 
-/// A guess; any axis is right.
+/// Chooses the axis of the projection. Any axis is correct; a long normal separates more.
 Axis TrianglePair::likely_axis() const {
     const Point3 &a = at(0, 0), &b = at(0, 1), &c = at(0, 2);
     const double ux = b.x - a.x, uy = b.y - a.y, uz = b.z - a.z;
@@ -286,7 +290,8 @@ Axis TrianglePair::likely_axis() const {
     return z >= x && z >= y ? Axis::z : x >= y ? Axis::x : Axis::y;
 }
 
-/// But for common corners.
+/// Whether the static filters alone show that the triangles share only the hull of their common
+/// corners.
 bool TrianglePair::quickly_apart() const {
     if (quickly_beside_plane(0) || quickly_beside_plane(1)) return true;
     const Axis axis = likely_axis();
@@ -302,7 +307,7 @@ bool TrianglePair::improper() {
         contact_->coplanar = true;
         overlap_in_plane();
         if (only_shared_corners() && contact_->point_count < 3) return false;
-        contact_->overlap = contact_->point_count > 2; // all of them are extreme points
+        contact_->overlap = contact_->point_count > 2; // all points are extreme points
         collect_pieces(0);
         collect_pieces(1);
         return true;

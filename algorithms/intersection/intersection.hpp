@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Step (c) of the arrangement: how two triangles meet, exactly. The answer is combinatorial: which
-// open simplex of the one meets which of the other; coordinates come later, by name.
-// Source: the paper's triangle-triangle test made complete; orientation tests as in Devillers and
-// Guigue (2002).
+// Performs step (c) of the arrangement: determines exactly how two triangles meet. The answer is
+// combinatorial: it states which open simplex of one triangle meets which of the other and how each
+// common point is constructed. Coordinates are computed later. Source: a complete version of the
+// paper's triangle-triangle test, with orientation tests as in Devillers and Guigue (2002).
 #pragma once
 
 #include <array>
@@ -17,8 +17,8 @@
 
 namespace terrane {
 
-/// Where on a closed triangle a point lies: corner i, the open edge i (from corner i to i + 1), or
-/// the open face.
+/// The open simplex of a closed triangle on which a point lies: corner i, the open edge i (from
+/// corner i to i + 1), or the open face.
 enum class Simplex : std::uint8_t { corner0, corner1, corner2, edge0, edge1, edge2, face };
 
 constexpr bool is_corner(Simplex p) {
@@ -41,42 +41,44 @@ constexpr bool on_closed_edge(Simplex p, unsigned e) {
 
 /// A point that two triangles share.
 struct ContactPoint {
-    Construction how;               ///< of kind input where it is a vertex of one of them
+    Construction how;               ///< of kind input if it is a vertex of one of them
     std::array<Simplex, 2> place{}; ///< on the first and on the second triangle
 };
 
 /// A point or a segment that two triangles share.
 struct ContactPiece {
     std::array<std::uint8_t, 2> ends{}; ///< indices into points; equal for a point
-    /// The line it lies on in the plane of triangle k: the plane of the other triangle (3), or,
-    /// where the two are coplanar, edge 0..2 of the other triangle.
+    /// The line that carries it in the plane of triangle k: the plane of the other triangle (3) or,
+    /// if the two are coplanar, edge 0..2 of the other triangle.
     std::uint8_t support = 3;
 };
 
-/// What two triangles share, their common vertices included, as points and the segments between
+/// The intersection of two triangles, common vertices included: points and the segments between
 /// them.
 struct Contact {
     bool coplanar = false;
-    bool overlap = false; ///< coplanar and the common part has an area
+    bool overlap = false; ///< coplanar, and the common part has an area
     std::uint8_t point_count = 0;
     std::array<std::uint8_t, 2> piece_count{}; ///< pieces to draw in triangle 0 and in triangle 1
     std::array<ContactPoint, 9> points{};      ///< pairwise distinct constructions
     std::array<std::array<ContactPiece, 3>, 2> pieces{}; ///< not coplanar: one, the same for both;
-                                                         ///< coplanar: per edge of the other one
+                                                         ///< coplanar: per edge of the other
+                                                         ///< triangle that meets this one
 };
 
-/// What is tried before exact tests; never changes a result. `none`: for pairs that were filtered
-/// before.
+/// The filters tried before exact tests. They never change the result; `none` is for pairs that
+/// have been filtered already.
 enum class Filters { all, none };
 
-/// How two triangles meet, if they share more than the hull of their common vertices.
-/// Triangles are given by vertices: equal indices are equal points and different ones differ; each
-/// has an area; they do not have all three vertices in common.
-/// Cost: nothing on the heap; most pairs take one to six orient3d.
+/// Returns the contact of two triangles if they share more than the convex hull of their common
+/// vertices, else std::nullopt. Equal vertex indices denote equal points, and different indices
+/// different points. Each triangle must have an area, and the two must not have all three vertices
+/// in common. Cost: no heap allocation; most pairs take one to six orient3d.
 std::optional<Contact> improper_contact(std::span<const Point3> points, const Triangle& first,
                                         const Triangle& second, Filters filters = Filters::all);
 
-// Constructions in canonical form (see construction.hpp); vertices by index.
+// The following functions return constructions in canonical form (see construction.hpp). Lines and
+// planes are given by vertex indices.
 Construction line_plane(std::array<std::uint32_t, 2> line, Triangle plane);
 Construction three_planes(Triangle first, Triangle second, Triangle third);
 Construction line_line(std::span<const Point3> points, std::array<std::uint32_t, 2> first,

@@ -15,6 +15,7 @@
 #include <terrane/algorithms/arrangement/soup.hpp>
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
+#include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/layers/detail/resolver.hpp>
 #include <terrane/algorithms/layers/detail/whole_triangles.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
@@ -193,14 +194,16 @@ Result<Layered> stack_valid(std::span<const Surface> surfaces, std::span<const L
 Result<Layered> stack_layers(std::span<const Surface> surfaces, std::span<const Layer> order,
                              const LayerOptions& options, const Run& run) {
     if (const auto good = validate_order(surfaces, order, options); !good) return good.error();
+    const StageTimer timer(run, "layers");
     return guarded("for the layers", "layers",
-                   [&] { return stack_valid(surfaces, order, options, run); });
+                   [&] { return stack_valid(surfaces, order, options, timer.inside()); });
 }
 
 Result<Layered> harden(const Surface& hard, const Surface& soft, Keep keep,
                        const LayerOptions& options, const Run& run) {
     const std::array<Surface, 2> both{hard, soft};
-    std::array<Layer, 2> order{Layer{1, 0}, Layer{0, 1}}; // the soft one is on top
+    std::array<Layer, 2> order{Layer{SurfaceId(1), 0},
+                               Layer{SurfaceId(0), 1}}; // the soft one is on top
     if (keep == Keep::lower) std::swap(order[0], order[1]);
     return stack_layers(both, order, options, run);
 }

@@ -29,6 +29,7 @@
 #include <span>
 #include <vector>
 
+#include <terrane/algorithms/core/id.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
@@ -39,8 +40,8 @@ namespace terrane {
 
 /// A horizon of a stack. Of two horizons of equal hardness, the upper one counts as harder.
 struct Layer {
-    std::uint32_t surface = 0; ///< index
-    double hardness = 0;       ///< dimensionless; larger is harder; finite
+    SurfaceId surface{}; ///< index
+    double hardness = 0; ///< dimensionless; larger is harder; finite
 };
 
 /// Options of stack_layers() and harden().
@@ -51,15 +52,15 @@ struct LayerOptions {
 
 /// Describes the changes of one horizon. Areas are true areas, squared unit, in floating point.
 struct LayerReport {
-    std::uint32_t surface = 0; ///< index in the input
-    std::size_t dropped = 0;   ///< triangles of the arrangement that it lost
-    std::size_t taken = 0;     ///< triangles of harder horizons that it got instead
-    std::size_t parts = 0;     ///< connected parts of the dropped triangles
-    double dropped_area = 0;   ///< of `dropped`
-    double taken_area = 0;     ///< of `taken`
-    double largest_move = 0;   ///< along z, of a corner of a dropped triangle, to the harder one
-    double step_length = 0; ///< length of the borders between kept and dropped triangles where the
-                            ///< harder horizon ends
+    SurfaceId surface{};     ///< index in the input
+    std::size_t dropped = 0; ///< triangles of the arrangement that it lost
+    std::size_t taken = 0;   ///< triangles of harder horizons that it got instead
+    std::size_t parts = 0;   ///< connected parts of the dropped triangles
+    double dropped_area = 0; ///< of `dropped`
+    double taken_area = 0;   ///< of `taken`
+    double largest_move = 0; ///< along z, of a corner of a dropped triangle, to the harder one
+    double step_length = 0;  ///< length of the borders between kept and dropped triangles where the
+                             ///< harder horizon ends
 };
 
 /// A stack of layers.

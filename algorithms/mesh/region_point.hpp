@@ -3,14 +3,15 @@
 
 #include <cstdint>
 
+#include <terrane/algorithms/core/id.hpp>
 #include <terrane/kernel/point.hpp>
 
 namespace terrane {
 
 /// A point inside a volume (see region_points.hpp).
 struct RegionPoint {
-    Point3 place;             ///< strictly inside, in the unit of the mesh
-    std::uint32_t region = 0; ///< number of the block
+    Point3 place;     ///< strictly inside, in the unit of the mesh
+    BlockId region{}; ///< number of the block
 };
 
 } // namespace terrane

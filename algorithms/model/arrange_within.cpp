@@ -7,8 +7,6 @@
 #include <string_view>
 #include <utility>
 
-#include <terrane/algorithms/core/stopwatch.hpp>
-
 namespace terrane {
 namespace {
 
@@ -18,14 +16,12 @@ void announce(const Run& run, std::string_view stage) {
 
 Status extend(std::span<const std::uint32_t> boundary, const ArrangeWithinOptions& options,
               const Run& run, Arranged& arranged) {
-    Stopwatch watch;
     announce(run, "extend");
     auto extended = extend_to_boundary(std::move(arranged.surfaces), boundary,
                                        {options.extend, options.arrange}, run);
     if (!extended) return extended.error();
     arranged.surfaces = std::move(extended->surfaces);
     arranged.extended = std::move(extended->borders);
-    arranged.seconds_extend = watch.lap();
     return Done{};
 }
 
@@ -35,11 +31,9 @@ Result<Arrangement> arrange_or_seal(const ArrangeWithinOptions& options, const R
         announce(run, "arrange");
         return arrange(arranged.surfaces, options.arrange, run);
     }
-    Stopwatch watch;
     announce(run, "seal");
     auto sealed = seal(std::move(arranged.surfaces), {options.seal, options.arrange}, run);
     if (!sealed) return sealed.error();
-    arranged.seconds_seal = watch.lap();
     arranged.surfaces = std::move(sealed->surfaces);
     arranged.sealed = SealReport{options.seal, std::move(sealed->changes), sealed->left};
     return std::move(sealed->arrangement);
@@ -58,7 +52,6 @@ Result<Arranged> arrange_within(std::vector<Surface> surfaces, std::vector<Surfa
         if (auto done = extend(sides, options, run, arranged); !done) return done.error();
     auto exact = arrange_or_seal(options, run, arranged);
     if (!exact) return exact.error();
-    Stopwatch watch;
     if (sides.empty()) {
         arranged.exact = std::move(*exact);
     } else {
@@ -68,12 +61,10 @@ Result<Arranged> arrange_within(std::vector<Surface> surfaces, std::vector<Surfa
         arranged.exact = std::move(cut->arrangement);
         arranged.cut = std::move(cut->report);
     }
-    arranged.seconds_cut = watch.lap();
     announce(run, "round");
     auto rounded = round_to_doubles(arranged.exact, options.rounding, run);
     if (!rounded) return rounded.error();
     arranged.rounded = std::move(*rounded);
-    arranged.seconds_round = watch.lap();
     return arranged;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// From surfaces to a mesh of doubles: extended to the boundary of a volume of interest, sealed,
-// arranged, cut, rounded; each of them where it is asked for.
+// Makes a mesh of doubles from surfaces. They are extended to the boundary of a volume of interest,
+// sealed, arranged, cut and rounded; each of the optional steps happens if it is asked for.
 #pragma once
 
 #include <optional>
@@ -18,28 +18,31 @@
 
 namespace terrane {
 
+/// Options of arrange_within().
 struct ArrangeWithinOptions {
-    ArrangeOptions arrange{};
-    RoundingOptions rounding{};
-    double seal = 0;   ///< distance of gaps that are closed, unit of the input; 0: none
-    double extend = 0; ///< limit for horizons that end inside, unit of the input; 0: none
+    ArrangeOptions arrange{};   ///< for every arrangement that is made
+    RoundingOptions rounding{}; ///< for the final rounding
+    double seal = 0;            ///< largest width of gaps to close, unit of the input; 0: none
+    double extend = 0; ///< longest extension of horizons that end inside, unit of the input; 0:
+                       ///< none
 };
 
+/// The gaps that were closed.
 struct SealReport {
-    double distance = 0; ///< as asked for
-    std::vector<SealChange> changes{};
-    double left = 0; ///< see Sealed
+    double distance = 0;               ///< the option seal
+    std::vector<SealChange> changes{}; ///< see Sealed
+    double left = 0;                   ///< see Sealed
 };
 
+/// The arrangement, its rounded mesh, and the reports of all steps.
 struct Arranged {
     std::vector<Surface> surfaces; ///< the input with the triangles by which gaps were closed, then
                                    ///< the boundary
     Arrangement exact;             ///< with a volume of interest: restricted to it
-    RoundedMesh rounded;
+    RoundedMesh rounded;           ///< `exact` in doubles, with its report
     std::optional<VolumeReport> cut;                     ///< with a volume of interest
     std::optional<SealReport> sealed;                    ///< where asked for
     std::optional<std::vector<ExtendedBorder>> extended; ///< where asked for
-    double seconds_extend = 0, seconds_seal = 0, seconds_cut = 0, seconds_round = 0;
 };
 
 /// Arranges and rounds the surfaces. `boundary` is that of a volume of interest; empty: there is

@@ -5,22 +5,22 @@
 #include <numeric>
 #include <utility>
 
-#include <terrane/algorithms/core/stopwatch.hpp>
+#include <terrane/algorithms/core/stage_timer.hpp>
 
 namespace terrane {
 namespace {
 
-/// Adds what follows from the volumes.
+/// Adds what follows from the volumes: structure, free borders and times.
 Result<Model> finished(Model model, const Run& run) {
-    Stopwatch watch;
+    StageTimer timer(run, "structure");
     model.structure = build_structure(model.mesh, model.volumes);
     model.borders = find_free_borders(model.mesh, model.structure);
-    model.seconds_structure = watch.lap();
+    timer.stop();
     if (run.stop.stop_requested()) return Error{ErrorCode::interrupted, "stopped on request", ""};
     return model;
 }
 
-/// Gives the volumes of the mesh the numbers of their matches; what has none comes last.
+/// Gives the volumes of the mesh the numbers of their matches. Those without a match come last.
 void number(const Volumes& found, const std::vector<std::uint32_t>& match, Model& model) {
     const std::size_t count = model.exact_volumes.size();
     model.made = static_cast<std::size_t>(std::count(match.begin(), match.end(), UINT32_MAX));
@@ -28,11 +28,11 @@ void number(const Volumes& found, const std::vector<std::uint32_t>& match, Model
     model.volumes = renumbered(found, match, count);
     model.number_of = match;
     auto next = static_cast<std::uint32_t>(count);
-    for (std::uint32_t& n : model.number_of) // as renumbered() does
+    for (std::uint32_t& n : model.number_of) // the same numbers as from renumbered()
         if (n == UINT32_MAX) n = next++;
 }
 
-/// Per volume its own number.
+/// Returns the volumes' own numbers, in order.
 std::vector<std::uint32_t> own_numbers(const Volumes& volumes) {
     std::vector<std::uint32_t> numbers(volumes.measures.size());
     std::iota(numbers.begin(), numbers.end(), 0U);
@@ -43,27 +43,29 @@ std::vector<std::uint32_t> own_numbers(const Volumes& volumes) {
 
 Result<Model> make_model(const Arrangement& arrangement, const ConformingMesh& mesh,
                          const Run& run) {
-    Stopwatch watch;
-    const auto exact = find_volumes(arrangement, run);
+    StageTimer timer(run, "volumes");
+    const Run inner = timer.inside();
+    const auto exact = find_volumes(arrangement, inner);
     if (!exact) return exact.error();
-    const auto rounded = find_volumes(mesh, run);
+    const auto rounded = find_volumes(mesh, inner);
     if (!rounded) return rounded.error();
     Model model{.mesh = mesh, .exact_volumes = exact->measures};
     number(*rounded, match_volumes(arrangement, *exact, mesh, *rounded), model);
-    model.seconds_volumes = watch.lap();
+    timer.stop();
     return finished(std::move(model), run);
 }
 
 Result<Model> make_model(const Arrangement& arrangement, const ConformingMesh& rounded,
                          const Improved& improved, const Run& run) {
-    Stopwatch watch;
+    StageTimer timer(run, "volumes");
     Model model{.mesh = improved.conforming.value()};
     if (!improved.report.sides_kept) {
         model.exact_volumes = improved.volumes.measures;
         number(improved.volumes, own_numbers(improved.volumes), model);
+        timer.stop();
         return finished(std::move(model), run);
     }
-    const auto exact = find_volumes(arrangement, run);
+    const auto exact = find_volumes(arrangement, timer.inside());
     if (!exact) return exact.error();
     const auto of_rounded = match_volumes(arrangement, *exact, rounded, improved.volumes_before);
     std::vector<std::uint32_t> match;
@@ -72,7 +74,7 @@ Result<Model> make_model(const Arrangement& arrangement, const ConformingMesh& r
     number(improved.volumes, match, model);
     for (std::size_t v = 0; v < match.size(); ++v)
         if (match[v] != UINT32_MAX) model.exact_volumes[match[v]] = improved.volumes.measures[v];
-    model.seconds_volumes = watch.lap();
+    timer.stop();
     return finished(std::move(model), run);
 }
 

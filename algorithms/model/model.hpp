@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// A model: a conforming mesh, its blocks, its structure. Blocks have the numbers of the exact
-// arrangement, so that what rounding does to thin blocks changes no number: every stage and every
+// A model consists of a conforming mesh, its blocks and its structure. Blocks have the numbers of
+// the exact arrangement, so that rounding, which may lose thin blocks, changes no number: every
+// stage and every file uses the same number for a block.
 // file calls a block by the same one.
 #pragma once
 
@@ -30,30 +31,29 @@ struct Model {
     std::vector<std::uint32_t> number_of{}; ///< per volume as find_volumes(mesh) counts: its number
     Structure structure{};                  ///< by the same numbers
     std::vector<FreeBorder> borders{};      ///< where surfaces end
-    std::size_t lost = 0;                   ///< exact blocks that the mesh does not have
-    std::size_t made = 0;                   ///< blocks of the mesh that are no exact ones
-    double seconds_volumes = 0;             ///< time of finding the volumes
-    double seconds_structure = 0;           ///< time of building the structure
+    std::size_t lost = 0;                   ///< exact blocks that the mesh lacks
+    std::size_t made = 0;                   ///< blocks of the mesh that match no exact one
 
-    /// Number of exact blocks; the outside is not counted.
+    /// Returns the number of exact blocks, without the outside.
     [[nodiscard]] std::size_t block_count() const { return exact_volumes.size() - 1; }
 };
 
 /// Finds the volumes of the arrangement and of its rounded mesh, matches them, and builds the
-/// structure. Precondition: `rounded` is `exact` rounded. Cost: that of find_volumes, twice; then
-/// linear, but for sorting. Errors: those of find_volumes, interrupted.
+/// structure. Precondition: `rounded` was made from `exact`. Cost: that of find_volumes, twice, and
+/// of sorting. Errors: those of find_volumes, interrupted.
 Result<Model> make_model(const Arrangement& exact, const ConformingMesh& rounded,
                          const Run& run = {});
 
-/// Makes the model of an improved mesh. Precondition: `exact` was rounded, then improved. Blocks keep
-/// the numbers of the exact ones; exact_volumes are those of the improved mesh, but for blocks that
-/// rounding lost. Where report.sides_kept is false, no block is known to be one
-/// of before: then blocks have the numbers of find_volumes(mesh). Cost: that of find_volumes, once.
-/// Errors: those of find_volumes, interrupted.
+/// Makes the model of an improved mesh. Precondition: `exact` was rounded, and the result improved.
+/// Blocks keep the numbers of the exact ones; exact_volumes are those of the improved mesh, except
+/// for blocks that rounding lost. If report.sides_kept is false, blocks can't be matched: they have
+/// the numbers of find_volumes(mesh). Cost: that of find_volumes, once. Errors: those of
+/// find_volumes, interrupted.
 Result<Model> make_model(const Arrangement& exact, const ConformingMesh& rounded,
                          const Improved& improved, const Run& run = {});
 
-/// The volumes of the mesh with the numbers of find_volumes(mesh), without finding them again.
+/// Returns the volumes of the mesh by the numbers of find_volumes(mesh), without finding them
+/// again.
 Volumes volumes_as_found(const Model& model);
 
 } // namespace terrane

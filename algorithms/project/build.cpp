@@ -14,7 +14,7 @@ Error refused(std::string sentence) {
     return {ErrorCode::improper_contact, std::move(sentence), ""};
 }
 
-/// What keeps preprocessed surfaces from being used.
+/// Returns the error that keeps preprocessed surfaces from being used.
 Error flaw_of(const Preprocessed& done) {
     if (done.filled)
         for (const NumberedHole& hole : done.filled->holes)
@@ -27,7 +27,7 @@ Error flaw_of(const Preprocessed& done) {
     return refused("the stack of layers is no conforming mesh of doubles");
 }
 
-/// One call of build.
+/// Runs the stages of one call of build().
 class Builder {
 public:
     Builder(const Project& project, BuildInput input, const Run& run,

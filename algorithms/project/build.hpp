@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// From the surfaces of a project to its model: holes filled, horizons put in order, surfaces cut by
-// a volume of interest, sealed and extended, arranged, rounded, improved, blocks found and filled
-// with tetrahedra; each of them where the project asks for it. Files are read and written by the caller:
+// Builds the model of a project from its surfaces. Holes are filled, horizons put in order,
+// surfaces extended to the boundary of a volume of interest, sealed, arranged, cut by it, rounded
+// and improved, blocks found and filled with tetrahedra; each optional step happens if the project
+// asks for it. The caller reads and writes the files:
 //
-//   const auto project = terrane::read_project("project.json");              // io/project.hpp
-//   auto inputs = terrane::read_inputs(*project);                            // io/project_inputs.hpp
+//   // io/project.hpp, io/project_inputs.hpp
+//   const auto project = terrane::read_project("project.json");
+//   auto inputs = terrane::read_inputs(*project);
 //   const auto built = terrane::build(*project, std::move(inputs->build));
 //
 // Each mesh that is made is proven conforming once, and searched for volumes once.
@@ -29,38 +31,38 @@
 
 namespace terrane {
 
-/// What the files of a project hold.
+/// The surfaces in the files of a project.
 struct BuildInput {
     std::vector<Surface> surfaces{}; ///< with the names and roles that the project gives them
     std::vector<Surface> boundary{}; ///< of the volume of interest; empty: there is none
 };
 
-/// Stages in their order. A stage that the project does not ask for is left out.
+/// The stages in their order. A stage that the project does not ask for is left out.
 enum class BuildStage : std::uint8_t { preprocess, arrange, improve, blocks, tetrahedra };
 
-/// The model of a project, and what each stage did.
+/// The model of a project, and the result of each stage.
 struct Built {
-    Preprocessed preprocessed{};
+    Preprocessed preprocessed{};       ///< filled holes and ordered layers; empty: none asked for
     std::vector<std::string> labels{}; ///< per surface of the mesh: its name, made unique
-    Arranged arranged{};
+    Arranged arranged{};               ///< the arrangement and its rounded mesh
     std::optional<ImprovedAndMeasured> improved{}; ///< where the project asks for it
     std::optional<Model> model{};                  ///< there at the end
     std::optional<FilledBlocks> filled{};          ///< where the project has outputs.tetrahedra
 };
 
-/// Is told what is going on. Calls come from the thread that called build.
+/// Callbacks that follow the progress of build(), which calls them from its caller's thread.
 struct BuildObserver {
-    std::function<void(BuildStage)> begins{};
-    std::function<void(BuildStage, const Built&)> ended{}; ///< with what was built so far
+    std::function<void(BuildStage)> begins{};              ///< called before a stage
+    std::function<void(BuildStage, const Built&)> ended{}; ///< after it, with the results so far
 };
 
-/// What a project asks for; places are those of its keys.
+/// Returns the tetrahedra that a project asks for; errors about them name the project's keys.
 TetrahedraRequest request_of(const Project& project);
 
-/// Builds the model of a project. Errors: those of the stages; bad_option with "source: key" for a name in the project that no
-/// surface has; improper_contact where preprocessing failed (see Preprocessed::good) or the rounded
-/// mesh is not conforming: the observer has seen how far it came. Violations that the checks of
-/// tetrahedra find are no error: see filled->report.
+/// Builds the model of a project. Errors: those of the stages; bad_option, with "source: key", for
+/// a name in the project that no surface has; improper_contact if preprocessing failed (see
+/// Preprocessed::good) or the rounded mesh is not conforming: the observer then has the results so
+/// far. Violations found by the checks of tetrahedra are not an error: see filled->report.
 Result<Built> build(const Project& project, BuildInput input, const Run& run = {},
                     const BuildObserver& observer = {});
 

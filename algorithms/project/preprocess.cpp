@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include <terrane/algorithms/core/stopwatch.hpp>
+#include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
 
 namespace terrane {
@@ -55,7 +55,7 @@ Result<std::vector<FillTask>> tasks_of(const Project& project, const Names& name
             if (std::any_of(tasks.begin(), tasks.end(),
                             [&](const FillTask& t) { return t.surface == s; }))
                 return at_key(project, key, names.labels[s] + " is in an entry before this one");
-            tasks.push_back({s, options_of(entry)});
+            tasks.push_back({SurfaceId(s), options_of(entry)});
         }
     }
     return tasks;
@@ -76,12 +76,12 @@ Result<std::vector<Layer>> order_of(const Project& project, const Names& names) 
         if (std::any_of(order.begin(), order.end(),
                         [&](const Layer& l) { return l.surface == found[0]; }))
             return at_key(project, key, name + " is in the order twice");
-        order.push_back({found[0], project.layers->order[i].hardness});
+        order.push_back({SurfaceId(found[0]), project.layers->order[i].hardness});
     }
     return order;
 }
 
-/// The surfaces of a mesh, each with the vertices that it uses.
+/// Splits a mesh into its surfaces, each with the vertices that it uses.
 std::vector<Surface> surfaces_of(const Mesh& mesh) {
     std::vector<Surface> all;
     std::vector<std::vector<std::uint32_t>> members(mesh.surfaces.size()); // triangles of each
@@ -108,22 +108,22 @@ std::vector<Surface> surfaces_of(const Mesh& mesh) {
 
 Status fill(const std::vector<FillTask>& tasks, std::vector<Surface>& surfaces, const Run& run,
             Preprocessed& done) {
-    Stopwatch watch;
-    auto work = find_holes(surfaces, tasks, run);
+    const StageTimer timer(run, "fill");
+    const Run inner = timer.inside();
+    auto work = find_holes(surfaces, tasks, inner);
     if (!work) return work.error();
-    if (auto filled = fill_holes(surfaces, wanted_holes(*work), *work, run); !filled) return filled;
-    auto contacts = contacts_of_new(*work, run);
+    if (auto filled = fill_holes(surfaces, wanted_holes(*work), *work, inner); !filled)
+        return filled;
+    auto contacts = contacts_of_new(*work, inner);
     if (!contacts) return contacts.error();
     done.contacts = std::move(*contacts);
     for (const HoledSurface& s : work->surfaces) surfaces[s.task.surface] = s.filled;
     done.filled = std::move(*work);
-    done.seconds_fill = watch.lap();
     return Done{};
 }
 
 Status stack(const std::vector<Layer>& order, double min_thickness, std::vector<Surface>& surfaces,
              const Run& run, Preprocessed& done) {
-    Stopwatch watch;
     if (run.progress) run.progress("layers", 0);
     auto layered = stack_layers(surfaces, order, {.min_thickness = min_thickness}, run);
     if (!layered) return layered.error();
@@ -132,7 +132,6 @@ Status stack(const std::vector<Layer>& order, double min_thickness, std::vector<
         surfaces[order[i].surface] = std::move(replaced[i]);
     done.layers = std::move(layered->reports);
     done.stack = std::move(layered->rounded.report);
-    done.seconds_layers = watch.lap();
     return Done{};
 }
 

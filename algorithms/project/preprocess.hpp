@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What a project has done to its surfaces before they are arranged: holes filled, then horizons put
+// Preprocesses the surfaces of a project before they are arranged: fills holes, then puts horizons
 // in order.
 #pragma once
 
@@ -16,22 +16,22 @@
 
 namespace terrane {
 
+/// The reports of preprocess().
 struct Preprocessed {
     std::optional<FillWork> filled{};      ///< where the project has "fill"
     std::vector<NewContact> contacts{};    ///< of fillings with other triangles of their surface
     std::vector<LayerReport> layers{};     ///< where the project has "layers" and filling succeeded
     std::optional<RoundingReport> stack{}; ///< of the stack of layers
-    double seconds_fill = 0, seconds_layers = 0;
 
-    /// Whether the surfaces can be used: no wanted hole stays open, no filling meets other
+    /// Tells whether the surfaces can be used: no wanted hole stays open, no filling meets other
     /// triangles, and the stack of layers is conforming.
     [[nodiscard]] bool good() const;
 };
 
-/// Replaces surfaces; their names and roles stay. A triangle in which layers coincide is in each of
-/// them. Where filling fails, layers are left as they are.
-/// Errors: bad_option with the key, for names that no surface has or two entries share; those of
-/// find_border_loops, fill_holes and stack_layers.
+/// Fills the holes and orders the layers of a project. Replaced surfaces keep their names and
+/// roles. A triangle in which layers coincide belongs to each of them. If filling fails, layers
+/// stay unchanged. Errors: bad_option, with the key, for a name that no surface has or that two
+/// entries share; those of find_border_loops, fill_holes and stack_layers.
 Result<Preprocessed> preprocess(const Project& project, std::vector<Surface>& surfaces,
                                 const Run& run = {});
 

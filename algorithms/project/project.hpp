@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What a project says: the values of a project file (io/project.hpp reads it), or of a program.
+// The contents of a project, which io/project.hpp reads from a file, or which a program sets.
 #pragma once
 
 #include <array>
@@ -45,7 +45,7 @@ struct ProjectWithin {
 
 /// Filling the holes of a surface, which is the first step (holes.hpp, fill_kriging.hpp, rbf.hpp).
 struct ProjectFill {
-    std::string surface{};             ///< name of a surface, or "horizon" for all with that role
+    std::string surface{};             ///< name of a surface, or "horizon" for all of that role
     std::string method = "kriging";    ///< or "rbf"
     std::string model = "auto";        ///< model of the variogram
     std::optional<double> max_area{};  ///< squared unit; larger holes stay open
@@ -99,7 +99,7 @@ struct ProjectOutputs {
     std::vector<std::string>
         tetrahedra{};         ///< names for format_named; empty: no tetrahedra are made
     std::string blocks{};     ///< "vtp", "obj"; empty: none
-    bool certificate = false; ///< whether one is written
+    bool certificate = false; ///< whether to write one
 };
 
 /// A project: what to read, what to do, what to write.
@@ -120,12 +120,13 @@ struct Project {
     unsigned threads = 0;                    ///< 0: all cores
 };
 
-/// "project.json: improve.edge_length_of.F1": where a key of the project stands, for messages.
+/// Returns the place of a key of the project, for messages: "project.json:
+/// improve.edge_length_of.F1".
 inline std::string place_of_key(const Project& project, const std::string& key) {
     return project.source.empty() ? key : project.source + ": " + key;
 }
 
-/// bad_option: what is wrong with this key of the project.
+/// Makes a bad_option error about a key of the project.
 inline Error at_key(const Project& project, const std::string& key, std::string sentence) {
     return {ErrorCode::bad_option, std::move(sentence), place_of_key(project, key)};
 }

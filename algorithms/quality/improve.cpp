@@ -10,6 +10,7 @@
 #include <terrane/algorithms/check/conforming.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
+#include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/algorithms/quality/detail/constants.hpp>
 #include <terrane/algorithms/quality/detail/operations.hpp>
@@ -19,7 +20,7 @@
 namespace terrane {
 namespace {
 
-using namespace improving;
+using namespace quality::detail;
 
 constexpr double pi = 3.14159265358979323846;
 
@@ -385,18 +386,20 @@ std::string_view name_of(WorstCause cause) {
 }
 
 Result<Improved> improve(const Mesh& mesh, const ImproveOptions& options, const Run& run) {
+    const StageTimer timer(run, "improve");
     return guarded("to improve the mesh", "improve",
-                   [&] { return improve_unproven(mesh, options, run); });
+                   [&] { return improve_unproven(mesh, options, timer.inside()); });
 }
 
 Result<Improved> improve(const ConformingMesh& mesh, const ImproveOptions& options,
                          const Run& run) {
+    const StageTimer timer(run, "improve");
     return guarded("to improve the mesh", "improve",
-                   [&] { return improve_proven(mesh, options, run); });
+                   [&] { return improve_proven(mesh, options, timer.inside()); });
 }
 
 std::vector<NamedConstant> improve_constants() {
-    return improving::named_constants();
+    return quality::detail::named_constants();
 }
 
 } // namespace terrane

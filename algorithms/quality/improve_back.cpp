@@ -19,7 +19,7 @@
 namespace terrane {
 namespace {
 
-using namespace improving;
+using namespace quality::detail;
 
 constexpr double endless = std::numeric_limits<double>::infinity();
 
@@ -117,7 +117,8 @@ public:
                 std::max({apart(middle, c[0]), apart(middle, c[1]), apart(middle, c[2])});
             if (there + radius <= bound) continue;
             if (there > bound || count == constants.most_parts_back) return false;
-            if (radius > 4 * bound && contains_within_tolerance(c)) continue;
+            if (radius > constants.coarse_part_back * bound && contains_within_tolerance(c))
+                continue;
             divide(c, parts);
         }
         return true;

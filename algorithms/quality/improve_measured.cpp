@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include <terrane/algorithms/core/stopwatch.hpp>
+#include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/quality/improve_back.hpp>
 
 namespace terrane {
@@ -16,11 +16,10 @@ bool ImprovedAndMeasured::is_near_back() const {
 
 Result<ImprovedAndMeasured> improve_and_measure(const ConformingMesh& mesh,
                                                 const ImproveOptions& options, const Run& run) {
-    Stopwatch watch;
     if (run.progress) run.progress("improve", 0);
     auto improved = improve(mesh, options, run);
     if (!improved) return improved.error();
-    const double seconds_improve = watch.lap();
+    const StageTimer timer(run, "measure");
     if (run.progress) run.progress("measure", 0);
     auto deviations = deviations_of(mesh, improved->mesh, run);
     auto back = bounds_back(mesh, *improved, options, run);
@@ -30,8 +29,7 @@ Result<ImprovedAndMeasured> improve_and_measure(const ConformingMesh& mesh,
         if (deviations[s].out > improved->report.bound_of[s])
             return Error{ErrorCode::internal, "the surface is farther away than was shown",
                          mesh->surfaces[s].name};
-    return ImprovedAndMeasured{std::move(*improved), std::move(deviations), std::move(*back),
-                               seconds_improve, watch.lap()};
+    return ImprovedAndMeasured{std::move(*improved), std::move(deviations), std::move(*back)};
 }
 
 } // namespace terrane

@@ -14,12 +14,11 @@ namespace terrane {
 /// An improved mesh and how far it is from the mesh before, measured by code that shares nothing
 /// with the improvement.
 struct ImprovedAndMeasured {
-    Improved improved;
+    Improved improved;                 ///< the improved mesh, with its report
     std::vector<Deviation> deviations; ///< per surface, measured
-    std::vector<double> bounds_back; ///< per surface: no point of it before is farther from it now
-    double seconds_improve = 0, seconds_measure = 0;
+    std::vector<double> bounds_back;   ///< per surface: bound of the distance from old to new
 
-    /// Whether the mesh before is shown to be within the bounds from the improved one as well.
+    /// Tells whether the mesh before is proven to be within the bounds of the improved one as well.
     [[nodiscard]] bool is_near_back() const;
 };
 

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include <terrane/algorithms/check/check.hpp>
+#include <terrane/algorithms/core/id.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/reconstruction/holes/filling.hpp>
@@ -52,8 +53,8 @@ struct FillOptions {
 
 /// A surface whose holes are to be filled.
 struct FillTask {
-    std::uint32_t surface = 0; ///< index into the list of surfaces
-    FillOptions options{};     ///< for all its holes
+    SurfaceId surface{};   ///< index into the list of surfaces
+    FillOptions options{}; ///< for all its holes
 };
 
 /// A hole and where it is.

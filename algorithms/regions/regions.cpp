@@ -62,7 +62,7 @@ public:
         std::vector<std::uint32_t> number_of(surfaces.values.size());
         for (const std::uint32_t s : order) {
             number_of[s] = static_cast<std::uint32_t>(out.regions.size());
-            out.regions.push_back({surfaces.values[s], triangle_of(s), 0, 0, {}});
+            out.regions.push_back({SurfaceId(surfaces.values[s]), triangle_of(s), 0, 0, {}});
         }
         out.regions_of.offsets = surfaces.offsets;
         auto& region_of = out.regions_of.values;

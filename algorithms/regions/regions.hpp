@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <terrane/algorithms/core/id.hpp>
 #include <terrane/algorithms/core/index_lists.hpp>
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
@@ -18,7 +19,7 @@ namespace terrane {
 
 /// A part of a surface that hangs together without crossing an intersection edge.
 struct Region {
-    std::uint32_t surface = 0;             ///< the surface that it is part of
+    SurfaceId surface{};                   ///< the surface that it is part of
     std::uint32_t first_triangle = 0;      ///< the lowest triangle of the region
     std::size_t triangles = 0;             ///< number of triangles
     double area = 0;                       ///< in squared units of the input; floating point

@@ -14,7 +14,7 @@
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
-#include <terrane/algorithms/core/stopwatch.hpp>
+#include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/intersection/intersection.hpp>
 #include <terrane/algorithms/mesh/work_hook.hpp>
 #include <terrane/algorithms/regions/regions_over.hpp>
@@ -28,8 +28,8 @@ namespace terrane {
 
 namespace rounding::detail {
 
-/// The proof that the rounds below make: they know all pairs that meet improperly, and end without
-/// one.
+/// Creates the ConformingMesh that the rounds below prove: they know all pairs that meet
+/// improperly, and end without one.
 class RoundingProof {
 public:
     static ConformingMesh of(const SharedMesh& mesh) {
@@ -44,7 +44,8 @@ using namespace rounding::detail;
 
 namespace {
 
-/// Input triangles that have parts in the arrangement, but none that names them; ascending.
+/// Returns the input triangles that have parts in the arrangement but not in `parents_of`;
+/// ascending.
 std::vector<std::uint32_t> vanished(const Arrangement& a,
                                     const IndexLists<std::uint32_t>& parents_of) {
     std::vector<bool> present(a.inputs.first.back(), false);
@@ -58,7 +59,7 @@ std::vector<std::uint32_t> vanished(const Arrangement& a,
 
 class Rounding {
 public:
-    /// Crowded contacts are left as they are unless `even_crowded`.
+    /// Crowded contacts are not repaired unless `even_crowded`.
     Rounding(const Arrangement& a, const RoundingOptions& options, bool even_crowded,
              const Run& run) :
         arrangement_(a),
@@ -79,7 +80,7 @@ public:
         return std::move(out_);
     }
 
-    /// Whether contacts were left as they are since they were crowded.
+    /// Whether contacts were not repaired because they were crowded.
     [[nodiscard]] bool left_crowded() const { return left_crowded_; }
 
 private:
@@ -102,8 +103,8 @@ private:
     const Run& run_;
     RoundingState state_;
     bool left_crowded_ = false;
-    bool changed_ = false;           ///< the triangles are no longer those of the arrangement
-    std::optional<Regions> regions_; ///< while the triangles are those of the arrangement
+    bool changed_ = false;           ///< whether the triangles differ from the arrangement's
+    std::optional<Regions> regions_; ///< set in advance while the triangles do not differ
     RoundedMesh out_;
 };
 
@@ -143,7 +144,7 @@ void Rounding::to_nearest() {
     changed_ = state_.tidy(run_);
 }
 
-/// Rounds of local snapping, as long as they help; the mesh with fewest contacts stays.
+/// Performs rounds of local snapping as long as they help, and keeps the mesh with fewest contacts.
 void Rounding::repair(std::vector<CandidatePair>& pairs) {
     for (const int digits : rounding_tuning.fine_digits) {
         if (out_.report.rounds == options_.max_rounds || run_.stop.stop_requested()) return;
@@ -171,7 +172,7 @@ PairFilter Rounding::is_improper() const {
     };
 }
 
-/// The pairs that meet improperly. Two triangles without a dirty corner never do.
+/// Finds the pairs that meet improperly. Two triangles without a dirty corner never do.
 std::vector<CandidatePair> Rounding::contacts() {
     const auto dirty = state_.dirty_triangles(run_);
     if (dirty.empty()) return {};
@@ -181,17 +182,17 @@ std::vector<CandidatePair> Rounding::contacts() {
     return pairs;
 }
 
-/// The same right after rounding to nearest. Only what is not clear from patches that still project
-/// one-to-one and from the faces' distances needs a test.
+/// Finds the pairs that meet improperly right after rounding to nearest. Only pairs that neither
+/// injective patches nor the separation of faces exclude need a test.
 std::vector<CandidatePair> Rounding::first_contacts() {
     if (changed_) return contacts();
     const Arrangement& a = arrangement_;
     const auto& dirty = state_.found_dirty;
     if (dirty.empty()) return {};
     std::vector<bool> holds;         // per patch
-    std::uint32_t last = UINT32_MAX; // parts of a face come one after the other
+    std::uint32_t last = UINT32_MAX; // the parts of a face are consecutive
     Sign last_turn{};
-    const auto turn = [&](std::uint32_t t, Axis axis) { // as that of its parent
+    const auto turn = [&](std::uint32_t t, Axis axis) { // a part is oriented as its parent
         const std::uint32_t parent = a.parents_of[t][0];
         if (parent == last) return last_turn;
         const Triangle& c = a.state->corners[last = parent];
@@ -223,7 +224,7 @@ std::vector<CandidatePair> Rounding::first_contacts() {
     };
     for (const std::uint32_t t : dirty)
         if (patch_of(t) != a.state->patches.of[t]) unproven.parts.push_back(t);
-    for (const std::uint32_t t : unproven.ill_conditioned) // two of one patch are known not to meet
+    for (const std::uint32_t t : unproven.ill_conditioned) // parts of one patch meet properly
         if (patch_of(t) == no_group) unproven.parts.push_back(t);
     if (unproven.parts.empty()) return pairs;
     sort_unique(unproven.parts);
@@ -236,7 +237,8 @@ std::vector<CandidatePair> Rounding::first_contacts() {
     return pairs;
 }
 
-/// False if snapping made so many more contacts that dividing them is not worth it.
+/// Performs one round. Returns false if snapping multiplied the contacts so much that dividing them
+/// is not worthwhile.
 bool Rounding::snap_round(std::span<const CandidatePair> pairs, const SnapGrid& grid) {
     changed_ = true;
     snap_corners(pairs, grid);
@@ -257,9 +259,9 @@ void Rounding::snap_corners(std::span<const CandidatePair> pairs, const SnapGrid
     state_.move_into(cells, [&](const Point3& p) { return grid.snap(p); });
 }
 
-/// What still crosses is divided, exactly; the new points go to the nearest doubles, which are much
-/// finer than the grid: so most of them stay clear of each other. False, and nothing divided, for
-/// more pairs than most_pairs.
+/// Divides the triangles that still cross, exactly, and rounds the new points to the nearest
+/// doubles. These are much finer than the grid, so most of the parts stay clear of each other.
+/// Returns false without dividing anything if there are more than most_pairs pairs.
 bool Rounding::divide_again(std::size_t most_pairs) {
     const auto pairs = contacts();
     if (pairs.size() > most_pairs) return false;
@@ -299,14 +301,14 @@ void Rounding::report_vanished() {
     if (changed_) out_.report.vanished = vanished(arrangement_, state_.parents_of);
 }
 
-/// As long as triangles only move, the regions stay those of the arrangement.
+/// Computes the regions as long as triangles have only moved: they are then those of the
+/// arrangement.
 void Rounding::find_first_regions() {
     if (changed_) return;
-    Stopwatch watch;
+    const StageTimer step(run_, "regions");
     const Arrangement& a = arrangement_;
     regions_ = find_regions(state_.points, state_.triangles, a.surfaces_of, a.state->adjacency,
                             a.intersection_edges, run_);
-    out_.report.seconds_regions = watch.lap();
 }
 
 void Rounding::finish(std::span<const CandidatePair> pairs) {
@@ -332,7 +334,7 @@ void Rounding::finish(std::span<const CandidatePair> pairs) {
     mesh.triangles = std::move(state_.triangles);
     mesh.parents_of = std::move(state_.parents_of);
     if (changed_) {
-        Stopwatch watch;
+        const StageTimer step(run_, "regions"); // with intersection edges
         const InputTriangles& inputs = arrangement_.inputs;
         mesh.surfaces_of = surfaces_of_parents(inputs, mesh.parents_of, run_);
         const Adjacency adjacency =
@@ -341,7 +343,6 @@ void Rounding::finish(std::span<const CandidatePair> pairs) {
         mesh.intersection_edges = find_intersection_edges(adjacency, inputs, mesh.parents_of);
         regions_ = find_regions(mesh.vertices, mesh.triangles, mesh.surfaces_of, adjacency,
                                 mesh.intersection_edges, run_);
-        out_.report.seconds_regions = watch.lap();
     } else {
         mesh.intersection_edges = arrangement_.intersection_edges;
     }
@@ -351,8 +352,8 @@ void Rounding::finish(std::span<const CandidatePair> pairs) {
     if (out_.report.clean) out_.conforming = rounding::detail::RoundingProof::of(out_.mesh);
 }
 
-/// The largest distance between exact vertices and those of a mesh with the same triangles; 0 for
-/// another mesh: its vertices have no exact points of their own.
+/// Returns the largest distance between exact vertices and those of a mesh with the same triangles.
+/// Returns 0 for any other mesh, whose vertices do not correspond to exact points.
 double largest_distance(const Arrangement& a, const Mesh& mesh) {
     double largest = 0;
     if (mesh.triangles != a.triangles) return largest;
@@ -362,7 +363,7 @@ double largest_distance(const Arrangement& a, const Mesh& mesh) {
     return largest;
 }
 
-/// What the snapped input moved, on top of what its rounding did. Where surfaces cross at a small
+/// Adds the moves of the snapped input to those of its rounding. Where surfaces cross at a small
 /// angle, their intersection moves farther than their corners.
 void add_to_report(const SnappedInput& snapped, const Arrangement& a, const RoundingReport& first,
                    RoundedMesh& rounded) {
@@ -383,7 +384,7 @@ std::vector<std::size_t> regions_per_surface(std::size_t surfaces,
     return count;
 }
 
-/// Compares with the regions of the exact surfaces.
+/// Compares the regions with those of the exact surfaces and reports losses.
 void report_lost_regions(const Arrangement& a, RoundedMesh& rounded) {
     std::vector<Point3> places;
     for (const PointIndex v : a.vertices) places.push_back(a.state->points.nearest(v));
@@ -392,11 +393,12 @@ void report_lost_regions(const Arrangement& a, RoundedMesh& rounded) {
     const auto before = regions_per_surface(a.surfaces.size(), exact.regions);
     const auto after = regions_per_surface(a.surfaces.size(), rounded.regions);
     for (std::uint32_t s = 0; s < before.size(); ++s)
-        if (after[s] < before[s]) rounded.report.lost_regions.push_back({s, before[s], after[s]});
+        if (after[s] < before[s])
+            rounded.report.lost_regions.push_back({SurfaceId(s), before[s], after[s]});
 }
 
-/// The arrangement of the snapped input becomes one of the input as it was: triangles that have the
-/// same points only since they were snapped are two.
+/// Makes the arrangement of the snapped input one of the original input: triangles that have the
+/// same points only because they were snapped do not count as duplicates.
 void name_input(const Arrangement& a, Arrangement& snapped) {
     snapped.surfaces = a.surfaces;
     snapped.inputs.duplicates = a.inputs.duplicates;
@@ -404,12 +406,13 @@ void name_input(const Arrangement& a, Arrangement& snapped) {
         find_intersection_edges(snapped.state->adjacency, snapped.inputs, snapped.parents_of);
 }
 
-/// Whether an error has nothing to do with the surfaces.
+/// Whether an error is not caused by the surfaces.
 bool is_external(ErrorCode code) {
     return code == ErrorCode::interrupted || code == ErrorCode::out_of_memory;
 }
 
-/// Arranges the input anew with snapped vertices, ever coarser, until the doubles are conforming.
+/// Arranges the input again with vertices snapped to ever coarser grids, until the doubles are
+/// conforming.
 Result<RoundedMesh> snap_input(const Arrangement& a, RoundedMesh first,
                                const RoundingOptions& options, const Run& run) {
     SnappedInput snapped(a);
@@ -423,7 +426,7 @@ Result<RoundedMesh> snap_input(const Arrangement& a, RoundedMesh first,
             if (a.state->restrict_again) {
                 again = a.state->restrict_again(std::move(again).value(), run);
                 if (!again && is_external(again.error().code)) return again.error();
-                if (!again) return first; // too coarse: a boundary is no longer closed
+                if (!again) return first; // the grid is so coarse that a boundary is not closed
             }
             auto rounded = Rounding(again.value(), options, true, run)();
             if (!rounded) return rounded;
@@ -440,7 +443,7 @@ Result<RoundedMesh> snap_input(const Arrangement& a, RoundedMesh first,
 
 Result<RoundedMesh> round_all(const Arrangement& a, const RoundingOptions& options,
                               const Run& run) {
-    // Arranged anew, the input gets back what was taken out.
+    // Arranging the input again would restore triangles that were removed from the arrangement.
     const bool may_snap_input =
         (a.state->whole || a.state->restrict_again) && options.max_rounds > 0;
     Rounding where_it_lies(a, options, !may_snap_input, run);
@@ -461,9 +464,15 @@ Result<RoundedMesh> round_to_doubles(const Arrangement& arrangement, const Round
                                      const Run& run) {
     return guarded("for the rounding", "rounding", [&]() -> Result<RoundedMesh> {
         Result<RoundedMesh> rounded = Error{};
-        with_threads(run, [&] { rounded = round_all(arrangement, options, run); });
+        const StageTimer timer(run, "round");
+        const Run inner = timer.inside();
+        with_threads(run, [&] { rounded = round_all(arrangement, options, inner); });
         return rounded;
     });
+}
+
+std::vector<NamedConstant> rounding_constants() {
+    return rounding::detail::named_constants();
 }
 
 } // namespace terrane

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// From exact points to doubles: each to the nearest, then, where the mesh of doubles is not
-// conforming any more, iterated snap rounding of what still crosses and what shares its cells.
+// Rounds an arrangement from exact points to doubles. Each point goes to the nearest doubles. Where
+// the mesh of doubles is then no longer conforming, iterated snap rounding moves the corners of the
+// triangles that cross, and all points in the same grid cells.
 //
-// Guarantee: where report.clean, no two triangles of the mesh meet other than in a shared vertex or
-// edge, none is degenerate, none repeated: shown by exact predicates on the doubles themselves.
-// Otherwise report.contacts names the pairs that are left. There is no proof that the rounds end
-// well for every input; hence the check, and the refusal.
-// Cost: nearest doubles of the constructed points and one box search of the triangles that have
-// one; then, per round, the same for what moved.
+// Guarantee: if report.clean, no two triangles of the mesh meet other than in a shared vertex or
+// edge, none is degenerate and none is repeated, as exact predicates on the doubles have shown.
+// Otherwise report.contacts lists the remaining pairs. There is no proof that the rounds succeed
+// for every input; therefore the result is checked.
+// Cost: nearest doubles of the constructed points and one box search for the triangles that have
+// such points; then, per round, the same for the points that moved.
 // Source: Valque and Lazard, Removing self-intersections in triangular meshes (2025), made local.
 #pragma once
 
@@ -20,6 +21,8 @@
 #include <terrane/algorithms/arrangement/arrangement.hpp>
 #include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/check/conforming.hpp>
+#include <terrane/algorithms/core/id.hpp>
+#include <terrane/algorithms/core/named_constant.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
@@ -30,47 +33,49 @@ namespace terrane {
 
 /// Options of round_to_doubles().
 struct RoundingOptions {
-    unsigned max_rounds = 8; ///< of snapping, at most 8; 0: to the nearest double and no further
+    unsigned max_rounds = 8; ///< limit on the rounds of snapping; 0: nearest doubles only
 };
 
-/// A surface some of whose regions were too thin for doubles.
+/// A surface that lost regions because they were too thin for doubles.
 struct LostRegions {
-    std::uint32_t surface = 0; ///< which surface
-    std::size_t exact = 0;     ///< regions before rounding
-    std::size_t rounded = 0;   ///< regions after rounding
+    SurfaceId surface{};     ///< index of the surface
+    std::size_t exact = 0;   ///< regions before rounding
+    std::size_t rounded = 0; ///< regions after rounding
 };
 
-/// How rounding went.
+/// The moves, contacts and losses of rounding.
 struct RoundingReport {
     bool clean = false;                    ///< conforming, by exact check of the doubles
-    unsigned rounds = 0;                   ///< of snapping
-    std::size_t naive_contacts = 0;        ///< pairs that met improperly when all was nearest
-    std::vector<ImproperContact> contacts; ///< left at the end; triangles of the mesh
+    unsigned rounds = 0;                   ///< number of snapping rounds
+    std::size_t naive_contacts = 0;        ///< pairs that meet improperly at the nearest doubles
+    std::vector<ImproperContact> contacts; ///< remaining contacts; triangles of the mesh
     double max_move = 0;  ///< no vertex is farther from its exact point; unit of the
                           ///< input
     double deviation = 0; ///< no point of the mesh is farther from the exact surfaces,
-                          ///< nor the reverse, but for vanished parts; >= max_move
+                          ///< nor the reverse, except in vanished parts; >= max_move
     std::array<std::size_t, 32> moves{};   ///< vertices by move: [0] none, [k] from 10^(k - 24) on
-    std::size_t moved_input_vertices = 0;  ///< input vertices that had to give way
-    std::size_t merged_vertices = 0;       ///< distinct points that became one
-    std::size_t collapsed_triangles = 0;   ///< lost their area
-    double seconds_regions = 0;            ///< of the whole: intersection edges and regions of the
-                                           ///< mesh, which is no rounding
+    std::size_t moved_input_vertices = 0;  ///< number of input vertices that moved
+    std::size_t merged_vertices = 0;       ///< number of points that were merged with another one
+    std::size_t collapsed_triangles = 0;   ///< number of triangles that lost their area
     std::vector<LostRegions> lost_regions; ///< surfaces with fewer regions than the exact ones
-    std::vector<std::uint32_t> vanished;   ///< input triangles of which nothing is left, ascending
+    std::vector<std::uint32_t> vanished;   ///< input triangles without any part left, ascending
 };
 
-/// The mesh of doubles, with regions, parents and intersection edges, and how it came about.
+/// The mesh of doubles, with regions, parents and intersection edges, and the report.
 struct RoundedMesh {
-    SharedMesh mesh;                            ///< conforming where report.clean
-    std::optional<ConformingMesh> conforming{}; ///< the same mesh, where report.clean
-    std::vector<Region> regions;                ///< of the mesh; regions_of counts them
-    RoundingReport report;                      ///< how it came about
+    SharedMesh mesh;                            ///< conforming if report.clean
+    std::optional<ConformingMesh> conforming{}; ///< the same mesh, if report.clean
+    std::vector<Region> regions;                ///< regions of the mesh; regions_of refers to them
+    RoundingReport report;                      ///< moves, contacts and losses
 };
 
-/// Errors: interrupted, out_of_memory, bad_number (a constructed point is beyond the largest
-/// double).
+/// Rounds an arrangement. Errors: interrupted, out_of_memory, bad_number (a constructed point is
+/// beyond the largest double), internal. Times: round, with the step regions (intersection edges and
+/// regions of the mesh, which are not rounding).
 Result<RoundedMesh> round_to_doubles(const Arrangement& arrangement,
                                      const RoundingOptions& options = {}, const Run& run = {});
+
+/// The constants that decide how contacts are repaired; they are documented in detail/tuning.hpp.
+std::vector<NamedConstant> rounding_constants();
 
 } // namespace terrane

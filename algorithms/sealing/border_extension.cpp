@@ -28,7 +28,7 @@ Point3 unit(const Point3& a) {
     return size > 0 && std::isfinite(size) ? times(1 / size, a) : Point3{};
 }
 
-Axis axis_of(const Arrangement& a, std::uint32_t input_triangle) {
+Axis axis_of(const Arrangement& a, InputTriangleId input_triangle) {
     const Triangle& c = a.state->corners[input_triangle];
     return projection_axis(a.state->points.input(c[0]), a.state->points.input(c[1]),
                            a.state->points.input(c[2]));
@@ -37,12 +37,12 @@ Axis axis_of(const Arrangement& a, std::uint32_t input_triangle) {
 /// Key of an undirected edge of a surface.
 using EdgeKey = std::array<std::uint32_t, 3>;
 
-EdgeKey key_of(std::uint32_t surface, std::uint32_t a, std::uint32_t b) {
+EdgeKey key_of(SurfaceId surface, std::uint32_t a, std::uint32_t b) {
     return {surface, std::min(a, b), std::max(a, b)};
 }
 
 /// Finds the border edges of one surface, from its distinct nondegenerate triangles.
-void add_borders(const Arrangement& a, std::uint32_t surface, const std::vector<bool>& unusable,
+void add_borders(const Arrangement& a, SurfaceId surface, const std::vector<bool>& unusable,
                  std::map<EdgeKey, BorderEdge>& borders) {
     const auto& inputs = a.inputs;
     std::vector<Triangle> triangles;
@@ -59,7 +59,8 @@ void add_borders(const Arrangement& a, std::uint32_t surface, const std::vector<
             const std::uint32_t t = sides[0].triangle;
             const bool along = runs_along(triangles[t], low, high);
             borders[key_of(surface, low, high)] = {
-                surface, number[t], along ? low : high, along ? high : low, {}, {}};
+                surface, InputTriangleId(number[t]), along ? low : high, along ? high : low, {},
+                {}};
         });
 }
 
@@ -161,11 +162,11 @@ private:
 
 } // namespace
 
-bool lies_on(const Arrangement& a, const Edge& edge, std::uint32_t input_triangle,
-             std::uint32_t from, std::uint32_t to) {
+bool lies_on(UpwardWitness upward, const Arrangement& a, const Edge& edge,
+             InputTriangleId input_triangle, std::uint32_t from, std::uint32_t to) {
     const Axis axis = axis_of(a, input_triangle);
     return std::all_of(edge.begin(), edge.end(), [&](std::uint32_t v) {
-        return a.state->points.orient2d(axis, from, to, a.vertices[v]) == Sign::Zero;
+        return a.state->points.orient2d(upward, axis, from, to, a.vertices[v]) == Sign::Zero;
     });
 }
 
@@ -173,7 +174,9 @@ std::vector<BorderEdge> open_border_edges(const Arrangement& a, std::vector<bool
     unusable.resize(a.state->corners.size(), false);
     for (const std::uint32_t t : a.degenerate) unusable[t] = true;
     for (const auto& [repeated, first] : a.inputs.duplicates)
-        if (a.inputs.surface_of(repeated) == a.inputs.surface_of(first)) unusable[repeated] = true;
+        if (a.inputs.surface_of(InputTriangleId(repeated)) ==
+            a.inputs.surface_of(InputTriangleId(first)))
+            unusable[repeated] = true;
     std::vector<std::vector<std::uint32_t>> open(a.surfaces.size()); // edges of the adjacency
     for (std::uint32_t e = 0; e < a.state->adjacency.edges.size(); ++e) {
         const auto at = a.state->adjacency.triangles_at[e];
@@ -182,18 +185,19 @@ std::vector<BorderEdge> open_border_edges(const Arrangement& a, std::vector<bool
     }
     const UpwardRounding guard;
     std::vector<BorderEdge> found;
-    for (std::uint32_t s = 0; s < open.size(); ++s) {
+    for (SurfaceId s; s < open.size(); s = SurfaceId(s + 1)) {
         if (open[s].empty()) continue;
         std::map<EdgeKey, BorderEdge> borders;
         add_borders(a, s, unusable, borders);
         for (const std::uint32_t e : open[s])
-            for (const std::uint32_t p : a.parents_of[a.state->adjacency.triangles_at[e][0]]) {
+            for (const std::uint32_t parent : a.parents_of[a.state->adjacency.triangles_at[e][0]]) {
+                const InputTriangleId p(parent);
                 if (a.inputs.surface_of(p) != s) continue;
                 const Triangle& c = a.state->corners[p];
                 for (unsigned k = 0; k < 3; ++k) {
                     const auto border = borders.find(key_of(s, c[k], c[(k + 1) % 3]));
                     if (border == borders.end() || border->second.triangle != p ||
-                        !lies_on(a, a.state->adjacency.edges[e], p, c[k], c[(k + 1) % 3]))
+                        !lies_on(guard, a, a.state->adjacency.edges[e], p, c[k], c[(k + 1) % 3]))
                         continue;
                     border->second.open.push_back(a.state->adjacency.edges[e]);
                     const auto own = a.surfaces_of[a.state->adjacency.triangles_at[e][0]];

@@ -11,7 +11,9 @@
 #include <vector>
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>
+#include <terrane/algorithms/core/id.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
+#include <terrane/kernel/numbers.hpp>
 
 namespace terrane {
 
@@ -29,8 +31,8 @@ inline constexpr StripConstants strip_constants;
 /// An edge of an input surface with one triangle. Vertices are canonical input vertices, as in
 /// InputTriangles::corners.
 struct BorderEdge {
-    std::uint32_t surface = 0;
-    std::uint32_t triangle = 0;       ///< input triangle
+    SurfaceId surface{};
+    InputTriangleId triangle{};       ///< input triangle
     std::uint32_t from = 0, to = 0;   ///< oriented like the triangle
     std::vector<std::uint32_t> own{}; ///< surfaces of the triangles at its open parts, ascending
     std::vector<Edge> open{};         ///< its parts with one triangle in the arrangement: pairs of
@@ -45,7 +47,7 @@ std::vector<BorderEdge> open_border_edges(const Arrangement& arrangement,
 /// A triangle of a strip: part of the quadrilateral beyond a border edge, or a fan at the end of a
 /// strip.
 struct ExtensionTriangle {
-    std::uint32_t surface = 0;
+    SurfaceId surface{};
     std::uint32_t piece = 0; ///< quadrilaterals by border edge from 0, then fans; the same for both
                              ///< triangles of a quadrilateral
     bool is_fan = false;
@@ -74,8 +76,8 @@ std::vector<ExtensionTriangle> make_strips(const Arrangement& arrangement,
 void append_strips(std::vector<Surface>& surfaces, std::span<const ExtensionTriangle> strips);
 
 /// Tells exactly whether both ends of an edge of the arrangement lie on the edge between two input
-/// vertices of a triangle that contains the edge. The caller holds an UpwardRounding.
-bool lies_on(const Arrangement& arrangement, const Edge& edge, std::uint32_t input_triangle,
-             std::uint32_t from, std::uint32_t to);
+/// vertices of a triangle that contains the edge.
+bool lies_on(UpwardWitness upward, const Arrangement& arrangement, const Edge& edge,
+             InputTriangleId input_triangle, std::uint32_t from, std::uint32_t to);
 
 } // namespace terrane

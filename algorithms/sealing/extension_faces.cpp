@@ -118,7 +118,7 @@ private:
                 left = t;
                 ++count;
             }
-            if (count != 1 || !is_strip(left) || is_side(left, e.edge)) continue;
+            if (count != 1 || !is_strip(left) || is_side(guard, left, e.edge)) continue;
             is_open_[sets_.find(left)] = true;
             any = true;
         }
@@ -126,12 +126,14 @@ private:
     }
 
     /// Tells whether the edge lies on the side of a quadrilateral.
-    [[nodiscard]] bool is_side(std::uint32_t t, const Edge& edge) const {
+    [[nodiscard]] bool is_side(UpwardWitness upward, std::uint32_t t, const Edge& edge) const {
         for (const std::uint32_t p : a_.parents_of[t]) {
             const ExtensionTriangle& strip = strips_[by_input_[p]];
             const Triangle& c = a_.state->corners[p];
             const unsigned k = strip.side;
-            if (!strip.is_fan && lies_on(a_, edge, p, c[k], c[(k + 1) % 3])) return true;
+            if (!strip.is_fan &&
+                lies_on(upward, a_, edge, InputTriangleId(p), c[k], c[(k + 1) % 3]))
+                return true;
         }
         return false;
     }

@@ -16,6 +16,7 @@
 #include <terrane/algorithms/arrangement/restricted.hpp>
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
+#include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/mesh/triangle_tree.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/sealing/border_extension.hpp>
@@ -214,7 +215,7 @@ private:
 
     [[nodiscard]] std::vector<ExtensionTriangle> new_strips(bool along) {
         const Distances distances(kept_, options_.distance);
-        const Distances farther(kept_, 2 * options_.distance);
+        const Distances farther(kept_, constants.end_reach * options_.distance);
         std::vector<StripEdge> edges;
         const auto done = edges_with_strip();
         for (Gap& gap : gaps(distances)) {
@@ -341,8 +342,11 @@ private:
 Result<Sealed> seal(std::vector<Surface> surfaces, const SealOptions& options, const Run& run) {
     if (!(options.distance > 0) || !std::isfinite(options.distance))
         return Error{ErrorCode::bad_option, "the distance must be positive", "seal"};
-    return guarded("for sealing", "sealing",
-                   [&] { return Sealing(std::move(surfaces), options, run)(); });
+    const StageTimer timer(run, "seal");
+    return guarded("for sealing", "sealing", [&] {
+        const Run inner = timer.inside();
+        return Sealing(std::move(surfaces), options, inner)();
+    });
 }
 
 std::vector<NamedConstant> seal_constants() {

@@ -25,6 +25,7 @@
 #include <vector>
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>
+#include <terrane/algorithms/core/id.hpp>
 #include <terrane/algorithms/core/named_constant.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
@@ -43,7 +44,7 @@ enum class SealKind : std::uint8_t { extended, trimmed };
 /// The change of one connected part of a border.
 struct SealChange {
     SealKind kind = SealKind::extended; ///< extension or trimming
-    std::uint32_t surface = 0;          ///< of the input
+    SurfaceId surface{};                ///< of the input
     double length = 0;                  ///< of the free border there, before the change
     double largest = 0; ///< largest distance: of the border from the nearest other surface, or of
                         ///< the trimmed part from the curve

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The searches of the paper. One concept: built from boxes, a search reports all boxes that overlap
-// a query box, in any order, each once.
+// Implements the searches of the paper. All model one concept: a search is built from boxes, and
+// its query reports every box that overlaps a query box once, in any order.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace terrane::search {
 
-/// Every box is tested.
+/// Tests every box.
 class Brute {
 public:
     explicit Brute(std::span<const Box> boxes) : boxes_(boxes) {}
@@ -28,10 +28,10 @@ private:
     std::span<const Box> boxes_;
 };
 
-/// Paper 2.1: cells as large as the largest box (equation 3), each box stored in the one cell of
-/// its centre (7, 8). A query looks in all cells that the query box, widened by half a cell,
-/// overlaps: a box that overlaps the query box has its centre no farther from it than half its own
-/// size, and no box is larger than a cell.
+/// The structured search of paper 2.1. Cells are at least as large as the largest box (equation 3),
+/// and each box is stored in the cell of its centre (7, 8). A query visits all cells that the query
+/// box overlaps after widening by half the largest box. This finds every overlapping box: its
+/// centre is at most half its own size away from the query box.
 class CellGrid {
 public:
     explicit CellGrid(std::span<const Box> boxes);
@@ -44,7 +44,7 @@ public:
         });
     }
 
-    /// Number of boxes in the cells that a query looks in.
+    /// Returns the number of boxes in the cells that a query visits.
     [[nodiscard]] std::size_t looked_at(const Box& q) const {
         std::size_t count = 0;
         for_rows(q, [&](std::size_t first, std::size_t last) {
@@ -86,15 +86,16 @@ private:
     std::vector<Stored> stored_;        ///< by cell
 };
 
-/// Paper 2.2: a binary tree over v = (low x, low y, low z, high x, high y, high z). A node of depth
-/// j has the boxes with smaller v[j mod 6] on its left, the others on its right. Boxes are inserted
-/// one by one at the first free place, so the order decides the shape: a list in the worst case,
-/// with quadratic cost.
+/// The alternating binary tree of paper 2.2 over v = (low x, low y, low z, high x, high y, high z).
+/// The left subtree of a node of depth j has the boxes with smaller v[j mod 6], the right subtree
+/// the others. Boxes are inserted one by one at the first free node, so their order determines the
+/// shape: in the worst case a list, with quadratic cost.
 class AbTree {
 public:
     AbTree() = default;
-    /// In the order of the boxes.
+    /// Inserts the boxes in their order.
     explicit AbTree(std::span<const Box> boxes);
+    /// Inserts the boxes in the order of the given indices.
     AbTree(std::span<const Box> boxes, std::span<const std::uint32_t> order);
 
     void insert(const Box& box, std::uint32_t index);
@@ -109,14 +110,15 @@ public:
             const unsigned axis = node.level % 3;
             const bool splits_low = node.level < 3;
             const double key = splits_low ? node.box.low[axis] : node.box.high[axis];
-            // Right of a low key all start at or behind it; left of a high key all end before it.
+            // Boxes in the right subtree of a low key start at it or behind it; boxes in the left
+            // subtree of a high key end before it.
             if (node.right != 0 && (!splits_low || key <= q.high[axis]))
                 stack_.push_back(node.right);
             if (node.left != 0 && (splits_low || key >= q.low[axis])) stack_.push_back(node.left);
         }
     }
 
-    /// Number of levels.
+    /// Returns the number of levels.
     [[nodiscard]] std::size_t depth() const;
 
 private:
@@ -128,22 +130,23 @@ private:
     };
 
     std::vector<Node> nodes_;          ///< in the order of insertion; a child follows its parent
-    std::vector<std::uint32_t> stack_; ///< of the query; as deep as the tree may be
+    std::vector<std::uint32_t> stack_; ///< nodes that the current query has yet to visit
 };
 
-/// The insertion order of Table 1: at depth i the quantiles j / 2^(i+1), j odd, of the boxes sorted
-/// by v[i mod 6]; where a box has its place already, the next one that has none.
+/// Returns the insertion order of Table 1. At depth i it takes the quantiles j / 2^(i+1), j odd, of
+/// the boxes sorted by v[i mod 6]; for a box that is taken already, the next one that is not.
 std::vector<std::uint32_t> table_1_order(std::span<const Box> boxes);
 
-/// Paper 2.2, balanced. Depth about twice the least on surfaces; where many boxes share all their
-/// keys a list again.
+/// The balanced tree of paper 2.2. On surfaces it is about twice as deep as the shallowest tree. If
+/// many boxes share all their keys, it degenerates to a list, too.
 class BalancedAbTree : public AbTree {
 public:
     explicit BalancedAbTree(std::span<const Box> boxes) : AbTree(boxes, table_1_order(boxes)) {}
 };
 
-/// Paper 2.3, the reduction: the boxes that have one of another group in the cells of one grid over
-/// all, that is in those a query would look in; ascending. Without groups, all.
+/// Performs the reduction of paper 2.3: in one grid over all boxes it returns those with a box of
+/// another group in the cells that their query would visit; ascending. Without groups it returns
+/// all boxes.
 std::vector<std::uint32_t> boxes_in_mixed_cells(std::span<const Box> boxes,
                                                 std::span<const std::uint32_t> groups);
 

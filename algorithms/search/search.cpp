@@ -19,7 +19,7 @@ constexpr std::array names{
     std::pair{Search::mixed, "mixed"},    std::pair{Search::bvh, "hierarchy"},
     std::pair{Search::brute, "brute"}};
 
-/// All boxes asked, one after the other.
+/// Queries all boxes with each box in turn.
 template <class Method>
 Pairs pairs_one_by_one(std::span<const Box> boxes, std::span<const std::uint32_t> groups) {
     Method method(boxes);
@@ -40,8 +40,8 @@ struct Part {
     std::vector<std::uint32_t> indices;
 };
 
-/// The paper's red and blue: the boxes of two groups, if there are two and no box without; the
-/// group of box 0 is red.
+/// Splits the boxes into the paper's red and blue ones; the group of box 0 is red. Returns nothing
+/// if there are more than two groups, or boxes without group.
 std::vector<Part> red_and_blue(std::span<const Box> boxes, std::span<const std::uint32_t> groups) {
     std::vector<Part> parts(2);
     std::uint32_t blue = no_group;
@@ -56,7 +56,7 @@ std::vector<Part> red_and_blue(std::span<const Box> boxes, std::span<const std::
     return parts;
 }
 
-/// The red ones searched by the blue ones.
+/// Queries the red boxes with each blue box.
 template <class Method>
 Pairs pairs_of_two(const Part& red, const Part& blue, std::size_t count) {
     Method method(red.boxes);
@@ -76,7 +76,7 @@ Pairs all_pairs(std::span<const Box> boxes, std::span<const std::uint32_t> group
     return pairs_of_two<Method>(parts[0], parts[1], boxes.size());
 }
 
-/// Paper 2.3: what is left after the reduction, by a balanced tree.
+/// Performs the mixed search of paper 2.3: a balanced tree of the boxes that the reduction leaves.
 Pairs mixed_pairs(std::span<const Box> boxes, std::span<const std::uint32_t> groups) {
     const auto chosen = search::boxes_in_mixed_cells(boxes, groups);
     std::vector<Box> left;

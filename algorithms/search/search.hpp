@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Which triangles may meet: pairs of boxes that overlap. All methods give the same pairs.
-// Source: the paper, section 2 (structured search, alternating binary trees, mixed search).
+// Finds the pairs of triangles that may meet: those whose boxes overlap. All methods find the same
+// pairs. Source: the paper, section 2 (structured search, alternating binary trees, mixed search).
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 
 namespace terrane {
 
-/// Axis-aligned and closed: boxes that touch overlap. low <= high.
+/// A closed axis-aligned box, low <= high. Boxes that touch overlap.
 struct Box {
     std::array<double, 3> low, high;
 
@@ -27,15 +27,15 @@ struct Box {
     }
 };
 
-/// The box of a triangle.
+/// Returns the box of a triangle.
 inline Box box_of(std::span<const Point3> points, const Triangle& t) {
     const Point3 &a = points[t[0]], &b = points[t[1]], &c = points[t[2]];
     return {{std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::min({a.z, b.z, c.z})},
             {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}), std::max({a.z, b.z, c.z})}};
 }
 
-/// A list of boxes, or those of triangles: made anew each time, which costs less than to store and
-/// to load them.
+/// A list of boxes, or the boxes of triangles. The latter are computed on each access, which costs
+/// less than storing and loading them.
 class BoxSource {
 public:
     BoxSource(std::span<const Box> boxes) : boxes_(boxes) {}    // NOLINT: a list is a source
@@ -48,6 +48,7 @@ public:
     [[nodiscard]] Box operator[](std::size_t i) const {
         return triangles_.empty() ? boxes_[i] : box_of(points_, triangles_[i]);
     }
+    /// Returns all boxes as a list.
     [[nodiscard]] std::vector<Box> listed() const {
         std::vector<Box> all;
         all.reserve(size());
@@ -68,32 +69,33 @@ struct CandidatePair {
     friend auto operator<=>(const CandidatePair&, const CandidatePair&) = default;
 };
 
-/// A box whose group is this is paired with all others.
+/// The group of boxes that are paired with all others.
 constexpr std::uint32_t no_group = UINT32_MAX;
 
-/// All pairs of overlapping boxes except those within one group; sorted, unique.
-/// groups: per box, or empty for none. Boxes of one group are known not to meet (or need no test).
+/// Returns all pairs of overlapping boxes except those within one group; sorted, unique.
+/// groups: per box, or empty for no_group throughout. Boxes of one group are known not to meet (or
+/// need no test).
 std::vector<CandidatePair> candidate_pairs(const BoxSource& boxes,
                                            std::span<const std::uint32_t> groups, Search method,
                                            const Run& run = {});
 
-/// Whether a pair is kept. Called from several threads, each under an UpwardRounding.
+/// Decides whether a pair is kept. Called from several threads, each under an UpwardRounding.
 using PairFilter = std::function<bool(const CandidatePair&)>;
 
-/// All pairs of overlapping boxes of which at least one is active, except those within one group
-/// and those that the filter (if any) does not keep; sorted, unique. active: ascending indices of
-/// boxes. Cost: a glance at each box, then as candidate_pairs for those near active ones; pairs
-/// that the filter drops take no memory.
+/// Returns all pairs of overlapping boxes of which at least one is active, except those within one
+/// group and those that the filter (if any) rejects; sorted, unique. active: ascending indices of
+/// boxes. Cost: one test per box, then that of candidate_pairs for the boxes near active ones;
+/// rejected pairs take no memory.
 std::vector<CandidatePair> candidate_pairs_of(const BoxSource& boxes,
                                               std::span<const std::uint32_t> active,
                                               std::span<const std::uint32_t> groups = {},
                                               const PairFilter& filter = {}, const Run& run = {});
 
-/// What `automatic` stands for: brute for so few boxes that nothing need be built, else the hierarchy.
-/// (Measured on the paper's models, see `terrane bench paper`: the grid is faster by a fifth to a
-/// third for two uniform surfaces of up to 70 000 triangles that meet everywhere, slower on all
-/// others, 10 times for localised and 100 times for non-uniform ones. So neither the spread of
-/// sizes nor the common volume need be looked at.)
+/// Returns the method that `automatic` stands for: brute for very few boxes, bvh for others.
+/// `terrane bench paper` compares the methods on the paper's models. The grid is faster than bvh by
+/// a fifth to a third for two uniform surfaces of up to 70 000 triangles that meet everywhere. It
+/// is slower for all others: 10 times for localised and 100 times for non-uniform contacts. The
+/// choice therefore considers neither the spread of sizes nor the common volume.
 Search choose(std::size_t boxes);
 
 } // namespace terrane

@@ -95,7 +95,7 @@ std::vector<BorderGap> gaps_along(const Mesh& mesh, const ModelLine& line,
         const auto& [surface, distance] = far.nearest;
         const Point3 &p = samples[i].place, &q = samples[i + 2].place;
         const int decade = decade_of(distance);
-        const BorderGap fresh{surface, decade, 0, distance, distance, far.place};
+        const BorderGap fresh{SurfaceId(surface), decade, 0, distance, distance, far.place};
         BorderGap& gap = gaps.try_emplace({decade, surface}, fresh).first->second;
         gap.length += std::hypot(p.x - q.x, p.y - q.y, p.z - q.z);
         gap.least = std::min(gap.least, distance);
@@ -128,8 +128,8 @@ std::vector<Leak> leaks_of(std::span<const FreeBorder> borders) {
     for (const FreeBorder& border : borders)
         for (const std::uint32_t from : border.surfaces)
             for (const BorderGap& gap : border.gaps) {
-                const Leak fresh{from, gap.surface, gap.decade,  0,
-                                 0,    gap.least,   gap.largest, gap.place};
+                const Leak fresh{SurfaceId(from), gap.surface, gap.decade, 0, 0,
+                                 gap.least,       gap.largest, gap.place};
                 Leak& leak =
                     leaks.try_emplace({gap.decade, from, gap.surface}, fresh).first->second;
                 ++leak.borders;

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include <terrane/algorithms/core/id.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/algorithms/structure/structure.hpp>
 
@@ -17,12 +18,12 @@ namespace terrane {
 /// of magnitude, so that borders that stop a little short are separated from those that end far
 /// away.
 struct BorderGap {
-    std::uint32_t surface = 0; ///< the nearest surface that the border does not belong to
-    int decade = 0;     ///< distances are in [10^decade, 10^(decade + 1)); INT_MIN: they are 0
-    double length = 0;  ///< of this part of the border
-    double least = 0;   ///< smallest distance of an edge, at its farther end
-    double largest = 0; ///< largest distance of an edge, at its farther end
-    Point3 place{};     ///< the vertex or midpoint with the largest distance
+    SurfaceId surface{}; ///< the nearest surface that the border does not belong to
+    int decade = 0;      ///< distances are in [10^decade, 10^(decade + 1)); INT_MIN: they are 0
+    double length = 0;   ///< of this part of the border
+    double least = 0;    ///< smallest distance of an edge, at its farther end
+    double largest = 0;  ///< largest distance of an edge, at its farther end
+    Point3 place{};      ///< the vertex or midpoint with the largest distance
 };
 
 /// A free border, from corner to corner or closed.
@@ -37,8 +38,8 @@ struct FreeBorder {
 /// Two surfaces, one of which ends near the other without meeting it, at distances of one order of
 /// magnitude.
 struct Leak {
-    std::uint32_t from = 0;  ///< the surface that ends
-    std::uint32_t to = 0;    ///< the surface nearest to it
+    SurfaceId from{};        ///< the surface that ends
+    SurfaceId to{};          ///< the surface nearest to it
     int decade = 0;          ///< as in BorderGap
     std::size_t borders = 0; ///< parts of borders
     double length = 0;       ///< of these parts

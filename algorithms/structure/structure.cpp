@@ -118,7 +118,7 @@ private:
         for (std::size_t g = 0; g < groups.size(); ++g) {
             ModelPatch p;
             p.triangles.assign(groups[g].begin(), groups[g].end());
-            p.interface = out_.interface_of[p.triangles[0]];
+            p.interface = InterfaceId(out_.interface_of[p.triangles[0]]);
             out_.patches.push_back(std::move(p));
         }
         sort_by_place(out_.patches);

@@ -21,6 +21,7 @@
 #include <string>
 #include <vector>
 
+#include <terrane/algorithms/core/id.hpp>
 #include <terrane/algorithms/core/index_lists.hpp>
 #include <terrane/algorithms/core/named_constant.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
@@ -43,7 +44,7 @@ std::string_view name_of(LineKind kind);
 
 /// A vertex at which lines end.
 struct ModelCorner {
-    std::uint32_t vertex = 0;           ///< of the mesh
+    VertexId vertex{};                  ///< of the mesh
     std::vector<std::uint32_t> lines{}; ///< that end here, ascending; twice if both ends do
 };
 
@@ -59,7 +60,7 @@ struct ModelLine {
 
 /// A connected part of an interface.
 struct ModelPatch {
-    std::uint32_t interface = 0;            ///< the interface that it is part of
+    InterfaceId interface {};               ///< the interface that it is part of
     std::vector<std::uint32_t> triangles{}; ///< of the mesh, ascending
     std::vector<std::uint32_t> lines{};     ///< around it and within it, ascending
     double area = 0;                        ///< squared unit

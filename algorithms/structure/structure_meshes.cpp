@@ -31,7 +31,7 @@ MeshPart part_of(const Mesh& mesh, std::vector<std::uint32_t> triangles, const I
 } // namespace
 
 MeshPart block_part(const Mesh& mesh, const Volumes& volumes, const Structure& structure,
-                    std::uint32_t block) {
+                    BlockId block) {
     std::vector<std::uint32_t> triangles;
     for (const std::uint32_t i : structure.blocks[block].interfaces) {
         const auto& more = structure.interfaces[i].triangles;
@@ -43,7 +43,7 @@ MeshPart block_part(const Mesh& mesh, const Volumes& volumes, const Structure& s
 }
 
 MeshPart interface_part(const Mesh& mesh, const Volumes& volumes, const Structure& structure,
-                        std::uint32_t interface) {
+                        InterfaceId interface) {
     const ModelInterface& i = structure.interfaces[interface];
     return part_of(mesh, i.triangles,
                    [&](std::uint32_t t) { return volumes.of_sides[t][0] == i.volumes[1]; });

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include <terrane/algorithms/core/id.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/algorithms/structure/structure.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
@@ -24,11 +25,11 @@ struct MeshPart {
 /// Extracts the closed boundary of a block (or of the outside, 0), oriented outward, without
 /// interfaces that dangle in it.
 MeshPart block_part(const Mesh& mesh, const Volumes& volumes, const Structure& structure,
-                    std::uint32_t block);
+                    BlockId block);
 
 /// Extracts an interface, oriented so that its front faces the volume of higher index; a dangling
 /// one keeps the orientation of its triangles.
 MeshPart interface_part(const Mesh& mesh, const Volumes& volumes, const Structure& structure,
-                        std::uint32_t interface);
+                        InterfaceId interface);
 
 } // namespace terrane

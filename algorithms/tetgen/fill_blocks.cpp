@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
-#include <terrane/algorithms/core/stopwatch.hpp>
+#include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/tetrahedra/split_nodes.hpp>
 #include <terrane/algorithms/tetrahedra/without_outside.hpp>
@@ -55,7 +55,7 @@ Result<TetrahedraOptions> options_of(const Model& model, const SurfaceLabels& la
         const auto surfaces = surfaces_of(model, labels, size.of);
         if (!surfaces) return surfaces.error();
         for (const std::uint32_t s : surfaces.value())
-            options.surface_sizes.push_back({s, size.edge_length});
+            options.surface_sizes.push_back({SurfaceId(s), size.edge_length});
     }
     for (const NamedSize& size : request.size_in) {
         const auto block = block_of(model, size.of);
@@ -66,7 +66,7 @@ Result<TetrahedraOptions> options_of(const Model& model, const SurfaceLabels& la
                          fmt::format("block {} is too thin for doubles", block.value()),
                          size.of.place};
         options.block_sizes.push_back(
-            {static_cast<std::uint32_t>(own - shown.begin()), size.edge_length});
+            {BlockId(static_cast<std::uint32_t>(own - shown.begin())), size.edge_length});
     }
     return options;
 }
@@ -93,7 +93,7 @@ Result<std::vector<std::uint32_t>> surfaces_to_split(const Model& model,
 
 // ---- Results ------------------------------------------------------------------------------------
 
-/// Gives regions the numbers of the model's blocks.
+/// Gives the regions the numbers of the model's blocks.
 void renumber(const Model& model, FilledBlocks& filled) {
     const auto& shown = model.number_of;
     const std::size_t count = model.volumes.measures.size();
@@ -102,12 +102,12 @@ void renumber(const Model& model, FilledBlocks& filled) {
     std::vector<RegionVolume> volumes(count);
     for (std::size_t r = 0; r < filled.report.volumes.size(); ++r)
         volumes[shown[r]] = filled.report.volumes[r];
-    for (std::size_t r = 0; r < count; ++r) // too thin for doubles: nothing to compare
+    for (std::size_t r = 0; r < count; ++r) // a block too thin for doubles has nothing to compare
         if (std::find(shown.begin(), shown.end(), r) == shown.end()) volumes[r].equal = true;
     filled.report.volumes = std::move(volumes);
 }
 
-/// Takes the outside away where it is not wanted, and splits nodes.
+/// Removes the outside unless it is wanted, and splits nodes.
 Status finish(const TetrahedraRequest& request, std::span<const std::uint32_t> split,
               TetrahedralMesh& mesh, std::size_t& added_nodes) {
     if (!request.outside) mesh = without_outside(std::move(mesh));
@@ -125,7 +125,7 @@ Status finish(const TetrahedraRequest& request, std::span<const std::uint32_t> s
 
 Result<FilledBlocks> fill_blocks(const Model& model, const TetrahedraRequest& request,
                                  const Run& run) {
-    Stopwatch watch;
+    StageTimer timer(run, "tetrahedralize");
     if (run.progress) run.progress("tetrahedralize", 0);
     const SurfaceLabels labels = unique_labels(model.mesh->surfaces);
     const auto options = options_of(model, labels, request);
@@ -133,21 +133,21 @@ Result<FilledBlocks> fill_blocks(const Model& model, const TetrahedraRequest& re
     const auto split = surfaces_to_split(model, labels, request.split);
     if (!split) return split.error();
     const Volumes volumes = volumes_as_found(model);
-    auto made = tetrahedralize(model.mesh, volumes, *options, run);
+    auto made = tetrahedralize(model.mesh, volumes, *options, timer.inside());
     if (!made) return made.error();
     FilledBlocks filled;
     filled.tetrahedra = std::move(*made);
-    filled.seconds_tetrahedralize = watch.lap();
 
+    timer.next("check");
     if (run.progress) run.progress("check tetrahedra", 0);
     filled.report = check_tetrahedra(filled.tetrahedra, model.mesh, volumes);
-    filled.seconds_check = watch.lap();
+    timer.next("split");
     renumber(model, filled);
     if (filled.report.violations.empty())
         if (auto done = finish(request, *split, filled.tetrahedra, filled.added_nodes); !done)
             return done.error();
     for (const ModelBlock& block : model.structure.blocks) filled.block_names.push_back(block.name);
-    filled.seconds_split = watch.lap();
+    timer.stop();
     if (run.stop.stop_requested()) return Error{ErrorCode::interrupted, "", ""};
     return filled;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// From a model to tetrahedra that were checked, with sizes and cuts by name. Regions have the
-// numbers of the model's blocks.
+// Fills the blocks of a model with tetrahedra, by sizes and cuts that are given by name, and checks
+// them. Regions have the numbers of the model's blocks.
 #pragma once
 
 #include <cstddef>
@@ -17,19 +17,19 @@
 
 namespace terrane {
 
-/// A surface or a block, as the user calls it.
+/// The name of a surface or block as the user gave it.
 struct GivenName {
-    std::string name;  ///< of a surface or a block
+    std::string name;  ///< name of a surface, or name or number of a block
     std::string place; ///< where the user gave it, for errors: "--size-of", "tetrahedra.split[0]"
 };
 
-/// An edge length for a name.
+/// An edge length for a surface or block.
 struct NamedSize {
-    GivenName of;           ///< what gets it
+    GivenName of;           ///< surface or block that gets it
     double edge_length = 0; ///< unit of the mesh
 };
 
-/// What fill_blocks is asked for.
+/// The options of fill_blocks.
 struct TetrahedraRequest {
     TetrahedraOptions options{};      ///< without sizes of blocks and surfaces
     std::vector<NamedSize> size_of{}; ///< by surface
@@ -40,18 +40,15 @@ struct TetrahedraRequest {
 
 /// The tetrahedra of a model.
 struct FilledBlocks {
-    TetrahedralMesh tetrahedra; ///< regions by the numbers of the blocks
-    TetrahedraReport report;    ///< likewise; of all tetrahedra, the outside too, before the cut
-    std::vector<std::string> block_names; ///< per region
-    std::size_t added_nodes = 0;          ///< by splitting
-    double seconds_tetrahedralize = 0;    ///< time of TetGen
-    double seconds_check = 0;             ///< time of the checks
-    double seconds_split = 0;             ///< time of splitting nodes
+    TetrahedralMesh tetrahedra;           ///< regions by the numbers of the blocks
+    TetrahedraReport report;              ///< likewise; with the outside, before splitting
+    std::vector<std::string> block_names; ///< names of the blocks, by region
+    std::size_t added_nodes = 0;          ///< number of nodes that splitting added
 };
 
-/// Fills the blocks with tetrahedra, checks these against mesh and volumes, and splits nodes. Where
-/// the checks find violations, nodes are not split. Errors: bad_option with the place of a name
-/// that nothing has; nothing_to_do without a block, where there is no outside; those of
+/// Fills the blocks with tetrahedra, checks these against mesh and volumes, and splits nodes. If
+/// the checks find violations, nodes are not split. Errors: bad_option, with its place, for a name
+/// that does not exist; nothing_to_do if there is no block and the outside is not wanted; those of
 /// tetrahedralize and split_nodes; interrupted.
 Result<FilledBlocks> fill_blocks(const Model& model, const TetrahedraRequest& request,
                                  const Run& run = {});

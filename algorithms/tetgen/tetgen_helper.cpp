@@ -21,7 +21,7 @@ bool can_be_run(const fs::path& path) {
     return fs::is_regular_file(path, failed) && access(path.c_str(), X_OK) == 0;
 }
 
-/// Where it is looked for if nobody names it, in this order.
+/// Returns the places where the helper is looked for by default, in this order.
 std::vector<fs::path> usual_places() {
     std::vector<fs::path> places;
     std::error_code failed;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// TetGen is run by a helper program, terrane-tetgen, which alone contains TetGen's code.
+// Finds the helper program terrane-tetgen, which alone contains TetGen's code.
 #pragma once
 
 #include <filesystem>

@@ -16,6 +16,7 @@
 #include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/algorithms/tetgen/detail/assembly.hpp>
+#include <terrane/algorithms/tetgen/detail/constants.hpp>
 #include <terrane/algorithms/tetgen/detail/process.hpp>
 #include <terrane/algorithms/tetgen/detail/sizes.hpp>
 #include <terrane/algorithms/tetgen/tetgen_helper.hpp>
@@ -29,9 +30,6 @@ namespace terrane {
 using namespace tetgen::detail;
 
 namespace {
-
-constexpr double smallest_ratio = 1.1;
-constexpr double most_tetrahedra = 5e8; // TetGen counts in int
 
 // ---- 1. Options and mesh are sound ------------------------------------------------------------
 
@@ -55,9 +53,9 @@ Status check_options(const TetrahedraOptions& options) {
             return bad_option("box must have finite corners, low < high in each coordinate");
     }
     const auto& ratio = options.radius_edge_ratio;
-    if (ratio && !(std::isfinite(*ratio) && *ratio >= smallest_ratio))
-        return bad_option(
-            fmt::format("radius_edge_ratio must be at least {}, not {}", smallest_ratio, *ratio));
+    if (ratio && !(std::isfinite(*ratio) && *ratio >= constants.least_ratio))
+        return bad_option(fmt::format("radius_edge_ratio must be at least {}, not {}",
+                                      constants.least_ratio, *ratio));
     if (!(options.time_limit > 0)) return bad_option("time_limit must be positive");
     if (Status length = check_length("edge_length", options.edge_length); !length) return length;
     return check_length("max_volume", options.max_volume);
@@ -81,10 +79,9 @@ Box3 enlarged_bounds(std::span<const Point3> points, double margin) {
     const auto largest = [](const Point3& p) {
         return std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
     };
-    constexpr double least = 0x1p-40; // of the largest coordinate: room between doubles
     const double add = std::max(
         margin * std::max({box.high.x - box.low.x, box.high.y - box.low.y, box.high.z - box.low.z}),
-        least * std::max(largest(box.low), largest(box.high)));
+        constants.least_margin * std::max(largest(box.low), largest(box.high)));
     const auto below = [&](double x) { return std::min(x - add, std::nextafter(x, -HUGE_VAL)); };
     const auto above = [&](double x) { return std::max(x + add, std::nextafter(x, HUGE_VAL)); };
     box.low = {below(box.low.x), below(box.low.y), below(box.low.z)};
@@ -132,8 +129,8 @@ Result<TetgenDomain> make_domain(const Mesh& mesh, const TetrahedraOptions& opti
 
 // ---- 4. TetGen ----------------------------------------------------------------------------------
 
-/// TetGen works on coordinates times 2^-exponent, at most 1: exact, and safe from overflow. If that
-/// would lose digits of the smallest coordinates, the exponent is 0.
+/// Scales coordinates by 2^-exponent, to at most 1, which is exact and keeps TetGen from overflow.
+/// If that would lose digits of the smallest coordinates, the exponent is 0.
 class Scale {
 public:
     explicit Scale(std::span<const Point3> points) {
@@ -147,7 +144,7 @@ public:
     }
     [[nodiscard]] Point3 down(const Point3& p) const { return times(p, -exponent_); }
     [[nodiscard]] Point3 up(const Point3& p) const { return times(p, exponent_); }
-    /// For a length, an area (dimension 2) or a volume (3).
+    /// Scales a length (dimension 1), an area (2) or a volume (3).
     [[nodiscard]] double down(double measure, int dimension) const {
         return std::ldexp(measure, -exponent_ * dimension);
     }
@@ -171,7 +168,7 @@ void add_facets(const TetgenDomain& domain, TetgenInput& input) {
     }
 }
 
-/// Bounds on volumes and areas as TetGen gets them.
+/// Bounds on volumes and areas, scaled for TetGen.
 class ScaledSizes {
 public:
     ScaledSizes(const Sizes& sizes, const Scale& scale) : sizes_(sizes), scale_(scale) {}
@@ -188,23 +185,23 @@ private:
     const Scale& scale_;
 };
 
-/// More than TetGen can count, or memory hold, is said before it is tried.
+/// Refuses more tetrahedra than TetGen can count or memory can hold before any work is done.
 Status check_count(const Volumes& volumes, const Box3& scaled_box, const Sizes& sizes,
                    const ScaledSizes& scaled, const Scale& scale) {
     const auto& [low, high] = scaled_box;
     const double whole = (high.x - low.x) * (high.y - low.y) * (high.z - low.z);
     double count = 0, rest = whole;
-    for (std::size_t v = volumes.measures.size(); v-- > 0;) { // the outside at last
+    for (std::size_t v = volumes.measures.size(); v-- > 0;) { // the outside last
         const double measure = v == 0 ? rest : std::min(scale.down(volumes.measures[v], 3), rest);
         rest -= measure;
         if (sizes.in_volumes[v].bounded()) count += measure / scaled.volume_in(v);
     }
-    if (count <= most_tetrahedra) return Done{};
-    return bad_option(
-        fmt::format("the wanted sizes would need more than {} tetrahedra", most_tetrahedra));
+    if (count <= constants.most_tetrahedra) return Done{};
+    return bad_option(fmt::format("the wanted sizes would need more than {} tetrahedra",
+                                  constants.most_tetrahedra));
 }
 
-/// Wanted edge lengths become volumes of regular tetrahedra and areas of their faces.
+/// Turns wanted edge lengths into volumes of regular tetrahedra and areas of their faces.
 Status set_sizes(const Mesh& mesh, const Volumes& volumes, const TetgenDomain& domain,
                  const TetrahedraOptions& options, const Scale& scale, const Run& run,
                  TetgenInput& input) {
@@ -243,7 +240,7 @@ Result<TetgenInput> tetgen_input(const Mesh& mesh, const Volumes& volumes,
     return input;
 }
 
-/// A failure of TetGen's own gets the place where it is most likely to have failed.
+/// Adds to a failure of TetGen the place where it is most likely to have failed.
 Error with_place(Error error, const Mesh& mesh) {
     if (error.code != ErrorCode::internal || !error.place.empty()) return error;
     const auto sharp = sharpest_angle(mesh);
@@ -257,17 +254,17 @@ Error with_place(Error error, const Mesh& mesh) {
     return error;
 }
 
-/// Whether the same failure is to be expected whatever TetGen is asked. An error with a place is
-/// about the helper.
+/// Tells whether the same failure is to be expected in every other way of asking TetGen. An error
+/// with a place is about the helper.
 bool is_final(const Error& error) {
     return error.code == ErrorCode::interrupted || error.code == ErrorCode::out_of_memory ||
            !error.place.empty();
 }
 
-/// Where TetGen fails, runs out of time, or fails the checks, it is asked again: to leave out its
-/// last step, the improvement of shapes, and then to split facets. All that with the points along a
-/// curve, as is its custom, then in their order: in 1.5.0 the former ends in an assertion for
-/// points as regular as those of two cubes that overlap.
+/// Asks TetGen again, in another way, if it fails, runs out of time, or fails the checks: first
+/// without its last step, the improvement of shapes, then with facets split. The points are
+/// inserted along a curve, TetGen's default, and after that in their own order: version 1.5.0 ends
+/// in an assertion with the former for points as regular as those of two overlapping cubes.
 Result<TetrahedralMesh> try_in_turn(const Mesh& mesh, const Volumes& volumes,
                                     const TetgenDomain& domain, TetgenInput& input,
                                     const Scale& scale, const Run& run) {
@@ -359,6 +356,10 @@ Result<TetrahedralMesh> tetrahedralize(const Mesh& mesh, const TetrahedraOptions
                                        const Run& run) {
     return guarded("for the tetrahedra", "tetrahedralize",
                    [&] { return prove_and_fill(mesh, options, run); });
+}
+
+std::vector<NamedConstant> tetrahedra_constants() {
+    return tetgen::detail::named_constants();
 }
 
 } // namespace terrane

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Tetrahedra by TetGen. TetGen's code is not in the library but in a program of its own, since its
-// licence (AGPL) is another one; see tetgen_helper.hpp.
+// Fills the blocks of a mesh with tetrahedra, by TetGen. The library does not contain TetGen, whose
+// licence (AGPL) differs: it runs a helper program that does (tetgen_helper.hpp).
 #pragma once
 
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 #include <terrane/algorithms/check/conforming.hpp>
+#include <terrane/algorithms/core/id.hpp>
+#include <terrane/algorithms/core/named_constant.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
@@ -15,77 +18,81 @@
 
 namespace terrane {
 
-/// Axis-aligned; low < high in each coordinate; unit of the mesh.
+/// An axis-aligned box; low < high in each coordinate; unit of the mesh.
 struct Box3 {
     Point3 low;  ///< least coordinates
     Point3 high; ///< largest coordinates
 };
 
-/// A length of edges that is wanted on a surface, and near it; unit of the mesh.
+/// A wanted edge length on and near a surface.
 struct SurfaceSize {
-    std::uint32_t surface = 0; ///< of the mesh
-    double edge_length = 0;    ///< wanted, > 0, unit of the mesh
+    SurfaceId surface{};    ///< index of a surface of the mesh
+    double edge_length = 0; ///< wanted, > 0, unit of the mesh
 };
 
-/// The same in a block (0: between the mesh and the box).
+/// A wanted edge length in a block. Block 0 is the space between the mesh and the box.
 struct BlockSize {
-    std::uint32_t block = 0; ///< as find_volumes(mesh) counts them
-    double edge_length = 0;  ///< wanted, > 0, unit of the mesh
+    BlockId block{};        ///< number that find_volumes(mesh) gives to it
+    double edge_length = 0; ///< wanted, > 0, unit of the mesh
 };
 
 /// Options of tetrahedralize().
 struct TetrahedraOptions {
     std::optional<Box3> box{}; ///< closes the domain; must contain the mesh strictly inside
-    double margin = 0.1;       ///< without a box: the bounding box, enlarged on each side by this
+    double margin = 0.1;       ///< without a box: enlarges the bounding box on each side by this
                                ///< share of its longest edge, at least by 2^-40 of the largest
                                ///< coordinate
     std::optional<double> edge_length{};       ///< wanted length, unit of the mesh; none: as few
                                                ///< tetrahedra as possible
     std::optional<double> radius_edge_ratio{}; ///< TetGen's quality bound (>= 1.1); none: no bound,
                                                ///< or 2 with any size
-    std::optional<double> max_volume{};        ///< of a tetrahedron, cubic unit
+    std::optional<double> max_volume{};        ///< largest volume of a tetrahedron, cubic unit
     std::vector<BlockSize> block_sizes{};      ///< instead of edge_length and max_volume there
-    std::vector<SurfaceSize> surface_sizes{};  ///< where they are less than what else holds there
-    double time_limit = 600; ///< seconds, > 0, for each way in which TetGen is asked: it may run
-                             ///< forever
+    std::vector<SurfaceSize> surface_sizes{};  ///< where they are less than any other size there
+    double time_limit = 600;        ///< seconds, > 0, for each way of asking TetGen, which may run
+                                    ///< forever
     std::filesystem::path helper{}; ///< TetGen's helper program; empty: see find_tetgen_helper
 };
 
-/// Tetrahedra of a box in which every triangle of the mesh is a union of faces.
+/// Fills a box with tetrahedra such that every triangle of the mesh is a union of faces. `volumes`
+/// are those of the mesh.
 ///
-/// (1) Without sizes and radius_edge_ratio the faces on the mesh are its triangles, undivided,
-/// unless TetGen can't do without more vertices on them. Vertices added
-///     on a triangle are rounded to doubles next to it.
-/// (2) Vertices: those of the mesh that are in use, in its order and bit by bit, then the eight
+/// (1) Without sizes and radius_edge_ratio, the faces on the mesh are its triangles, undivided,
+///     unless TetGen needs more vertices on them. Vertices added on a triangle are rounded to
+///     doubles next to it.
+/// (2) The vertices are the used ones of the mesh in its order and bit by bit, then the eight
 ///     corners of the box, then added ones.
-/// (3) Proven for each result, exactly: all tetrahedra have positive volume, the volumes add up to
-///     the box's, each face has a tetrahedron on either side or lies on the box. So they fill the
-///     box without overlap.
-/// (4) Faces come in the order of their triangles and wound like them; faces on the box last,
-///     counterclockwise seen from outside.
-/// (5) Regions are what the mesh parts the box into, found by diffusion over the tetrahedra (the
-///     paper, section 3: regions one dimension up). They have the numbers of find_volumes(mesh);
-///     that each is one of its volumes, and the other way round, is checked at every face.
-/// (6) The same arguments give the same result, unless one of TetGen's ways runs out of time.
+/// (3) For each result it is proven exactly that all tetrahedra have positive volume, that the
+///     volumes add up to the box's, and that each face has a tetrahedron on either side or lies on
+///     the box. So the tetrahedra fill the box without overlap.
+/// (4) Faces come in the order of their triangles and have their winding; faces on the box come
+///     last, counterclockwise seen from outside.
+/// (5) Regions are the parts into which the mesh divides the box, found by diffusion over the
+///     tetrahedra (the paper, section 3: regions one dimension up). They have the numbers of
+///     find_volumes(mesh). It is checked at every face that regions and volumes correspond one to
+///     one.
+/// (6) The same arguments give the same result, unless one of the ways of asking TetGen runs out of
+///     time.
 ///
-/// The mesh must be conforming: TetGen may crash or run forever on another. TetGen runs in a process
-/// of its own: nothing is printed, a crash is an error like others, a stop request ends it at once,
-/// and calls from several threads do not disturb each other. Where it fails, or (3) does not hold,
-/// it is asked again in other ways.
+/// The mesh must be conforming, as TetGen may crash or run forever on another. TetGen runs in a
+/// process of its own: nothing is printed, a crash is returned as an error, a stop request ends it
+/// at once, and calls from several threads do not disturb each other. If it fails, or (3) does not
+/// hold, it is asked again in other ways.
 ///
 /// Errors: improper_contact with the place, bad_index, bad_number, bad_option, nothing_to_do (no
 /// triangle and no box), interrupted, timed_out (in all ways), out_of_memory, unsupported (too
-/// large for TetGen, or surfaces too close for its tolerance), internal; cannot_open where the
-/// helper program can't be found or run. An error about the helper has its path as the place.
+/// large for TetGen, or surfaces too close for its tolerance), internal; cannot_open if the helper
+/// program can't be found or run. An error about the helper has its path as the place.
 ///
 /// Source: TetGen 1.5 (H. Si).
-///
-/// `volumes` are those of the mesh.
 Result<TetrahedralMesh> tetrahedralize(const ConformingMesh& mesh, const Volumes& volumes,
                                        const TetrahedraOptions& options, const Run& run);
 
-/// Proves that the mesh is conforming, finds its volumes and fills it as above.
+/// Proves that the mesh is conforming, finds its volumes, and fills it as above.
 Result<TetrahedralMesh> tetrahedralize(const Mesh& mesh, const TetrahedraOptions& options,
                                        const Run& run);
+
+/// Lists the constants that decide the result and are not options.
+std::vector<NamedConstant> tetrahedra_constants();
 
 } // namespace terrane

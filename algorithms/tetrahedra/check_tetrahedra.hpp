@@ -64,7 +64,7 @@ struct RegionVolume {
     bool equal = false;    ///< whether the two volumes are exactly equal
 };
 
-/// What check_tetrahedra() found.
+/// The findings of check_tetrahedra().
 struct TetrahedraReport {
     std::vector<TetrahedraViolation> violations; ///< one per kind that occurs, in their order
     std::vector<RegionVolume> volumes;           ///< per volume; [0], the outside, is not compared

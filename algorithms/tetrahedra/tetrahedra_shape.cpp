@@ -21,7 +21,7 @@ double length(const Vector3& v) {
     return std::hypot(v.x, v.y, v.z);
 }
 
-/// For each edge, its ends and the other two corners.
+/// The ends of each edge, then the other two corners.
 constexpr std::array<std::array<unsigned, 4>, 6> edges{
     {{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 0, 2}, {2, 3, 0, 1}}};
 

@@ -38,7 +38,7 @@ struct TetrahedraShape {
 /// 02, 03, 12, 13, 23.
 std::array<double, 6> dihedral_angles(const std::array<Point3, 4>& corners);
 
-/// Ratio of circumradius to shortest edge; infinite for a flat tetrahedron.
+/// Returns the ratio of circumradius to shortest edge; infinite for a flat tetrahedron.
 double radius_edge_ratio(const std::array<Point3, 4>& corners);
 
 /// Measures all tetrahedra, including those of the outside. The values are computed in doubles and

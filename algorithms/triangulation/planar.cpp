@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <terrane/algorithms/mesh/edges.hpp>
+#include <terrane/algorithms/triangulation/detail/constants.hpp>
 #include <terrane/algorithms/triangulation/triangulation.hpp>
 #include <terrane/kernel/numbers.hpp>
 #include <terrane/kernel/predicates.hpp>
@@ -18,7 +19,7 @@ namespace terrane {
 namespace {
 
 constexpr double largest = 1e300;
-constexpr double surroundings = 1024; ///< how far off the corners are, in sizes of the points
+constexpr double surroundings = triangulation::detail::constants.surroundings;
 
 using EdgeList = std::vector<std::array<std::uint32_t, 2>>;
 
@@ -41,7 +42,7 @@ Status check_numbers(std::span<const Point3> points) {
     return Done{};
 }
 
-/// Points by their place in the plane, the first of equal ones first.
+/// Returns the points sorted by their place in the plane; points at one place stay in order.
 std::vector<std::uint32_t> sorted(std::span<const Point3> points) {
     std::vector<std::uint32_t> order(points.size());
     std::iota(order.begin(), order.end(), 0U);
@@ -51,7 +52,7 @@ std::vector<std::uint32_t> sorted(std::span<const Point3> points) {
     return order;
 }
 
-/// Three corners far round all points.
+/// Returns the corners of a triangle that contains all points at a large distance.
 std::array<Point3, 3> corners_round(std::span<const Point3> points) {
     Point3 low = points[0], high = low;
     for (const Point3& p : points) {
@@ -65,8 +66,8 @@ std::array<Point3, 3> corners_round(std::span<const Point3> points) {
             Point3{x, y + 2 * far, 0}};
 }
 
-/// All cells of the triangulation in a far triangle, whose corners are the three indices from
-/// points.size() on.
+/// Triangulates the points in a large triangle whose corners have the three indices from
+/// points.size() on, and returns all cells.
 std::vector<Triangle> cells_of(std::span<const Point3> points,
                                std::span<const std::uint32_t> in_use, const EdgeList& edges) {
     std::vector<Point3> all(points.begin(), points.end());
@@ -85,13 +86,14 @@ std::vector<Triangle> cells_of(std::span<const Point3> points,
     face.inner_points.assign(in_use.begin(), in_use.end());
     face.segments.assign(edges.begin(), edges.end());
     const PointStore store(std::move(all));
-    FaceTriangulation triangulate;
     const UpwardRounding guard;
+    FaceTriangulation triangulate(guard);
     const auto cells = triangulate(store, rank, face);
     return {cells.begin(), cells.end()};
 }
 
-/// Begins with its lowest corner, so that the order in which cells were made does not show.
+/// Rotates a triangle so that its lowest corner comes first. The result then does not depend on the
+/// order in which cells were made.
 Triangle turned(Triangle t) {
     std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
     return t;
@@ -101,7 +103,7 @@ bool overlap(double a, double b, double c, double d) {
     return std::max(std::min(a, b), std::min(c, d)) <= std::min(std::max(a, b), std::max(c, d));
 }
 
-/// Whether two edges meet other than in a corner that both have, with an angle between them.
+/// Whether two edges meet other than at an angle in a common corner.
 bool meet_improperly(std::span<const Point3> points, std::array<std::uint32_t, 2> e,
                      std::array<std::uint32_t, 2> f) {
     for (int turn = 0; turn < 2; ++turn, std::swap(e[0], e[1]))
@@ -121,7 +123,7 @@ Error contact_at(const Point3& p, std::string_view what) {
     return {ErrorCode::improper_contact, std::string(what), fmt::format("({}, {})", p.x, p.y)};
 }
 
-/// By a sweep along x.
+/// Checks by a sweep along x that no two edges meet improperly.
 Status check_contacts(std::span<const Point3> points, EdgeList edges) {
     for (auto& e : edges)
         if (before(points[e[1]], points[e[0]])) std::swap(e[0], e[1]);
@@ -138,7 +140,7 @@ Status check_contacts(std::span<const Point3> points, EdgeList edges) {
     return Done{};
 }
 
-/// Keeps the cells that an odd number of borders lies round, by spreading from the far corners.
+/// Selects the cells that an odd number of polygons surround, by a flood fill from a far corner.
 class Diffusion {
 public:
     Diffusion(const std::vector<Triangle>& cells, std::uint32_t corner, EdgeList borders) :
@@ -165,7 +167,7 @@ public:
 private:
     struct Neighbour {
         std::uint32_t cell;
-        bool beyond; ///< a border
+        bool beyond; ///< on the other side of a polygon's edge
     };
 
     void connect(std::size_t vertex_count) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Triangulations of points and of polygons seen along z, by exact predicates. Heights are carried
-// along and never looked at.
+// Triangulates points and polygons seen along z with exact predicates. Heights have no influence on
+// the result.
 #pragma once
 
 #include <cstdint>
@@ -14,23 +14,23 @@
 
 namespace terrane {
 
-/// The Delaunay triangles of the points, front up, but those so flat that the circle round them is
-/// some 1000 times as wide as all the points: these can only be at the convex hull. Of points with
-/// the same x and y the first one is used. Unique: ties are broken by the order of the points in
-/// the plane.
+/// Returns the Delaunay triangulation of the points, counterclockwise seen along z. Hull triangles
+/// whose circumcircle is wider than about 1000 times the point set are omitted, so the convex hull
+/// may be incomplete. Of several points with the same x and y the first one is used. The result is
+/// unique: ties are broken by the order of the points in the plane.
 /// Cost: O(n^(4/3)) expected.
-/// Errors: bad_number where coordinates are not finite, or beyond 1e300 in size; interrupted.
+/// Errors: bad_number (an x or y is not finite, or beyond 1e300 in size); interrupted.
 Result<std::vector<Triangle>> delaunay(std::span<const Point3> points, const Run& run = {});
 
-/// A closed polygon by its corners, indices into points; either way round.
+/// The corners of a closed polygon, as indices into points; in either orientation.
 using Polygon = std::vector<std::uint32_t>;
 
-/// The inside of polygons, points that an odd number of them goes round: the constrained Delaunay
-/// triangles, front up. Each edge of a polygon is an edge of the result; each point strictly inside
-/// is a vertex of it, others are left out.
-/// Cost: O(n^(4/3)) expected, and n log n + the pairs of edges whose boxes overlap.
-/// Errors: improper_contact where polygons touch or cross each other or themselves, or two points
-/// have the same x and y, with the place; bad_number, bad_index, interrupted.
+/// Returns the constrained Delaunay triangulation of the inside of polygons, counterclockwise seen
+/// along z. A place is inside if an odd number of polygons surround it. Each edge of a polygon is
+/// an edge of the result. Each point strictly inside is a vertex of it; other points are left out.
+/// Cost: O(n^(4/3)) expected, plus one test per pair of polygon edges whose ranges of x overlap.
+/// Errors: improper_contact with the place (polygons touch or cross each other or themselves, or
+/// two points have the same x and y); bad_number as delaunay; bad_index; interrupted.
 Result<std::vector<Triangle>> triangulate_inside(std::span<const Point3> points,
                                                  std::span<const Polygon> polygons,
                                                  const Run& run = {});

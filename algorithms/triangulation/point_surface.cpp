@@ -6,15 +6,16 @@
 
 #include <Eigen/Dense>
 
+#include <terrane/algorithms/triangulation/detail/constants.hpp>
 #include <terrane/algorithms/triangulation/planar.hpp>
 #include <terrane/kernel/predicates.hpp>
 
 namespace terrane {
 namespace {
 
-constexpr double worth_tilting = 0.8; ///< of the length of edges, that must be left at most
+using triangulation::detail::constants;
 
-/// Two axes in the best plane and its normal, as rows.
+/// Returns two axes in the plane of least squares and its normal, as rows.
 Eigen::Matrix3d best_axes(std::span<const Point3> points, const Eigen::Vector3d& centre,
                           double scale) {
     Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
@@ -30,8 +31,8 @@ Eigen::Matrix3d best_axes(std::span<const Point3> points, const Eigen::Vector3d&
     return axes;
 }
 
-/// The points as seen along the normal of the best plane; none where that is within 45 degrees of
-/// z.
+/// Projects the points along the normal of the plane of least squares. Returns nothing if the
+/// normal is within 45 degrees of z.
 std::vector<Point3> flattened(std::span<const Point3> points) {
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();
     double scale = 0;
@@ -42,7 +43,7 @@ std::vector<Point3> flattened(std::span<const Point3> points) {
             std::max(scale, (Eigen::Vector3d(p.x, p.y, p.z) - centre).lpNorm<Eigen::Infinity>());
     if (!(scale > 0) || !std::isfinite(scale)) return {};
     const Eigen::Matrix3d axes = best_axes(points, centre, scale);
-    if (std::abs(axes(2, 2)) >= std::sqrt(0.5)) return {};
+    if (std::abs(axes(2, 2)) >= std::sqrt(constants.upright)) return {};
     std::vector<Point3> flat;
     for (const Point3& p : points) {
         const Eigen::Vector3d q = axes * (Eigen::Vector3d(p.x, p.y, p.z) - centre);
@@ -60,7 +61,7 @@ double longest_edge(std::span<const Point3> points, const Triangle& t) {
     return longest;
 }
 
-/// Of all edges, those between two triangles counted twice; 0 for none.
+/// Returns the median edge length, where edges between two triangles count twice; 0 without edges.
 double median_edge(std::span<const Point3> points, std::span<const Triangle> triangles,
                    bool in_plane) {
     std::vector<double> lengths;
@@ -90,17 +91,22 @@ Result<std::vector<Triangle>> connect_points(std::span<const Point3> points,
         if (!others) return others;
         const double upright = median_edge(points, triangles.value(), false);
         const double along = median_edge(points, others.value(), false);
-        if (upright == 0 || along < worth_tilting * upright) {
+        if (upright == 0 || along < constants.worth_tilting * upright) {
             flat = std::move(tilted);
             triangles = std::move(others);
         }
     }
-    const double limit =
-        options.max_edge > 0 ? options.max_edge : 2 * median_edge(flat, triangles.value(), true);
+    const double limit = options.max_edge > 0
+                             ? options.max_edge
+                             : constants.longest_edge * median_edge(flat, triangles.value(), true);
     std::erase_if(triangles.value(), [&](const Triangle& t) {
         return longest_edge(flat, t) > limit || collinear(points[t[0]], points[t[1]], points[t[2]]);
     });
     return triangles;
+}
+
+std::vector<NamedConstant> point_constants() {
+    return triangulation::detail::named_constants();
 }
 
 } // namespace terrane

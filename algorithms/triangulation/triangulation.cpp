@@ -45,7 +45,7 @@ FaceTriangulation::operator()(const PointStore& points, std::span<const std::uin
     return result_;
 }
 
-// One cell; its edges are fixed: they are the border.
+// Starts with one cell, whose edges are the border and therefore fixed.
 void FaceTriangulation::start(const FaceInput& face) {
     take_points(face);
     name_points();
@@ -78,8 +78,9 @@ void FaceTriangulation::take_points(const FaceInput& face) {
     }
 }
 
-// Levels by hash, coarse ones first, each level in lexicographic order, or in strips where it is
-// large: short walks, few flips. The triangles do not depend on the order.
+// Sorts inner points into random levels by a hash, coarse levels first. Within a level points are
+// in lexicographic order, or in strips if the level is large. This makes walks short and flips few;
+// the resulting triangles do not depend on the order.
 void FaceTriangulation::order_inner_points(const FaceInput& face) {
     order_.clear();
     for (const PointIndex p : face.inner_points) {
@@ -97,9 +98,9 @@ void FaceTriangulation::order_inner_points(const FaceInput& face) {
     }
 }
 
-// Up one strip and down the next.
+// Sorts the points of a level into strips that run up and down alternately.
 void FaceTriangulation::sort_into_strips(std::span<Inner> level) {
-    constexpr std::size_t few = 128; // of which one is near enough to the next
+    constexpr std::size_t few = 128; // so few points are close to each other without strips
     if (level.size() < few) return;
     std::sort(level.begin(), level.end(), [](const Inner& a, const Inner& b) {
         return std::tie(a.at.u, a.point) < std::tie(b.at.u, b.point);
@@ -138,7 +139,7 @@ FaceTriangulation::Local FaceTriangulation::local(PointIndex p) const {
     return slots_[s];
 }
 
-// Each edge is cut from its start to its end: the rest is always the edge of one known cell.
+// Cuts each edge from its start to its end, so that the rest is always the edge of one known cell.
 void FaceTriangulation::insert_edge_points(const FaceInput& face) {
     Local x = 3;
     for (Local e = 0; e < 3; ++e) {
@@ -176,7 +177,7 @@ void FaceTriangulation::insert_inner_points(const FaceInput& face) {
     }
 }
 
-// Visibility walk; i == 3: inside the cell, else on its edge i.
+// Locates a point by a visibility walk. i == 3: it lies inside the cell; else on its edge i.
 FaceTriangulation::Side FaceTriangulation::locate(Local p, Local from) const {
     Local cell = from, before = none;
     for (;;) {
@@ -184,7 +185,7 @@ FaceTriangulation::Side FaceTriangulation::locate(Local p, Local from) const {
         unsigned on = 3, out = 3;
         for (unsigned i = 0; i < 3 && out == 3; ++i) {
             if (c.n[i] == before && before != none) continue;
-            if (c.n[i] == none) continue; // the border: p lies inside of it
+            if (c.n[i] == none) continue; // p lies inside the border
             const Sign s = turn(c.v[next(i)], c.v[previous(i)], p);
             if (s == Sign::Negative) out = i;
             if (s == Sign::Zero) on = i;
@@ -195,11 +196,12 @@ FaceTriangulation::Side FaceTriangulation::locate(Local p, Local from) const {
     }
 }
 
-/// Which points are known to lie on which lines: those of the segments, and the three edges.
+/// Lists for each point the lines that carry it by construction: those of segments, and the three
+/// edges.
 void FaceTriangulation::find_lines(const FaceInput& face) {
     segments_.clear();
     for (const Segment& s : face.segments) segments_.push_back({local(s[0]), local(s[1])});
-    // Pieces of one line mostly come one after the other: a point is not entered twice then.
+    // Segments of one line usually are consecutive. A point is then entered once.
     const auto for_all = [&](const auto& enter) {
         for (std::uint32_t e = 0, p = 3; e < 3; ++e) {
             enter(e, e);
@@ -209,7 +211,7 @@ void FaceTriangulation::find_lines(const FaceInput& face) {
         for (std::size_t s = 0; s < face.segment_lines.size(); ++s)
             for (const Local p : segments_[s]) enter(p, face.segment_lines[s] + 3);
     };
-    line_end_.assign(points_.size(), UINT32_MAX); // the last line
+    line_end_.assign(points_.size(), UINT32_MAX); // here: the last line entered
     first_line_.assign(points_.size() + 1, 0);
     for_all([&](Local p, std::uint32_t line) {
         if (std::exchange(line_end_[p], line) != line) ++first_line_[p + 1];
@@ -240,7 +242,7 @@ Sign FaceTriangulation::turn(Local a, Local b, Local c) const {
         return *sign;
     }
     if (on_one_line(a, b, c)) return Sign::Zero;
-    return store_->orient2d(axis_, points_[a], points_[b], points_[c]);
+    return store_->orient2d(upward_, axis_, points_[a], points_[b], points_[c]);
 }
 
 Sign FaceTriangulation::in_circle(const Cell& c, Local d) const {
@@ -249,7 +251,8 @@ Sign FaceTriangulation::in_circle(const Cell& c, Local d) const {
         ++predicate_counts().static_filter;
         return *sign;
     }
-    return store_->in_circle(axis_, points_[c.v[0]], points_[c.v[1]], points_[c.v[2]], points_[d]);
+    return store_->in_circle(upward_, axis_, points_[c.v[0]], points_[c.v[1]], points_[c.v[2]],
+                             points_[d]);
 }
 
 unsigned FaceTriangulation::index_in(Local cell, Local neighbour) const {
@@ -285,7 +288,8 @@ void FaceTriangulation::split_edge(Side s, Local p) {
     const unsigned j = other == none ? 0 : index_in(other, s.cell);
     cells_.resize(cells_.size() + (other == none ? 1 : 2));
 
-    // (apex, a, b) becomes (apex, a, p) and (apex, p, b); the same on the other side, from b to a.
+    // (apex, a, b) becomes (apex, a, p) and (apex, p, b). The cell on the other side, whose edge
+    // runs from b to a, is halved likewise.
     const auto halve = [&](Local cell, unsigned i, Local second, Local first_beyond,
                            Local second_beyond) {
         const Cell c = cells_[cell];
@@ -307,13 +311,13 @@ void FaceTriangulation::split_edge(Side s, Local p) {
     if (other != none) halve(other, j, fresh_other, fresh, s.cell);
 }
 
-// The diagonal s of the quadrilateral of two cells becomes the other diagonal.
+// Replaces the diagonal s of the quadrilateral of two cells by the other diagonal.
 void FaceTriangulation::flip(Side s) {
     const Local t = s.cell, o = cells_[t].n[s.i];
     const unsigned i = s.i, j = index_in(o, t);
     const Cell c = cells_[t], d = cells_[o];
     const Local p = c.v[i], a = c.v[next(i)], b = c.v[previous(i)], q = d.v[j];
-    // c = (p, a, b), d = (q, b, a): becomes t = (p, a, q), o = (q, b, p)
+    // c = (p, a, b) and d = (q, b, a) become t = (p, a, q) and o = (q, b, p)
     cells_[t].v = {p, a, q};
     cells_[t].n = {d.n[next(j)], o, c.n[previous(i)]};
     cells_[t].fixed = {d.fixed[next(j)], false, c.fixed[previous(i)]};
@@ -326,7 +330,7 @@ void FaceTriangulation::flip(Side s) {
     cell_of_[q] = cell_of_[b] = o;
 }
 
-// Lawson: flips until every edge that is not fixed is locally Delaunay.
+// Flips edges until every edge that is not fixed is locally Delaunay (Lawson).
 void FaceTriangulation::legalise() {
     while (!todo_.empty()) {
         const Side s = todo_.back();
@@ -346,8 +350,8 @@ bool FaceTriangulation::must_flip(Side s) const {
     return in_perturbed_circle(c, o.v[index_in(c.n[s.i], s.cell)]);
 }
 
-// Ties: as if the point of highest rank were lifted by an infinitesimal amount, the next one by an
-// infinitely smaller one, and so on. The first that matters decides.
+// Breaks ties as if the point of highest rank were lifted by an infinitesimal amount, the next one
+// by an infinitely smaller amount, and so on. The first lift that changes the sign decides.
 bool FaceTriangulation::in_perturbed_circle(const Cell& c, Local d) const {
     const Sign s = in_circle(c, d);
     if (s != Sign::Zero) return s == Sign::Positive;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Step (e) of the arrangement: the constrained Delaunay triangulation of one triangle, exact and
-// unique: Delaunay in a projection, ties broken by a symbolic perturbation that depends on the
-// order of the points alone. So two coplanar triangles triangulate a common part in the same way.
+// Performs step (e) of the arrangement: computes the constrained Delaunay triangulation of points
+// and segments in one triangle. The triangulation is exact and unique: it is Delaunay in a
+// projection, and ties are broken by a symbolic perturbation that depends only on the order of the
+// points. Two coplanar triangles therefore triangulate a common part in the same way.
 // Source: Lawson flips; Sloan (1993) for constraints; Devillers and Teillaud (2003) for ties.
-// detail/segments.cpp defines the insertion of segments, triangulation.cpp all else.
+// detail/segments.cpp inserts segments; triangulation.cpp defines all other functions.
 #pragma once
 
 #include <array>
@@ -17,33 +18,36 @@
 
 namespace terrane {
 
-/// A segment to be contained, as a union of edges.
+/// A segment that must become a union of edges.
 using Segment = std::array<PointIndex, 2>;
 
-/// What one triangle must be divided by. Points are distinct; equal indices are equal points.
+/// The points and segments that divide one triangle. Different indices denote different points.
 struct FaceInput {
     Axis axis = Axis::z;                                ///< see projection_axis
-    std::array<PointIndex, 3> corners{};                ///< of either orientation
+    std::array<PointIndex, 3> corners{};                ///< in either orientation
     std::array<std::vector<PointIndex>, 3> edge_points; ///< on the open edge i, from corner i to
                                                         ///< corner i + 1, in this order
     std::vector<PointIndex> inner_points;               ///< inside, in any order, each once
-    std::vector<Segment> segments;                      ///< between points named above; they do not
-                                                        ///< cross other than in these points
+    std::vector<Segment> segments;                      ///< between the points above; they cross in
+                                                        ///< these points only
 
     std::vector<std::uint32_t>
-        segment_lines; ///< per segment a number below 2^31, the same only for
-                       ///< segments on one line; or empty. Spares exact tests
+        segment_lines; ///< per segment a number below 2^31, equal only for segments on one line;
+                       ///< or empty. It saves exact tests
 
+    /// Removes all points and segments, but keeps the memory.
     void clear();
 };
 
-/// Reusable: its arrays are kept from one triangle to the next.
+/// Triangulates faces one after the other and reuses its arrays. It must not outlive the guard whose
+/// witness it is made with.
 class FaceTriangulation {
 public:
-    /// rank(p): position of p in the lexicographic order of all points in use.
-    /// The caller holds an UpwardRounding. The result has the orientation of the corners and is
-    /// valid until the next call. Expected cost: n^(4/3) for n points, plus the edges that segments
-    /// cross.
+    explicit FaceTriangulation(UpwardWitness upward) : upward_(upward) {}
+
+    /// Returns the triangles of a face, oriented as its corners; valid until the next call. rank[p]
+    /// is the position of p in the lexicographic order of all points in use. Expected cost:
+    /// n^(4/3) for n points, plus the number of edges that segments cross.
     std::span<const std::array<PointIndex, 3>> operator()(const PointStore& points,
                                                           std::span<const std::uint32_t> rank,
                                                           const FaceInput& face);
@@ -55,7 +59,7 @@ private:
     struct Cell {
         std::array<Local, 3> v{};    ///< counterclockwise in the projection
         std::array<Local, 3> n{};    ///< neighbour across the edge opposite to v[i], or none
-        std::array<bool, 3> fixed{}; ///< that edge is a constraint
+        std::array<bool, 3> fixed{}; ///< whether that edge is a constraint
     };
     struct Side { ///< the edge of a cell opposite to v[i]
         Local cell;
@@ -100,22 +104,23 @@ private:
     [[nodiscard]] bool in_perturbed_circle(const Cell& c, Local d) const;
     [[nodiscard]] bool is_convex(Side s) const;
 
+    [[no_unique_address]] UpwardWitness upward_;
     const PointStore* store_ = nullptr;
     std::span<const std::uint32_t> rank_;
     Axis axis_ = Axis::z;
-    std::vector<PointIndex> points_;     ///< corners, edge points, inner ones as they are inserted
-    std::vector<ApproximatePoint> flat_; ///< per point, in the projection
-    std::vector<Local> slots_;           ///< open addressing: points by hash of their index
-    std::vector<Segment> segments_;      ///< those of the face, as local points
-    std::vector<std::uint32_t> first_line_; ///< per point, and the end: lines_ that carry it
+    std::vector<PointIndex> points_;        ///< corners, edge points, inner points as inserted
+    std::vector<ApproximatePoint> flat_;    ///< per point, in the projection
+    std::vector<Local> slots_;              ///< open addressing: points by hash of their index
+    std::vector<Segment> segments_;         ///< those of the face, as local points
+    std::vector<std::uint32_t> first_line_; ///< per point, and the end: its first entry in lines_
     std::vector<std::uint32_t> lines_;
-    std::vector<std::uint32_t> line_end_; ///< per point, while lines_ is filled
-    std::vector<Local> cell_of_;          ///< per point, a cell that has it
+    std::vector<std::uint32_t> line_end_; ///< per point, while lines_ is filled: the next entry
+    std::vector<Local> cell_of_;          ///< per point: a cell that has it as a corner
     std::vector<Cell> cells_;
     std::vector<Side> todo_;
     std::vector<std::array<Local, 2>> crossed_;
     std::vector<std::pair<std::uint64_t, PointIndex>> order_; ///< inner points by level and rank
-    std::vector<Inner> inner_;                                ///< the same as they are inserted
+    std::vector<Inner> inner_;                                ///< inner points as inserted
     std::vector<std::array<PointIndex, 3>> result_;
 };
 

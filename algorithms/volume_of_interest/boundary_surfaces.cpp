@@ -16,12 +16,14 @@
 #include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/algorithms/search/search.hpp>
 #include <terrane/algorithms/triangulation/triangulation.hpp>
+#include <terrane/algorithms/volume_of_interest/detail/constants.hpp>
 #include <terrane/kernel/predicates.hpp>
 
 namespace terrane {
 namespace {
 
-constexpr std::size_t most_named_sides = 12;
+constexpr std::size_t most_named_sides =
+    volume_of_interest::detail::boundary_tuning.most_named_sides;
 
 std::string text_of(const Point3& p) {
     return fmt::format("({}, {}, {})", p.x, p.y, p.z);
@@ -192,7 +194,7 @@ std::vector<Triangle> Polygon::triangles() const {
     const auto rank = ranks_of(points);
     const PointStore store(points);
     const UpwardRounding guard;
-    FaceTriangulation triangulate;
+    FaceTriangulation triangulate(guard);
     const auto made = triangulate(store, rank, face);
     auto inside = enclosed({made.begin(), made.end()}, points.size(), std::move(segments));
     for (Triangle& t : inside)
@@ -331,6 +333,10 @@ Result<std::vector<Surface>> polygon_boundary(std::span<const Point2> corners, d
         top.push_back({p.x, p.y, std::max(low, high)});
     }
     return closed_boundary(prism(bottom, top, polygon.triangles()));
+}
+
+std::vector<NamedConstant> boundary_constants() {
+    return {{"most_named_sides", static_cast<double>(most_named_sides)}};
 }
 
 } // namespace terrane

@@ -18,6 +18,7 @@
 #include <span>
 #include <vector>
 
+#include <terrane/algorithms/core/named_constant.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
@@ -57,5 +58,8 @@ Result<std::vector<Surface>> polygon_boundary(std::span<const Point2> corners, d
 /// of triangles meet; improper_contact with the triangles and the place.
 Result<std::vector<Surface>> closed_boundary(std::span<const Surface> surfaces,
                                              const Run& run = {});
+
+/// Lists the constants that decide the result and are not options.
+std::vector<NamedConstant> boundary_constants();
 
 } // namespace terrane

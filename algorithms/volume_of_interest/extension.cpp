@@ -12,6 +12,7 @@
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
+#include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/sealing/border_extension.hpp>
 #include <terrane/algorithms/sealing/extension_faces.hpp>
@@ -55,7 +56,7 @@ public:
     }
     /// Returns the point at which the strip aims from a vertex. The strip goes beyond it by half,
     /// to the limit.
-    [[nodiscard]] Point3 target(std::uint32_t surface, std::uint32_t vertex) const {
+    [[nodiscard]] Point3 target(SurfaceId surface, std::uint32_t vertex) const {
         const auto& edges = at_vertex_.at({surface, vertex});
         Point3 sum{};
         double weight = 0;
@@ -95,7 +96,7 @@ private:
 
     /// Adds the directions of the edges from a vertex on, weighted by their lengths within the
     /// window.
-    void walk(std::uint32_t surface, std::uint32_t vertex, std::uint32_t edge, Point3& sum,
+    void walk(SurfaceId surface, std::uint32_t vertex, std::uint32_t edge, Point3& sum,
               double& weight) const {
         double left = windows_[edge];
         while (true) {
@@ -145,7 +146,7 @@ std::vector<ExtensionTriangle> strips_beyond(const Arrangement& a,
 
 /// Tells exactly whether a part of a strip inside the volume contains the outer edge of the strip
 /// or an outer corner, which means that the strip ends inside.
-bool ends_here(const Arrangement& a, std::uint32_t t, std::uint32_t parent,
+bool ends_here(UpwardWitness upward, const Arrangement& a, TriangleId t, InputTriangleId parent,
                const ExtensionTriangle& strip) {
     const Triangle &corners = a.state->corners[parent], &part = a.triangles[t];
     for (unsigned k = 0; k < 3; ++k) {
@@ -155,7 +156,8 @@ bool ends_here(const Arrangement& a, std::uint32_t t, std::uint32_t parent,
         for (unsigned i = 0; i < 3; ++i) {
             if (!strip.is_base[k] && a.vertices[part[i]] == corners[k]) return true;
             const Edge edge{part[i], part[(i + 1) % 3]};
-            if (is_outer && lies_on(a, edge, parent, corners[k], corners[next])) return true;
+            if (is_outer && lies_on(upward, a, edge, parent, corners[k], corners[next]))
+                return true;
         }
     }
     return false;
@@ -182,7 +184,8 @@ Result<std::vector<bool>> find_reached(std::vector<Surface> surfaces,
     for (std::uint32_t t = 0; t < a.value().triangles.size(); ++t) {
         if (where.value()[t] != Where::inside) continue;
         for (const std::uint32_t p : a.value().parents_of[t])
-            if (by_input[p] != none && ends_here(a.value(), t, p, strips[by_input[p]]))
+            if (by_input[p] != none &&
+                ends_here(guard, a.value(), TriangleId(t), InputTriangleId(p), strips[by_input[p]]))
                 reached[strips[by_input[p]].piece] = false;
     }
     return reached;
@@ -258,8 +261,9 @@ Result<Extended> extend_to_boundary(std::vector<Surface> surfaces,
                                     const ExtendOptions& options, const Run& run) {
     if (!(options.limit > 0) || !std::isfinite(options.limit))
         return Error{ErrorCode::bad_option, "the limit must be positive", "extend"};
+    const StageTimer timer(run, "extend");
     return guarded("to extend surfaces", "extend",
-                   [&] { return extend(std::move(surfaces), boundary, options, run); });
+                   [&] { return extend(std::move(surfaces), boundary, options, timer.inside()); });
 }
 
 std::vector<NamedConstant> extension_constants() {

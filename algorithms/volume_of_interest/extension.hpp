@@ -18,6 +18,7 @@
 #include <vector>
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>
+#include <terrane/algorithms/core/id.hpp>
 #include <terrane/algorithms/core/named_constant.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
@@ -32,11 +33,11 @@ struct ExtendOptions {
 
 /// A connected part of a border inside the volume.
 struct ExtendedBorder {
-    std::uint32_t surface = 0; ///< of the input
-    bool reached = false;      ///< whether it reached the boundary and was extended
-    double length = 0;         ///< of the free border; unit of the input
-    Point3 place{};            ///< its lexicographically least vertex
-    std::size_t edges = 0;     ///< border edges of the input
+    SurfaceId surface{};   ///< of the input
+    bool reached = false;  ///< whether it reached the boundary and was extended
+    double length = 0;     ///< of the free border; unit of the input
+    Point3 place{};        ///< its lexicographically least vertex
+    std::size_t edges = 0; ///< border edges of the input
 };
 
 /// Surfaces extended to a boundary.

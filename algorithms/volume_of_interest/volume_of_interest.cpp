@@ -13,6 +13,7 @@
 #include <terrane/algorithms/arrangement/restricted.hpp>
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
+#include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 
@@ -181,7 +182,7 @@ std::vector<OpenBorder> open_borders(const Arrangement& a, std::span<const std::
         for (std::uint32_t i = 0; i < open.size(); ++i) {
             const Point3 &p = places[open[i][0]], &q = places[open[i][1]];
             const auto [it, fresh] =
-                by_set.emplace(sets.find(i), OpenBorder{surface, 0, std::min(p, q)});
+                by_set.emplace(sets.find(i), OpenBorder{SurfaceId(surface), 0, std::min(p, q)});
             it->second.length += std::hypot(p.x - q.x, p.y - q.y, p.z - q.z);
             it->second.place = std::min({it->second.place, p, q});
         }
@@ -241,8 +242,9 @@ Result<VolumeOfInterest> cut(Arrangement a, std::span<const std::uint32_t> bound
 
 Result<VolumeOfInterest> cut_to_volume(Arrangement a, std::span<const std::uint32_t> boundary,
                                        const Run& run) {
+    const StageTimer timer(run, "volume of interest");
     return guarded("for the volume of interest", "volume of interest",
-                   [&] { return cut(std::move(a), boundary, run); });
+                   [&] { return cut(std::move(a), boundary, timer.inside()); });
 }
 
 } // namespace terrane

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>
+#include <terrane/algorithms/core/id.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
@@ -44,9 +45,9 @@ struct SurfaceCut {
 
 /// A border at which a surface ends inside the volume without meeting another one or the boundary.
 struct OpenBorder {
-    std::uint32_t surface = 0; ///< a triangle in several surfaces counts for each
-    double length = 0;         ///< unit of the input
-    Point3 place{};            ///< its lexicographically least vertex, rounded to doubles
+    SurfaceId surface{}; ///< a triangle in several surfaces counts for each
+    double length = 0;   ///< unit of the input
+    Point3 place{};      ///< its lexicographically least vertex, rounded to doubles
 };
 
 /// The effects of a cut.

@@ -157,7 +157,7 @@ std::vector<std::vector<BlockSide>> largest_sides(const Mesh& mesh, const Volume
     return sides;
 }
 
-std::optional<Point3> point_near(const BlockSide& side, std::uint32_t block, const Mesh& mesh,
+std::optional<Point3> point_near(const BlockSide& side, BlockId block, const Mesh& mesh,
                                  const Volumes& volumes) {
     const auto& [i, j, k] = mesh.triangles[side.triangle];
     const Point3 &a = mesh.vertices[i], &b = mesh.vertices[j], &c = mesh.vertices[k];
@@ -176,12 +176,12 @@ std::optional<Point3> point_near(const BlockSide& side, std::uint32_t block, con
 
 } // namespace
 
-std::optional<std::uint32_t> volume_around(const Point3& place, const Mesh& mesh,
-                                           const Volumes& volumes) {
+std::optional<BlockId> volume_around(const Point3& place, const Mesh& mesh,
+                                     const Volumes& volumes) {
     for (const Point3& end : ends_outside(mesh, place)) {
         const auto [how, volume] = walk(place, end, mesh, volumes);
         if (how == Walk::on_triangle) return std::nullopt;
-        if (how == Walk::done) return volume;
+        if (how == Walk::done) return BlockId(volume);
     }
     return std::nullopt;
 }
@@ -194,9 +194,9 @@ Result<std::vector<RegionPoint>> region_points(const Mesh& mesh, const Volumes& 
         for (const BlockSide& side : sides[block]) {
             if (run.stop.stop_requested())
                 return Error{ErrorCode::interrupted, "stopped on request", ""};
-            const auto place = point_near(side, block, mesh, volumes);
+            const auto place = point_near(side, BlockId(block), mesh, volumes);
             if (!place) continue;
-            points.push_back({*place, block});
+            points.push_back({*place, BlockId(block)});
             break;
         }
     return points;

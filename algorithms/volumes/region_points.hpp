@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include <terrane/algorithms/core/id.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
@@ -25,7 +26,6 @@ Result<std::vector<RegionPoint>> region_points(const Mesh& mesh, const Volumes& 
 
 /// Returns the volume that contains a point, by exact tests of a segment from it to the outside;
 /// none if the point lies on a triangle, or if every segment that was tried meets an edge.
-std::optional<std::uint32_t> volume_around(const Point3& place, const Mesh& mesh,
-                                           const Volumes& volumes);
+std::optional<BlockId> volume_around(const Point3& place, const Mesh& mesh, const Volumes& volumes);
 
 } // namespace terrane

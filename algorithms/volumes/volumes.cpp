@@ -12,7 +12,7 @@
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/invariants.hpp>
-#include <terrane/algorithms/core/stopwatch.hpp>
+#include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/algorithms/mesh/work_hook.hpp>
 #include <terrane/algorithms/volumes/detail/exact_volumes.hpp>
@@ -29,7 +29,6 @@ constexpr std::uint32_t none = UINT32_MAX;
 
 /// Returns the rank of each vertex in the lexicographic order.
 std::vector<std::uint32_t> lexicographic_ranks(const TriangleComplex& sheets) {
-    const UpwardRounding guard;
     std::vector<std::uint32_t> order(sheets.vertices.size());
     std::iota(order.begin(), order.end(), 0U);
     std::sort(order.begin(), order.end(), [&](std::uint32_t v, std::uint32_t w) {
@@ -157,20 +156,19 @@ Result<Volumes> find(const TriangleComplex& sheets, const Run& run) {
         return !run.stop.stop_requested();
     };
     if (!report(0)) return interrupted();
-    Stopwatch watch;
+    StageTimer step(run, "shells");
     DisjointSets sides(2 * sheets.triangles.size() + 1);
     join_round_edges(sheets, sides);
-    const double shells = watch.lap();
     if (!report(0.3)) return interrupted();
+    step.next("nesting");
     join_nested(sheets, sides);
-    const double nesting = watch.lap();
     if (!report(0.5)) return interrupted();
+    step.next("numbers");
     Volumes volumes = Numbering(sheets, sides)();
     if (!report(0.7)) return interrupted();
+    step.next("measures");
     volumes.measures = measure_volumes(sheets, volumes.of_sides, volumes.measures.size());
-    volumes.seconds_shells = shells;
-    volumes.seconds_nesting = nesting;
-    volumes.seconds_measures = watch.lap();
+    step.stop();
     TERRANE_ASSERT(volumes.of_sides.size() == sheets.triangles.size());
     TERRANE_ASSERT_PARANOID(corners_below(volumes.of_sides, volumes.measures.size()));
     if (std::any_of(volumes.measures.begin(), volumes.measures.end(),

@@ -38,9 +38,6 @@ struct Volumes {
     /// even; infinite beyond the largest double). [0] is the measure of all blocks together; for
     /// the exact measures [1] + [2] + ... = [0] (see exact_volumes).
     std::vector<double> measures = std::vector<double>(1);
-    double seconds_shells = 0;   ///< for step (a)
-    double seconds_nesting = 0;  ///< for step (b)
-    double seconds_measures = 0; ///< for step (d)
 
     /// Returns the number of blocks, without the outside.
     [[nodiscard]] std::size_t block_count() const { return measures.size() - 1; }
@@ -50,7 +47,8 @@ struct Volumes {
     }
 };
 
-/// Finds the volumes of an arrangement. Errors: interrupted, out_of_memory; internal if triangles
+/// Finds the volumes of an arrangement. Times: shells, nesting, numbers and measures, the four steps.
+/// Errors: interrupted, out_of_memory; internal if triangles
 /// are found to overlap, so that it is no arrangement.
 Result<Volumes> find_volumes(const Arrangement& arrangement, const Run& run = {});
 

@@ -45,7 +45,7 @@ Result<ExitStatus> arrange_files(const ArrangeCommand& command, Session& session
                      "--certificate"};
     auto inputs = read_inputs(files, session);
     if (!inputs) return inputs.error();
-    Json statistics = statistics_of(inputs.value());
+    Json statistics = statistics_of(inputs.value(), session.times());
 
     const auto arranged = arrange_and_round(inputs.value(), command.settings, session, statistics);
     if (!arranged) return arranged.error();

@@ -72,7 +72,8 @@ std::string size_table(const PaperTable& table) {
     return text;
 }
 
-/// The paper's times are of the whole intersection: its best against everything here.
+/// Compares the best time of the paper, which covers the whole intersection, with the total of all
+/// stages here.
 std::string gain_text(const PaperRow& row) {
     double best = -1;
     for (const double p : row.paper)
@@ -85,17 +86,16 @@ std::string arrange_table(const PaperTable& table) {
                             "prepare", "search", "intersect", "triangulate", "stitch", "round",
                             "total", "doubles", "paper's best / total");
     for (const PaperRow& row : table.rows) {
-        const ArrangeStatistics& a = row.arrange;
+        const auto& a = row.arrange;
         text += fmt::format("{:<15}{:>9.4f}{:>9.4f}{:>11.4f}{:>13.4f}{:>9.4f}{:>9.4f}{:>9.4f}{:>9}"
                             "{:>26}\n",
-                            row.triangles, a.seconds_prepare, a.seconds_search, a.seconds_intersect,
-                            a.seconds_triangulate, a.seconds_stitch, row.seconds_round, row.total(),
-                            row.clean ? "clean" : "improper", gain_text(row));
+                            row.triangles, a[0], a[1], a[2], a[3], a[4], row.seconds_round,
+                            row.total(), row.clean ? "clean" : "improper", gain_text(row));
     }
     return text;
 }
 
-/// "structured < mixed < AB balanced"; the paper's four only.
+/// Lists the paper's four methods by their times: "structured < mixed < AB balanced".
 std::string order_text(const MethodTimes& times) {
     std::vector<std::size_t> order;
     for (std::size_t m = 0; m + 1 < times.size(); ++m)
@@ -110,7 +110,8 @@ std::string order_text(const MethodTimes& times) {
     return text;
 }
 
-/// Methods are compared only where both have a time.
+/// Tells whether no pair of methods is in the opposite order here; compares only methods that have
+/// a time in both.
 bool same_order(const PaperRow& row) {
     for (std::size_t a = 0; a < paper_methods.size(); ++a)
         for (std::size_t b = 0; b < paper_methods.size(); ++b)

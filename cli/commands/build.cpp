@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/project/build.hpp>
@@ -33,8 +34,8 @@ namespace {
 
 struct BuildCommand {
     std::string project;             ///< the file
-    std::string folder;              ///< empty: as the project says
-    std::optional<unsigned> threads; ///< none: as the project says
+    std::string folder;              ///< empty: the folder that the project names
+    std::optional<unsigned> threads; ///< none: the number that the project names
 };
 
 constexpr auto build_footer =
@@ -72,17 +73,17 @@ Examples:
   terrane build project.json
   terrane build project.json -o another_run --threads 4)";
 
-/// What is said, on the terminal and for log.txt, there with times.
+/// Prints messages on the terminal and keeps them, with times, for log.txt.
 class Journal {
 public:
     void say(std::string_view text) {
         print(stdout, text);
         log_ += text;
     }
-    /// In the log only.
+    /// Writes to the log only.
     void note(std::string_view text) { log_ += fmt::format("[{:9.2f} s] {}\n", seconds(), text); }
 
-    /// Since it was made.
+    /// Returns the seconds since the journal was made.
     double seconds() { return seconds_ += watch_.lap(); }
     [[nodiscard]] const std::string& log() const { return log_; }
 
@@ -92,7 +93,7 @@ private:
     std::string log_;
 };
 
-/// A run, from its project to its folder.
+/// Runs one project, from reading its file to publishing the folder of results.
 class Build {
 public:
     Build(const Project& project, std::string source, fs::path folder, Session& session) :
@@ -135,7 +136,7 @@ private:
     }
 
     Status read() {
-        Stopwatch watch;
+        StageTimer timer(session_.run(), "read");
         journal_.note("read");
         session_.begin("read", Phase::computing);
         auto inputs = terrane::read_inputs(project_, session_.run());
@@ -146,8 +147,8 @@ private:
         inputs_.labels = unique_labels(infos_of(read_.build.surfaces));
         inputs_.vertices = read_.vertices;
         inputs_.triangles = read_.triangles;
-        inputs_.seconds = watch.lap();
-        statistics_ = statistics_of(inputs_);
+        timer.stop();
+        statistics_ = statistics_of(inputs_, session_.times());
         return Done{};
     }
 
@@ -169,7 +170,7 @@ private:
         session_.begin(name, Phase::computing);
     }
 
-    /// Says what a stage did, and adds it to the statistics.
+    /// Prints what a stage did and adds it to the statistics.
     void ended(BuildStage stage, const Built& built) {
         session_.end_stage();
         switch (stage) {
@@ -177,20 +178,21 @@ private:
             return preprocessed(built.preprocessed);
         case BuildStage::arrange:
             inputs_.labels = built.labels;
-            add_statistics(statistics_, built.arranged, Search::automatic, inputs_);
+            add_statistics(statistics_, built.arranged, Search::automatic, inputs_,
+                           session_.times());
             journal_.say(summary(inputs_, built.arranged));
             if (!built.arranged.rounded.conforming)
                 refused_ = offending_pairs(inputs_, built.arranged) +
                            "terrane: no blocks without a conforming mesh; nothing written\n";
             return;
         case BuildStage::improve:
-            add_statistics(statistics_, *built.improved);
+            add_statistics(statistics_, *built.improved, session_.times());
             return journal_.say(improve_text(*built.improved, inputs_));
         case BuildStage::blocks:
-            add_statistics(statistics_, *built.model);
+            add_statistics(statistics_, *built.model, session_.times());
             return journal_.say(model_text(inputs_, *built.model));
         case BuildStage::tetrahedra:
-            add_statistics(statistics_, *built.filled);
+            add_statistics(statistics_, *built.filled, session_.times());
             return journal_.say(filled_text(*built.filled));
         }
     }
@@ -203,14 +205,13 @@ private:
             if (!done.contacts.empty())
                 refused_ += "terrane: what was invented meets other triangles\n" +
                             contacts_text(*done.filled, done.contacts);
-            statistics_["holes"] = json_of(*done.filled);
-            statistics_["seconds"]["fill"] = done.seconds_fill;
+            add_statistics(statistics_, *done.filled);
+            statistics_["seconds"]["fill"] = session_.times().latest("fill");
         }
         if (done.stack) {
             said += text_of(inputs_, done.layers, *done.stack);
             refused_ = contacts_text(*done.stack);
-            statistics_["layers"] = json_of(inputs_, done.layers);
-            statistics_["seconds"]["layers"] = done.seconds_layers;
+            add_statistics(statistics_, inputs_, done.layers, session_.times());
         }
         journal_.say(said);
         if (!refused_.empty()) refused_ += "terrane: nothing written\n";
@@ -246,14 +247,15 @@ private:
         return published;
     }
 
-    /// "surfaces.obj"; MSH 2.2 is "surfaces_22.msh", so that both versions have room.
+    /// Returns a name such as "surfaces.obj". MSH 2.2 gets "surfaces_22.msh", so that both versions
+    /// can be written.
     static std::string file_name(const std::string& start, const std::string& format) {
         return start + (format == "msh22" ? "_22.msh" : "." + format);
     }
 
     Status write_surfaces(const fs::path& to) {
         WriteOptions options;
-        options.ascii = true; // STL: binary ones hold other numbers than those that were checked
+        options.ascii = true; // binary STL would round the checked coordinates
         std::vector<RegionPoint> points;
         for (const std::string& format : project_.outputs.surfaces) {
             options.format = format_named(format);
@@ -306,7 +308,7 @@ private:
         return write_file(to / "filled.svg", map_of(*built_.preprocessed.filled));
     }
 
-    /// The paths of the files, one per entry of "surfaces".
+    /// Returns the paths of the input files, one per entry of "surfaces".
     [[nodiscard]] std::vector<std::string> files() const {
         std::vector<std::string> files;
         for (const ProjectSurfaces& entry : project_.surfaces) files.push_back(entry.file.string());
@@ -334,7 +336,7 @@ private:
     Journal journal_;
     Json statistics_;
     Inputs inputs_;       ///< names and counts; the surfaces are in built_
-    ProjectInputs read_;  ///< its surfaces until they are built from
+    ProjectInputs read_;  ///< its surfaces move into the build
     std::string refused_; ///< why nothing is written; empty: all is well
     Built built_;
     std::vector<std::string> written_; ///< names in the folder

@@ -9,7 +9,8 @@
 
 namespace terrane::cli {
 
-/// One command of the program: its options as CLI11 knows them, and what it does with them.
+/// One command of the program: its CLI11 options, and the function that runs it once they are
+/// parsed.
 struct Command {
     CLI::App* options = nullptr;
     std::function<ExitStatus()> run;

@@ -26,7 +26,7 @@ struct FillCommand {
     FillOptions settings;
     std::string method = "kriging";       ///< or rbf
     std::string model = "auto";           ///< of the variogram
-    std::string smoothing = no_smoothing; ///< as it was said
+    std::string smoothing = no_smoothing; ///< text of the option
     std::string holes = default_holes;
     bool list = false;
     std::string map;    ///< empty: none
@@ -52,7 +52,7 @@ Examples:
   terrane fill horizons.ts -o filled.ts --holes 1,3 --points invented.csv
   terrane fill fold.obj -o filled.obj --method rbf)";
 
-/// Per hole, whether it is to be filled.
+/// Tells for each hole whether it is to be filled. Errors: bad_option.
 Result<std::vector<bool>> chosen_holes(const FillCommand& command, const FillWork& work) {
     auto chosen = wanted_holes(work);
     if (command.holes == default_holes) return chosen;
@@ -116,17 +116,18 @@ Result<std::vector<Output>> plan(const FillCommand& command) {
     return outputs;
 }
 
-/// All holes of all surfaces.
+/// Makes one task per surface, each with all of its holes.
 std::vector<FillTask> tasks_of(const FillCommand& command, const Inputs& inputs) {
     FillOptions options = command.settings;
     if (command.method == "rbf") options.method = FillMethod::rbf;
     options.model = variogram_model_named(command.model);
     std::vector<FillTask> tasks;
-    for (std::uint32_t s = 0; s < inputs.surfaces.size(); ++s) tasks.push_back({s, options});
+    for (std::uint32_t s = 0; s < inputs.surfaces.size(); ++s)
+        tasks.push_back({SurfaceId(s), options});
     return tasks;
 }
 
-/// Fills and writes; whether no hole that was chosen had to stay open.
+/// Fills the chosen holes and writes the results. The value is true if no chosen hole stayed open.
 Result<bool> fill_and_write(const FillCommand& command, const std::vector<Output>& outputs,
                             const Inputs& inputs, FillWork& work, Session& session) {
     const auto chosen = chosen_holes(command, work);
@@ -181,7 +182,7 @@ Result<ExitStatus> fill_files(const FillCommand& command, Session& session) {
     if (!work) return work.error();
     print(summary_stream(command.files),
           borders_text(work.value()) + (command.list ? holes_table(work.value()) : ""));
-    Json statistics = statistics_of(inputs.value());
+    Json statistics = statistics_of(inputs.value(), session.times());
     bool whole = true;
     if (!command.list) {
         const auto filled =
@@ -189,7 +190,7 @@ Result<ExitStatus> fill_files(const FillCommand& command, Session& session) {
         if (!filled) return filled.error();
         whole = filled.value();
     }
-    statistics["holes"] = json_of(work.value());
+    add_statistics(statistics, work.value());
     if (const auto done = write_statistics(statistics, command.files.stats, total.lap()); !done)
         return done.error();
     return whole ? ExitStatus::done : ExitStatus::negative;

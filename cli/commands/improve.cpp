@@ -44,7 +44,7 @@ Examples:
   terrane improve model.ml -o model.vtp --max-deviation 5 --histogram model.svg
   terrane improve model.ml -o model.vtp --edge-length 400 --edge-length-of F1=150 --turn 15)";
 
-/// A positive number, all of the text; none where it is something else.
+/// Parses a positive number that takes up the whole text; returns none for anything else.
 std::optional<double> positive(const std::string& text) {
     std::size_t used = 0;
     double value = 0;
@@ -113,11 +113,11 @@ Result<ExitStatus> improve_files(const ImproveCommand& command, Session& session
     if (!inputs) return inputs.error();
     ImproveOptions options = command.options;
     if (const auto set = set_lengths(command, inputs.value(), options); !set) return set.error();
-    Json statistics = statistics_of(inputs.value());
+    Json statistics = statistics_of(inputs.value(), session.times());
 
     const auto arranged = arrange_and_round(inputs.value(), command.settings, session, statistics);
     if (!arranged) return arranged.error();
-    if (!options.edge_length_of.empty()) // with the boundary of a volume of interest
+    if (!options.edge_length_of.empty()) // the boundary of a volume of interest added surfaces
         options.edge_length_of.resize(inputs.value().labels.size());
     print(summary_stream(files), summary(inputs.value(), arranged.value()));
     bool clean = arranged.value().rounded.report.clean;
@@ -130,7 +130,7 @@ Result<ExitStatus> improve_files(const ImproveCommand& command, Session& session
             improve_and_measure(*arranged.value().rounded.conforming, options, session.run());
         session.end_stage();
         if (!measured) return measured.error();
-        add_statistics(statistics, measured.value());
+        add_statistics(statistics, measured.value(), session.times());
         print(summary_stream(files), improve_text(measured.value(), inputs.value()));
         const Mesh& mesh = measured.value().improved.mesh;
         const auto narrow = stl_is_conforming(mesh, files, outputs.value(), session);

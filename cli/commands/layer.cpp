@@ -38,7 +38,7 @@ Examples:
   terrane layer basin.ts --layer top=1 --layer middle=3 --layer base=2 -o basin.vtp
   terrane layer basin.ts --layer top=1 --layer base=2 --min-thickness 5 -o basin.obj)";
 
-/// The files of the two ways to call it, in files.inputs.
+/// Puts the input files into files.inputs, whichever of the two ways to call the command was used.
 Status plan_inputs(LayerCommand& command) {
     const bool pair = !command.hard.empty() || !command.soft.empty();
     if (pair) {
@@ -71,7 +71,7 @@ Result<Layer> layer_named(const std::string& text, const Inputs& inputs) {
     if (found.empty()) return usage("no surface is called " + name, "--layer");
     if (found.size() > 1) // labels are unique
         std::erase_if(found, [&](std::uint32_t s) { return inputs.labels[s] != name; });
-    return Layer{found.at(0), hardness};
+    return Layer{SurfaceId(found.at(0)), hardness};
 }
 
 Result<std::vector<Layer>> order_of(const LayerCommand& command, const Inputs& inputs) {
@@ -81,7 +81,7 @@ Result<std::vector<Layer>> order_of(const LayerCommand& command, const Inputs& i
             if (inputs.surfaces_of_file[file] != 1)
                 return usage("must hold one surface, or name them with --layer",
                              file == 0 ? "--hard" : "--soft");
-        order = {{1, 0}, {0, 1}};
+        order = {{SurfaceId(1), 0}, {SurfaceId(0), 1}};
         if (command.keep == "lower") std::swap(order[0], order[1]);
         return order;
     }
@@ -112,7 +112,7 @@ Result<ExitStatus> layer_files(LayerCommand& command, Session& session) {
     if (!outputs) return outputs.error();
     const auto inputs = read_inputs(files, session);
     if (!inputs) return inputs.error();
-    Json statistics = statistics_of(inputs.value());
+    Json statistics = statistics_of(inputs.value(), session.times());
     const auto order = order_of(command, inputs.value());
     if (!order) return order.error();
 

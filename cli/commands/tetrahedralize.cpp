@@ -25,7 +25,7 @@ namespace {
 struct TetrahedralizeCommand {
     FileOptions files;
     ArrangeSettings settings;
-    std::string around; ///< as given
+    std::string around; ///< text of the option
     TetrahedraOptions options;
     std::vector<std::string> roles;            ///< NAME=ROLE
     std::vector<std::string> size_of, size_in; ///< NAME=L
@@ -62,7 +62,7 @@ Examples:
   terrane tetrahedralize model.ml -o model.msh --msh 2.2 -o model.inp -o model.mesh
   terrane tetrahedralize horizons.ts faults.ts -o model.vtu --box 0,0,-3000,10000,10000,500)";
 
-/// "x0,y0,z0,x1,y1,z1"
+/// Parses "x0,y0,z0,x1,y1,z1".
 std::optional<Box3> parse_box(std::string_view text) {
     std::array<double, 6> numbers{};
     const char* at = text.data();
@@ -112,7 +112,7 @@ Result<FilledBlocks> fill(const Arranged& arranged, const TetrahedraRequest& wis
     if (!model) return model.error();
     auto filled = fill_blocks(*model, wishes, session.run());
     session.end_stage();
-    if (filled) add_statistics(statistics, *filled);
+    if (filled) add_statistics(statistics, *filled, session.times());
     return filled;
 }
 
@@ -141,7 +141,7 @@ Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Se
     auto inputs = read_inputs(files, session);
     if (!inputs) return inputs.error();
     if (const auto set = set_roles(command.roles, inputs.value()); !set) return set.error();
-    Json statistics = statistics_of(inputs.value());
+    Json statistics = statistics_of(inputs.value(), session.times());
 
     const auto arranged = arrange_and_round(inputs.value(), command.settings, session, statistics);
     if (!arranged) return arranged.error();

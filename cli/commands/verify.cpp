@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The readers of io/ read the input files once more; what judges is terrane::verify alone.
+// The command reads the input files again with the readers of io/; terrane::verify alone judges.
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -52,7 +52,8 @@ std::vector<std::string> paths_of(const VerifyCommand& command, const Certificat
     return paths;
 }
 
-/// A file that is not the one of the certificate need not be readable: its hash tells.
+/// Reads and parses one input file. A file whose hash differs from the certificate's need not
+/// parse: the verifier rejects it by its hash.
 Result<InputFile> read_input(const std::string& path, const CertifiedInput& stated,
                              const FileOptions& options) {
     const auto contents = read_file(path);

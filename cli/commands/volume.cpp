@@ -70,7 +70,7 @@ Result<ExitStatus> find_blocks(const VolumeCommand& command, Session& session) {
     auto inputs = read_inputs(files, session);
     if (!inputs) return inputs.error();
     if (const auto set = set_roles(command.roles, inputs.value()); !set) return set.error();
-    Json statistics = statistics_of(inputs.value());
+    Json statistics = statistics_of(inputs.value(), session.times());
 
     const auto arranged = arrange_and_round(inputs.value(), command.settings, session, statistics);
     if (!arranged) return arranged.error();

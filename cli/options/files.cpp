@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <terrane/algorithms/core/stopwatch.hpp>
+#include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/cli/session/console.hpp>
 
@@ -74,7 +74,7 @@ Error usage(std::string sentence, std::string place) {
     return {ErrorCode::bad_option, std::move(sentence), std::move(place)};
 }
 
-// The folder must be there: it is better to say so before an hour of work than after it.
+// Checks the folder before the work starts, as a missing one would otherwise show only at the end.
 Status check_folder(const std::string& path) {
     if (path == "-") return Done{};
     const auto parent = fs::path(path).parent_path();
@@ -169,7 +169,7 @@ Result<std::vector<Output>> plan_outputs(const FileOptions& options, OutputKind 
 }
 
 Result<Inputs> read_inputs(const FileOptions& options, Session& session) {
-    Stopwatch watch;
+    const StageTimer timer(session.run(), "read");
     Inputs all;
     session.begin("read", Phase::idle);
     for (const auto& path : options.inputs) {
@@ -190,10 +190,7 @@ Result<Inputs> read_inputs(const FileOptions& options, Session& session) {
     if (std::max(all.vertices, all.triangles) >= UINT32_MAX)
         return Error{ErrorCode::unsupported, "more than 4294967294 vertices or triangles", ""};
     all.labels = unique_labels(infos_of(all.surfaces));
-    all.seconds = watch.lap();
     return all;
-}
-
 }
 
 std::string name_of_inputs(const FileOptions& options) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Files as they are named on the command line; "-" is a standard stream.
+// Input and output files as the command line names them. "-" stands for standard input or output.
 #pragma once
 
 #include <cstdint>
@@ -22,18 +22,18 @@ namespace terrane::cli {
 struct FileOptions {
     std::vector<std::string> inputs;
     std::vector<std::string> outputs;
-    std::string format;        ///< of every "-"
-    std::string input_format;  ///< of the inputs, whatever they are called
-    std::string output_format; ///< of the outputs, whatever they are called
-    ReadOptions read;          ///< of grids and points
-    std::string stats;         ///< empty: none
+    std::string format;        ///< format of every "-"
+    std::string input_format;  ///< format of the inputs, whatever their extensions
+    std::string output_format; ///< format of the outputs, whatever their extensions
+    ReadOptions read;          ///< how to read grids and points
+    std::string stats;         ///< path of the statistics; empty: none
     unsigned threads = 0;      ///< 0: all cores
     bool ascii = false;        ///< STL as text
     std::string msh = "4.1";   ///< version of MSH, or 2.2
 };
 
 void add_inputs(CLI::App& command, FileOptions& options);
-/// How grids and points are read.
+/// Adds the options that say how grids and points are read.
 void add_reading(CLI::App& command, FileOptions& options);
 void add_output(CLI::App& command, FileOptions& options, const char* help);
 void add_msh(CLI::App& command, FileOptions& options);
@@ -47,42 +47,46 @@ struct Output {
 
 enum class OutputKind { surfaces, tetrahedra };
 
-/// bad_option: what is wrong with how the program was called; `place`: the option, or a file.
+/// Makes a bad_option error: `sentence` says what is wrong with the call, `place` is the option or
+/// file.
 Error usage(std::string sentence, std::string place = {});
 
-/// What is wrong with the names on the command line, found before any work is done: formats that
-/// do not exist or do not fit, folders that are missing, a standard stream used twice.
+/// Checks the output names before any work is done and finds the format of each. Errors: bad_option
+/// for a standard stream used twice or without a format; unknown_format; unsupported for a format
+/// that can't hold the kind of mesh; cannot_open for a missing folder.
 Result<std::vector<Output>> plan_outputs(const FileOptions& options, OutputKind kind);
 
-/// An error if a file can't be written there: no such folder, or no right to.
+/// Returns cannot_open if the file can't be written: its folder is missing or not writable, or it
+/// is a folder.
 Status check_folder(const std::string& path);
 
 struct Inputs {
     std::vector<Surface> surfaces;
-    std::vector<std::string> files;            ///< per surface: where it comes from
-    std::vector<std::size_t> surfaces_of_file; ///< per input on the command line: how many
+    std::vector<std::string> files;            ///< per surface: the file it was read from
+    std::vector<std::size_t> surfaces_of_file; ///< per input: number of surfaces read from it
     std::vector<std::string> labels;           ///< per surface: its name, made unique, on one line
     std::size_t vertices = 0, triangles = 0;
-    double seconds = 0;
 };
 
-/// Errors: those of read_surfaces; interrupted; unsupported where 32 bits can't count it all.
+/// Reads all inputs. Errors: those of read_surfaces; interrupted; unsupported if 32 bits can't
+/// count all vertices or triangles.
 Result<Inputs> read_inputs(const FileOptions& options, Session& session);
 
-
-/// "basin.ts", "basin.ts and 3 more files"
+/// Returns a short name of the inputs: "basin.ts", "basin.ts and 3 more files".
 std::string name_of_inputs(const FileOptions& options);
 
-/// `options` but for the format, which is that of the output.
+/// Writes the mesh with `options`, but in the format of `output`. Errors: those of write_mesh and
+/// write_tetrahedra.
 Status write_output(const Mesh& mesh, const Output& output, WriteOptions options, Session& session);
 Status write_output(const TetrahedralMesh& mesh, const Output& output, WriteOptions options,
                     Session& session);
 
-/// Where people are told about the result: standard error if a file goes to standard output.
+/// Returns the stream for the summary: standard error if a file goes to standard output.
 std::FILE* summary_stream(const FileOptions& options);
 
-/// An input triangle, named: "top triangle 12"; counted within its surface, from 0.
-/// first: per surface its first triangle, counted through all surfaces, and the total at the end.
+/// Names an input triangle by its surface and its number within it, from 0: "top triangle 12".
+/// `first` has the number of each surface's first triangle, counted through all surfaces, and at
+/// the end the total.
 std::string triangle_name(std::uint32_t triangle, std::span<const std::uint32_t> first,
                           std::span<const std::string> labels);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Surfaces by name, as they are said on the command line.
+// Options that refer to surfaces by name: NAME=ROLE and NAME=L.
 #pragma once
 
 #include <optional>
@@ -18,10 +18,10 @@ namespace terrane::cli {
 
 void add_roles(CLI::App& command, std::vector<std::string>& roles);
 
-/// Sets the roles NAME=ROLE. Errors: bad_option.
+/// Sets the roles given as NAME=ROLE. Errors: bad_option.
 Status set_roles(const std::vector<std::string>& roles, Inputs& inputs);
 
-/// NAME=L, cut at the last '='; none where that fails.
+/// A length for a surface or block, given as NAME=L and split at the last '='.
 struct NamedLength {
     std::string name;
     double length = 0;

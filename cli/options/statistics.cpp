@@ -5,12 +5,13 @@
 
 #include <sys/resource.h>
 
+#include <terrane/algorithms/triangulation/point_surface.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 
 namespace terrane::cli {
 namespace {
 
-/// MiB; Linux counts in KiB.
+/// Returns the peak resident memory in MiB; getrusage counts in KiB on Linux.
 double peak_memory() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
@@ -19,13 +20,14 @@ double peak_memory() {
 
 } // namespace
 
-Json statistics_of(const Inputs& inputs) {
+Json statistics_of(const Inputs& inputs, const StageTimes& times) {
     Json json;
     json["version"] = TERRANE_VERSION;
     json["input"] = {{"surfaces", inputs.labels.size()},
                      {"triangles", inputs.triangles},
                      {"vertices", inputs.vertices}};
-    json["seconds"]["read"] = inputs.seconds;
+    add_constants(json, "read", point_constants());
+    json["seconds"]["read"] = times.latest("read");
     return json;
 }
 
@@ -37,21 +39,23 @@ void add_statistics(Json& json, const Arrangement& a, Search asked) {
                       {"candidates", s.candidates},
                       {"tests", s.candidates},
                       {"improper_contacts", s.improper_contacts}};
-    json["arrangement"] = {{"triangles", a.triangles.size()},
-                           {"vertices", a.vertices.size()},
+    json["arrangement"] = {{"triangles", s.triangles},
+                           {"vertices", s.vertices},
                            {"divided", s.divided},
                            {"constructed_points", s.constructed_points}};
     json["predicates"] = {{"static", s.predicates.static_filter},
                           {"interval", s.predicates.interval},
                           {"exact", s.predicates.exact}};
-    json["seconds"]["prepare"] = s.seconds_prepare;
-    json["seconds"]["search"] = s.seconds_search;
-    json["seconds"]["intersect"] = s.seconds_intersect;
-    json["seconds"]["triangulate"] = s.seconds_triangulate;
-    json["seconds"]["stitch"] = s.seconds_stitch;
 }
 
-void add_statistics(Json& json, const RoundedMesh& rounded, double seconds) {
+void add_arrangement_times(Json& json, const std::string& stage, const StageTimes& times) {
+    for (const char* step : {"prepare", "search", "intersect", "triangulate", "stitch"})
+        json["seconds"][step] = times.latest(stage + "/" + step);
+    double& stitch = *json["seconds"]["stitch"].get_ptr<double*>();
+    stitch += times.latest(stage + "/assemble");
+}
+
+void add_statistics(Json& json, const RoundedMesh& rounded, const StageTimes& times) {
     const Mesh& m = rounded.mesh;
     const RoundingReport& r = rounded.report;
     json["output"] = {{"triangles", m.triangles.size()},
@@ -62,7 +66,7 @@ void add_statistics(Json& json, const RoundedMesh& rounded, double seconds) {
     json["rounding"] = {{"iterations", r.rounds},
                         {"max_move", r.max_move},
                         {"deviation", r.deviation},
-                        {"moves", r.moves}, // see RoundingReport: vertices by decade of their move
+                        {"moves", r.moves}, // vertices by decade of their move: see RoundingReport
                         {"verified", r.clean},
                         {"naive_contacts", r.naive_contacts},
                         {"contacts", r.contacts.size()},
@@ -71,8 +75,15 @@ void add_statistics(Json& json, const RoundedMesh& rounded, double seconds) {
                         {"collapsed_triangles", r.collapsed_triangles},
                         {"surfaces_with_lost_regions", r.lost_regions.size()},
                         {"vanished_input_triangles", r.vanished.size()}};
-    json["seconds"]["round"] = seconds - rounded.report.seconds_regions;
-    json["seconds"]["regions"] = rounded.report.seconds_regions;
+    add_constants(json, "round", rounding_constants());
+    const double regions = times.latest("round/regions");
+    json["seconds"]["round"] = times.latest("round") - regions;
+    json["seconds"]["regions"] = regions;
+}
+
+void add_constants(Json& json, const char* stage, std::span<const NamedConstant> constants) {
+    Json& all = json["constants"][stage];
+    for (const NamedConstant& c : constants) all[std::string(c.name)] = c.value;
 }
 
 Status write_statistics(Json json, const std::string& path, double total_seconds) {

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What --stats writes. docs/reference/statistics.md lists its keys.
+// The document that --stats writes. docs/reference/statistics.md lists its keys.
 #pragma once
 
-#include <cstddef>
+#include <span>
+#include <string>
 
 #include <nlohmann/json.hpp>
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>
+#include <terrane/algorithms/core/named_constant.hpp>
+#include <terrane/algorithms/core/stage_times.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
 #include <terrane/cli/options/files.hpp>
 
@@ -15,15 +18,24 @@ namespace terrane::cli {
 
 using Json = nlohmann::ordered_json;
 
-/// input, output, search, predicates, rounding, seconds; those of the stages that were run.
-Json statistics_of(const Inputs& inputs);
+/// Starts the document with the version, the input's counts, and the time and the constants of
+/// reading. add_statistics adds the keys of the stages that were run.
+Json statistics_of(const Inputs& inputs, const StageTimes& times);
+/// Adds the keys search, arrangement and predicates.
 void add_statistics(Json& json, const Arrangement& arrangement, Search asked);
-void add_statistics(Json& json, const RoundedMesh& rounded, double seconds);
+/// Adds the keys output and rounding, with the times and the constants of rounding.
+void add_statistics(Json& json, const RoundedMesh& rounded, const StageTimes& times);
+/// Adds the times of the steps of an arrangement; `stage` is its path, "arrange" or "seal/arrange".
+void add_arrangement_times(Json& json, const std::string& stage, const StageTimes& times);
 
-/// Adds the total time and the peak of memory, and writes; nothing for an empty path.
+/// Adds the constants of a stage under the key constants.
+void add_constants(Json& json, const char* stage, std::span<const NamedConstant> constants);
+
+/// Adds the total time and the peak memory, and writes the document; does nothing for an empty
+/// path.
 Status write_statistics(Json json, const std::string& path, double total_seconds);
 
-/// Indented text; bytes that are no UTF-8 become U+FFFD.
+/// Returns indented text; bytes that are not UTF-8 become U+FFFD.
 std::string text_of(const Json& json);
 
 } // namespace terrane::cli

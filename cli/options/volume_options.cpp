@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t most_surfaces_cut = 40; ///< printed
 constexpr std::size_t most_borders = 20;
 
-/// Numbers between commas; nothing if it is something else.
+/// Parses numbers separated by commas; returns none for anything else.
 std::optional<std::vector<double>> numbers_in(std::string_view text) {
     std::vector<double> numbers;
     const char* at = text.data();
@@ -189,7 +189,7 @@ Result<std::vector<Surface>> boundary_of(const VolumeOptions& options, Session& 
     if (made) return made;
     Error error = made.error();
     if (error.code == ErrorCode::not_closed || error.code == ErrorCode::improper_contact)
-        error.code = ErrorCode::bad_option; // bad usage, not an answer about the surfaces
+        error.code = ErrorCode::bad_option; // the options are wrong, the surfaces may be good
     return error;
 }
 std::string text_of(const VolumeReport& report, const Inputs& inputs) {
@@ -239,7 +239,7 @@ std::string text_of(std::span<const ExtendedBorder> borders, const Inputs& input
 void add_statistics(Json& json, std::span<const ExtendedBorder> borders) {
     Json list = Json::array();
     for (const ExtendedBorder& b : borders)
-        list.push_back({{"surface", b.surface},
+        list.push_back({{"surface", std::uint32_t{b.surface}},
                         {"reached", b.reached},
                         {"length", b.length},
                         {"place", {b.place.x, b.place.y, b.place.z}}});
@@ -258,7 +258,7 @@ void add_statistics(Json& json, const VolumeReport& report, const Inputs& inputs
                             {"open_length", cut.open_length}});
     }
     for (const OpenBorder& b : report.borders)
-        borders.push_back({{"surface", b.surface},
+        borders.push_back({{"surface", std::uint32_t{b.surface}},
                            {"length", b.length},
                            {"place", {b.place.x, b.place.y, b.place.z}}});
     json["volume_of_interest"] = {{"surfaces", std::move(surfaces)},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The volume of interest, as it is named on the command line: the same options for all commands.
+// Options that define the volume of interest, the same for all commands.
 #pragma once
 
 #include <span>
@@ -18,15 +18,15 @@
 namespace terrane::cli {
 
 struct VolumeOptions {
-    std::string box;                 ///< x0,y0,z0,x1,y1,z1; empty: none, as all that follow
+    std::string box;                 ///< x0,y0,z0,x1,y1,z1; here and below, empty: not given
     std::string rotated_box;         ///< x,y,z,across,along,up,azimuth[,plunge,roll]
-    bool corner = false;             ///< x,y,z is a corner of it, not its centre
+    bool corner = false;             ///< x,y,z is a corner of the rotated box, not its centre
     std::string polygon;             ///< x,y,x,y,..., or a file
-    std::string between;             ///< z0,z1, of the polygon
+    std::string between;             ///< z0,z1: bottom and top of the polygon's prism
     std::vector<std::string> within; ///< files of a closed surface
-    double extend = 0;               ///< limit for horizons that end inside; 0: not at all
+    double extend = 0;               ///< longest extension of horizons that end inside; 0: none
 
-    /// Whether there is a volume of interest at all.
+    /// Tells whether a volume of interest is given at all.
     [[nodiscard]] bool wanted() const {
         return !box.empty() || !rotated_box.empty() || !polygon.empty() || !within.empty();
     }
@@ -34,23 +34,23 @@ struct VolumeOptions {
 
 void add_volume_options(CLI::App& command, VolumeOptions& options);
 
-/// What makes no sense together, found before any work is done.
+/// Checks, before any work is done, that the options fit together. Errors: bad_option.
 Status check_volume_options(const VolumeOptions& options);
 
-/// The boundary that the options name. Precondition: wanted(). Errors: those of the makers
-/// (boundary_surfaces.hpp), of reading files, bad_option.
+/// Makes the boundary that the options define. Precondition: wanted(). Errors: those of the makers
+/// (boundary_surfaces.hpp) and of reading files; bad_option.
 Result<std::vector<Surface>> boundary_of(const VolumeOptions& options, Session& session);
 
-/// What the cut left of each surface, and where surfaces end inside.
+/// Reports what the cut left of each surface, and where surfaces end inside.
 std::string text_of(const VolumeReport& report, const Inputs& inputs);
 
-/// Which borders inside were extended, and which not.
+/// Reports which borders inside were extended, and which were not.
 std::string text_of(std::span<const ExtendedBorder> borders, const Inputs& inputs);
 
-/// extended: surface, reached, length, place.
+/// Adds "extended": surface, reached, length, place.
 void add_statistics(Json& json, std::span<const ExtendedBorder> borders);
 
-/// volume_of_interest: surfaces (name, area_inside, ...), open_borders.
+/// Adds "volume_of_interest": surfaces (name, area_inside, ...), open_borders.
 void add_statistics(Json& json, const VolumeReport& report, const Inputs& inputs);
 
 } // namespace terrane::cli

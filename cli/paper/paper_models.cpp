@@ -17,7 +17,7 @@ struct Interval {
     double low, high;
 };
 
-/// The rectangle of parameters, and what they mean.
+/// A parametric surface: the rectangle of its parameters, and the map to space.
 struct Patch {
     std::string name;
     Role role;
@@ -82,7 +82,8 @@ Surface uniform(int m, int n, const Patch& p) {
     return s;
 }
 
-/// Coarse cells on the left, the last column of them as fans to the fine ones on the right.
+/// Makes coarse cells on the left and fine ones on the right; the last coarse column consists of
+/// fans to the fine vertices.
 Surface half_refined(int m, int n, const Patch& p) {
     constexpr int r = 30;
     Surface s{p.name, p.role, {}, {}};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The surfaces of the paper's section 6 as far as it describes them, and rectangles at random: the
-// inputs of `terrane bench paper` and of the benchmarks. The same numbers on every run.
+// The surfaces of the paper's section 6, as far as it describes them, and random rectangles: the
+// inputs of `terrane bench paper` and of the benchmarks. Every run makes the same numbers.
 #pragma once
 
 #include <string>
@@ -11,8 +11,8 @@
 
 namespace terrane::models {
 
-/// Numbers of cells, two triangles each: the horizon has horizon x horizon, the fault along x and
-/// z.
+/// Numbers of cells, two triangles each. The horizon has horizon x horizon cells, the fault fault_x
+/// x fault_z.
 struct Resolution {
     const char* name;
     int horizon, fault_x, fault_z;
@@ -23,20 +23,21 @@ constexpr Resolution r68k{"68 000", 130, 184, 92};
 constexpr Resolution r680k{"680 000", 412, 582, 291};
 constexpr Resolution r6800k{"6 800 000", 1304, 1844, 922};
 
-/// Localised: the horizon z = 0.1 sin 3x cos 2y on [0, 4]^2, the fault y = 2 + 0.2 sin 2x + 0.3 z
-/// for z in [-1, 1].
+/// Makes a pair with a localised intersection: the horizon z = 0.1 sin 3x cos 2y on [0, 4]^2 and
+/// the fault y = 2 + 0.2 sin 2x + 0.3 z for z in [-1, 1].
 std::vector<Surface> pair_1(const Resolution& r);
 
-/// Widespread: z = 0.3 sin 5x sin 5y, and z = 0.3 cos(4x + 0.3) sin(6y + 0.2) on the square turned
-/// by 0.1 about its centre, both horizon x horizon cells.
+/// Makes a pair with a widespread intersection: z = 0.3 sin 5x sin 5y, and z = 0.3 cos(4x + 0.3)
+/// sin(6y + 0.2) on the square rotated by 0.1 rad about its centre, both with horizon x horizon
+/// cells.
 std::vector<Surface> pair_2(const Resolution& r);
 
-/// The same surfaces, the right half refined 30 times in each direction, joined by fans.
+/// Make the same pairs with the right half refined 30 times in each direction and joined by fans.
 std::vector<Surface> nonuniform_1();
 std::vector<Surface> nonuniform_2();
 
-/// Squares of side 2 * half_side, of any orientation, centres within [low, high]^3; two triangles
-/// and a surface each.
+/// Squares of side 2 * half_side in random orientations, with centres in [low, high]^3. Each square
+/// is a surface of two triangles.
 struct RandomSquares {
     int count;
     double half_side;

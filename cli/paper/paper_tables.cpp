@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <chrono>
 #include <functional>
+#include <numeric>
 
 #include <terrane/algorithms/arrangement/soup.hpp>
+#include <terrane/algorithms/core/stage_times.hpp>
 #include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/algorithms/mesh/edges.hpp>
 #include <terrane/algorithms/regions/regions_over.hpp>
@@ -16,7 +18,7 @@
 namespace terrane::cli {
 namespace {
 
-/// Median of several runs, or the one run where it takes a second or more.
+/// Returns the median of several runs, or the time of the first run if it takes a second or more.
 template <class Work>
 double median_seconds(unsigned repeats, const Work& work) {
     std::vector<double> seconds;
@@ -47,7 +49,8 @@ RedAndBlue boxes_of_surfaces(const std::vector<Surface>& surfaces) {
     return all;
 }
 
-/// AB unbalanced may take hours: stops at the limit and says how far it came.
+/// Times AB unbalanced, which may take hours: it stops at the limit, and `share` is the part done
+/// by then.
 double measure_ab(const RedAndBlue& all, double limit, double& share) {
     Stopwatch watch;
     double seconds = 0;
@@ -83,7 +86,7 @@ double measure_search(Search method, const RedAndBlue& all, const PaperSettings&
     });
 }
 
-/// How many red triangles there are to test for each blue one.
+/// Counts the red triangles to be tested for each blue one.
 void measure_d(const RedAndBlue& all, PaperRow& row) {
     std::vector<std::size_t> count(all.boxes.size() - all.red);
     for (const auto& [red, blue] : candidate_pairs(all.boxes, all.groups, Search::bvh))
@@ -104,7 +107,7 @@ void measure_d(const RedAndBlue& all, PaperRow& row) {
     row.mean_looked_at = mean(looked_at, looking);
 }
 
-/// Region detection by itself, on the mesh of doubles.
+/// Times region detection alone, on the mesh of doubles.
 double measure_regions(const Mesh& mesh, unsigned repeats) {
     return median_seconds(repeats, [&] {
         const Adjacency adjacency = adjacency_of(group_edges(mesh.triangles, mesh.vertices.size()),
@@ -116,9 +119,14 @@ double measure_regions(const Mesh& mesh, unsigned repeats) {
 
 Status measure_arrange(const std::vector<Surface>& surfaces, const PaperSettings& settings,
                        const Run& run, PaperRow& row) {
-    auto exact = arrange(surfaces, {}, run);
+    StageTimes times;
+    Run timed = run;
+    timed.timing = times.observer();
+    auto exact = arrange(surfaces, {}, timed);
     if (!exact) return exact.error();
-    row.arrange = exact.value().statistics;
+    for (std::size_t i = 0; i < arrange_steps.size(); ++i)
+        row.arrange[i] = times.latest(std::string("arrange/") + arrange_steps[i]);
+    row.arrange.back() += times.latest("arrange/assemble");
     Stopwatch watch;
     const auto rounded = round_to_doubles(exact.value(), {}, run);
     if (!rounded) return rounded.error();
@@ -161,8 +169,7 @@ std::vector<Model> models_of(int number, bool large) {
 } // namespace
 
 double PaperRow::total() const {
-    return arrange.seconds_prepare + arrange.seconds_search + arrange.seconds_intersect +
-           arrange.seconds_triangulate + arrange.seconds_stitch + seconds_round;
+    return std::accumulate(arrange.begin(), arrange.end(), seconds_round);
 }
 
 Result<PaperTable> measure_table(int number, const PaperSettings& settings, const Run& run) {

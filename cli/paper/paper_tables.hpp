@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Measures what the tables of the paper's section 6 list, on the paper's models.
+// Measures the quantities in the tables of the paper's section 6, on the paper's models.
 #pragma once
 
 #include <array>
@@ -14,46 +14,49 @@
 
 namespace terrane::cli {
 
-/// The columns: the paper's four methods, then ours.
+/// The columns: the paper's four methods, then the default of this library.
 constexpr std::array paper_methods{Search::grid, Search::ab, Search::ab_balanced, Search::mixed,
                                    Search::bvh};
 
-/// Seconds; negative where there is none.
+/// Seconds per method; negative where there is no time.
 using MethodTimes = std::array<double, paper_methods.size()>;
 constexpr double not_measured = -1;
 
+/// What the arrangement spends its time on.
+constexpr std::array arrange_steps{"prepare", "search", "intersect", "triangulate", "stitch"};
+
 struct PaperSettings {
-    bool large = false;               ///< 6 800 000 triangles too
+    bool large = false;               ///< also the model of 6 800 000 triangles
     double limit = 60;                ///< seconds for one search by AB unbalanced
     std::vector<std::string> skipped; ///< names of methods
-    unsigned repeats = 5;             ///< of what takes less than a second: the median counts
+    unsigned repeats = 5;             ///< runs of anything under a second; the median counts
 };
 
-/// One row: a model, what the paper says of it, what is found here.
+/// One row: a model, the paper's times and those measured here.
 struct PaperRow {
     std::string triangles;
     MethodTimes paper{};
     double paper_regions = not_measured;
 
-    MethodTimes seconds{}; ///< of the search alone: the red triangles that each blue one may meet
-    double ab_share = 1;   ///< of AB unbalanced, how far it came within the limit
-    std::size_t pairs = 0; ///< of boxes, red with blue
-    double mean_d = 0;     ///< triangles per D_T, over the T that have any
+    MethodTimes seconds{}; ///< search alone: the red triangles that each blue one may meet
+    double ab_share = 1;   ///< part of AB unbalanced that was done within the limit
+    std::size_t pairs = 0; ///< candidate pairs of a red and a blue box
+    double mean_d = 0;     ///< mean number of triangles in the non-empty D_T
     std::size_t largest_d = 0;
-    double mean_looked_at = 0; ///< the same for all triangles in the cells that the grid looks in
-    ArrangeStatistics arrange;
+    double mean_looked_at = 0; ///< mean number of triangles in the cells visited for a T
+    std::array<double, arrange_steps.size()> arrange{}; ///< seconds of each step
     double seconds_regions = 0, seconds_round = 0;
-    bool clean = false; ///< the doubles were proven conforming
+    bool clean = false; ///< the rounded mesh was proven conforming
 
     [[nodiscard]] double total() const;
 };
 
 struct PaperTable {
-    int number = 0; ///< in the paper: 2, 3 or 4
+    int number = 0; ///< number in the paper: 2, 3 or 4
     std::vector<PaperRow> rows;
 };
 
-/// Table 2, 3 or 4.
+/// Measures Table 2, 3 or 4. Errors: those of arrange and round_to_doubles.
 Result<PaperTable> measure_table(int number, const PaperSettings& settings, const Run& run);
 
 } // namespace terrane::cli

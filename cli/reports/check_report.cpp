@@ -19,7 +19,7 @@ constexpr std::array kinds{ContactKind::crossing,      ContactKind::coplanar_ove
                            ContactKind::edge_on_face,  ContactKind::vertex_on_face,
                            ContactKind::vertex_on_edge};
 
-/// Lines for the first of `items`, and how many were left out.
+/// Lists the first of `items`, one per line, and says how many were left out.
 template <class Item, class Line>
 std::string listing(const std::vector<Item>& items, bool all, const Line& line) {
     const auto count = all ? items.size() : std::min(items.size(), most_listed);
@@ -94,7 +94,7 @@ Json json_of(const Point3& p) {
     return {p.x, p.y, p.z};
 }
 
-/// Triangles counted through all surfaces become surface and number.
+/// Turns numbers of triangles counted through all surfaces into surface and number within it.
 class TriangleNames {
 public:
     explicit TriangleNames(const std::vector<std::uint32_t>& first) : first_(first) {}

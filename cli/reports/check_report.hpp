@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What `terrane check` says, for people and for programs.
+// Reports of `terrane check`, as text and as JSON.
 #pragma once
 
 #include <string>
@@ -11,11 +11,13 @@
 
 namespace terrane::cli {
 
-/// Counts, then the first findings of each kind, or all of them. `source` is what was read.
+/// Reports counts, then the first findings of each kind or, with `all`, every one. `source` names
+/// the input.
 std::string report_text(const CheckReport& report, const Inputs& inputs, const std::string& source,
                         bool all);
 
-/// Everything. Triangles are {"surface": index, "triangle": number within it}, from 0.
+/// Returns all findings. A triangle is {"surface": index, "triangle": number within it}, both from
+/// 0.
 Json json_of(const CheckReport& report, const Inputs& inputs);
 
 } // namespace terrane::cli

@@ -13,11 +13,11 @@
 namespace terrane::cli {
 namespace {
 
-constexpr int samples = 200; ///< along the longer side
+constexpr int samples = 200; ///< cells along the longer side
 constexpr double panel = 360, gap = 30, head = 46, foot = 40;
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
-/// Dark blue over green to yellow, in equal steps for the eye.
+/// Colours from dark blue over green to yellow, perceptually uniform.
 constexpr std::array<std::string_view, 16> colours{
     "#440154", "#481a6c", "#472f7d", "#414487", "#39568c", "#31688e", "#2a788e", "#23888e",
     "#1f988b", "#22a884", "#35b779", "#54c568", "#7ad151", "#a5db36", "#d2e21b", "#fde725"};
@@ -47,7 +47,7 @@ struct Frame {
     }
 };
 
-/// Values at the middles of a frame's cells, by the triangles over them; NaN where there are none.
+/// Interpolates values at the centres of a frame's cells; cells without a triangle get NaN.
 std::vector<double> sampled(const Surface& s, std::span<const double> value_of_vertex,
                             const Frame& f) {
     std::vector<double> values(static_cast<std::size_t>(f.columns * f.rows), nothing);
@@ -95,7 +95,7 @@ struct Scale {
     }
 };
 
-/// Cells of one colour in a row are one rectangle.
+/// Draws the cells; neighbours of one colour in a row become one rectangle.
 std::string picture(const Frame& f, std::span<const double> values, const Scale& scale) {
     constexpr std::size_t none = colours.size();
     const double size = panel / std::max(f.columns, f.rows);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Pictures of a surface before and after its holes are filled, seen along z.
+// Maps of a surface before and after its holes are filled, seen along z.
 #pragma once
 
 #include <span>
@@ -12,18 +12,18 @@
 
 namespace terrane::cli {
 
-/// What a map shows of one surface.
+/// The data that one row of maps shows.
 struct FillMap {
     std::string title;
     const Surface* before = nullptr;
-    const Surface* after = nullptr;    ///< the same and then more vertices and triangles
-    std::span<const double> deviation; ///< per vertex of `after`
+    const Surface* after = nullptr;    ///< `before`, then more vertices and triangles
+    std::span<const double> deviation; ///< expected error of each vertex of `after`
     std::span<const BorderLoop> loops;
 };
 
-/// An SVG with a row for each surface: heights before, heights after, and the expected error of
-/// what was invented, each with its scale of colours. Outer borders are black, holes red, gaps
-/// blue. Heights are sampled on 200 x 200 places per picture at most.
+/// Draws an SVG with a row for each surface: heights before, heights after, and the expected error
+/// of the filling, each with its own colour scale. Outer borders are black, holes red, gaps blue.
+/// Each map has at most 200 x 200 cells.
 std::string svg_of(std::span<const FillMap> maps);
 
 } // namespace terrane::cli

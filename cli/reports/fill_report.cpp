@@ -9,19 +9,22 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/reconstruction/joining/join.hpp>
+#include <terrane/algorithms/reconstruction/kriging/fill_kriging.hpp>
+#include <terrane/algorithms/reconstruction/rbf/rbf.hpp>
 #include <terrane/cli/reports/fill_map.hpp>
 #include <terrane/cli/session/console.hpp>
 
 namespace terrane::cli {
 namespace {
 
-constexpr std::size_t most_holes = 30; ///< holes on the terminal
+constexpr std::size_t most_holes = 30; ///< printed
 
 const char* name_of_kind(const BorderLoop& loop) {
     return loop.kind == LoopKind::hole ? "hole" : "fault gap";
 }
 
-/// What the method itself expects; else what it misses of data that are left out.
+/// Reports the error that the method expects, else the one measured at data left out.
 std::string error_text(const FillReport& r) {
     if (std::isfinite(r.expected_error))
         return fmt::format("expected error {:.4g}", r.expected_error);
@@ -102,7 +105,7 @@ std::string contacts_text(const FillWork& work, std::span<const NewContact> cont
     return text;
 }
 
-Json json_of(const FillWork& work) {
+void add_statistics(Json& json, const FillWork& work) {
     Json list = Json::array();
     const auto known = [](double value) { return std::isfinite(value) ? Json(value) : Json(); };
     for (const NumberedHole& hole : work.holes) {
@@ -126,7 +129,19 @@ Json json_of(const FillWork& work) {
         if (!hole.refused.empty()) entry["refused"] = hole.refused;
         list.push_back(std::move(entry));
     }
-    return list;
+    json["holes"] = std::move(list);
+    add_constants(json, "holes", hole_constants());
+    const auto is_filled_by = [&](FillMethod method) {
+        return std::any_of(work.holes.begin(), work.holes.end(), [&](const NumberedHole& hole) {
+            return (hole.report || !hole.refused.empty()) &&
+                   work.surfaces[hole.task].task.options.method == method;
+        });
+    };
+    if (is_filled_by(FillMethod::kriging)) add_constants(json, "kriging", kriging_constants());
+    if (is_filled_by(FillMethod::rbf)) {
+        add_constants(json, "rbf", rbf_constants());
+        add_constants(json, "join", join_constants());
+    }
 }
 
 std::string csv_of(const FillWork& work) {
@@ -146,7 +161,7 @@ std::string csv_of(const FillWork& work) {
 }
 
 std::string map_of(const FillWork& work) {
-    std::vector<Surface> before; // as they were given: without the triangles that came after
+    std::vector<Surface> before; // the input surfaces, without the triangles added
     for (const HoledSurface& s : work.surfaces) {
         before.push_back(s.filled);
         before.back().vertices.resize(s.given_vertices);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What is said of holes and of what was invented in them.
+// Reports on holes and on their fillings.
 #pragma once
 
 #include <span>
@@ -11,28 +11,30 @@
 
 namespace terrane::cli {
 
-/// Per surface how many borders, holes and gaps it has.
+/// Counts the borders, holes and gaps of each surface.
 std::string borders_text(const FillWork& work);
 
-/// Holes by number, with their sizes; empty where there are none.
+/// Lists the holes by number, with their sizes; empty if there are none.
 std::string holes_table(const FillWork& work);
 
-/// What was invented: points, area, expected error and model of each hole, and of all.
+/// Reports points, area, expected error and model of each filled hole, and the totals.
 std::string filled_text(const FillWork& work);
 
-/// "hole 2 of top is left open: ...", one line for each that was refused; empty: none.
+/// Says why holes stay open, one line each: "terrane: hole 2 of top is left open: ..."; empty if
+/// all are filled.
 std::string refusals_text(const FillWork& work);
 
-/// Says where fillings meet other triangles, a line for each of the first ten places; empty: nowhere.
+/// Lists places where fillings meet other triangles, the first ten, one line each; empty if there
+/// are none.
 std::string contacts_text(const FillWork& work, std::span<const NewContact> contacts);
 
-/// The same for --stats: one entry per hole.
-Json json_of(const FillWork& work);
+/// Adds the key holes, one entry per hole, and the constants of the methods in use.
+void add_statistics(Json& json, const FillWork& work);
 
-/// Invented points with their expected errors, as CSV.
+/// Returns the added points with their expected errors, as CSV.
 std::string csv_of(const FillWork& work);
 
-/// Before, after and expected error of each surface (fill_map.hpp).
+/// Draws heights before and after, and the expected error, of each surface (fill_map.hpp).
 std::string map_of(const FillWork& work);
 
 } // namespace terrane::cli

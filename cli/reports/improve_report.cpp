@@ -30,7 +30,7 @@ std::string worst_text(const Improved& improved) {
                        text_of(m.vertices[t[0]]), name_of(r.worst_cause));
 }
 
-/// Of the surface that comes nearest to its bound.
+/// Reports the deviation of the surface that comes nearest to its bound.
 std::string deviation_text(const ImprovedAndMeasured& measured, const Inputs& inputs) {
     const ImproveReport& r = measured.improved.report;
     const auto& deviations = measured.deviations;
@@ -83,9 +83,10 @@ std::string improve_text(const ImprovedAndMeasured& measured, const Inputs& inpu
     return text + deviation_text(measured, inputs);
 }
 
-void add_statistics(Json& json, const ImprovedAndMeasured& measured) {
-    json["seconds"]["improve"] = measured.seconds_improve;
-    json["seconds"]["measure"] = measured.seconds_measure;
+void add_statistics(Json& json, const ImprovedAndMeasured& measured, const StageTimes& times) {
+    add_constants(json, "improve", improve_constants());
+    json["seconds"]["improve"] = times.latest("improve");
+    json["seconds"]["measure"] = times.latest("measure");
     const Improved& improved = measured.improved;
     const ImproveReport& r = improved.report;
     json["output"]["triangles"] = improved.mesh->triangles.size();
@@ -109,7 +110,7 @@ void add_statistics(Json& json, const ImprovedAndMeasured& measured) {
         out.push_back(d.out);
         back.push_back(d.back);
     }
-    Json bounds_back = Json::array(); // null: none was shown
+    Json bounds_back = Json::array(); // null: no bound was proven
     for (const double b : measured.bounds_back)
         bounds_back.push_back(std::isfinite(b) ? Json(b) : Json());
     json["deviation"] = {{"bound_of_surfaces", r.bound_of},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What is said about an improved mesh.
+// Reports on an improved mesh.
 #pragma once
 
 #include <span>
@@ -12,13 +12,14 @@
 
 namespace terrane::cli {
 
-/// Quality before and after, the worst triangle, the deviation as shown and as measured.
+/// Reports quality before and after, the worst triangle, and the deviation both as proven and as
+/// measured.
 std::string improve_text(const ImprovedAndMeasured& measured, const Inputs& inputs);
 
-/// Key "improve": options' effect, counts of operations; "quality": before, after; "deviation".
-void add_statistics(Json& json, const ImprovedAndMeasured& measured);
+/// Adds "improve" (counts of operations), "quality" (before, after), "deviation" and the times.
+void add_statistics(Json& json, const ImprovedAndMeasured& measured, const StageTimes& times);
 
-/// SVG, as in the paper's Figure 19.
+/// Draws the histograms of triangle quality as SVG, after the paper's Figure 19.
 std::string histogram_of(const ImproveReport& report);
 
 } // namespace terrane::cli

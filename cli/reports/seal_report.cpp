@@ -46,7 +46,7 @@ Json json_of(const SealReport& report) {
     Json changes = Json::array();
     for (const SealChange& c : report.changes)
         changes.push_back({{"kind", name_of(c.kind)},
-                           {"surface", c.surface},
+                           {"surface", std::uint32_t{c.surface}},
                            {"length", c.length},
                            {"distance", c.largest},
                            {"place", {c.place.x, c.place.y, c.place.z}},

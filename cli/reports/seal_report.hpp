@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What --seal did, for people and for JSON.
+// Reports on --seal, as text and as JSON.
 #pragma once
 
 #include <string>
@@ -13,10 +13,10 @@ namespace terrane::cli {
 
 std::string text_of(const SealReport& report, const Inputs& inputs);
 
-/// distance, changes (kind, surface, length, distance, place, triangles), left.
+/// Returns distance, changes (kind, surface, length, distance, place, triangles) and left.
 Json json_of(const SealReport& report);
 
-/// seal: json_of.
+/// Adds "seal" with json_of(report) in it.
 void add_statistics(Json& json, const SealReport& report, const Inputs& inputs);
 
 } // namespace terrane::cli

@@ -16,7 +16,7 @@ constexpr std::size_t most_regions = 50; ///< listed on the terminal
 
 struct Comparison {
     std::size_t blocks = 0;
-    std::size_t equal = 0;      ///< exactly
+    std::size_t equal = 0;      ///< volumes that agree exactly
     double most_difference = 0; ///< cubic unit
 };
 
@@ -65,7 +65,7 @@ std::string radius_edge_text(const TetrahedraShape& shape) {
     return text;
 }
 
-/// JSON has no infinity.
+/// Returns null for an infinite value, which JSON does not have.
 Json number_or_null(double value) {
     return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
@@ -76,14 +76,14 @@ Json spread_json(const ShapeSpread& spread) {
             {"max", number_or_null(spread.largest)}};
 }
 
-/// How many violations there are, of all kinds.
+/// Counts the violations of all kinds.
 std::size_t count_of(const TetrahedraReport& report) {
     std::size_t count = 0;
     for (const TetrahedraViolation& violation : report.violations) count += violation.count;
     return count;
 }
 
-/// How many tetrahedra each region has.
+/// Counts the tetrahedra of each region.
 std::vector<std::size_t> counts_of_regions(const TetrahedralMesh& mesh) {
     std::vector<std::size_t> counts(mesh.region_count);
     for (const std::uint32_t region : mesh.region_of) ++counts[region];
@@ -143,10 +143,12 @@ std::string filled_text(const FilledBlocks& filled) {
     return text + report_text(filled.report);
 }
 
-void add_statistics(Json& json, const FilledBlocks& filled) {
-    json["seconds"]["tetrahedralize"] = filled.seconds_tetrahedralize;
-    json["seconds"]["check"] = filled.seconds_check;
-    json["seconds"]["split"] = filled.seconds_split;
+void add_statistics(Json& json, const FilledBlocks& filled, const StageTimes& times) {
+    add_constants(json, "structure", structure_constants()); // they decide the names of regions
+    add_constants(json, "tetrahedralize", tetrahedra_constants());
+    json["seconds"]["tetrahedralize"] = times.latest("tetrahedralize");
+    json["seconds"]["check"] = times.latest("check");
+    json["seconds"]["split"] = times.latest("split");
     const TetrahedralMesh& mesh = filled.tetrahedra;
     json["output"]["volumes"] = mesh.region_count - 1;
     Json volumes = Json::array();

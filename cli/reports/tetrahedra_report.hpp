@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What check_tetrahedra found, for people and for --stats.
+// Reports on check_tetrahedra, as text and for --stats.
 #pragma once
 
 #include <string>
@@ -11,19 +11,20 @@
 
 namespace terrane::cli {
 
-/// Whether the checks hold, how volumes compare, both histograms; classes without members left out.
+/// Reports the verdict, the volumes and both histograms, whose empty classes are left out.
 std::string report_text(const TetrahedraReport& report);
 
 /// Lists the violations, a line per kind.
 std::string violations_text(const TetrahedraReport& report);
 
-/// violations, exact_volumes, volume_difference, dihedral and radius_edge; see docs/reference/statistics.md.
+/// Returns violations, exact_volumes, volume_difference, dihedral and radius_edge
+/// (docs/reference/statistics.md).
 Json report_json(const TetrahedraReport& report);
 
-/// Counts, per region too, the checks and the shapes.
+/// Reports the counts, in all and per region, the checks and the shapes.
 std::string filled_text(const FilledBlocks& filled);
 
 /// Adds counts, volumes, checks and times of the tetrahedra.
-void add_statistics(Json& json, const FilledBlocks& filled);
+void add_statistics(Json& json, const FilledBlocks& filled, const StageTimes& times);
 
 } // namespace terrane::cli

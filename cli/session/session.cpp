@@ -33,6 +33,7 @@ Session::Session(unsigned threads) :
         stage_ = stage;
         share_ = share;
     };
+    run_.timing = times_.observer();
     const auto set = interrupts();
     pthread_sigmask(SIG_BLOCK, &set, nullptr);
     watcher_ = std::jthread([this](const std::stop_token& over) { watch(over); });
@@ -75,7 +76,7 @@ void Session::on_interrupt() {
     _exit(static_cast<int>(ExitStatus::bad_input));
 }
 
-/// Nothing in the first second.
+/// Draws the progress line, but not in the first second.
 void Session::show() {
     const std::lock_guard lock(mutex_);
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started_;

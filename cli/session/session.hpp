@@ -12,17 +12,19 @@
 #include <thread>
 
 #include <terrane/algorithms/core/run.hpp>
+#include <terrane/algorithms/core/stage_times.hpp>
 
 namespace terrane::cli {
 
-/// What an interrupt (Ctrl-C, SIGTERM) does.
+/// Phases of a command, each with its own answer to an interrupt (Ctrl-C, SIGTERM).
 enum class Phase {
-    idle,      ///< reading, or writing to a pipe: the program ends at once, nothing is at stake
+    idle,      ///< reading, or writing to a pipe: the program ends at once
     computing, ///< the stage is asked to stop; a second interrupt ends the program
-    writing,   ///< a file is being written: that is finished first
+    writing,   ///< writing a file, which is completed first
 };
 
-/// Make one before any other thread: the signals are blocked in the threads made after it.
+/// Handles interrupts and progress for one command. It must be made before any other thread, as the
+/// signals are blocked only in threads made after it.
 class Session {
 public:
     explicit Session(unsigned threads); ///< 0: all cores
@@ -31,11 +33,13 @@ public:
     Session& operator=(const Session&) = delete;
 
     [[nodiscard]] const Run& run() const { return run_; }
+    /// How long the stages took that have ended.
+    [[nodiscard]] const StageTimes& times() const { return times_; }
     [[nodiscard]] bool stopped() const { return source_.stop_requested(); }
 
-    /// Announces a stage to whoever watches, and what an interrupt does from now on.
+    /// Shows the name of a stage and sets the phase, which decides what an interrupt does.
     void begin(std::string_view stage, Phase phase);
-    /// Takes the progress line off the terminal until the next stage.
+    /// Removes the progress line until the next stage.
     void end_stage();
 
 private:
@@ -45,11 +49,12 @@ private:
     void clear_line();
 
     std::stop_source source_;
+    StageTimes times_;
     Run run_;
     std::atomic<Phase> phase_ = Phase::idle;
 
-    bool terminal_;                                 ///< standard error is one: progress is shown
-    std::chrono::steady_clock::time_point started_; ///< guarded by mutex_, as all that follows
+    bool terminal_;                                 ///< whether standard error is a terminal
+    std::chrono::steady_clock::time_point started_; ///< guarded by mutex_, like all below
     std::mutex mutex_;
     std::string stage_; ///< empty: nothing to show
     double share_ = 0;

@@ -20,8 +20,7 @@ namespace {
 constexpr std::size_t most_blocks = 50; ///< listed on the terminal
 constexpr std::size_t most_leaks = 20;
 
-// ---- What is said
-// --------------------------------------------------------------------------------
+// ---- Text
 
 std::string blocks_text(const Model& model) {
     const auto& blocks = model.structure.blocks;
@@ -56,7 +55,7 @@ std::string structure_text(const Model& model) {
                        counted(s.corners.size(), "corner"), lines.empty() ? "" : ", " + lines);
 }
 
-/// Surfaces of which a part has the same volume on both sides.
+/// Lists the surfaces of which a part has the same block on both sides.
 std::string dangling_text(const Inputs& inputs, const Model& model) {
     std::vector<double> area(inputs.labels.size()), dangling(inputs.labels.size()),
         border(inputs.labels.size());
@@ -75,7 +74,7 @@ std::string dangling_text(const Inputs& inputs, const Model& model) {
     return text.empty() ? "no surface dangles\n" : "surfaces that dangle:\n" + text;
 }
 
-/// Where surfaces end near others, the smallest gaps first.
+/// Lists where surfaces end near others, the smallest gaps first.
 std::string leaks_text(const Inputs& inputs, const Model& model) {
     const auto leaks = leaks_of(model.borders);
     if (leaks.empty()) return {};
@@ -91,14 +90,13 @@ std::string leaks_text(const Inputs& inputs, const Model& model) {
     return text;
 }
 
-// ---- What is written
-// -----------------------------------------------------------------------------
+// ---- Files
 
 std::vector<std::int32_t> as_cells(const std::vector<std::uint32_t>& values) {
     return {values.begin(), values.end()};
 }
 
-/// One column of the sides.
+/// Returns the block on one side of each triangle.
 std::vector<std::int32_t> side_cells(const Volumes& volumes, std::size_t side) {
     std::vector<std::int32_t> values;
     for (const auto& sides : volumes.of_sides)
@@ -132,13 +130,13 @@ public:
             if (session.stopped()) return Error{ErrorCode::interrupted, "stopped on request", ""};
             if (s.blocks[b].interfaces.empty()) continue;
             extras_.block_files[b] = name("blocks/block_", b);
-            const auto part = block_part(model_.mesh, model_.volumes, s, b);
+            const auto part = block_part(model_.mesh, model_.volumes, s, BlockId(b));
             if (auto done = write_part(part, extras_.block_files[b]); !done) return done;
         }
         for (std::uint32_t i = 0; i < s.interfaces.size(); ++i) {
             if (session.stopped()) return Error{ErrorCode::interrupted, "stopped on request", ""};
             extras_.interface_files.push_back(name("interfaces/interface_", i));
-            const auto part = interface_part(model_.mesh, model_.volumes, s, i);
+            const auto part = interface_part(model_.mesh, model_.volumes, s, InterfaceId(i));
             if (auto done = write_part(part, extras_.interface_files[i]); !done) return done;
         }
         return write_json();
@@ -189,9 +187,10 @@ private:
 
 } // namespace
 
-void add_statistics(Json& json, const Model& model) {
-    json["seconds"]["volumes"] = model.seconds_volumes;
-    json["seconds"]["structure"] = model.seconds_structure;
+void add_statistics(Json& json, const Model& model, const StageTimes& times) {
+    add_constants(json, "structure", structure_constants());
+    json["seconds"]["volumes"] = times.latest("volumes");
+    json["seconds"]["structure"] = times.latest("structure");
     json["output"]["volumes"] = model.block_count();
     Json volumes = Json::array();
     for (std::size_t b = 1; b < model.exact_volumes.size(); ++b)
@@ -212,7 +211,7 @@ Result<Model> find_model(const Arranged& arranged, Session& session, Json& stati
     session.begin("volumes", Phase::computing);
     auto model = make_model(arranged.exact, arranged.rounded.conforming.value(), session.run());
     session.end_stage();
-    if (model) add_statistics(statistics, *model);
+    if (model) add_statistics(statistics, *model, session.times());
     return model;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The blocks of a model as text, as statistics and as a folder: what volume and build share.
+// Blocks of a model as text, statistics and a folder of files: shared by `volume` and `build`.
 #pragma once
 
 #include <filesystem>
@@ -12,18 +12,19 @@
 
 namespace terrane::cli {
 
-/// Makes the model of what was arranged, and adds to `statistics`. Precondition: the rounded mesh is
+/// Makes the model of the arrangement, and adds to `statistics`. Precondition: the rounded mesh is
 /// conforming. Errors: those of make_model.
 Result<Model> find_model(const Arranged& arranged, Session& session, Json& statistics);
 
-/// Adds what is known of the model to `statistics`.
-void add_statistics(Json& statistics, const Model& model);
+/// Adds the model's counts, volumes and times to the statistics.
+void add_statistics(Json& statistics, const Model& model, const StageTimes& times);
 
-/// Blocks, structure, what dangles, leaks.
+/// Reports blocks, structure, dangling surfaces and leaks.
 std::string model_text(const Inputs& inputs, const Model& model);
 
-/// model.json (with what was sealed, if anything), result.vtp, blocks, interfaces (`part_format`:
-/// vtp or obj), in a folder that is there and empty. Errors: those of writing; interrupted.
+/// Writes model.json (with what was sealed, if anything), result.vtp, and the blocks and interfaces
+/// as `part_format` (vtp or obj) into an empty folder that exists. Errors: those of writing;
+/// interrupted.
 Status write_model(const Model& model, const std::optional<SealReport>& sealed,
                    const std::string& part_format, const std::filesystem::path& folder,
                    const Session& session);

@@ -23,8 +23,8 @@ Status write(const std::string& path, const std::string& text, const FileOptions
     return status;
 }
 
-/// The input files, hashed as they are now: if one was changed since it was read, the verifier
-/// finds that the certificate is not about it.
+/// Hashes the input files in their present state. If one was changed after it was read, the
+/// verifier finds that the certificate does not fit it.
 Result<std::vector<InputRecord>> record_inputs(const std::string& certificate,
                                                const std::vector<std::string>& files,
                                                const Inputs& inputs) {

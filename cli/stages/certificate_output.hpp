@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What `arrange` writes for others to check: certificates and exact coordinates.
+// Certificates and exact coordinates, which others can check.
 #pragma once
 
 #include <string>
@@ -19,16 +19,16 @@ struct ProofOptions {
 
 void add_proof(CLI::App& command, ProofOptions& options);
 
-/// What is wrong with the names, found before any work is done.
+/// Checks the file names before any work is done. Errors: bad_option, cannot_open.
 Status plan_proof(const ProofOptions& options, const FileOptions& files);
 
-/// The certificate of a result whose inputs are all of these files, for a file `path`.
+/// Makes the certificate of a result whose inputs are exactly these files, to be written to `path`.
 /// Errors: cannot_open.
 Result<std::string> certificate_text(const std::string& path, const std::vector<std::string>& files,
                                      const Inputs& inputs, const Arranged& arranged,
                                      const Session& session);
 
-/// Whether or not the doubles are conforming: the exact result holds all the same.
+/// Writes both files. Rounded coordinates need not be conforming, as the exact result holds anyway.
 Status write_proof(const ProofOptions& options, const FileOptions& files, const Inputs& inputs,
                    const Arranged& arranged, Session& session);
 

@@ -2,10 +2,10 @@
 #include <terrane/cli/stages/layer_stage.hpp>
 
 #include <cstdint>
+#include <utility>
 
 #include <fmt/format.h>
 
-#include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/cli/session/console.hpp>
 
 namespace terrane::cli {
@@ -28,17 +28,16 @@ std::string line_of(const std::string& label, const LayerReport& r) {
 
 Result<Layered> layer_inputs(const Inputs& inputs, const std::vector<Layer>& order,
                              const LayerOptions& options, Session& session, Json& statistics) {
-    Stopwatch watch;
     session.begin("layers", Phase::computing);
     auto layered = stack_layers(inputs.surfaces, order, options, session.run());
     session.end_stage();
     if (!layered) return layered.error();
-    statistics["layers"] = json_of(inputs, layered.value().reports);
-    statistics["seconds"]["layers"] = watch.lap();
+    add_statistics(statistics, inputs, layered.value().reports, session.times());
     return layered;
 }
 
-Json json_of(const Inputs& inputs, std::span<const LayerReport> reports) {
+void add_statistics(Json& json, const Inputs& inputs, std::span<const LayerReport> reports,
+                    const StageTimes& times) {
     Json all = Json::array();
     for (const LayerReport& r : reports)
         all.push_back({{"name", inputs.labels[r.surface]},
@@ -49,7 +48,9 @@ Json json_of(const Inputs& inputs, std::span<const LayerReport> reports) {
                        {"taken_area", r.taken_area},
                        {"largest_move", r.largest_move},
                        {"step_length", r.step_length}});
-    return all;
+    json["layers"] = std::move(all);
+    add_constants(json, "round", rounding_constants());
+    json["seconds"]["layers"] = times.latest("layers");
 }
 
 std::string text_of(const Inputs& inputs, std::span<const LayerReport> reports,

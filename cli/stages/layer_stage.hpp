@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Horizons put in order: what `layer` and `build` share.
+// The stage that puts horizons in order: shared by `layer` and `build`.
 #pragma once
 
 #include <span>
@@ -14,18 +14,20 @@
 
 namespace terrane::cli {
 
-/// stack_layers of the inputs, with its time and its report in `statistics` (layers).
+/// Runs stack_layers on the inputs, and adds its time and its report (layers) to `statistics`.
 Result<Layered> layer_inputs(const Inputs& inputs, const std::vector<Layer>& order,
                              const LayerOptions& options, Session& session, Json& statistics);
 
-/// Tells what was replaced, and whether the doubles are conforming.
+/// Reports what was replaced, and whether the rounded mesh is conforming.
 std::string text_of(const Inputs& inputs, std::span<const LayerReport> reports,
                     const RoundingReport& rounding);
 
-/// Where the doubles are not conforming: how many pairs, and the first place; empty else.
+/// Reports the number of pairs in improper contact and the first place; empty if the rounded mesh
+/// is conforming.
 std::string contacts_text(const RoundingReport& rounding);
 
-/// One entry per layer, for the statistics.
-Json json_of(const Inputs& inputs, std::span<const LayerReport> reports);
+/// Adds the key layers, one entry per layer, with the time and the constants of the rounding.
+void add_statistics(Json& json, const Inputs& inputs, std::span<const LayerReport> reports,
+                    const StageTimes& times);
 
 } // namespace terrane::cli

@@ -14,7 +14,8 @@
 namespace terrane::cli {
 namespace {
 
-/// For TetGen's formats: where the blocks are; a warning for those without a point in doubles.
+/// Finds a point in each block if an output is in a format of TetGen. Warns of blocks that contain
+/// no point in doubles.
 Result<std::vector<RegionPoint>>
 points_in_blocks(const Mesh& mesh, const std::vector<Output>& outputs, Session& session) {
     const bool wanted = std::any_of(outputs.begin(), outputs.end(), [](const Output& output) {
@@ -56,7 +57,7 @@ Status write_outputs(const Mesh& mesh, bool clean, const FileOptions& files,
     WriteOptions options;
     options.ascii = files.ascii;
     std::vector<RegionPoint> regions;
-    if (clean) { // else there are no blocks to speak of
+    if (clean) { // otherwise blocks are not defined
         auto points = points_in_blocks(mesh, outputs, session);
         if (!points) return points.error();
         regions = std::move(points).value();

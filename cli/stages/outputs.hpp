@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// A mesh into files: what the commands that write a conforming mesh of surfaces share.
+// Output of a conforming mesh of surfaces, shared by the commands that write one.
 #pragma once
 
 #include <vector>
@@ -11,13 +11,13 @@
 
 namespace terrane::cli {
 
-/// Binary STL holds other numbers than those that were verified: they are checked as well. Warns
-/// where they are not conforming.
+/// Checks the float32 coordinates that binary STL would hold, which are not the doubles that were
+/// verified. Warns and returns false if the mesh is not conforming with them.
 Result<bool> stl_is_conforming(const Mesh& mesh, const FileOptions& files,
                                const std::vector<Output>& outputs, Session& session);
 
-/// What `outputs` get, in their order. `clean`: the mesh is conforming; else there are no blocks to
-/// speak of in TetGen's formats.
+/// Writes the mesh to `outputs`, in their order. `clean`: the mesh is conforming; without that,
+/// files in TetGen's formats get no region points.
 Status write_outputs(const Mesh& mesh, bool clean, const FileOptions& files,
                      const std::vector<Output>& outputs, Session& session);
 

@@ -9,6 +9,7 @@
 
 #include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
+#include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
 #include <terrane/cli/reports/seal_report.hpp>
 #include <terrane/cli/session/console.hpp>
 
@@ -20,7 +21,7 @@ constexpr std::size_t most_areas = 3;     ///< printed per surface
 constexpr std::size_t most_surfaces = 40; ///< printed
 constexpr std::size_t most_pairs = 20;    ///< printed
 
-/// What the summary says of one surface.
+/// Numbers of one surface in the summary.
 struct SurfaceTally {
     std::size_t triangles = 0; ///< of the output
     std::vector<double> areas; ///< of its regions
@@ -126,22 +127,26 @@ void add_settings(CLI::App& command, ArrangeSettings& settings) {
     add_volume_options(command, settings.volume);
 }
 
-void add_statistics(Json& statistics, const Arranged& arranged, Search asked,
-                    const Inputs& inputs) {
+void add_statistics(Json& statistics, const Arranged& arranged, Search asked, const Inputs& inputs,
+                    const StageTimes& times) {
     if (arranged.extended) {
         add_statistics(statistics, *arranged.extended);
-        statistics["seconds"]["extend"] = arranged.seconds_extend;
+        add_constants(statistics, "extend", extension_constants());
+        statistics["seconds"]["extend"] = times.latest("extend");
     }
     if (arranged.sealed) {
-        statistics["seconds"]["seal"] = arranged.seconds_seal;
+        add_constants(statistics, "seal", seal_constants());
+        statistics["seconds"]["seal"] = times.latest("seal");
         add_statistics(statistics, *arranged.sealed, inputs);
     }
     add_statistics(statistics, arranged.exact, asked);
+    add_arrangement_times(statistics, arranged.sealed ? "seal/arrange" : "arrange", times);
     if (arranged.cut) {
         add_statistics(statistics, *arranged.cut, inputs);
-        statistics["seconds"]["volume_of_interest"] = arranged.seconds_cut;
+        add_constants(statistics, "volume_of_interest", boundary_constants());
+        statistics["seconds"]["volume_of_interest"] = times.latest("volume of interest");
     }
-    add_statistics(statistics, arranged.rounded, arranged.seconds_round);
+    add_statistics(statistics, arranged.rounded, times);
 }
 
 Result<Arranged> arrange_and_round(Inputs& inputs, const ArrangeSettings& settings,
@@ -162,7 +167,7 @@ Result<Arranged> arrange_and_round(Inputs& inputs, const ArrangeSettings& settin
     session.end_stage();
     if (!arranged) return arranged;
     inputs.labels = unique_labels(infos_of(arranged->surfaces));
-    add_statistics(statistics, *arranged, settings.search, inputs);
+    add_statistics(statistics, *arranged, settings.search, inputs, session.times());
     return arranged;
 }
 

@@ -121,7 +121,9 @@ private:
         if (!part_of_id_.emplace(part.id, model.parts.size()).second)
             return in_.error_at(part.line, ErrorCode::bad_syntax,
                                 fmt::format("TFACE {} is listed twice", part.id));
-        model.parts.push_back({part.id, part.feature, surface->second, begin, end - begin});
+        model.parts.push_back({part.id, part.feature,
+                               SurfaceId(static_cast<std::uint32_t>(surface->second)), begin,
+                               end - begin});
         return std::nullopt;
     }
 

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include <terrane/algorithms/core/id.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
 
@@ -31,7 +32,7 @@ Result<std::vector<Surface>> read_gocad(std::string_view contents, std::string_v
 struct ModelPart {
     std::uint32_t id = 0;             ///< number in the file
     std::string feature;              ///< from the file: "fault", "top", "boundary", "none", ...
-    std::uint32_t surface = 0;        ///< index into GocadModel::surfaces
+    SurfaceId surface{};              ///< index into GocadModel::surfaces
     std::uint32_t first_triangle = 0; ///< index of its first triangle in the surface
     std::uint32_t triangle_count = 0; ///< number of its triangles, which are consecutive
 };

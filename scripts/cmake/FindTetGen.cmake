@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-# TetGen's library (Debian: libtet1.5-dev) as the imported target TetGen::TetGen.
+# Finds TetGen's library (Debian: libtet1.5-dev) and defines the imported target TetGen::TetGen.
 find_path(TetGen_INCLUDE_DIR tetgen.h)
 find_library(TetGen_LIBRARY NAMES tet tetgen)
 mark_as_advanced(TetGen_INCLUDE_DIR TetGen_LIBRARY)

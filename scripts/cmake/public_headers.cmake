@@ -1,17 +1,18 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-# The public interface: the headers that are installed, by library. They include no other header of
-# ours (tests/test_include_order.cpp), nor one of a library that the user would have to install.
+# Lists the public headers, which are installed, by library. They include only each other
+# (tests/test_include_order.cpp) and no header of a library that users would have to install.
 set(terrane_headers
     terrane.hpp
     kernel/construction.hpp
     kernel/point.hpp
     kernel/predicate_counts.hpp
+    algorithms/core/id.hpp
     algorithms/core/index_lists.hpp
     algorithms/core/named_constant.hpp
     algorithms/core/process_memory.hpp
     algorithms/core/result.hpp
     algorithms/core/run.hpp
-    algorithms/mesh/labels.hpp
+    algorithms/core/stage_times.hpp
     algorithms/mesh/mesh.hpp
     algorithms/mesh/region_point.hpp
     algorithms/mesh/shared_mesh.hpp
@@ -33,16 +34,13 @@ set(terrane_headers
     algorithms/layers/layers.hpp
     algorithms/quality/deviation.hpp
     algorithms/quality/improve.hpp
-    algorithms/quality/improve_back.hpp
     algorithms/quality/improve_measured.hpp
     algorithms/quality/quality.hpp
     algorithms/reconstruction/holes/filling.hpp
     algorithms/reconstruction/holes/holes.hpp
-    algorithms/reconstruction/joining/join.hpp
     algorithms/reconstruction/kriging/fill_kriging.hpp
     algorithms/reconstruction/kriging/variogram.hpp
     algorithms/reconstruction/rbf/rbf.hpp
-    algorithms/reconstruction/rbf/rbf_join.hpp
     algorithms/reconstruction/fill.hpp
     algorithms/sealing/sealing.hpp
     algorithms/volume_of_interest/boundary_surfaces.hpp
@@ -53,7 +51,6 @@ set(terrane_headers
     algorithms/tetrahedra/check_tetrahedra.hpp
     algorithms/tetrahedra/split_nodes.hpp
     algorithms/tetrahedra/tetrahedra_shape.hpp
-    algorithms/tetrahedra/without_outside.hpp
     algorithms/tetgen/fill_blocks.hpp
     algorithms/tetgen/tetgen_helper.hpp
     algorithms/tetgen/tetrahedra.hpp

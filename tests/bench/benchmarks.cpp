@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The parts one by one. Filter with --benchmark_filter; see scripts/bench.sh.
+// Benchmarks of the single parts. Filter them with --benchmark_filter; see scripts/bench.sh.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -96,7 +96,7 @@ void whole_corefine(benchmark::State& state) {
     label(state);
 }
 
-/// Contacts of all pairs whose boxes overlap, per pair.
+/// Finds the contacts of all pairs whose boxes overlap; the time is per pair.
 void triangle_triangle(benchmark::State& state, bool two_surfaces) {
     const Model& m = model("pair2_68k");
     const auto pairs = candidate_pairs(
@@ -110,7 +110,8 @@ void triangle_triangle(benchmark::State& state, bool two_surfaces) {
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(pairs.size()));
 }
 
-/// A triangle with `n` points inside and a segment between every other two of neighbours in x.
+/// Triangulates a triangle with `n` points inside and a segment between every other pair of
+/// neighbours in x.
 void triangulate_one(benchmark::State& state) {
     const auto n = static_cast<PointIndex>(state.range(0));
     std::mt19937_64 random(7);
@@ -128,8 +129,8 @@ void triangulate_one(benchmark::State& state) {
     face.corners = {0, 1, 2};
     for (PointIndex i = 3; i < points.size(); ++i) face.inner_points.push_back(i);
     for (PointIndex i = 3; i + 1 < points.size(); i += 2) face.segments.push_back({i, i + 1});
-    FaceTriangulation triangulation;
     const UpwardRounding guard;
+    FaceTriangulation triangulation(guard);
     for (auto _ : state) benchmark::DoNotOptimize(triangulation(store, rank, face));
 }
 
@@ -164,7 +165,7 @@ void register_searches() {
 } // namespace
 
 int main(int argc, char** argv) {
-    keep_freed_memory(); // for the yardsticks, too
+    keep_freed_memory(); // for the yardsticks as well
     register_searches();
     benchmark::RegisterBenchmark("triangle_triangle/two_surfaces", triangle_triangle, true);
     benchmark::RegisterBenchmark("triangle_triangle/neighbours", triangle_triangle, false);

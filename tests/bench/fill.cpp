@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What filled holes miss of surfaces that are known: kriging and RBF beside CGAL's fairing and a
-// plain linear patch, in one run.
+// Measures the error of filled holes in known surfaces: kriging and RBF, compared with CGAL's
+// fairing and a plain linear patch in the same run.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -41,7 +41,7 @@ void print_yardstick(const Model& model, const BorderLoop& loop, const char* way
         std::printf("  %s %10s %10s %6.2fs", way, "-", "-", seconds);
 }
 
-/// Root mean square of the deviations foreseen for what was joined.
+/// Returns the root mean square of the errors expected at the vertices that were joined.
 double expected_of(const Filling& filling, const Joined& made) {
     double squares = 0;
     for (const auto v : made.filling_vertices) squares += std::pow(filling.expected_error[v], 2);
@@ -69,7 +69,7 @@ void print_rbf(const Model& model, const BorderLoop& loop, const char* way,
     std::printf(" (predicted %.3g)", expected_of(filling, joined));
 }
 
-/// With triangles as large as those round the hole.
+/// Prints the errors with triangles as large as those round the hole.
 void print_at_size_of_border(const Model& model, const BorderLoop& loop) {
     const double size = loop.length / double(loop.vertices.size());
     KrigingOptions options;
@@ -109,12 +109,11 @@ void run(const Model& model, bool yardsticks) {
 }
 
 // ---- Real horizons
-// -------------------------------------------------------------------------------
 
-/// The surface without the triangles at the vertices that are within `radius` of a place.
+/// A surface without the triangles at vertices within `radius` of a place.
 struct Punched {
     Surface surface;
-    std::vector<Point3> removed; ///< vertices that only these triangles had
+    std::vector<Point3> removed; ///< vertices of removed triangles only
 };
 
 Punched punched(const Surface& s, const Point3& centre, double radius) {
@@ -133,7 +132,7 @@ Punched punched(const Surface& s, const Point3& centre, double radius) {
     return result;
 }
 
-/// Height of the triangles from `first` on over a place, or NaN.
+/// Returns the height over a place of the triangles from `first` on, or NaN.
 double height_over(const Surface& s, std::size_t first, const Point3& p) {
     for (auto i = first; i < s.triangles.size(); ++i) {
         const Triangle& t = s.triangles[i];
@@ -161,10 +160,10 @@ struct Sum {
     [[nodiscard]] double root() const { return std::sqrt(squares / double(count)); }
 };
 
-/// What one way to fill misses of all holes.
+/// The error of one method over all holes.
 struct Way {
     Sum missed;
-    double expected = 0; ///< squares, summed over holes
+    double expected = 0; ///< sum of squares over the holes
     std::size_t holes = 0;
 
     void add(const Surface& filled, std::size_t first, const std::vector<Point3>& removed,
@@ -179,7 +178,7 @@ struct Way {
     }
 };
 
-/// Nine holes of one size, one after the other, where the data are.
+/// Fills nine holes of one size, one at a time, at vertices spread over the list.
 void punch(const Surface& s, double radius) {
     Way kriging, rbf, smoothed, fair, linear;
     for (int k = 1; k <= 9; ++k) {
@@ -192,7 +191,7 @@ void punch(const Surface& s, double radius) {
                 return l.kind != LoopKind::outer &&
                        std::hypot(l.centre.x - centre.x, l.centre.y - centre.y) < radius;
             });
-        if (hole == loops.value().end()) continue; // it has met the outer border
+        if (hole == loops.value().end()) continue; // the hole reached the outer border
         const auto first = p.surface.triangles.size();
         const auto filling = fill_by_kriging(p.surface, *hole);
         if (!filling) continue;
@@ -232,8 +231,8 @@ int punch_file(const char* file, double step) {
 
 } // namespace
 
-// terrane_bench_fill [--alone | --folds]: known surfaces; without CGAL's ways; folds in plenty.
-// terrane_bench_fill FILE STEP: holes of 3, 6 and 12 steps of a grid punched into a real horizon.
+// terrane_bench_fill [--alone | --folds]   known surfaces, without CGAL; many folds
+// terrane_bench_fill FILE STEP             holes of 3, 6 and 12 grid steps in a real horizon
 int main(int argc, char** argv) {
     if (argc == 3) return punch_file(argv[1], std::atof(argv[2]));
     const auto asked = [&](const char* what) {

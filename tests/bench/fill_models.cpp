@@ -20,7 +20,7 @@ using terrane::Triangle;
 namespace {
 
 constexpr int cells = 60;
-using Shape = std::function<Point3(double u, double v)>; ///< of the unit square
+using Shape = std::function<Point3(double u, double v)>; ///< maps the unit square
 using Inside = std::function<bool(double u, double v)>;
 
 /// Returns the sheet over the unit square with n x n cells, without those in `left_out`.
@@ -30,7 +30,7 @@ Surface sheet(int n, const Shape& shape, const Inside& left_out) {
         [&](double i, double j) { return shape(i / n, j / n); });
 }
 
-/// A hole that is no circle: an ellipse with lobes, off the middle.
+/// Returns an ellipse with lobes off the middle, so that the hole is not a circle.
 Inside hole(double share, int variant) {
     const double u0 = 0.5 + 0.04 * std::sin(variant), v0 = 0.5 + 0.04 * std::cos(2.0 * variant);
     const double a = std::sqrt(share / M_PI) * 1.25, b = share / M_PI / a;
@@ -47,13 +47,14 @@ Shape graph(const std::function<double(double, double)>& z) {
     return [=](double u, double v) { return Point3{1000 * u, 1000 * v, z(u, v)}; };
 }
 
-/// A lattice of random heights, the same at each call.
+/// Returns a random height for each node, the same at each call.
 double noise_at(double u, double v) {
     std::mt19937 random(static_cast<unsigned>(std::lround(u * 240) * 1000 + std::lround(v * 240)));
     return std::normal_distribution<double>(0, 2)(random);
 }
 
-/// Overturned: seen along z three sheets lie above one another; a hinge is in the middle.
+/// Returns an overturned fold: three sheets lie above one another along z, with a hinge in the
+/// middle.
 Shape fold(double lean, double height) {
     const double phase = std::acos(1000 / (4 * M_PI * lean));
     return [=](double u, double v) {
@@ -62,8 +63,7 @@ Shape fold(double lean, double height) {
     };
 }
 
-/// With another share of its area gone than the one before it in a list, and a hole of another
-/// shape.
+/// Makes a model with a hole, whose shape and share of the area change with its number in the list.
 Model model(std::string name, const Shape& shape, bool smooth, bool is_graph, std::size_t number) {
     constexpr std::array shares{0.01, 0.02, 0.05, 0.1, 0.2};
     Model m;

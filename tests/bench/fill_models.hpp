@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Surfaces that are known everywhere, with a hole.
+// Surfaces that are known everywhere, with a hole in each.
 #pragma once
 
 #include <functional>
@@ -13,24 +13,24 @@ namespace fill_bench {
 
 struct Model {
     std::string name;
-    bool smooth = true;                                 ///< no noise, no throw
-    bool graph = true;                                  ///< z = f(x, y)
-    double share = 0;                                   ///< of the area: the hole
-    std::function<double(double x, double y)> height{}; ///< of a graph, exactly
+    bool smooth = true;                                 ///< has neither noise nor throw
+    bool graph = true;                                  ///< is a graph z = f(x, y)
+    double share = 0;                                   ///< of the area, in the hole
+    std::function<double(double x, double y)> height{}; ///< exact height of a graph
     terrane::Surface holed;
     terrane::Surface whole; ///< the truth, four times as fine
 };
 
-/// 30 surfaces of 60 x 60 cells: planes, waves, domes, noise, folds, throws; holes of 1 to 20 % of
-/// the area.
+/// Returns 30 surfaces of 60 x 60 cells (planes, waves, domes, noise, folds, throws) with holes of
+/// 1 to 20 % of the area.
 std::vector<Model> models();
 
-/// 42 folds, from a steep one to limbs that all but touch, with holes in the same sizes.
+/// Returns 42 folds, from a steep one to limbs that almost touch, with holes of the same sizes.
 std::vector<Model> fold_models();
 
 /// Area-weighted root mean square and maximum of the distance between points of the triangles from
-/// `first` on and the truth; the same of their vertices after those of the holed surface alone,
-/// which leaves out that triangles are flat.
+/// `first` on and the true surface; and the same measures of the added vertices alone, which do not
+/// include that triangles are flat.
 struct Misfit {
     double rms = 0, largest = 0;
     double vertex_rms = 0, vertex_largest = 0;

@@ -44,7 +44,7 @@ std::optional<terrane::Surface> filled_by_cgal(const terrane::Surface& surface,
         const auto& p = mesh.point(v);
         result.vertices.push_back({p.x(), p.y(), p.z()});
     }
-    for (const auto f : mesh.faces()) { // old ones have the lower numbers
+    for (const auto f : mesh.faces()) { // the old faces have the lower numbers
         terrane::Triangle t{};
         unsigned i = 0;
         for (const auto v : mesh.vertices_around_face(mesh.halfedge(f))) t[i++] = v;

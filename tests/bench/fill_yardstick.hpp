@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// CGAL's ways of filling a hole (GPL: linked into benchmarks only).
+// Fills a hole with CGAL (GPL, so that only benchmarks are linked with it).
 #pragma once
 
 #include <cstdint>
@@ -11,8 +11,8 @@
 
 namespace fill_bench {
 
-/// The surface with the hole with this border filled, new triangles last; none where CGAL does not.
-/// `fair`: triangulate_refine_and_fair_hole; else triangulate_hole, a plain linear patch.
+/// Fills the hole with this border; the new triangles come last. Returns none where CGAL fails.
+/// `fair`: triangulate_refine_and_fair_hole; otherwise triangulate_hole, a plain linear patch.
 std::optional<terrane::Surface> filled_by_cgal(const terrane::Surface& surface,
                                                const std::vector<std::uint32_t>& border, bool fair);
 

@@ -90,7 +90,7 @@ std::vector<Box> boxes_of_all(const Model& m) {
     return boxes;
 }
 
-/// So many of them, from the start again behind the last.
+/// Repeats the elements from the start until there are `size` of them.
 template <class T>
 std::vector<T> resized(const std::vector<T>& from, std::size_t size) {
     std::vector<T> to;

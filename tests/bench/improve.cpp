@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Improving a mesh of several surfaces, beside CGAL's isotropic remeshing of each of them alone
-// with the curves protected: quality, contacts, deviation, time by the clock and of the processor:
-// medians of some repeats, ours and CGAL's in turn.
+// Improves a mesh of several surfaces, and compares it with CGAL's isotropic remeshing of each
+// surface alone with the curves protected: quality, contacts, deviation, wall-clock and processor
+// time. Times are medians of some repeats, taken in turn.
 //   terrane_bench_improve [--edge-length L] [--iterations N] [--passes N] [--threads N]
 //   [--repeats N] NAME|FILE...
-// A NAME is a model of models.hpp. Several FILEs are one model. To be built with NDEBUG, as by the
-// preset `bench`: with its assertions CGAL takes up to three times as long.
+// A NAME is a model of models.hpp. Several FILEs are one model. Build it with NDEBUG, as the preset
+// `bench` does: assertions slow CGAL down by up to three times.
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -45,14 +45,14 @@ namespace pmp = CGAL::Polygon_mesh_processing;
 
 struct Settings {
     double edge_length = 0;
-    unsigned iterations = 5; ///< CGAL's
+    unsigned iterations = 5; ///< of CGAL
     unsigned passes = terrane::ImproveOptions{}.passes;
-    unsigned threads = 2; ///< ours; CGAL's remeshing has one
+    unsigned threads = 2; ///< of improve(); CGAL's remeshing has one
     unsigned repeats = 5;
     std::vector<std::string> names;
 };
 
-/// By the clock, and of the processor.
+/// Wall-clock and processor time.
 struct Seconds {
     double clock = 0, processor = 0;
 
@@ -71,7 +71,7 @@ struct Seconds {
     }
 };
 
-/// Of each of the two.
+/// Returns the median of each of the two times.
 Seconds median(std::vector<Seconds> all) {
     const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
     Seconds out;
@@ -83,7 +83,7 @@ Seconds median(std::vector<Seconds> all) {
     return out;
 }
 
-/// The triangles of each surface, with vertices of their own.
+/// Splits a mesh into its surfaces, each with its own vertices.
 std::vector<Surface> split_by_surface(const Mesh& mesh) {
     std::vector<Surface> all(mesh.surfaces.size());
     std::vector<std::map<std::uint32_t, std::uint32_t>> names(mesh.surfaces.size());
@@ -112,7 +112,7 @@ double automatic_length(const Surface& s) {
     return std::sqrt(area / static_cast<double>(s.triangles.size()) * 4 / std::sqrt(3.0));
 }
 
-/// What the curve edges are by their ends' places, as CGAL numbers vertices anew.
+/// A curve edge by the positions of its ends, as CGAL numbers vertices anew.
 using PlacedEdge = std::array<Point3, 2>;
 
 PlacedEdge placed(const Point3& a, const Point3& b) {
@@ -125,7 +125,7 @@ struct Remeshed {
     std::size_t failed = 0;
 };
 
-/// One surface by CGAL; its constrained edges are those in `curves` and its borders.
+/// Remeshes one surface with CGAL; the edges in `curves` and its borders are constrained.
 Surface remesh(const Surface& in, const std::vector<PlacedEdge>& curves, double length,
                unsigned iterations, Seconds& seconds) {
     std::vector<Kernel::Point_3> points;
@@ -170,9 +170,9 @@ Surface remesh(const Surface& in, const std::vector<PlacedEdge>& curves, double 
 }
 
 Remeshed by_cgal(const Mesh& mesh, const Settings& settings) {
-    const auto features =
-        improving::find_features(mesh, {ImproveOptions{}.crease_angle * std::acos(-1.0) / 180,
-                                        ImproveOptions{}.curve_angle * std::acos(-1.0) / 180});
+    const auto features = quality::detail::find_features(
+        mesh, {ImproveOptions{}.crease_angle * std::acos(-1.0) / 180,
+               ImproveOptions{}.curve_angle * std::acos(-1.0) / 180});
     std::vector<PlacedEdge> curves;
     for (const Edge& e : features.edges)
         curves.push_back(placed(mesh.vertices[e[0]], mesh.vertices[e[1]]));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The most memory that arranging and rounding hold beside their input and output, in bytes per
-// input triangle. Each model has a process of its own: a peak never falls.
+// Measures the most memory that arranging and rounding hold besides their input and output, in
+// bytes per input triangle. Each model has a process of its own, since a peak never falls.
 //   terrane_bench_memory [--threads N] [NAME|FILE...]
 #include <malloc.h>
 #include <sys/wait.h>
@@ -43,7 +43,7 @@ double bytes_of(const RoundedMesh& rounded) {
            bytes_of(m.regions_of) + bytes_of(m.parents_of) + bytes_of(m.intersection_edges);
 }
 
-/// A size of this process as the system counts it ("VmRSS", "VmHWM"), in bytes.
+/// Returns a size of this process that the system counts ("VmRSS", "VmHWM"), in bytes.
 double size_of_process(const std::string& key) {
     std::ifstream status("/proc/self/status");
     for (std::string line; std::getline(status, line);)
@@ -61,7 +61,7 @@ void forget_peak() {
 void measure(const std::string& name, unsigned threads) {
     keep_freed_memory();
     const bench::Model& input = bench::model(name);
-    malloc_trim(0); // what making the input has freed
+    malloc_trim(0); // returns the memory that making the input has freed
     const Run run{.threads = threads};
     const double before = size_of_process("VmRSS");
     forget_peak();
@@ -74,7 +74,7 @@ void measure(const std::string& name, unsigned threads) {
                 most / 1e6, result / 1e6, beside, most_allowed, beside <= most_allowed ? "" : " !");
 }
 
-/// In a process of its own.
+/// Measures in a process of its own.
 bool measured_apart(const std::string& name, unsigned threads) {
     std::fflush(stdout);
     const pid_t child = fork();

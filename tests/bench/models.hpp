@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The inputs of all benchmarks, made once each.
+// The inputs of all benchmarks, each made once.
 #pragma once
 
 #include <string>
@@ -19,9 +19,10 @@ struct Model {
     std::vector<terrane::Box> boxes;          ///< per triangle
 };
 
-/// "pair1_7k", "pair1_68k", "pair1_680k", "pair1_6800k", pair2 likewise, "nonuniform1",
-/// "nonuniform2", "rectangles_100", "rectangles_1000"; any other name is that of a file. Kept until
-/// another one is asked for. Throws std::runtime_error for a file that can't be read.
+/// Returns the model "pair1_7k", "pair1_68k", "pair1_680k", "pair1_6800k", likewise for pair2,
+/// "nonuniform1", "nonuniform2", "rectangles_100" or "rectangles_1000"; any other name is that of a
+/// file. The model is kept until another one is asked for. Throws std::runtime_error for a file
+/// that can't be read.
 const Model& model(const std::string& name);
 
 } // namespace bench

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Predicates on input points, beside CGAL's: random points, which filters decide, and points of a
-// plane, which exact numbers must.
+// Compares predicates on input points with CGAL's: random points, which filters decide, and
+// coplanar points, which need exact numbers.
 #include <benchmark/benchmark.h>
 
 #include <random>
@@ -20,7 +20,7 @@ using terrane::Point3;
 
 constexpr std::size_t count = 4096;
 
-/// coplanar: z = x + y exactly, on a lattice of 2^-20.
+/// Returns random points; coplanar: on z = x + y exactly, on a lattice of 2^-20.
 std::vector<Point3> points(bool coplanar) {
     std::mt19937_64 random(3);
     std::vector<Point3> all;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The table of required speeds: everything measured in one run, in turn, medians; ratios to the
-// yardsticks and to the floor beside the factors they must keep to.
+// Prints the table of required speeds: medians from one run, measured in turn, and ratios to the
+// yardsticks and to the floor next to the required factors.
 //   terrane_bench_table [--repeats N] [--large] [NAME|FILE...]
 #include <algorithm>
 #include <array>
@@ -46,7 +46,7 @@ struct Series {
     }
 };
 
-/// An input, and how many times the yardstick and the floor it may take; 0: not required.
+/// An input, with the largest ratios to the yardstick and to the floor; 0: not required.
 struct Row {
     const char* name;
     double of_yardstick, of_floor;
@@ -145,12 +145,12 @@ struct Options {
     }
 };
 
-/// More for small inputs, where one interruption outweighs the work.
+/// Returns more repeats for small inputs, in which one interruption outweighs the work.
 unsigned repeats_of(const Options& options, const Model& m) {
     return m.triangles.size() < 100'000 ? 5 * options.repeats : options.repeats;
 }
 
-/// Boxes and pairs between two surfaces, against the floor and CGAL's sweep.
+/// Compares the boxes and pairs between two surfaces with the floor and CGAL's sweep.
 void print_search(const char* name, const Options& options) {
     const Model& m = model(name);
     const unsigned repeats = repeats_of(options, m);
@@ -159,7 +159,7 @@ void print_search(const char* name, const Options& options) {
     std::size_t pairs = 0, same = 0;
     for (unsigned i = 0; i < repeats; ++i) {
         ours.time([&] {
-            const BoxSource boxes(m.points, m.triangles); // as arrange has it
+            const BoxSource boxes(m.points, m.triangles); // as arrange() makes them
             pairs = candidate_pairs(boxes, m.groups, Search::automatic).size();
         });
         floor.time([&] { same = floor_of_search(m); });
@@ -191,8 +191,8 @@ bool is_pair(const Row& row) {
     return std::string(row.name).rfind("rectangles", 0) != 0;
 }
 
-/// Names that are no row's are files of surfaces: coplanar or touching ones, slivers. Of two the
-/// yardstick is corefine, if it takes them.
+/// Measures names that no row has: files of surfaces, which may be coplanar, touch or have slivers.
+/// If there are two surfaces, the yardstick is corefine, provided that it accepts them.
 void print_files(const Options& options) {
     for (const std::string& name : options.names) {
         if (std::any_of(rows.begin(), rows.end(), [&](const Row& r) { return name == r.name; }))
@@ -236,7 +236,7 @@ int run(const Options& options) {
 } // namespace
 
 int main(int argc, char** argv) {
-    keep_freed_memory(); // for the yardsticks, too
+    keep_freed_memory(); // for the yardsticks as well
     try {
         return run(parse(argc, argv));
     } catch (const std::exception& e) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What Debian's CGAL 5.5.1 does with the same inputs. Inputs are converted before the clock starts.
+// The operations of CGAL 5.5.1 (Debian) on the same inputs, converted before the clock starts.
 #pragma once
 
 #include <cstddef>
@@ -10,12 +10,13 @@
 
 namespace bench {
 
-/// CGAL::box_intersection_d on given boxes, first surface against second. The number of pairs.
+/// CGAL::box_intersection_d on given boxes, first surface against second. Returns the number of
+/// pairs.
 class BoxIntersection {
 public:
     explicit BoxIntersection(const Model& m);
     ~BoxIntersection();
-    void prepare(); ///< it reorders what it is given
+    void prepare(); ///< copies the boxes, which a call reorders
     std::size_t operator()();
 
 private:
@@ -23,12 +24,12 @@ private:
     std::unique_ptr<State> state_;
 };
 
-/// PMP::corefine of two surfaces, EPICK; trusts each to be free of self-intersections.
+/// PMP::corefine of two surfaces, EPICK; it assumes that neither intersects itself.
 class Corefine {
 public:
     explicit Corefine(const Model& m);
     ~Corefine();
-    void prepare(); ///< fresh copies of the surfaces
+    void prepare(); ///< makes fresh copies of the surfaces
     std::size_t operator()();
 
 private:

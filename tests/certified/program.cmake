@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 # cmake -DPROGRAM=... -DCASE=... -DWORK=... -P program.cmake
-# The program writes a certificate and exact coordinates of a case, and judges: valid (0), an edited
-# input (1), a broken certificate (2), a missing file (2).
+# Runs the program: it writes a certificate and exact coordinates of a case, and judges a valid certificate
+# (0), an edited input (1), a broken certificate (2) and a missing file (2).
 function(expect status)
   execute_process(COMMAND ${PROGRAM} ${ARGN} RESULT_VARIABLE found OUTPUT_VARIABLE output
                   ERROR_VARIABLE errors WORKING_DIRECTORY ${WORK})
@@ -33,7 +33,7 @@ if(NOT exact MATCHES "^terrane-exact 1\n.*\nend\n$")
   message(FATAL_ERROR "out/e.txt is not as it should be")
 endif()
 
-# Beside the certificate under another name: the name does not matter, the bytes do.
+# The input beside the certificate has another name: only its bytes matter.
 file(COPY_FILE ${WORK}/input.obj ${WORK}/renamed.xyz)
 expect(0 verify out/c.json renamed.xyz)
 file(APPEND ${WORK}/input.obj "# edited\n")

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Cases whose results are known, each in a folder: input files, and expected.json.
-//   certified check FOLDER          all cases in FOLDER; 0 if all are as expected
+// Checks cases with known results, each in a folder: input files, and expected.json.
+//   certified check FOLDER          checks all cases in FOLDER; 0 if all are as expected
 //   certified record FOLDER/CASE    writes expected.json, if the verifier accepts the certificate
-// Whatever is expected: the certificate must be valid, and neither the order of the files nor the
-// search method may change the digest.
+// In every case the certificate must be valid, and neither the order of the files nor the search
+// method may change the digest.
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -29,7 +29,7 @@ using namespace terrane;
 
 namespace {
 
-/// Where a case can't be run at all: its message.
+/// The message about a case that can't be run at all.
 struct Failure {
     std::string message;
 };
@@ -58,7 +58,7 @@ Inputs read_inputs(const std::vector<fs::path>& paths) {
     return inputs;
 }
 
-/// The input files of a case, by name.
+/// Returns the input files of a case, by name.
 std::vector<fs::path> files_of(const fs::path& folder) {
     std::vector<fs::path> paths;
     for (const auto& entry : fs::directory_iterator(folder))
@@ -84,7 +84,8 @@ void require_same_digest(std::vector<fs::path> paths, const std::string& digest)
         throw Failure{"the digest depends on the order of surfaces or on the search"};
 }
 
-/// What comes out, in the form of expected.json; throws a Failure if it is not right.
+/// Returns the results in the form of expected.json; throws a Failure if the certificate is not
+/// valid.
 Json outcome(const fs::path& folder) {
     const auto paths = files_of(folder);
     const Inputs inputs = read_inputs(paths);
@@ -111,7 +112,7 @@ Json outcome(const fs::path& folder) {
               {"vanished", rounded.report.vanished.size()}}}};
 }
 
-/// What is wrong with a case; empty if nothing.
+/// Describes a difference from the expected results, or a failure; empty if there is none.
 std::string flaw(const fs::path& folder) {
     try {
         const auto expected = Json::parse(taken(read_file(folder / "expected.json")));

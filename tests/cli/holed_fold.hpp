@@ -6,7 +6,8 @@
 
 namespace test_support {
 
-/// A hole in it that only part of the surface's own limb lies over: no graph.
+/// Returns a fold as OBJ, with a hole over which only a part of the fold's own limb lies: not a
+/// graph.
 inline std::string holed_fold_as_obj() {
     std::string fold;
     const int n = 40;

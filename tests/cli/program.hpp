@@ -23,7 +23,7 @@ namespace program_test {
 namespace fs = std::filesystem;
 
 struct Outcome {
-    int status = -1;      ///< of the exit; 128 + signal where a signal ended it
+    int status = -1;      ///< exit status, or 128 + signal if a signal ended it
     std::string out, err; ///< standard output and error
 };
 
@@ -32,7 +32,7 @@ inline std::string contents_of(const fs::path& path) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// A new empty folder, removed at the end; what is in it, and runs in it.
+/// A new empty folder, removed at the end, for the files of a test and its runs of the program.
 class Folder {
 public:
     Folder() {
@@ -40,7 +40,7 @@ public:
         fs::create_directory(path_ / "io");
     }
 
-    /// Puts a file into in/; its name for the command line.
+    /// Writes a file into in/; returns its name for the command line.
     std::string input(const std::string& name, const std::string& text) const {
         std::ofstream(path_ / "in" / name, std::ios::binary) << text;
         return "in/" + name;
@@ -48,7 +48,7 @@ public:
     [[nodiscard]] std::string read(const std::string& name) const {
         return contents_of(path_ / name);
     }
-    /// Everything that the runs left behind: not in/, and not the streams.
+    /// Returns the names of all that runs left behind, without in/ and the recorded streams.
     [[nodiscard]] std::set<std::string> left() const {
         std::set<std::string> names;
         for (const auto& entry : fs::directory_iterator(path_))
@@ -57,7 +57,7 @@ public:
         names.erase("io");
         return names;
     }
-    /// A line for the shell, in which $T is the program and $D is tests/data.
+    /// Runs a line of the shell, in which $T is the program and $D is tests/data.
     [[nodiscard]] Outcome shell(const std::string& line) const {
         const auto command = "cd '" + path_.string() + "' && T='" + test_support::program() +
                              "' && D='" + test_support::test_data() + "' && { " + line +
@@ -82,7 +82,7 @@ inline bool contains(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
 }
 
-/// A horizon (two triangles) and a fault (one) that crosses it.
+/// A horizon of two triangles, and a fault of one that crosses it.
 inline constexpr auto crossing = R"(o horizon
 v 0 0 0
 v 4 0 0
@@ -97,8 +97,8 @@ v 1 2 3
 f 5 6 7
 )";
 
-/// Triangles so small beside their coordinates that the nearest doubles of their crossings are no
-/// conforming mesh.
+/// Returns triangles so small, compared with their coordinates, that rounding their crossings to
+/// the nearest doubles gives no conforming mesh.
 inline std::string tiny_triangles() {
     std::string text = "OFF\n30 10 0\n", faces;
     unsigned state = 7;

@@ -15,7 +15,7 @@ using Json = nlohmann::json;
 namespace {
 
 /// Three planes that almost meet in one line: the prism between them is far thinner than the
-/// doubles there, which make them meet in the line x = y = 4.
+/// spacing of doubles there, and rounding makes the planes meet in the line x = y = 4.
 constexpr auto planes = R"(o first
 v -1 -1 -1
 v 9 9 -1
@@ -40,7 +40,7 @@ constexpr std::size_t lost = 5; ///< the number of the prism: there are blocks a
 
 struct Block {
     std::string name;
-    double volume = 0; ///< as written
+    double volume = 0; ///< as the file states it
     bool operator==(const Block& b) const { return name == b.name && volume == b.volume; }
 };
 
@@ -48,7 +48,7 @@ std::ostream& operator<<(std::ostream& out, const Block& b) {
     return out << b.name << " " << b.volume;
 }
 
-/// The blocks in model.json, by number.
+/// Returns the blocks in model.json, by number.
 std::vector<Block> blocks_of(const std::string& model) {
     std::vector<Block> blocks;
     const auto json = Json::parse(model);
@@ -58,7 +58,7 @@ std::vector<Block> blocks_of(const std::string& model) {
 }
 
 #ifdef TERRANE_HAS_TETGEN
-/// The names of regions in an MSH file, by number, and their volumes from the statistics.
+/// Returns the names of regions in an MSH file, by number, with their volumes from the statistics.
 std::vector<Block> regions_of(const std::string& msh, const Json& statistics) {
     std::vector<Block> regions;
     const auto& volumes = statistics["tetrahedra"]["volume_of_region"];
@@ -135,7 +135,7 @@ TEST_CASE("cli: blocks keep their numbers where rounding loses one of them", "[c
         CHECK(by_both[b].name == expected.name);
         CHECK(by_both[b].volume == Approx(expected.volume));
     }
-    // A block that is lost can't have a size; the one after it can, by its number.
+    // A block that rounding lost can't have a size; the one after it can, by its number.
     json["tetrahedra"] = Json::parse(R"({"size_in": {"5": 1}})");
     const auto refused = folder.run("build " + folder.input("p.json", json.dump()) + " -o refused");
     CHECK(refused.status == 2);

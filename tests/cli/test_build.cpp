@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// `terrane build`, seen from outside.
+// Tests `terrane build` from outside.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -17,7 +17,7 @@ using Json = nlohmann::json;
 
 namespace {
 
-/// Three horizons over more than the box, and a fault that ends inside it.
+/// Three horizons that reach beyond the box, and a fault that ends inside it.
 constexpr auto layers = R"(o base
 v -1 -1 3
 v 9 -1 3
@@ -43,7 +43,7 @@ v 4 -1 9
 f 1 2 3 4
 )";
 
-/// A project of these in in/, with a box as volume of interest.
+/// Returns a project of the files in in/, with a box as volume of interest.
 Json project() {
     return Json::parse(R"({
         "format": "terrane-project 1",
@@ -63,7 +63,7 @@ struct Case {
     [[nodiscard]] Outcome build(const Json& json, const std::string& arguments = "-o out") const {
         return folder.run("build " + folder.input("p.json", json.dump(2)) + " " + arguments);
     }
-    /// What is in a folder, one name a line.
+    /// Lists a folder, one name a line.
     [[nodiscard]] std::string files(const std::string& in) const {
         const auto listed = folder.shell("LC_ALL=C ls " + in);
         REQUIRE(listed.status == 0);
@@ -94,7 +94,7 @@ TEST_CASE("cli: build makes blocks in a box, in one folder", "[cli]") {
     CHECK(statistics["input"]["surfaces"] == 3);
     CHECK(statistics["volumes"]["blocks"] == Json({192, 128, 192}));
     CHECK(statistics["seconds"].contains("total"));
-    // The log has what was said, in order.
+    // The log has the output, in order.
     const auto log = c.folder.read("out/log.txt");
     std::size_t at = 0;
     for (std::size_t line = 0, end = 0; line < r.out.size(); line = end + 1) {
@@ -193,7 +193,7 @@ TEST_CASE("cli: build: a certificate that verify takes", "[cli]") {
     INFO(r.err);
     REQUIRE(r.status == 0);
     CHECK(c.folder.run("verify out/certificate.json").status == 0);
-    c.folder.input("fault.obj", std::string(fault) + "v 0 0 0\n"); // no longer what was read
+    c.folder.input("fault.obj", std::string(fault) + "v 0 0 0\n"); // differs from what was read
     CHECK(c.folder.run("verify out/certificate.json").status == 1);
 }
 
@@ -253,7 +253,7 @@ TEST_CASE("cli: build: tetrahedra with sizes and cuts, by name", "[cli]") {
         return Json::parse(c.folder.read(to + "/statistics.json"))["tetrahedra"];
     };
     const auto plain = counts("plain");
-    CHECK(plain["tetrahedra_of_region"][0] == 0); // a volume of interest: only what is inside
+    CHECK(plain["tetrahedra_of_region"][0] == 0); // there is a volume of interest
     CHECK(plain["check"]["violations"].empty());
     CHECK(plain["twin_faces"] == 0);
     json["tetrahedra"] = Json::parse(R"({"size_in": {"2": 0.7}, "split": ["fault"]})");
@@ -266,7 +266,7 @@ TEST_CASE("cli: build: tetrahedra with sizes and cuts, by name", "[cli]") {
     CHECK(contains(msh, "$Periodic"));
     CHECK(contains(msh, "\"region 2: top/base|"));
     CHECK(contains(c.folder.read("fine/tetrahedra.inp"), "NSET=F1_PAIRS_BACK, UNSORTED"));
-    // By name instead of number, and with the outside.
+    // The same block is named by its name instead of its number, and the outside is filled.
     const auto name_at = msh.find("\"region 2: ") + 11;
     const auto name = msh.substr(name_at, msh.find('"', name_at) - name_at);
     json["tetrahedra"] = Json{{"size_in", Json{{name, 0.7}}}, {"split", Json::array({"F1"})}};
@@ -293,7 +293,7 @@ TEST_CASE("cli: tetrahedra are made whichever standard streams are closed", "[cl
     for (const std::string closed : {"<&-", ">&-", "2>&-", "<&- >&-", "<&- >&- 2>&-"}) {
         INFO(closed);
         const auto status = c.folder.shell("rm -f b.vtu; $T " + fill + "b.vtu " + closed).status;
-        // What can't be said on a closed standard output is an error; the file is whole all the same.
+        // A summary that can't be printed is an error; the file is complete anyway.
         CHECK((status == 0 || contains(closed, ">&-")));
         CHECK(c.folder.shell("cmp a.vtu b.vtu").status == 0);
     }
@@ -371,7 +371,7 @@ TEST_CASE("cli: without TetGen's helper, tetrahedra are refused before anything 
         c.folder.shell("TERRANE_TETGEN=/etc/passwd $T tetrahedralize in/nowhere.obj -o out.vtu");
     CHECK(fill.status == 2);
     CHECK(contains(fill.err, "terrane: /etc/passwd: is no program that can be run"));
-    // The program alone, as someone may copy it: it says where it looked.
+    // A copy of the program alone, as a user may make one, says where it looked for the helper.
     const auto alone = c.folder.shell("mkdir io/bin && cp $T io/bin/ && env -u TERRANE_TETGEN "
                                       "io/bin/terrane tetrahedralize in/nowhere.obj -o out.vtu");
     if (!contains(alone.err, "in/nowhere.obj")) { // unless Terrane is installed here

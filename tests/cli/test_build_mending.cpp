@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// `terrane build` with holes to fill and layers to put in order, seen from outside.
+// Tests `terrane build` with holes to fill and layers to order, from outside.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -21,7 +21,7 @@ double sheet_at(double x, double y) {
     return 40 + 0.25 * x - 0.125 * y;
 }
 
-/// A sheet over [0, 230] x [0, 230] as an Irap grid of depths, with two round holes.
+/// Returns a sheet over [0, 230] x [0, 230] as an Irap grid of depths, with two round holes.
 std::string holed_grid() {
     std::string text = "-996 24 10 10\n0 230 0 230\n24 0 0 0\n0 0 0 0 0 0 0\n";
     for (int j = 0; j < 24; ++j)
@@ -43,7 +43,8 @@ Json grid_project(const std::string& method) {
     return json;
 }
 
-/// Shale rises through flat salt: wrong side up in one half. A bore wall is in no layer.
+/// Shale rises through flat salt, so that the order is wrong in one half. A bore wall is in no
+/// layer.
 constexpr auto crossing = R"(o shale
 v 0 0 -4
 v 8 0 4
@@ -105,7 +106,7 @@ TEST_CASE("cli: build fills holes, so that what they let through becomes two blo
     CHECK(c.built(open, "open")["volumes"]["blocks"].size() == 1);
     for (const std::string method : {"kriging", "rbf"}) {
         const auto statistics = c.built(grid_project(method), method);
-        // Under a plane: the area by its height in the middle.
+        // Volume below the plane: the area times the height in the middle.
         const double below = 210.0 * 210 * sheet_at(115, 115), all = 210.0 * 210 * 120;
         const auto blocks = sorted_blocks(statistics);
         REQUIRE(blocks.size() == 2);
@@ -119,6 +120,8 @@ TEST_CASE("cli: build fills holes, so that what they let through becomes two blo
             points += hole["filled"]["points"].get<std::size_t>();
         }
         CHECK(statistics["seconds"].contains("fill"));
+        CHECK(statistics["constants"].contains(method));
+        CHECK_FALSE(statistics["constants"].contains(method == "rbf" ? "kriging" : "rbf"));
         const auto csv = c.folder.read(method + "/invented.csv");
         CHECK(std::size_t(std::count(csv.begin(), csv.end(), '\n')) == points + 1);
         CHECK(c.folder.read(method + "/filled.svg").starts_with("<svg"));
@@ -158,7 +161,7 @@ TEST_CASE("cli: build puts layers in order, with the volumes that follow", "[cli
     const Case c;
     auto json = layer_project("shale", "salt");
     const auto stacked = c.built(json, "upper");
-    // Salt stays flat; shale is the higher of the two: a wedge over half of it.
+    // Salt stays flat, and shale becomes the higher of the two: a wedge over half of it.
     const auto blocks = sorted_blocks(stacked);
     REQUIRE(blocks.size() == 3);
     CHECK(blocks == std::vector<double>{64, 256, 320});
@@ -170,7 +173,8 @@ TEST_CASE("cli: build puts layers in order, with the volumes that follow", "[cli
     CHECK(contains(c.folder.read("upper/surfaces.obj"), "g shale salt"));
     json.erase("layers");
     CHECK(c.built(json, "crossed")["volumes"]["blocks"].size() == 4);
-    // With a thickness the wedge goes on as a sheet: 0.5 over all of salt, where shale is lower.
+    // With a thickness, the wedge continues as a sheet of 0.5 over all of salt where shale is
+    // lower.
     json = layer_project("shale", "salt");
     json["layers"]["min_thickness"] = 0.5;
     const auto thick = sorted_blocks(c.built(json, "thick"));
@@ -183,7 +187,7 @@ TEST_CASE("cli: build puts layers in order, with the volumes that follow", "[cli
 TEST_CASE("cli: build fills first, then puts in order; the same for any number of threads",
           "[cli][layer]") {
     const Case c;
-    // A floor that the filled sheet dives under on one side.
+    // The filled sheet dips below a floor on one side.
     c.folder.input("floor.obj", "o floor\nv 0 0 60\nv 230 0 60\nv 230 230 60\nv 0 230 60\n"
                                 "f 1 2 3 4\n");
     auto json = grid_project("kriging");
@@ -199,7 +203,7 @@ TEST_CASE("cli: build fills first, then puts in order; the same for any number o
     double sum = 0;
     for (const double v : blocks) sum += v;
     CHECK(sum == Approx(210.0 * 210 * 120));
-    // Below the floor is all that was there: it is the hardest.
+    // The block below the floor keeps its volume, as the floor is the hardest.
     CHECK(std::any_of(blocks.begin(), blocks.end(),
                       [](double v) { return v == Approx(210.0 * 210 * 60); }));
 }
@@ -232,7 +236,7 @@ TEST_CASE("cli: build: what can't be mended is named, and nothing is written", "
     json = layer_project("shale", "salt");
     json["surfaces"].push_back({{"file", "stack.obj"}, {"objects", Json::array({"salt"})}});
     refused(json, "2 surfaces are called salt", 2);
-    // An overturned horizon has no place in a stack, and it is said which one and where.
+    // An overturned horizon can't be in a stack; the error names it and a place.
     c.folder.input("flat.obj", "o flat\nv -50 0 0\nv 300 0 0\nv 300 240 0\nv -50 240 0\n"
                                "f 1 2 3 4\n");
     json = layer_project("fold", "flat");

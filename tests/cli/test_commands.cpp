@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What each command does, seen from outside.
+// Tests each command from outside.
 #include <sstream>
 
 #include <catch2/catch.hpp>
@@ -43,7 +43,7 @@ TEST_CASE("cli: statistics have the promised keys", "[cli]") {
           "/rounding/max_move",   "/rounding/verified", "/seconds/read",
           "/seconds/search",      "/seconds/intersect", "/seconds/triangulate",
           "/seconds/round",       "/seconds/write",     "/seconds/total",
-          "/peak_rss_mb"}) {
+          "/peak_rss_mb",         "/constants/read",    "/constants/round/many"}) {
         INFO(key);
         CHECK(json.contains(Json::json_pointer(key)));
     }
@@ -52,6 +52,8 @@ TEST_CASE("cli: statistics have the promised keys", "[cli]") {
     CHECK(json["search"]["improper_contacts"] == 3382);
     CHECK(json["rounding"]["verified"] == true);
     CHECK(json["seconds"]["total"].get<double>() > 0);
+    CHECK(json["constants"]["round"]["coarse_digits_1"] == 16);
+    CHECK_FALSE(json["constants"].contains("improve")); // a stage that was not run
     CHECK(json["peak_rss_mb"].get<double>() > 1);
 }
 
@@ -190,7 +192,7 @@ TEST_CASE("cli: arrange puts a point into each block for TetGen", "[cli]") {
             CHECK((x > 0 && y > 0 && z > 0 && x + y + z < 4));
         }
     }
-    REQUIRE(folder.run("convert " + in + " b.smesh").status == 0); // blocks are not looked for
+    REQUIRE(folder.run("convert " + in + " b.smesh").status == 0); // does not look for blocks
     CHECK(contains(folder.read("b.smesh"), "# regions\n0\n"));
 }
 

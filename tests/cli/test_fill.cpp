@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// `terrane fill` and the readers of grids and points, seen from outside.
+// Tests `terrane fill` and the readers of grids and points from outside.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -23,7 +23,7 @@ double wave(double x, double y) {
     return 15 * std::sin(x / 60) * std::cos(y / 80) + 0.1 * x;
 }
 
-/// An Irap grid of 24 x 24 nodes, 10 apart, as depths, without those that are left out.
+/// Returns an Irap grid of 24 x 24 depths, 10 apart, without the nodes in `left_out`.
 std::string irap(const std::function<bool(int, int)>& left_out,
                  const std::function<double(double, double)>& z = wave) {
     std::string text = "-996 24 10 10\n0 230 0 230\n24 0 0 0\n0 0 0 0 0 0 0\n";
@@ -37,14 +37,14 @@ bool two_discs(int i, int j) {
     return std::hypot(i - 7, j - 8) < 2.5 || std::hypot(i - 16, j - 15) < 4.2;
 }
 
-/// A tear with one side lifted.
+/// Returns a surface with a tear, one side of which is lifted.
 std::string torn() {
     const auto left_out = [](int i, int j) { return i == 12 && j > 4 && j < 18; };
     return irap(left_out,
                 [](double x, double y) { return x > 120 && y > 45 && y < 175 ? 60.0 : 0.0; });
 }
 
-/// Largest difference between z and the truth among the vertices of an OBJ.
+/// Returns the largest difference between z and the true height among the vertices of an OBJ.
 double largest_error(const std::string& obj) {
     double largest = 0;
     std::istringstream in(obj);
@@ -174,7 +174,7 @@ TEST_CASE("cli: fill leaves what was not asked for: numbers, sizes, fault gaps",
     CHECK(contains(left.out, "filled 0 of 1 hole"));
     CHECK(contains(folder.run("fill --depth --bridge-faults " + tear + " -o e.obj").out,
                    "filled 1 of 1 hole"));
-    CHECK(folder.run("fill " + in).status == 2); // neither -o nor --list
+    CHECK(folder.run("fill " + in).status == 2); // neither -o nor --list is given
     CHECK(folder.left() == std::set<std::string>{"a.obj", "b.obj", "d.obj", "e.obj"});
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// `terrane layer`, seen from outside.
+// Tests `terrane layer` from outside.
 #include <algorithm>
 #include <string>
 
@@ -14,7 +14,7 @@ using Json = nlohmann::json;
 
 namespace {
 
-/// Rises from -4 to 4; a crease at x = 4.
+/// Shale rises from -4 to 4, with a crease at x = 4.
 constexpr auto tilted = R"(o shale
 v 0 0 -4
 v 8 0 4
@@ -51,7 +51,7 @@ TEST_CASE("cli: layer replaces the soft horizon beyond the hard one", "[cli][lay
         CHECK(run.out.find("shale: ") != std::string::npos);
         CHECK(run.out.find("wrote " + keep + ".obj") != std::string::npos);
         const auto mesh = folder.read(keep + ".obj");
-        CHECK(count(mesh, "\ng ") >= 3); // of both, of the one, of the other
+        CHECK(count(mesh, "\ng ") >= 3); // groups of both, of one, of the other
         CHECK(mesh.find(keep == "upper" ? "\nv 8 0 4" : "\nv 0 0 -4") != std::string::npos);
         CHECK(mesh.find(keep == "upper" ? "\nv 0 0 -4" : "\nv 8 0 4") == std::string::npos);
         CHECK(folder.run("check " + keep + ".obj").status == 0);
@@ -82,7 +82,7 @@ f 5 6 7 8
     const auto written = folder.read("out.ts");
     CHECK(written.find(" 0.5") != std::string::npos);
     CHECK(folder.run("check out.ts").status == 0);
-    // Read from the other side nothing needs to change: shale is above already, salt is not.
+    // Read back, the stack needs no change: shale already lies above salt.
     const auto again = folder.run("layer out.ts --layer shale=1 --layer salt=2.5 -o again.obj");
     CHECK(again.status == 0);
     CHECK(count(again.out, "nothing to replace") == 2);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What every command of the program keeps to: exit statuses, streams, nothing left behind.
+// Tests what all commands have in common: exit statuses, streams, and that failures leave no files.
 #include <catch2/catch.hpp>
 
 #include "program.hpp"
@@ -10,7 +10,7 @@ using namespace program_test;
 
 namespace {
 
-/// Fails as a user would want it to: the status, one line that says why, no file.
+/// Checks that a command fails properly: with the status, a message, no output and no new file.
 void refused(const Folder& folder, const std::string& arguments, int status,
              const std::string& message) {
     INFO(arguments);
@@ -114,7 +114,7 @@ TEST_CASE("cli: standard input and output", "[cli]") {
     const auto piped = folder.shell("$T arrange - -o - --format obj <" + in);
     CHECK(piped.status == 0);
     CHECK(piped.out == folder.read("out.obj"));
-    CHECK(contains(piped.err, "verified: ")); // the summary gives way to the file
+    CHECK(contains(piped.err, "verified: ")); // the summary goes to standard error
     const auto chain = folder.shell("$T convert " + in +
                                     " - --format ts | $T arrange - -o - --format ts "
                                     "--output-format off | $T check - --format off");
@@ -152,7 +152,7 @@ TEST_CASE("cli: without memory it ends with status 3 and no file", "[cli]") {
 TEST_CASE("cli: where TetGen gets no memory, the program says so", "[cli]") {
     const Folder folder;
     const auto in = folder.input("model.obj", crossing);
-    // The helper alone is limited: a script in its place sets the limit.
+    // A script in place of the helper limits the memory of the helper alone.
     folder.input("helper", "#!/bin/sh\nulimit -v 150000\nexec \"${T%/*}/../libexec/terrane/"
                            "terrane-tetgen\"\n");
     const auto r = folder.shell("chmod +x in/helper && export T && TERRANE_TETGEN=in/helper $T "

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// --seal and --extend, seen from outside.
+// Tests --seal and --extend from outside.
 #include <string>
 
 #include <catch2/catch.hpp>
@@ -13,7 +13,7 @@ using Json = nlohmann::json;
 
 namespace {
 
-/// In the box from 0 to 8, a horizon that ends 0.1 short of a fault at x = 4.
+/// A horizon that ends 0.1 short of a fault at x = 4, in the box from 0 to 8.
 constexpr auto model = R"(o horizon
 v -1 -1 3
 v 3.9 -1 3
@@ -55,7 +55,7 @@ TEST_CASE("cli: --seal closes gaps up to its distance and lists what it did", "[
         CHECK(change["distance"].get<double>() == Approx(0.1));
         CHECK(change["triangles"].get<int>() > 0);
     }
-    // the same in the other commands
+    // The other commands give the same result.
     CHECK(folder.run("arrange " + in + " -o a.obj --seal 0.11" + box).status == 0);
     CHECK(contains(folder.run("volume a.obj -o again").out, "3 closed blocks, volume 512"));
 }

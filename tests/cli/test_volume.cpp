@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// `terrane volume`, seen from outside.
+// Tests `terrane volume` from outside.
 #include <algorithm>
 #include <map>
 #include <vector>
@@ -92,7 +92,8 @@ TEST_CASE("cli: volume finds the blocks and writes them", "[cli]") {
     CHECK(statistics["output"]["volumes"] == 3);
     CHECK(statistics["volumes"]["blocks"] == Json({192, 128, 192}));
 
-    // Every file that is named is there, and no other; each block is a sound closed surface.
+    // The folder has exactly the files that are named; each block is a closed surface without
+    // flaws.
     std::vector<std::string> named{"model.json", "result.vtp"};
     for (const std::string part : {"blocks", "interfaces"})
         for (const auto& item : json[part])
@@ -120,7 +121,7 @@ TEST_CASE("cli: volume gives the same bytes for any number of threads", "[cli]")
     REQUIRE(folder.run("volume " + in + " -o two --threads 2 --search grid").status == 0);
     CHECK(folder.shell("diff -r one two").status == 0);
     const auto json = Json::parse(folder.read("one/model.json"));
-    CHECK(json["blocks"].size() == 13); // as the file states, with the outside
+    CHECK(json["blocks"].size() == 13); // blocks that the file states, with the outside
 }
 
 TEST_CASE("cli: volume: open surfaces are no error, and enclose nothing", "[cli]") {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The volume of interest, seen from outside.
+// Tests the volume of interest from outside.
 #include <cstddef>
 #include <sstream>
 #include <string>
@@ -113,7 +113,7 @@ TEST_CASE("cli: arrange in a volume of interest, conforming and without certific
     const auto r = folder.run("arrange " + in + " -o a.obj --box 0,0,0,8,8,8");
     CHECK(r.status == 0);
     CHECK(folder.run("check a.obj").status == 0);
-    // what is cut once more by the same box stays as it is
+    // A second cut by the same box changes nothing.
     CHECK(folder.run("arrange a.obj -o b.obj --box 0,0,0,8,8,8").status == 0);
     CHECK(contains(folder.run("volume b.obj -o out").out, "5 closed blocks, volume 512 in all\n"));
     const auto refused =

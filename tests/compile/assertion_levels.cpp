@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Shows which assertions are on at the level that it was compiled with, its one argument: those of
-// the level and of the levels below it fire, those above are not even evaluated.
+// Shows which assertions are on at the level with which it was compiled, its one argument:
+// assertions of this level and of those below fire; those above are not even evaluated.
 #include <terrane/kernel/assertion.hpp>
 
 #include <iostream>
@@ -37,7 +37,7 @@ int main(int argc, char** argv) {
     const bool always = fires([] { TERRANE_ASSERT(broken()); });
     const bool debug = fires([] { TERRANE_ASSERT_DEBUG(broken()); });
     const bool paranoid = fires([] { TERRANE_ASSERT_PARANOID(broken()); });
-    TERRANE_ASSERT(evaluated > 0); // what holds does not fire
+    TERRANE_ASSERT(evaluated > 0); // a true condition does not fire
     const bool good = expected > 0 && always && debug == (expected >= 2) &&
                       paranoid == (expected >= 3) && evaluated == expected;
     std::cout << level << ": always " << always << ", debug " << debug << ", paranoid " << paranoid

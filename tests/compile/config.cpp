@@ -1,3 +1,3 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Compiles as it is; must not with -ffast-math.
+// This file compiles, but must not compile with -ffast-math.
 #include <terrane/kernel/config.hpp>

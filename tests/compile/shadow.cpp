@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // Shows that the twins of a shadow build (kernel/shadow.hpp) accept sound bounds and refuse others.
-// Compiled with TERRANE_SHADOW, whatever this build has.
+// It is always compiled with TERRANE_SHADOW.
 #include <terrane/kernel/double_double.hpp>
 #include <terrane/kernel/numbers.hpp>
 #include <terrane/kernel/static_filter_bounds.hpp>
@@ -43,7 +43,7 @@ void intervals() {
             "a bound above is seen");
     require(is_refused([&] { Interval(third.inf(), third.inf(), exact); }),
             "a bound below is seen");
-    // In the wrong rounding mode an interval loses its number.
+    // In the wrong rounding mode an interval does not contain its number.
     require(is_refused([] {
                 Interval sum(0.0);
                 for (int i = 0; i < 100; ++i) sum = sum + Interval(0.1) * Interval(0.7);
@@ -51,7 +51,7 @@ void intervals() {
             "intervals without upward rounding are seen");
 }
 
-/// Each operation checks its own bound.
+/// Runs operations, each of which checks its own bound.
 void running_bounds() {
     DoubleDouble sum(0.0);
     for (int i = 1; i < 50; ++i) sum = sum + DoubleDouble(0.1) / DoubleDouble(3.0 * i);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// A program of someone else's: two squares that cross and a closed tetrahedron, arranged, rounded,
-// checked, verified and measured, by the installed headers alone.
+// A user's program: it arranges, rounds, checks, verifies and measures two squares that cross and a
+// closed tetrahedron, with the installed headers alone.
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -40,18 +40,18 @@ std::vector<terrane::Surface> surfaces() {
              .triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}}};
 }
 
-/// The exact coordinates of some vertex are all of `coordinates`.
+/// Tells whether some vertex has exactly these coordinates.
 bool has_vertex(const terrane::Arrangement& a, const std::array<std::string, 3>& coordinates) {
     for (std::uint32_t v = 0; v < a.vertices.size(); ++v)
-        if (a.coordinates(v) == coordinates) return true;
+        if (a.coordinates(terrane::VertexId(v)) == coordinates) return true;
     return false;
 }
 
-/// What the library says of its exact result, as the verifier wants it.
+/// Converts the exact result of the library to the claim that the verifier judges.
 terrane::ArrangementClaim claim_of(const terrane::Arrangement& a) {
     terrane::ArrangementClaim claim;
     for (std::uint32_t v = 0; v < a.vertices.size(); ++v)
-        claim.vertices.push_back(a.construction(v));
+        claim.vertices.push_back(a.construction(terrane::VertexId(v)));
     claim.triangles = a.triangles;
     claim.parents_of = a.parents_of;
     claim.intersection_edges = a.intersection_edges;
@@ -64,11 +64,13 @@ void check_exact(const std::vector<terrane::Surface>& input, const terrane::Arra
     require(a.surfaces.size() == input.size(), "surfaces are those of the input");
     require(!a.intersection_edges.empty(), "the fault cuts the horizon");
     require(has_vertex(a, {"1", "4/5", "0"}), "the fault's side meets the horizon at (1, 4/5, 0)");
-    require(a.nearest(0) == a.input_vertices()[0], "an input vertex is its own nearest double");
+    require(a.nearest(terrane::VertexId(0)) == a.input_vertices()[0],
+            "an input vertex is its own nearest double");
     require(terrane::verify_arrangement(input, claim_of(a)).empty(),
             "the verifier has no objection");
     const terrane::Arrangement copy = a;
-    require(copy.coordinates(0) == a.coordinates(0), "a copy has the same points");
+    require(copy.coordinates(terrane::VertexId(0)) == a.coordinates(terrane::VertexId(0)),
+            "a copy has the same points");
     const auto volumes = terrane::find_volumes(a);
     require(volumes && volumes->block_count() == 1, "there is one block");
     require(volumes && terrane::exact_volumes(a, *volumes)[1] == "9/2", "its volume is 9/2");

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 # cmake -DBUILD=... -DSOURCE=... -DWORK=... -DTETGEN=... -DCOMPILER=... -DSANITIZE=... -P run.cmake
-# Installs the build tree into WORK/prefix; configures, builds and runs the consumer against it, with
-# the library's compiler and with the other one of gcc and clang, where there is one.
+# Installs the build tree into WORK/prefix; then configures, builds and runs the consumer against it, with the
+# library's compiler and, if installed, with the other one of gcc and clang.
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE failed)
   if(failed)
@@ -10,9 +10,9 @@ function(run)
   endif()
 endfunction()
 
-# The files that the consumer was compiled from: those of Terrane are installed ones, and none is
-# one of a library that Terrane uses inside. (libstdc++ asks whether tbb/tbb.h is there, which clang
-# lists; who includes it gets oneapi/tbb as well.)
+# Checks the files from which the consumer was compiled: Terrane's are installed ones, and none belongs to a
+# library that Terrane uses inside. (libstdc++ asks whether tbb/tbb.h exists, which clang lists; a file that
+# includes it would list oneapi/tbb as well.)
 function(judge_dependencies build)
   execute_process(COMMAND ninja -C ${build} -t deps OUTPUT_VARIABLE files RESULT_VARIABLE failed)
   if(failed OR NOT files MATCHES "prefix/include/terrane/terrane.hpp")
@@ -28,7 +28,7 @@ endfunction()
 file(REMOVE_RECURSE ${WORK})
 set(flags)
 set(compilers ${COMPILER})
-if(SANITIZE) # the runtimes of two compilers do not mix
+if(SANITIZE) # the runtimes of two compilers can't be mixed
   set(flags "-DCMAKE_CXX_FLAGS=-fsanitize=address,undefined")
 elseif(COMPILER MATCHES "clang")
   find_program(other NAMES g++)
@@ -52,7 +52,7 @@ foreach(compiler IN LISTS compilers)
   judge_dependencies(${build})
   run(${build}/consumer)
 endforeach()
-# The installed programs find each other wherever they are: what was installed is moved.
+# The installed programs find each other after the installation is moved.
 file(RENAME ${WORK}/prefix ${WORK}/moved)
 file(GLOB program ${WORK}/moved/bin/terrane)
 if(program AND TETGEN)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Readers are total: any bytes give surfaces that keep their promises, or an error with a sentence.
+// Readers accept any bytes: they return surfaces that keep their guarantees, or an error with a
+// sentence.
 #include <catch2/catch.hpp>
 
 #include <algorithm>
@@ -53,7 +54,8 @@ void check_total(std::string_view bytes) {
     (void)read_gocad_model(bytes, "a", "a");
 }
 
-/// One to four random edits: a byte, a cut, a piece moved, a token that provokes.
+/// Makes one to four random edits: changes a byte, cuts, moves a piece, or inserts a provoking
+/// token.
 std::string mutated(std::string text, std::mt19937& random) {
     static const char* const tokens[] = {" 4294967296 ", "-1 ",  "\n",   "{",     "}",
                                          "1e999 ",       "nan ", "\\\n", "END\n", "GOCAD TSurf 1\n",
@@ -93,7 +95,7 @@ TEST_CASE("readers are total", "[io][files]") {
         for (const auto& seed :
              std::filesystem::directory_iterator(source_dir() + "/fuzz/corpus/read_" + format))
             seeds.push_back(read_file(seed.path()).value());
-    std::sort(seeds.begin(), seeds.end()); // folders are listed in any order
+    std::sort(seeds.begin(), seeds.end()); // folders are listed in no particular order
     std::mt19937 random(20240501);
     check_total("");
     for (const auto& seed : seeds) {

@@ -19,13 +19,13 @@ TEST_CASE("certificate: of an arrangement whose rounding was refused, with what 
     const auto exact = arrange(surfaces);
     REQUIRE(exact);
     RoundedMesh rounded = round_to_doubles(exact.value()).value();
-    rounded.report.clean = false; // said of a mesh that is conforming: refuted
+    rounded.report.clean = false; // the mesh is conforming, so that this is refuted
     const std::vector<InputRecord> records{
         {file.name, hexadecimal(sha256(file.contents)), file.contents.size(), surfaces.size()}};
     const Certified certified{records, surfaces, exact.value(), &rounded};
     CHECK(verdict(input_files({file}), to_certificate(certified)) == "R11");
     Mesh changed = rounded.mesh;
-    std::swap(changed.triangles[0], changed.triangles[1]); // parents are wrong as well
+    std::swap(changed.triangles[0], changed.triangles[1]); // parents no longer fit either
     rounded.mesh = changed;
     CHECK(verdict(input_files({file}), to_certificate(certified)) != "");
 }
@@ -79,7 +79,7 @@ TEST_CASE("certificate: files are called relative to it") {
     CHECK(certified_name("data/a.obj", "out/c.json") == "../data/a.obj");
     CHECK(certified_name("a.obj", "c.json") == "a.obj");
     CHECK(certified_name("/data/a.obj", "/data/out/c.json") == "../a.obj");
-    // The folder exists, the file does not.
+    // The folder exists, but the file does not.
     const auto here = std::filesystem::current_path().filename();
     CHECK(certified_name("data/a.obj", "../c.json") == (here / "data/a.obj").generic_string());
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The verifier refutes each way to break a certificate that the producer wrote, by the rule that is
-// broken; each text that is no certificate is refused with its place.
+// The verifier refutes each way of breaking a valid certificate, by the rule that is broken, and
+// refuses each text that is not a certificate, with the place of the error.
 #include "support/certificate_cases.hpp"
 
 #include <nlohmann/json.hpp>
@@ -21,7 +21,7 @@ struct Mutation {
     std::string rule;
 };
 
-/// The verdict must be of the rule that is named; others may be broken with it.
+/// Checks that the violations include the named rule; other rules may be broken as well.
 void check_mutations(const std::vector<File>& files, const std::vector<Mutation>& mutations) {
     const auto inputs = input_files(files);
     const Json right = Json::parse(certificate_of(files));
@@ -44,7 +44,7 @@ double number(const Json& text) {
     return value;
 }
 
-/// The next double away from 0.
+/// Moves a number to the next double away from 0.
 void step(Json& text) {
     const double value = number(text);
     char buffer[64];

@@ -56,7 +56,7 @@ TEST_CASE("exact text: the fractions are the points: the new ones lie in both pl
     for (std::size_t v = 6; v < 8; ++v) {
         const mpq_class x(exact.vertices[v][0]), y(exact.vertices[v][1]), z(exact.vertices[v][2]);
         CHECK(z == 0);
-        // (2,1,-3) + the sides (1,6,2) and (0.5,2,8): normal (44,-7,-1)
+        // The plane through (2,1,-3) along (1,6,2) and (0.5,2,8) has the normal (44,-7,-1).
         CHECK(44 * (x - 2) - 7 * (y - 1) - (z + 3) == 0);
     }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Project files: the parser, and the schema that states the same.
+// Project files: the parser, and the schema, which must agree with it.
 #include <terrane/io/project.hpp>
 
 #include <fstream>
@@ -28,7 +28,7 @@ json schema() {
     return json::parse(file);
 }
 
-/// Every key there is, but for the other kinds of volumes.
+/// Returns a document with every key except those of the other kinds of volumes.
 json full() {
     return json::parse(R"({
         "format": "terrane-project 1", "folder": "run", "threads": 2,
@@ -50,7 +50,7 @@ json full() {
                     "blocks": "vtp", "certificate": false}})");
 }
 
-/// Full ones, together with every key of the schema.
+/// Returns full documents that together have every key of the schema.
 std::vector<json> samples() {
     const std::vector<std::string> volumes{
         R"({"rotated_box": {"centre": [1, 2, 3], "lengths": [4, 5, 6], "azimuth": 30,
@@ -146,7 +146,7 @@ bool holds(const json& schema, const json& value) {
     return true;
 }
 
-/// All keys, as project_keys() has them.
+/// Collects all keys, written like those of project_keys().
 void collect_keys(const json& schema, const std::string& path, std::set<std::string>& keys) {
     if (schema.contains("properties"))
         for (const auto& [key, inner] : schema["properties"].items()) {
@@ -157,8 +157,8 @@ void collect_keys(const json& schema, const std::string& path, std::set<std::str
     if (schema.contains("items")) collect_keys(schema["items"], path + "[]", keys);
 }
 
-/// Calls f(document) for `document` with each single value replaced, each key removed, and a key
-/// added to each object; `at` says where.
+/// Calls f(document, at) for `document` with each single value replaced, each key removed, and a
+/// key added to each object; `at` names the change.
 void mutate(const json& document, const std::function<void(const json&, const std::string&)>& f) {
     const std::vector<json> values{nullptr,
                                    true,
@@ -216,7 +216,7 @@ TEST_CASE("project: all keys are read", "[io][project]") {
     CHECK(p.folder == "/data/run");
     CHECK(p.threads == 2);
     REQUIRE(p.surfaces.size() == 2);
-    CHECK(p.surfaces[0].file == "/data/a.ts"); // relative to the project
+    CHECK(p.surfaces[0].file == "/data/a.ts"); // relative to the project's folder
     CHECK(p.surfaces[0].objects == std::vector<std::string>{"top", "base"});
     CHECK(p.surfaces[0].name.empty());
     CHECK(p.surfaces[0].role == Role::horizon);
@@ -302,7 +302,7 @@ TEST_CASE("project: schema and parser know the same keys", "[io][project]") {
     collect_keys(schema(), "", stated);
     const auto known = project_keys();
     CHECK(std::vector<std::string>(stated.begin(), stated.end()) == known);
-    // Each of them is in a sample, so that the mutations below reach it.
+    // Each key occurs in a sample, so that the mutations below reach it.
     std::set<std::string> used;
     const std::function<void(const json&, const std::string&)> walk = [&](const json& value,
                                                                           const std::string& path) {
@@ -328,7 +328,8 @@ TEST_CASE("project: schema and parser give the same verdict on every change", "[
             const auto said = message(changed);
             const bool accepted = said == "no error";
             (accepted ? good : bad)++;
-            // Beyond the schema: a certificate is about whole surfaces as they are.
+            // This rule goes beyond the schema: a certificate is about whole surfaces as they were
+            // read.
             if (said.starts_with("p.json: outputs.certificate: must be false with fill")) return;
             INFO(where << ": " << said);
             if (accepted != holds(stated, changed)) CHECK(accepted == holds(stated, changed));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Writes files for read_back.py, which opens them with VTK and gmsh. Hidden: runs by its tag only.
+// Writes files for read_back.py, which opens them with VTK and gmsh. The cases are hidden: they run
+// only by their tag.
 #include <catch2/catch.hpp>
 
 #include <cmath>
@@ -19,7 +20,7 @@ using nlohmann::json;
 
 namespace {
 
-/// Large enough for several compressed blocks.
+/// Makes a mesh large enough for several compressed blocks.
 Mesh waves(std::uint32_t n) {
     Mesh mesh;
     mesh.surfaces = {{"waves", Role::horizon}};

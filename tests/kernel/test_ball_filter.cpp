@@ -21,7 +21,7 @@ ApproximatePoint flat(const Point3& p, double radius = 0) {
     return {p.x, p.y, radius};
 }
 
-/// Some point within the radius of p, up to it.
+/// Returns a random point within the radius of p.
 Point3 within(Random& random, const Point3& p, double radius) {
     const auto off = [&](double d) {
         const double moved = d + random_int(random, -4, 4) * radius / 4;
@@ -32,7 +32,7 @@ Point3 within(Random& random, const Point3& p, double radius) {
 
 using Corners = std::array<Point3, 3>;
 
-/// Exactly; nothing is said where one has no area.
+/// Tells exactly whether two triangles are apart; true if one of them has no area.
 bool are_apart(const Corners& t, const Corners& u) {
     if (collinear(t[0], t[1], t[2]) || collinear(u[0], u[1], u[2])) return true;
     const std::array points{t[0], t[1], t[2], u[0], u[1], u[2]};
@@ -46,7 +46,7 @@ double largest_of(const Corners& t) {
     return most;
 }
 
-/// Each coordinate a little off, by twice what rounding may do.
+/// Moves each coordinate by up to twice the rounding error of the largest one.
 Corners shaken(Random& random, const Corners& t) {
     const double by = largest_of(t) * 0x1p-52;
     const auto off = [&](double d) { return d + random_int(random, -1, 1) * by; };

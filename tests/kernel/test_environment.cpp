@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The floating-point arithmetic that the filters rely on, as this program gets it: flags of the
-// compiler and start-up code of linked libraries (-ffast-math in one of them turns denormals off
-// for all) show here.
+// Checks the floating-point arithmetic that the filters rely on in this very program. It shows
+// wrong compiler flags and start-up code of linked libraries (-ffast-math in one of them turns
+// denormals off for all).
 #include <terrane/kernel/numbers.hpp>
 
 #include <catch2/catch.hpp>
@@ -12,7 +12,7 @@
 
 namespace {
 
-// Kept from the optimiser.
+// Hides a value from the optimiser.
 double opaque(double d) {
     volatile double v = d;
     return v;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// nearest_quotient against integers: no double lies nearer, ties go to even.
+// Compares nearest_quotient with integers: no double is nearer, and ties go to even.
 #include "support/effort.hpp"
 #include "support/oracle.hpp"
 #include "support/points.hpp"
@@ -17,7 +17,7 @@ using namespace terrane;
 using namespace test_support;
 using limits = std::numeric_limits<double>;
 
-/// Whether a b / (c d) is rounded right; none of c and d is 0.
+/// Tells whether a b / (c d) is rounded correctly; c and d are not 0.
 bool rounds_right(double a, double b, double c, double d) {
     const double result = nearest_quotient(Exact(a) * Exact(b), Exact(c) * Exact(d));
     const auto part = [](double x) { return oracle::Binary(x); };
@@ -38,7 +38,7 @@ double nonzero(Random& random) {
         if (const double d = any_double(random); d != 0) return d;
 }
 
-/// A double with few bits or many, of exponent near `exponent`.
+/// Returns a double with few or many bits, of an exponent near `exponent`.
 double near_exponent(Random& random, int exponent) {
     const double mantissa =
         random_int(random, 0, 1) ? random_int(random, 1, 63) : random_real(random, 1, 2);
@@ -64,12 +64,12 @@ TEST_CASE("nearest_quotient: exact ties go to even") {
         const double down = quotient(std::nextafter(odd, 0), 1);
         CHECK(down < odd);
     }
-    // halves between 2^53 + 2 k and 2^53 + 2 k + 2: numerator 2^53 + 2 k + 1 is no double
+    // Ties between 2^53 + 2 k and 2^53 + 2 k + 2: the numerator 2^53 + 2 k + 1 is not a double.
     const Exact big(0x1p53), one(1);
     CHECK(nearest_quotient(big + one, one) == 0x1p53);
     CHECK(nearest_quotient(big + Exact(3), one) == 0x1p53 + 4);
     CHECK(nearest_quotient((big + one) * Exact(7), Exact(-7)) == -0x1p53);
-    // just off the tie, by far less than a double would notice
+    // Just off the tie, by far less than doubles can resolve.
     CHECK(nearest_quotient(big + one + Exact(0x1p-900), one) == 0x1p53 + 2);
     CHECK(nearest_quotient(big + Exact(3) - Exact(0x1p-900), one) == 0x1p53 + 2);
 }
@@ -113,7 +113,7 @@ TEST_CASE("nearest_quotient agrees with exact integers near denormals, overflow 
             REQUIRE(rounds_right(near_exponent(random, exponent / 2),
                                  near_exponent(random, exponent - exponent / 2), d,
                                  random_int(random, 0, 1) ? 1.0 : near_exponent(random, 0)));
-            // a tie, if the product of an odd 54-bit number and d were kept: (2 m + 1) d / (2 d)
+            // A tie, if the product of an odd 54-bit number and d were exact: (2 m + 1) d / (2 d).
             const double m = std::ldexp(random_real(random, 1, 2), 53);
             const Exact odd = (Exact(m) + Exact(m)) + Exact(1);
             const double tie = nearest_quotient(odd * Exact(d), Exact(d) * Exact(2));

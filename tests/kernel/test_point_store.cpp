@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The laws of point_store.hpp by number, then all predicates and coordinates against exact
-// integers.
+// Tests the laws of point_store.hpp by number, then compares all predicates and coordinates with
+// exact integers.
 #include "support/point_store_cases.hpp"
 
 #include <terrane/kernel/predicates.hpp>
@@ -17,25 +17,25 @@ int order(const PointStore& store, PointIndex p, PointIndex q) {
     return c < 0 ? -1 : c > 0 ? 1 : 0;
 }
 
-bool on_planes(const PointStore& store, PointIndex p, int first, int count) {
+bool on_planes(UpwardWitness upward, const PointStore& store, PointIndex p, int first, int count) {
     const auto v = store.construction(p).v;
     for (int i = 0; i < count; ++i) {
         const auto k = static_cast<std::size_t>(first + 3 * i);
-        if (store.side_of_plane(v[k], v[k + 1], v[k + 2], p) != Sign::Zero) return false;
+        if (store.side_of_plane(upward, v[k], v[k + 1], v[k + 2], p) != Sign::Zero) return false;
     }
     return true;
 }
 
-bool lies_on_its_lines_and_planes(const PointStore& store, PointIndex p) {
+bool lies_on_its_lines_and_planes(UpwardWitness upward, const PointStore& store, PointIndex p) {
     const Construction how = store.construction(p);
-    if (how.kind == Kind::three_planes) return on_planes(store, p, 0, 3);
+    if (how.kind == Kind::three_planes) return on_planes(upward, store, p, 0, 3);
     for (const Axis axis : axes)
-        if (store.orient2d(axis, how.v[0], how.v[1], p) != Sign::Zero) return false;
-    if (how.kind == Kind::line_plane) return on_planes(store, p, 2, 1);
-    return store.orient2d(how.axis, how.v[2], how.v[3], p) == Sign::Zero;
+        if (store.orient2d(upward, axis, how.v[0], how.v[1], p) != Sign::Zero) return false;
+    if (how.kind == Kind::line_plane) return on_planes(upward, store, p, 2, 1);
+    return store.orient2d(upward, how.axis, how.v[2], how.v[3], p) == Sign::Zero;
 }
 
-/// A construction that gives input point `v`: a line through it meets a plane through it.
+/// Constructs a point equal to input point `v`, by a line and a plane through it.
 Construction copy_of(Random& random, std::uint32_t v, std::size_t inputs) {
     for (;;) {
         const auto w = pick(random, 4, inputs);
@@ -49,7 +49,7 @@ Construction copy_of(Random& random, std::uint32_t v, std::size_t inputs) {
     }
 }
 
-/// < 0, 0, > 0: d compared with numerator / denominator * 2^exponent; denominator > 0.
+/// Compares d with numerator / denominator * 2^exponent: < 0, 0 or > 0; denominator > 0.
 int compare(double d, const oracle::Int& numerator, const oracle::Int& denominator, int exponent) {
     if (std::isinf(d)) return d > 0 ? 1 : -1;
     const int unit = std::min(exponent, oracle::Binary(d).exponent);
@@ -68,15 +68,15 @@ bool enclosed(const Twins& t, PointIndex p) {
     return true;
 }
 
-/// Whether the errors are no less than half a step between doubles, and 0 only where the enclosure
-/// has no width.
+/// Tells whether the errors are at least half a step between doubles, and 0 only where the
+/// enclosure has no width.
 bool errors_are_bounds(const Twins& t, PointIndex p) {
     const Enclosure e = t.store.enclosure(p);
     const Point3& n = t.store.nearest(p);
     const std::array nearest{n.x, n.y, n.z};
     const auto errors = t.store.rounding_errors(p);
     for (unsigned k = 0; k < 3; ++k) {
-        double step = 0; // the larger of the two; none to infinity
+        double step = 0; // the larger of the two steps; none to infinity
         for (const double end : {e.low[k], e.high[k]})
             if (std::isfinite(end)) step = std::max(step, std::fabs(end - nearest[k]));
         if (std::isinf(nearest[k])) step = 0;
@@ -107,7 +107,7 @@ void for_twins(std::uint64_t seed, int count, const Visit& visit) {
         for (int i = 0; i < cases(count); ++i) {
             const Twins t = random_twins(random, family, 9, 8);
             const UpwardRounding guard;
-            visit(random, t);
+            visit(guard, random, t);
         }
 }
 
@@ -119,7 +119,7 @@ TEST_CASE("point store law 1: predicates agree with their namesakes on input poi
     for (const Family family : all_families)
         for (int i = 0; i < cases(60); ++i) {
             Twins t = twins_of(points_of(random, family, 8));
-            std::vector<std::array<PointIndex, 2>> same; // input point, a constructed copy
+            std::vector<std::array<PointIndex, 2>> same; // input point and its constructed copy
             for (std::uint32_t v = 0; v < 8; ++v)
                 if (append(t, copy_of(random, v, 8)))
                     same.push_back({v, static_cast<PointIndex>(t.store.size() - 1)});
@@ -129,17 +129,19 @@ TEST_CASE("point store law 1: predicates agree with their namesakes on input poi
             const auto& s = t.store;
             const auto in = [&](unsigned k) -> const Point3& { return s.input(same[k][0]); };
             const auto c = [&](unsigned k) { return same[k][1]; };
-            bool ok = s.orient3d(c(0), c(1), c(2), c(3)) == orient3d(in(0), in(1), in(2), in(3)) &&
-                      s.orient3d(c(0), same[1][0], c(2), same[3][0]) ==
-                          orient3d(in(0), in(1), in(2), in(3)) &&
-                      s.side_of_plane(same[0][0], same[1][0], same[2][0], c(3)) ==
-                          orient3d(in(0), in(1), in(2), in(3));
+            bool ok =
+                s.orient3d(guard, c(0), c(1), c(2), c(3)) == orient3d(in(0), in(1), in(2), in(3)) &&
+                s.orient3d(guard, c(0), same[1][0], c(2), same[3][0]) ==
+                    orient3d(in(0), in(1), in(2), in(3)) &&
+                s.side_of_plane(guard, same[0][0], same[1][0], same[2][0], c(3)) ==
+                    orient3d(in(0), in(1), in(2), in(3));
             for (const Axis axis : axes)
                 ok = ok &&
-                     s.orient2d(axis, c(0), c(1), c(2)) == orient2d(axis, in(0), in(1), in(2)) &&
-                     s.in_circle(axis, c(0), c(1), c(2), c(3)) ==
+                     s.orient2d(guard, axis, c(0), c(1), c(2)) ==
+                         orient2d(axis, in(0), in(1), in(2)) &&
+                     s.in_circle(guard, axis, c(0), c(1), c(2), c(3)) ==
                          in_circle(axis, in(0), in(1), in(2), in(3)) &&
-                     s.in_circle(axis, same[0][0], same[1][0], same[2][0], same[3][0]) ==
+                     s.in_circle(guard, axis, same[0][0], same[1][0], same[2][0], same[3][0]) ==
                          in_circle(axis, in(0), in(1), in(2), in(3));
             for (const auto& [v, copy] : same) ok = ok && s.equal(v, copy);
             REQUIRE(ok);
@@ -148,34 +150,38 @@ TEST_CASE("point store law 1: predicates agree with their namesakes on input poi
 }
 
 TEST_CASE("point store law 1: permutations of constructed points") {
-    for_twins(42, 100, [](Random& random, const Twins& t) {
+    for_twins(42, 100, [](UpwardWitness upward, Random& random, const Twins& t) {
         const auto& s = t.store;
         const PointIndex a = any_point(random, t), b = any_point(random, t),
                          c = any_point(random, t), d = any_point(random, t);
-        const Sign volume = s.orient3d(a, b, c, d);
-        bool ok = s.orient3d(b, a, c, d) == -volume && s.orient3d(a, b, d, c) == -volume &&
-                  s.orient3d(b, c, a, d) == volume && s.orient3d(a, b, c, a) == Sign::Zero;
+        const Sign volume = s.orient3d(upward, a, b, c, d);
+        bool ok = s.orient3d(upward, b, a, c, d) == -volume &&
+                  s.orient3d(upward, a, b, d, c) == -volume &&
+                  s.orient3d(upward, b, c, a, d) == volume &&
+                  s.orient3d(upward, a, b, c, a) == Sign::Zero;
         for (const Axis axis : axes) {
-            const Sign turn = s.orient2d(axis, a, b, c), circle = s.in_circle(axis, a, b, c, d);
-            ok = ok && s.orient2d(axis, b, c, a) == turn && s.orient2d(axis, c, b, a) == -turn &&
-                 s.in_circle(axis, b, c, a, d) == circle &&
-                 s.in_circle(axis, b, a, c, d) == -circle &&
-                 s.in_circle(axis, a, b, c, b) == Sign::Zero;
+            const Sign turn = s.orient2d(upward, axis, a, b, c),
+                       circle = s.in_circle(upward, axis, a, b, c, d);
+            ok = ok && s.orient2d(upward, axis, b, c, a) == turn &&
+                 s.orient2d(upward, axis, c, b, a) == -turn &&
+                 s.in_circle(upward, axis, b, c, a, d) == circle &&
+                 s.in_circle(upward, axis, b, a, c, d) == -circle &&
+                 s.in_circle(upward, axis, a, b, c, b) == Sign::Zero;
         }
         REQUIRE(ok);
     });
 }
 
 TEST_CASE("point store law 2: constructed points lie on their lines and planes") {
-    for_twins(43, 250, [](Random&, const Twins& t) {
+    for_twins(43, 250, [](UpwardWitness upward, Random&, const Twins& t) {
         for (PointIndex p = 9; p < t.store.size(); ++p)
-            REQUIRE(lies_on_its_lines_and_planes(t.store, p));
+            REQUIRE(lies_on_its_lines_and_planes(upward, t.store, p));
     });
 }
 
 TEST_CASE("point store law 3: compare is the lexicographic order of the exact points") {
     int equal = 0;
-    for_twins(44, 250, [&](Random&, const Twins& t) {
+    for_twins(44, 250, [&](UpwardWitness, Random&, const Twins& t) {
         bool ok = true;
         for (PointIndex p = 0; p < t.store.size(); ++p)
             for (PointIndex q = 0; q < t.store.size(); ++q) {
@@ -185,7 +191,7 @@ TEST_CASE("point store law 3: compare is the lexicographic order of the exact po
             }
         REQUIRE(ok);
     });
-    CHECK(equal > cases(2000)); // equal points under different names are common in these families
+    CHECK(equal > cases(2000)); // equal points with other constructions are common here
 }
 
 TEST_CASE("point store law 4: points on a line are ordered along it") {
@@ -205,7 +211,7 @@ TEST_CASE("point store law 4: points on a line are ordered along it") {
             const UpwardRounding guard;
             std::sort(line.begin(), line.end(),
                       [&](PointIndex p, PointIndex q) { return order(t.store, p, q) < 0; });
-            // along the line, times the weight; the same direction for all steps
+            // Steps along the line, times the weight; all steps have the same direction.
             const auto& a = t.exact[0];
             const auto& b = t.exact[1];
             const oracle::Row4 along{b.x - a.x, b.y - a.y, b.z - a.z, 0};
@@ -221,7 +227,7 @@ TEST_CASE("point store law 4: points on a line are ordered along it") {
 
 TEST_CASE(
     "point store law 5: nearest is correctly rounded, enclosures enclose, errors are bounds") {
-    for_twins(46, 500, [](Random&, const Twins& t) {
+    for_twins(46, 500, [](UpwardWitness, Random&, const Twins& t) {
         for (PointIndex p = 0; p < t.store.size(); ++p) {
             REQUIRE(nearest_is_right(t, p));
             REQUIRE(enclosed(t, p));
@@ -231,7 +237,7 @@ TEST_CASE(
 }
 
 TEST_CASE("point store: enclosures have ends where intervals overflow") {
-    // The crossing is next to the second point: nearer than doubles can tell.
+    // The crossing is nearer to the second point than doubles can resolve.
     Twins t = twins_of({{0, 0, -0x1p812}, {-1, 0, -1}, {-1, 0, 0}, {0, 0, 0}});
     Construction how;
     how.kind = Kind::line_line;
@@ -245,24 +251,27 @@ TEST_CASE("point store: enclosures have ends where intervals overflow") {
 }
 
 TEST_CASE("orient2d, orient3d, in_circle and side_of_plane agree with exact integers") {
-    for_twins(47, 250, [](Random& random, const Twins& t) {
+    for_twins(47, 250, [](UpwardWitness upward, Random& random, const Twins& t) {
         for (int i = 0; i < 12; ++i) {
             const PointIndex a = any_point(random, t), b = any_point(random, t),
                              c = any_point(random, t), d = any_point(random, t);
             const auto &p = t.exact[a], &q = t.exact[b], &r = t.exact[c], &s = t.exact[d];
-            bool ok = t.store.orient3d(a, b, c, d) == oracle::orient3d(p, q, r, s);
-            ok = ok && t.store.side_of_plane(0, 1, 2, d) ==
+            bool ok = t.store.orient3d(upward, a, b, c, d) == oracle::orient3d(p, q, r, s);
+            ok = ok && t.store.side_of_plane(upward, 0, 1, 2, d) ==
                            oracle::orient3d(t.exact[0], t.exact[1], t.exact[2], s);
             for (const Axis axis : axes)
-                ok = ok && t.store.orient2d(axis, a, b, c) == oracle::orient2d(axis, p, q, r) &&
-                     t.store.in_circle(axis, a, b, c, d) == oracle::in_circle(axis, p, q, r, s);
+                ok = ok &&
+                     t.store.orient2d(upward, axis, a, b, c) == oracle::orient2d(axis, p, q, r) &&
+                     t.store.in_circle(upward, axis, a, b, c, d) ==
+                         oracle::in_circle(axis, p, q, r, s);
             REQUIRE(ok);
         }
     });
 }
 
 TEST_CASE("one point has many constructions") {
-    // (1, 1, 1) by a line and a plane, three planes, two lines, in thirds and with other vertices
+    // (1, 1, 1) by a line and a plane, by three planes, by two lines, in thirds, and from other
+    // vertices.
     const std::vector<Point3> input{{0, 0, 0}, {3, 3, 3}, {1, 0, 0}, {1, 5, 1}, {1, 0, 7},
                                     {0, 1, 0}, {5, 1, 1}, {0, 1, 7}, {0, 0, 1}, {7, 0, 1},
                                     {0, 7, 1}, {1, 1, 1}, {2, 2, 2}, {1, 1, 9}};
@@ -280,7 +289,7 @@ TEST_CASE("one point has many constructions") {
         CHECK(store.equal(11, p));
         CHECK(store.equal(p, 14));
         CHECK(store.nearest(p) == Point3{1, 1, 1});
-        CHECK(store.rounding_errors(p) == std::array{0.0, 0.0, 0.0}); // though the share is 1/3
+        CHECK(store.rounding_errors(p) == std::array{0.0, 0.0, 0.0}); // though the parameter is 1/3
         CHECK(order(store, 0, p) == -1);
         CHECK(order(store, 12, p) == 1);
     }
@@ -318,14 +327,14 @@ TEST_CASE("interval predicates decide well-shaped constructed points, exact ones
     const UpwardRounding guard;
     const PredicateCounts before = predicate_counts();
     for (int i = 0; i < 2000; ++i)
-        (void)t.store.orient3d(any_point(random, t), any_point(random, t), any_point(random, t),
-                               any_point(random, t));
+        (void)t.store.orient3d(guard, any_point(random, t), any_point(random, t),
+                               any_point(random, t), any_point(random, t));
     const PredicateCounts random_ones = predicate_counts() - before;
     CHECK(random_ones.interval > 20 * random_ones.exact);
     const PredicateCounts start = predicate_counts();
     for (PointIndex p = 40; p < t.store.size(); ++p) {
         const auto v = t.store.construction(p).v;
-        (void)t.store.orient3d(v[2], v[3], v[4], p);
+        (void)t.store.orient3d(guard, v[2], v[3], v[4], p);
     }
     CHECK((predicate_counts() - start).exact > 20);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The laws of predicates.hpp by number, then every predicate against exact integers.
+// Tests the laws of predicates.hpp by number, then compares every predicate with exact integers.
 #include "support/effort.hpp"
 #include "support/oracle.hpp"
 #include "support/points.hpp"
@@ -27,7 +27,7 @@ Point3 along(Axis axis, double u, double v, double height) {
     return {u, v, height};
 }
 
-/// All families, `count` sets of five points each.
+/// Visits `count` sets of five points of each family.
 template <class Visit>
 void for_point_sets(std::uint64_t seed, int count, const Visit& visit) {
     Random random(seed);
@@ -167,7 +167,7 @@ TEST_CASE("in_circle agrees with exact integers along each axis") {
 }
 
 TEST_CASE("in_circle agrees with exact integers where circles are common") {
-    // Points of circles about the origin, and their neighbours: 25 = 0 + 25 = 9 + 16.
+    // Points on circles about the origin, and their neighbours: 25 = 0 + 25 = 9 + 16.
     const std::array<std::array<int, 2>, 6> on_circle{
         {{5, 0}, {4, 3}, {3, 4}, {0, 5}, {-3, 4}, {-4, -3}}};
     Random random(14);

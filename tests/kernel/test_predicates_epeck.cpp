@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The predicates against CGAL's exact kernel, an implementation that neither we nor GMP wrote.
+// Compares the predicates with CGAL's exact kernel, an implementation independent of this library.
 #include "support/effort.hpp"
 #include "support/points.hpp"
 

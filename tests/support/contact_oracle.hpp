@@ -35,7 +35,7 @@ using Rational = CGAL::Exact_rational;
 using Spot = std::array<Rational, 3>;
 using Spots = std::vector<Spot>;
 
-/// Distinct points with their exact twins.
+/// A set of distinct points, each with its exact twin.
 struct Corners {
     std::vector<Point3> points;
     std::vector<oracle::Point> exact; ///< times 2^-exponent
@@ -171,8 +171,8 @@ inline bool lies_on_edge(Simplex p, unsigned e) {
     return is_corner(p) && (corner_of(p) == e || corner_of(p) == (e + 1) % 3);
 }
 
-/// Coplanar: each edge of the other triangle that reaches triangle k gives one piece, from its
-/// first point to its last one.
+/// Checks that, if the triangles are coplanar, each edge of the other triangle that reaches
+/// triangle k gives one piece, from its first point to its last one.
 inline bool pieces_are_right(const Contact& c, unsigned k) {
     if (!c.coplanar)
         return c.piece_count[k] == 1 && c.point_count <= 2 && c.pieces[k][0].support == 3 &&
@@ -210,7 +210,7 @@ inline bool same_when_swapped(const Corners& corners, const Triangle& s, const T
                         contact->coplanar == other->coplanar && contact->overlap == other->overlap);
 }
 
-/// Turning and reversing corners changes how they are numbered, not the points.
+/// Checks that rotating and reversing the corners changes only their numbers, not the points.
 inline bool same_points_when_turned(const Corners& corners, const Triangle& s, const Triangle& t,
                                     const std::optional<Contact>& contact) {
     const auto other = improper_contact(corners.points, {s[1], s[2], s[0]}, {t[1], t[0], t[2]});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Surfaces cut by a volume of interest, and exact volumes of boundaries.
+// Surfaces cut by a volume of interest.
 #pragma once
 
 #include <algorithm>
@@ -13,8 +13,9 @@
 #include <catch2/catch.hpp>
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>
+#include <terrane/algorithms/arrangement/exact_arrangement.hpp>
+#include <terrane/algorithms/arrangement/intersection_edges.hpp>
 #include <terrane/algorithms/arrangement/restricted.hpp>
-#include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
 #include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
 #include <terrane/kernel/fraction.hpp>
 
@@ -27,7 +28,7 @@ using Spot = std::array<mpq_class, 3>;
 inline std::vector<Spot> spots_of(const Arrangement& a) {
     std::vector<Spot> spots;
     for (const PointIndex v : a.vertices) {
-        const auto text = fractions(a.points, v, 10);
+        const auto text = fractions(a.state->points, v, 10);
         spots.push_back({mpq_class(text[0]), mpq_class(text[1]), mpq_class(text[2])});
     }
     return spots;
@@ -49,7 +50,7 @@ struct Case {
     std::vector<std::uint32_t> boundary;
     Arrangement whole;
     VolumeOfInterest cut;
-    std::vector<Where> where; ///< of the whole arrangement
+    std::vector<Where> where; ///< per triangle of the whole arrangement
 };
 
 inline Case cut(std::vector<Surface> surfaces, const std::vector<Surface>& boundary) {
@@ -76,7 +77,7 @@ inline Case cut(std::vector<Surface> surfaces, const std::vector<Surface>& bound
 inline void check_consistent(const Arrangement& a) {
     REQUIRE(a.parents_of.size() == a.triangles.size());
     REQUIRE(a.surfaces_of.size() == a.triangles.size());
-    REQUIRE(a.patches.of.size() == a.triangles.size());
+    REQUIRE(a.state->patches.of.size() == a.triangles.size());
     std::vector<bool> used(a.vertices.size(), false);
     for (const Triangle& t : a.triangles)
         for (const std::uint32_t v : t) used.at(v) = true;
@@ -86,29 +87,11 @@ inline void check_consistent(const Arrangement& a) {
                                               labels_of(a.surfaces_of, a.parents_of));
     CHECK(a.intersection_edges == find_intersection_edges(by_surface, a.inputs, a.parents_of));
     std::size_t inner = 0;
-    for (const auto& list : a.adjacency.inner) inner += list.size();
+    for (const auto& list : a.state->adjacency.inner) inner += list.size();
     std::size_t sides = 2 * inner;
-    for (std::size_t e = 0; e < a.adjacency.edges.size(); ++e)
-        sides += a.adjacency.triangles_at[e].size();
+    for (std::size_t e = 0; e < a.state->adjacency.edges.size(); ++e)
+        sides += a.state->adjacency.triangles_at[e].size();
     CHECK(sides == 3 * a.triangles.size());
-}
-
-inline mpq_class volume_of(const std::vector<Surface>& boundary) {
-    mpq_class six;
-    const auto spot = [](const Point3& p) { return Spot{p.x, p.y, p.z}; };
-    for (const Surface& s : boundary)
-        for (const Triangle& t : s.triangles) {
-            const Spot a = spot(s.vertices[t[0]]), b = spot(s.vertices[t[1]]),
-                       c = spot(s.vertices[t[2]]), n = normal_of({0, 0, 0}, b, c);
-            six += a[0] * n[0] + a[1] * n[1] + a[2] * n[2];
-        }
-    return six / 6;
-}
-
-inline std::vector<Surface> box_of(const Point3& low, const Point3& high) {
-    auto made = box_boundary(low, high);
-    REQUIRE(made);
-    return std::move(made).value();
 }
 
 } // namespace cut_cases

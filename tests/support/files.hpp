@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Scratch folders.
+// Scratch folders for tests.
 #pragma once
 
 #include <cstdlib>

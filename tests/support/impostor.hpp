@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Scripts in place of TetGen's helper program, which answer what a test wants.
+// Scripts that replace TetGen's helper program and give the answers that a test wants.
 #pragma once
 
 #include <array>
@@ -28,7 +28,7 @@ using namespace terrane::tetgen::detail;
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-/// The corners of a cube, and its sides.
+/// Returns the corners of a cube and its sides.
 inline TetgenInput cube_input() {
     TetgenInput input;
     for (unsigned k = 0; k < 8; ++k)
@@ -56,7 +56,7 @@ std::string bytes_of_all(const std::vector<T>& values) {
     return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
 }
 
-/// A reply that holds the output.
+/// Returns the bytes of a reply that holds the output.
 inline std::string reply_of(const TetgenOutput& output) {
     ReplyHeader header;
     header.points = output.points.size();
@@ -68,7 +68,7 @@ inline std::string reply_of(const TetgenOutput& output) {
            bytes_of_all(output.faces) + bytes_of_all(markers);
 }
 
-/// A script in place of the helper, in a folder of its own.
+/// A script that replaces the helper, in a folder of its own.
 class Impostor {
 public:
     explicit Impostor(const std::string& lines) {
@@ -78,7 +78,7 @@ public:
         std::ofstream(path()) << "#!/bin/sh\n" << lines << "\n";
         fs::permissions(path(), fs::perms::owner_all);
     }
-    /// Reads the whole request and answers with the bytes, then carries out the lines.
+    /// Makes a script that reads the whole request, answers with the bytes, then runs the lines.
     Impostor(const std::string& reply, const TetgenInput& input, const std::string& lines = "") :
         Impostor("head -c " + std::to_string(request_size(input)) +
                  " >/dev/null\ncat \"${0%/*}/reply\"\n" + lines) {

@@ -59,7 +59,7 @@ inline terrane::Point3 turned(const terrane::Point3& p) {
     return {p.y, p.z, p.x};
 }
 
-/// After turned(), what was seen along y is seen along x.
+/// Undoes turned(), which permutes the axes: the plane seen along y is seen along x again.
 inline void turn_back(terrane::ArrangementClaim& claim) {
     using terrane::Construction;
     for (Construction& how : claim.vertices)

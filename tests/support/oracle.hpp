@@ -27,7 +27,7 @@ using terrane::Point3;
 using terrane::Sign;
 using Int = mpz_class;
 
-/// d = mantissa * 2^exponent, mantissa odd or 0.
+/// A double as mantissa * 2^exponent, with an odd mantissa or 0.
 struct Binary {
     std::int64_t mantissa = 0;
     int exponent = INT_MAX;
@@ -49,7 +49,7 @@ inline int lowest_exponent(std::span<const Point3> points) {
     return lowest == INT_MAX ? 0 : lowest;
 }
 
-/// d / 2^exponent.
+/// Returns d / 2^exponent.
 inline Int scaled(double d, int exponent) {
     const Binary b(d);
     Int i(static_cast<long>(b.mantissa));
@@ -197,7 +197,7 @@ inline int compare(const Point& p, const Point& q) {
 inline bool is_nearest(double result, const Int& numerator, const Int& denominator, int exponent) {
     constexpr double infinity = HUGE_VAL;
     if (std::isnan(result)) return false;
-    // All in units of 2^-1076: half of the smallest distance is still an integer.
+    // In units of 2^-1076, half of the smallest distance is still an integer.
     const auto units = [](double d, bool positive) -> Int {
         if (std::isinf(d)) return Int((positive ? Int(1) : Int(-1)) << (1024 + 1076));
         return scaled(d, -1076);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Where the sources, the test data and the program are. Only paths.cpp is compiled with these paths,
-// so that a compiler's cache serves all checkouts.
+// Returns the paths of the sources, the test data and the program. Only paths.cpp is compiled with
+// them, so that a compiler's cache serves all checkouts.
 #pragma once
 
 #include <string>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Reading surfaces from texts and from tests/data.
+// Reads surfaces from texts and from tests/data.
 #pragma once
 
 #include "support/paths.hpp"

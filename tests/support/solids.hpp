@@ -52,7 +52,7 @@ inline Surface cube(double low, double high, std::string name = "cube") {
     return box({low, low, low}, {high, high, high}, std::move(name));
 }
 
-/// Returns the level z over [x0, x1] x [y0, y1].
+/// Returns the horizontal rectangle [x0, x1] x [y0, y1] at height z.
 inline Surface level(double z, double x0, double y0, double x1, double y1,
                      std::string name = "level") {
     return quad({x0, y0, z}, {x1, y0, z}, {x1, y1, z}, {x0, y1, z}, std::move(name));

@@ -105,8 +105,8 @@ inline Case crossing() {
     return c;
 }
 
-/// As crossing(), but surface 0 has a fourth vertex, 3, in the plane of its triangle, that names
-/// the plane through which 6 is constructed.
+/// Like crossing(), but surface 0 has a fourth vertex, 3, in the plane of its triangle; the
+/// construction of 6 names the plane by this vertex.
 inline Case crossing_with_spare_vertex() {
     Case c = crossing();
     c.inputs[0].vertices.push_back({9, 9, 0});

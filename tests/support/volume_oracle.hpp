@@ -183,7 +183,7 @@ private:
                                             points_[triangles_[t][(i + 1) % 3]]);
             if (std::count(turns.begin(), turns.end(), terrane::Sign::Zero) > 0) return false;
             if (turns[0] != turns[1] || turns[1] != turns[2]) continue;
-            // values are weighted by w of the point
+            // Values are weighted by the w of their points.
             mpq_class near(p, from.w), far(q, to.w);
             near.canonicalize();
             far.canonicalize();

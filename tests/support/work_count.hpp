@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// How often costly steps are done, and a model on which that shows.
+// Counts how often costly steps are done, on a model that has work for each of them.
 #pragma once
 
 #include <map>
@@ -18,7 +18,7 @@ namespace test_support {
 
 using namespace terrane;
 
-/// A vertical wall between two points, from z = 0 to 8.
+/// Returns a vertical wall between two points, from z = 0 to 8.
 inline Surface wall(const std::string& name, double x0, double y0, double x1, double y1) {
     return {name,
             Role::fault,
@@ -26,8 +26,8 @@ inline Surface wall(const std::string& name, double x0, double y0, double x1, do
             {{0, 1, 2}, {0, 2, 3}}};
 }
 
-/// A box in six sectors. The walls do not meet in one line exactly: the prism between them is
-/// thinner than the doubles there, so that rounding loses it. It is block 5.
+/// Returns a box in six sectors. The walls do not meet in one line exactly: the prism between them,
+/// block 5, is thinner than the spacing of doubles there, so that rounding loses it.
 inline std::vector<Surface> sectors() {
     constexpr double u = 0x1p-50; // from 4 to the next double
     auto surfaces = std::vector<Surface>{box({0, 0, 0}, {8, 8, 8})};
@@ -65,7 +65,8 @@ public:
     WorkCount(const WorkCount&) = delete;
     WorkCount& operator=(const WorkCount&) = delete;
 
-    /// On how many meshes the step was done; 0 if it was done twice on one of them.
+    /// Returns the number of meshes on which the step was done; 0 if it was done twice on one of
+    /// them.
     [[nodiscard]] static std::size_t meshes_of(const std::string& name) {
         std::size_t meshes = 0;
         for (const auto& [step, count] : steps()) {

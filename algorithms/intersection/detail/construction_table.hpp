@@ -11,11 +11,13 @@
 
 namespace terrane::intersection::detail {
 
-/// Names constructions by index, each once: input points keep theirs, others count from `first`.
+/// Assigns an index to each distinct construction. Input points keep their indices; the others are
+/// numbered from `first`.
 class ConstructionTable {
 public:
     explicit ConstructionTable(PointIndex first) : first_(first), slots_(64, none) {}
 
+    /// Returns the index of a construction, which is added if it is new.
     PointIndex enter(const Construction& how) {
         if (how.kind == Construction::Kind::input) return how.v[0];
         const std::size_t mask = slots_.size() - 1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Where the segments inside one triangle cross: points of three planes (or lines).
+// Finds where the segments inside one triangle cross: points of three planes (or of lines).
 #include <algorithm>
 
 #include <terrane/algorithms/core/parallel.hpp>
@@ -32,18 +32,18 @@ Triangle sorted(Triangle t) {
     return t;
 }
 
-/// An inner segment with what the tests need.
+/// An inner segment with the data that the tests need.
 struct InnerSegment {
     std::uint32_t piece;
-    Triangle plane; ///< of the supporting triangle, sorted
-    Line line{};    ///< the supporting edge, sorted, where is_line
+    Triangle plane; ///< the supporting triangle, sorted
+    Line line{};    ///< the supporting edge, sorted, if is_line
     bool is_line = false;
     std::array<ApproximatePoint, 2> ends{}; ///< in the projection
-    std::array<double, 2> low, high;        ///< box in the projection, of nearest doubles: where
-                                            ///< these are apart the segments are
+    std::array<double, 2> low, high;        ///< box of the nearest doubles in the projection; if
+                                            ///< two boxes are disjoint, so are the segments
 };
 
-/// Whether the construction itself puts the point on the plane or line.
+/// Whether the point lies on the supporting plane or line by its construction.
 bool is_on_by_name(const Construction& how, const InnerSegment& s) {
     const auto in_plane = [&](std::uint32_t v) {
         return std::find(s.plane.begin(), s.plane.end(), v) != s.plane.end();
@@ -71,13 +71,15 @@ bool have_common_end(const FaceConstraint& a, const FaceConstraint& b) {
            a.ends[1] == b.ends[1];
 }
 
-/// All crossings in one face.
+/// Finds all crossings in a face by a sweep along the first axis of its projection.
 class FaceSweep {
 public:
-    FaceSweep(const TriangleSoup& soup, const Contacts& contacts, std::vector<NewCrossing>& out) :
+    FaceSweep(UpwardWitness upward, const TriangleSoup& soup, const Contacts& contacts,
+              std::vector<NewCrossing>& out) :
+        upward_(upward),
         soup_(soup), contacts_(contacts), out_(out) {}
 
-    /// Pieces [first, last) of one face.
+    /// Tests pieces [first, last), which are those of one face.
     void operator()(std::uint32_t first, std::uint32_t last) {
         collect(first, last);
         if (segments_.size() < 2) return;
@@ -129,8 +131,8 @@ private:
     Sign side(const InnerSegment& s, PointIndex p) const {
         const PointStore& store = contacts_.points;
         if (is_on_by_name(store.construction(p), s)) return Sign::Zero;
-        if (s.is_line) return store.orient2d(axis_, s.line[0], s.line[1], p);
-        return store.side_of_plane(s.plane[0], s.plane[1], s.plane[2], p);
+        if (s.is_line) return store.orient2d(upward_, axis_, s.line[0], s.line[1], p);
+        return store.side_of_plane(upward_, s.plane[0], s.plane[1], s.plane[2], p);
     }
 
     /// Whether the ends of the other segment lie strictly on both sides of the line of s.
@@ -144,7 +146,9 @@ private:
 
     void test(const InnerSegment& a, const InnerSegment& b) {
         if (a.high[1] < b.low[1] || b.high[1] < a.low[1]) return;
-        if (have_common_end(piece(a), piece(b))) return; // two of one curve, mostly nearly in line
+        // Segments with a common end cross nowhere else. Most are successive segments of a curve,
+        // which are nearly collinear.
+        if (have_common_end(piece(a), piece(b))) return;
         if (!separates(a, b) || !separates(b, a)) return;
         out_.push_back(
             {face_, {std::min(a.piece, b.piece), std::max(a.piece, b.piece)}, crossing(a, b)});
@@ -157,6 +161,7 @@ private:
         return three_planes(soup_.triangles[face_], a.plane, b.plane);
     }
 
+    [[no_unique_address]] UpwardWitness upward_;
     const TriangleSoup& soup_;
     const Contacts& contacts_;
     std::vector<NewCrossing>& out_;
@@ -168,23 +173,23 @@ private:
 } // namespace
 
 void find_crossings(const TriangleSoup& soup, Contacts& contacts, const Run& run) {
-    std::vector<std::uint32_t> starts; // of each face's pieces
+    std::vector<std::uint32_t> starts; // per face: its first piece
     for (std::uint32_t p = 0; p < contacts.pieces.size(); ++p)
         if (p == 0 || contacts.pieces[p].face != contacts.pieces[p - 1].face) starts.push_back(p);
     const std::size_t faces = starts.size();
     starts.push_back(static_cast<std::uint32_t>(contacts.pieces.size()));
 
-    const auto blocks =
-        for_blocks<CrossingBlock>(faces, 64, run, [&](std::size_t first, std::size_t last) {
+    const auto blocks = for_blocks<CrossingBlock>(
+        faces, 64, run, [&](UpwardWitness upward, std::size_t first, std::size_t last) {
             CrossingBlock block;
             const PredicateCounts before = predicate_counts();
-            FaceSweep sweep(soup, contacts, block.crossings);
+            FaceSweep sweep(upward, soup, contacts, block.crossings);
             for (std::size_t f = first; f < last; ++f) sweep(starts[f], starts[f + 1]);
             block.predicates = predicate_counts() - before;
             return block;
         });
 
-    // Some crossings have names that contacts have given already (two edges of coplanar triangles).
+    // Contacts have already constructed some of the crossings (two edges of coplanar triangles).
     ConstructionTable table(static_cast<PointIndex>(soup.points.size()));
     for (PointIndex p = static_cast<PointIndex>(soup.points.size()); p < contacts.points.size();
          ++p)

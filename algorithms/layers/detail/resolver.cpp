@@ -31,7 +31,7 @@ Status LayerResolver::prepare() {
         const auto surfaces = a_.surfaces_of[t];
         if (surfaces[0] == input_.copies.size()) continue; // only a wall
         const Triangle& c = a_.triangles[t];
-        const auto seen = seen_along_z(a_.state->points,
+        const auto seen = seen_along_z(upward, a_.state->points,
                                        {a_.vertices[c[0]], a_.vertices[c[1]], a_.vertices[c[2]]});
         if (!seen)
             return Error{ErrorCode::unsupported, "a layer has an upright triangle: it is no graph",
@@ -70,14 +70,16 @@ Result<std::vector<LayerResolver::Relation>> LayerResolver::relate(const Set& so
         return box < soft.size() ? soft[box] : hard[box - soft.size()];
     };
     const auto blocks = for_blocks<std::vector<Relation>>(
-        pairs.size(), 4096, run_, [&](std::size_t first, std::size_t last) {
+        pairs.size(), 4096, run_, [&](UpwardWitness upward, std::size_t first, std::size_t last) {
             std::vector<Relation> found;
             for (std::size_t i = first; i < last; ++i) {
                 const std::uint32_t s = of(pairs[i].first), t = of(pairs[i].second);
-                if (s != t && !overlap_along_z(a_.state->points, seen_[s], seen_[t])) continue;
+                if (s != t && !overlap_along_z(upward, a_.state->points, seen_[s], seen_[t]))
+                    continue;
                 found.push_back(
                     {s, t,
-                     s == t ? Sign::Zero : above_along_z(a_.state->points, seen_[s], seen_[t])});
+                     s == t ? Sign::Zero
+                            : above_along_z(upward, a_.state->points, seen_[s], seen_[t])});
             }
             return found;
         });
@@ -189,7 +191,7 @@ void LayerResolver::add_moves(const Replacement& change, const std::vector<Relat
             const PointIndex v = a_.vertices[a_.triangles[r.first][k]];
             bool over = true;
             for (unsigned e = 0; e < 3 && over; ++e)
-                over = a_.state->points.orient2d(Axis::z, seen_[r.second][e],
+                over = a_.state->points.orient2d(upward, Axis::z, seen_[r.second][e],
                                                  seen_[r.second][(e + 1) % 3], v) != Sign::Negative;
             if (!over) continue;
             const double height = dot(minus(corner(r.first, k), p), n) / n.z;

@@ -21,7 +21,8 @@ void WholeTriangles::find_parts() {
     is_whole_.assign(a_.state->corners.size(), true);
     for (std::uint32_t t = 0; t < a_.triangles.size(); ++t) {
         Set parents;
-        for (const std::uint32_t p : a_.parents_of[t]) parents.push_back(a_.inputs.first_same(p));
+        for (const std::uint32_t p : a_.parents_of[t])
+            parents.push_back(a_.inputs.first_same(InputTriangleId(p)));
         sort_unique(parents);
         if (parents.size() == 1) whole_of_[t] = parents[0];
         for (const std::uint32_t p : parents) {

@@ -7,7 +7,7 @@
 #include <terrane/algorithms/search/search.hpp>
 #include <terrane/kernel/predicates.hpp>
 
-namespace terrane::improving {
+namespace terrane::quality::detail {
 namespace {
 
 using Flat = std::array<double, 2>;
@@ -194,4 +194,4 @@ void Borders::update(const Change& change, std::span<const std::uint32_t> patch_
     for (const auto& [from, to] : chain_) add(edges_[patch], from, to);
 }
 
-} // namespace terrane::improving
+} // namespace terrane::quality::detail

@@ -17,7 +17,7 @@
 #include <terrane/algorithms/quality/detail/working_mesh.hpp>
 #include <terrane/kernel/construction.hpp>
 
-namespace terrane::improving {
+namespace terrane::quality::detail {
 
 class Borders {
 private:
@@ -67,4 +67,4 @@ private:
     std::vector<Edge> chain_;              ///< of the current change
 };
 
-} // namespace terrane::improving
+} // namespace terrane::quality::detail

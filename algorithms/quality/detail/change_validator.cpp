@@ -10,7 +10,7 @@
 #include <terrane/algorithms/quality/detail/constants.hpp>
 #include <terrane/kernel/predicates.hpp>
 
-namespace terrane::improving {
+namespace terrane::quality::detail {
 namespace {
 
 constexpr double cell_share = 1.5; ///< size of the smallest cells, in mean edge lengths
@@ -429,4 +429,4 @@ void ChangeValidator::carry_out(const Change& change, const CheckedChange& check
     }
 }
 
-} // namespace terrane::improving
+} // namespace terrane::quality::detail

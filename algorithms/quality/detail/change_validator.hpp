@@ -34,7 +34,7 @@
 #include <terrane/kernel/plane_filter.hpp>
 #include <terrane/kernel/sign.hpp>
 
-namespace terrane::improving {
+namespace terrane::quality::detail {
 
 /// Counts of rejected changes, by reason.
 struct Refusals {
@@ -166,4 +166,4 @@ private:
     std::vector<std::uint32_t> numbers_; ///< of the triangles added last
 };
 
-} // namespace terrane::improving
+} // namespace terrane::quality::detail

@@ -3,12 +3,13 @@
 // The constants of remeshing that decide its result and are not options of improve().
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
 #include <terrane/algorithms/core/named_constant.hpp>
 
-namespace terrane::improving {
+namespace terrane::quality::detail {
 
 /// Shapes are q of quality.hpp, from 0 (degenerate) to 1 (equilateral). None of these constants
 /// affects the guarantees of improve(): each change is proven whatever they are.
@@ -95,6 +96,34 @@ struct RemeshConstants {
     unsigned most_parts_back = 16384;
     /// Largest multiple of the bound that bounds_back() tries.
     double most_factor_back = 8;
+    /// Shares of the way that smoothing draws a vertex, tried one after the other.
+    std::array<double, 2> smoothing_shares{2, 1};
+    /// Share of the way to the centre of the neighbours that is tried after these.
+    double centring_share = 0.5;
+    /// Share of the way to the middle of its neighbours on a curve that a vertex slides if it
+    /// may not slide the whole way.
+    double slide_share = 0.5;
+    /// First step of the search for better positions, in target lengths.
+    double search_step = 0.25;
+    /// Steps of this search, each half of the one before.
+    unsigned search_halvings = 4;
+    /// Directions of this search in the tangent plane.
+    unsigned search_directions = 8;
+    /// Edges that a collapse at a bad triangle may leave, in target lengths.
+    double bad_collapse_ratio = 2;
+    /// A proof of the deviation shrinks triangles towards their centroid: a corner moves by at
+    /// most the bound divided by this.
+    double shrink_part = 4;
+    /// Largest such move, as a share of the way.
+    double most_shrink = 0.25;
+    /// Parts of triangles whose edges are shorter than the bound divided by this are not
+    /// divided again.
+    double least_part = 4;
+    /// In bounds_back(), a part of a radius above this multiple of the bound may be proven as a
+    /// whole.
+    double coarse_part_back = 4;
+    /// Edges that a collapse along a curve may leave, in target lengths.
+    double curve_collapse_ratio = 2;
 };
 
 inline constexpr RemeshConstants constants;
@@ -132,7 +161,20 @@ inline std::vector<NamedConstant> named_constants() {
         {"most_parts", static_cast<double>(constants.most_parts)},
         {"most_parts_back", static_cast<double>(constants.most_parts_back)},
         {"most_factor_back", constants.most_factor_back},
+        {"smoothing_shares_1", constants.smoothing_shares[0]},
+        {"smoothing_shares_2", constants.smoothing_shares[1]},
+        {"centring_share", constants.centring_share},
+        {"slide_share", constants.slide_share},
+        {"search_step", constants.search_step},
+        {"search_halvings", static_cast<double>(constants.search_halvings)},
+        {"search_directions", static_cast<double>(constants.search_directions)},
+        {"bad_collapse_ratio", constants.bad_collapse_ratio},
+        {"shrink_part", constants.shrink_part},
+        {"most_shrink", constants.most_shrink},
+        {"least_part", constants.least_part},
+        {"coarse_part_back", constants.coarse_part_back},
+        {"curve_collapse_ratio", constants.curve_collapse_ratio},
     };
 }
 
-} // namespace terrane::improving
+} // namespace terrane::quality::detail

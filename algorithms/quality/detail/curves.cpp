@@ -9,7 +9,7 @@
 #include <terrane/algorithms/quality/detail/constants.hpp>
 #include <terrane/algorithms/quality/detail/windows.hpp>
 
-namespace terrane::improving {
+namespace terrane::quality::detail {
 namespace {
 
 /// An edge of a curve, in the direction of the curve.
@@ -117,7 +117,7 @@ bool propose_slide(RemeshContext& context, std::uint32_t v, Proposal& proposal) 
     const double middle = from + (to - from) / 2, here = mesh.place_on[v];
     if (std::fabs(middle - here) < constants.least_slide * (to - from)) return false;
     return propose_slide_to(context, v, middle, proposal) ||
-           propose_slide_to(context, v, here + (middle - here) / 2, proposal);
+           propose_slide_to(context, v, here + constants.slide_share * (middle - here), proposal);
 }
 
 /// Collapses the edge to the nearer neighbour on the curve if it is short.
@@ -130,7 +130,8 @@ bool propose_curve_collapse(RemeshContext& context, std::uint32_t v, Proposal& p
     const double wanted = mesh.wanted_length(v, kept);
     return std::min(back, on) < constants.collapse_ratio * wanted &&
            back + on < constants.split_ratio * wanted &&
-           propose_collapse(context, {v, kept}, 2 * wanted, constants.least_shape, proposal);
+           propose_collapse(context, {v, kept}, constants.curve_collapse_ratio * wanted,
+                            constants.least_shape, proposal);
 }
 
 std::vector<std::uint32_t> curve_vertices(const WorkMesh& mesh) {
@@ -214,4 +215,4 @@ std::size_t slide_curves(RemeshContext& context) {
     return count;
 }
 
-} // namespace terrane::improving
+} // namespace terrane::quality::detail

@@ -10,7 +10,7 @@
 #include <terrane/algorithms/mesh/edges.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 
-namespace terrane::improving {
+namespace terrane::quality::detail {
 namespace {
 
 double angle_between(const Point3& a, const Point3& b) {
@@ -278,4 +278,4 @@ Features find_features(const Mesh& mesh, const FeatureAngles& angles, const Run&
     return Finder(mesh, angles, run)();
 }
 
-} // namespace terrane::improving
+} // namespace terrane::quality::detail

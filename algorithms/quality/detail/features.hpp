@@ -21,7 +21,7 @@
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
 
-namespace terrane::improving {
+namespace terrane::quality::detail {
 
 constexpr std::uint32_t none = UINT32_MAX;
 
@@ -55,4 +55,4 @@ struct FeatureAngles {
 
 Features find_features(const Mesh& mesh, const FeatureAngles& angles, const Run& run = {});
 
-} // namespace terrane::improving
+} // namespace terrane::quality::detail

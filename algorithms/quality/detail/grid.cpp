@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace terrane::improving {
+namespace terrane::quality::detail {
 namespace {
 
 constexpr std::size_t least_buckets = 1024;
@@ -80,4 +80,4 @@ void TriangleGrid::move(std::uint32_t t, const GridBox& before, const GridBox& b
         if (e.triangle == t) e.box = box;
 }
 
-} // namespace terrane::improving
+} // namespace terrane::quality::detail

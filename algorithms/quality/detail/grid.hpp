@@ -11,7 +11,7 @@
 #include <terrane/algorithms/search/search.hpp>
 #include <terrane/kernel/construction.hpp>
 
-namespace terrane::improving {
+namespace terrane::quality::detail {
 
 /// A box in the units of a grid. Rounding of coordinates is monotone, so boxes that overlap in
 /// space overlap here.
@@ -167,4 +167,4 @@ private:
     std::vector<Level> levels_; ///< cells double in size from one to the next
 };
 
-} // namespace terrane::improving
+} // namespace terrane::quality::detail

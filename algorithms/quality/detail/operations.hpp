@@ -28,7 +28,7 @@
 
 #include <terrane/algorithms/quality/detail/change_validator.hpp>
 
-namespace terrane::improving {
+namespace terrane::quality::detail {
 
 /// A proposed change, with the data that led to it.
 struct Proposal {
@@ -108,4 +108,4 @@ bool propose_collapse(RemeshContext& context, const Edge& gone_kept, double long
 /// Updates vertex kinds and curves after a collapse was carried out.
 void after_collapse(WorkMesh& mesh, const Proposal& proposal);
 
-} // namespace terrane::improving
+} // namespace terrane::quality::detail

@@ -11,7 +11,7 @@
 #include <terrane/algorithms/search/search.hpp>
 #include <terrane/kernel/predicates.hpp>
 
-namespace terrane::improving {
+namespace terrane::quality::detail {
 namespace {
 
 /// Exceeds the rounding error of quotients between 0 and 1, which is a few units in 2^-53. Edges
@@ -181,7 +181,7 @@ std::optional<ReferenceSurface::Target> ReferenceSurface::target_of(const Corner
     target.middle = {(whole[1].u + whole[2].u) / 3, (whole[1].v + whole[2].v) / 3,
                      (whole[1].w + whole[2].w) / 3};
     const double radius = 2 * longest / 3; // no corner is farther from the centroid
-    const double share = std::min(0.25, bound / 4 / radius);
+    const double share = std::min(constants.most_shrink, bound / constants.shrink_part / radius);
     for (std::size_t i = 0; i < 3; ++i)
         target.corners[i] = {whole[i].u + share * (target.middle.u - whole[i].u),
                              whole[i].v + share * (target.middle.v - whole[i].v),
@@ -368,7 +368,7 @@ bool ReferenceSurface::contains_part(const Corners& triangle, Containment& conta
                                         length(minus(triangle[0], triangle[2]))};
     const auto i = static_cast<std::size_t>(std::max_element(lengths.begin(), lengths.end()) -
                                             lengths.begin());
-    if (lengths[i] < bound / 4) return false;
+    if (lengths[i] < bound / constants.least_part) return false;
     const Point3 &a = triangle[i], &b = triangle[(i + 1) % 3], &c = triangle[(i + 2) % 3];
     const Point3 middle = towards(a, b, 0.5);
     const std::uint32_t hint = containment.hint;
@@ -416,4 +416,4 @@ ReferenceSurface::above(const Point3& p, const Point3& normal, std::uint32_t hin
     return Place{place, way.end};
 }
 
-} // namespace terrane::improving
+} // namespace terrane::quality::detail

@@ -27,7 +27,7 @@
 #include <terrane/algorithms/quality/detail/features.hpp>
 #include <terrane/kernel/construction.hpp>
 
-namespace terrane::improving {
+namespace terrane::quality::detail {
 
 using Corners = std::array<Point3, 3>;
 
@@ -160,4 +160,4 @@ private:
     double slack_ = 0;          ///< exceeds the rounding errors of distances
 };
 
-} // namespace terrane::improving
+} // namespace terrane::quality::detail

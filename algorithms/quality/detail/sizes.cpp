@@ -11,7 +11,7 @@
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/quality/detail/constants.hpp>
 
-namespace terrane::improving {
+namespace terrane::quality::detail {
 namespace {
 
 Point3 normal_of(const Mesh& mesh, const Triangle& t) {
@@ -125,4 +125,4 @@ Sizes find_sizes(const Mesh& mesh, const Features& features, const ImproveOption
     return out;
 }
 
-} // namespace terrane::improving
+} // namespace terrane::quality::detail

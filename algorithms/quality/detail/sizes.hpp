@@ -8,7 +8,7 @@
 #include <terrane/algorithms/quality/detail/features.hpp>
 #include <terrane/algorithms/quality/improve.hpp>
 
-namespace terrane::improving {
+namespace terrane::quality::detail {
 
 struct Sizes {
     std::vector<double> of_vertices; ///< per vertex: target length of its edges
@@ -18,4 +18,4 @@ struct Sizes {
 /// options.edge_length_of must have one element per surface, or none.
 Sizes find_sizes(const Mesh& mesh, const Features& features, const ImproveOptions& options);
 
-} // namespace terrane::improving
+} // namespace terrane::quality::detail

@@ -10,7 +10,7 @@
 #include <terrane/algorithms/quality/detail/constants.hpp>
 #include <terrane/algorithms/quality/detail/windows.hpp>
 
-namespace terrane::improving {
+namespace terrane::quality::detail {
 namespace {
 
 /// Computes the position proposed by trapezium drawing.
@@ -109,12 +109,13 @@ bool propose_smoothing(const RemeshContext& context, std::uint32_t v, Proposal& 
     const Point3 &from = mesh.points[v], to = drawn(mesh, v);
     const Badness better{badness_at(mesh, v, from).sum * (1 - constants.least_gain), endless};
     // Each triangle moves the vertex along its own edge only: half of the way on average.
-    return propose_move(context, between(from, to, 2.0), better, proposal) ||
-           propose_move(context, between(from, to, 1.0), better, proposal) ||
-           propose_move(context, between(from, centre(mesh, v), 0.5), better, proposal);
+    for (const double share : constants.smoothing_shares)
+        if (propose_move(context, between(from, to, share), better, proposal)) return true;
+    return propose_move(context, between(from, centre(mesh, v), constants.centring_share), better,
+                        proposal);
 }
 
-/// Searches for a better position in eight directions of the tangent plane, with steps that are
+/// Searches for a better position in the directions of the tangent plane, with steps that are
 /// halved. Every improvement is the start of the next step; the last one is proposed.
 bool propose_improvement(const RemeshContext& context, std::uint32_t v, double below,
                          Proposal& proposal) {
@@ -137,10 +138,10 @@ bool propose_improvement(const RemeshContext& context, std::uint32_t v, double b
     bool moves = false;
     Point3 p = mesh.points[v];
     CheckedChange of_p;
-    double largest = badness_at(mesh, v, p).largest, step = mesh.sizes[v] / 4;
-    for (unsigned halving = 0; halving < 4; ++halving, step /= 2)
-        for (unsigned k = 0; k < 8; ++k) {
-            const double angle = k * std::acos(-1.0) / 4;
+    double largest = badness_at(mesh, v, p).largest, step = constants.search_step * mesh.sizes[v];
+    for (unsigned halving = 0; halving < constants.search_halvings; ++halving, step /= 2)
+        for (unsigned k = 0; k < constants.search_directions; ++k) {
+            const double angle = k * std::acos(-1.0) / (constants.search_directions / 2);
             const double c = step * std::cos(angle), s = step * std::sin(angle);
             const Point3 to{p.x + c * u.x + s * w.x, p.y + c * u.y + s * w.y,
                             p.z + c * u.z + s * w.z};
@@ -243,4 +244,4 @@ std::size_t improve_worst(RemeshContext& context, double below) {
     return count;
 }
 
-} // namespace terrane::improving
+} // namespace terrane::quality::detail

@@ -12,7 +12,7 @@
 #include <terrane/algorithms/quality/detail/constants.hpp>
 #include <terrane/algorithms/quality/detail/windows.hpp>
 
-namespace terrane::improving {
+namespace terrane::quality::detail {
 namespace {
 
 /// Returns the class of a ratio from 1: there are four classes for each factor of two. Within a
@@ -254,7 +254,7 @@ bool propose_collapse_at(RemeshContext& context, const Triangle& c, Proposal& pr
     std::sort(by_length.begin(), by_length.end());
     for (std::size_t k = 0; k < 2; ++k) { // collapsing the longest would create a long edge
         const std::uint32_t a = c[by_length[k].second], b = c[(by_length[k].second + 1) % 3];
-        const double longest = 2 * mesh.wanted_length(a, b);
+        const double longest = constants.bad_collapse_ratio * mesh.wanted_length(a, b);
         const bool on_curve = mesh.curve_at(a, b) != none;
         const auto into = [&](std::uint32_t gone, std::uint32_t kept) {
             const bool fits = mesh.kinds[gone] == VertexKind::inner ||
@@ -435,4 +435,4 @@ std::size_t swap_edges(RemeshContext& context) {
     return count;
 }
 
-} // namespace terrane::improving
+} // namespace terrane::quality::detail

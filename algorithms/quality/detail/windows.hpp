@@ -15,7 +15,7 @@
 #include <terrane/algorithms/quality/detail/constants.hpp>
 #include <terrane/algorithms/quality/detail/operations.hpp>
 
-namespace terrane::improving {
+namespace terrane::quality::detail {
 
 /// Windows of fewer changes run on one thread.
 constexpr std::size_t few = 8;
@@ -126,4 +126,4 @@ std::size_t in_windows(RemeshContext& context, const std::vector<Item>& items,
     return sum;
 }
 
-} // namespace terrane::improving
+} // namespace terrane::quality::detail

@@ -6,7 +6,7 @@
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 
-namespace terrane::improving {
+namespace terrane::quality::detail {
 
 WorkMesh::WorkMesh(const Mesh& mesh, const Features& features) :
     points(mesh.vertices), sizes(mesh.vertices.size(), 0), kinds(features.kinds),
@@ -165,4 +165,4 @@ double WorkMesh::edge_length(std::uint32_t a, std::uint32_t b) const {
     return std::sqrt(dot(d, d));
 }
 
-} // namespace terrane::improving
+} // namespace terrane::quality::detail

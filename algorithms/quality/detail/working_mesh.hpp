@@ -17,7 +17,7 @@
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/quality/detail/features.hpp>
 
-namespace terrane::improving {
+namespace terrane::quality::detail {
 
 /// Replaces some triangles by others with the same border. One vertex may move or be new.
 struct Change {
@@ -156,4 +156,4 @@ inline Triangle with(Triangle t, std::uint32_t old, std::uint32_t v) {
     return t;
 }
 
-} // namespace terrane::improving
+} // namespace terrane::quality::detail

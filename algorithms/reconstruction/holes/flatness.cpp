@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include <terrane/algorithms/mesh/edges.hpp>
-#include <terrane/algorithms/reconstruction/holes/detail/constants.hpp>
 
 namespace terrane::detail {
 namespace {

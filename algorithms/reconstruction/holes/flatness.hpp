@@ -8,11 +8,12 @@
 #include <vector>
 
 #include <terrane/algorithms/mesh/mesh.hpp>
+#include <terrane/algorithms/reconstruction/holes/detail/constants.hpp>
 
 namespace terrane::detail {
 
 /// How often a default mesh size may be halved.
-constexpr int most_halvings = 2;
+constexpr unsigned most_halvings = holes::detail::constants.most_halvings;
 
 /// Selects at most `most` inner edges (edges of two triangles), evenly spaced in ascending order.
 std::vector<Edge> some_inner_edges(std::span<const Triangle> triangles, std::size_t vertices,

@@ -352,7 +352,9 @@ Result<Joined> join_with(const Surface& surface, std::span<const Border> borders
 std::vector<double> widths(const Border& border, const JoinOptions& options) {
     if (options.strip > 0) return {options.strip};
     const double half = border.median_edge / 2;
-    return {half, half / 8, 2 * half, 1.4 * half, 4 * half};
+    std::vector<double> all;
+    for (const double width : joining::detail::constants.strips) all.push_back(width * half);
+    return all;
 }
 
 /// Finds outer borders of other parts whose boxes overlap that of the loop, enlarged by its longest

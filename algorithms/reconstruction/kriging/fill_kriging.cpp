@@ -56,7 +56,7 @@ double longest_pair(const std::vector<Point3>& points) {
         low = {std::min(low.x, p.x), std::min(low.y, p.y), 0};
         high = {std::max(high.x, p.x), std::max(high.y, p.y), 0};
     }
-    return std::hypot(high.x - low.x, high.y - low.y) / 2;
+    return std::hypot(high.x - low.x, high.y - low.y) * constants.variogram_share;
 }
 
 /// Checks that each border edge has the surface on one side and the filling on the other.
@@ -222,7 +222,8 @@ Result<Filling> fill_by_kriging(const Surface& surface, const BorderLoop& loop,
     Filling filling;
     const Kriging kriging = model_of(data, border, options.variogram, filling.report);
     filling.expected_error = set_heights(flat.value(), kriging, run);
-    for (int halvings = 0; options.mesh_size == 0 && halvings < detail::most_halvings; ++halvings) {
+    for (unsigned halvings = 0; options.mesh_size == 0 && halvings < detail::most_halvings;
+         ++halvings) {
         if (4 * (flat.value().points.size() - border) > constants.most_places ||
             run.stop.stop_requested() || !is_too_flat(flat.value(), kriging, mesh_size, run))
             break;

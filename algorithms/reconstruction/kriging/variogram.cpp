@@ -109,9 +109,11 @@ public:
     /// neighbours.
     [[nodiscard]] Fit best(VariogramModel model) const {
         const bool power = model == VariogramModel::power;
-        const double low = power ? 0.1 : std::log(longest_ / 30);
-        const double high = power ? 1.98 : std::log(longest_ * 4);
-        constexpr int steps = 24;
+        const double low =
+            power ? constants.least_power : std::log(longest_ / constants.range_part);
+        const double high =
+            power ? constants.most_power : std::log(longest_ * constants.range_factor);
+        constexpr int steps = constants.fit_steps;
         const double step = (high - low) / steps;
         Fit found;
         double best_at = low;
@@ -121,7 +123,7 @@ public:
                 best_at = low + i * step;
             }
         double a = std::max(low, best_at - step), b = std::min(high, best_at + step);
-        for (int i = 0; i < 20; ++i) {
+        for (int i = 0; i < constants.fit_refinements; ++i) {
             const double c = a + (b - a) * 0.382, d = a + (b - a) * 0.618;
             if (at(model, c).misfit <= at(model, d).misfit)
                 b = d;
@@ -255,8 +257,8 @@ Variogram fit_variogram(std::span<const VariogramBin> bins, const VariogramFitOp
     Fit best = best_model(bins, options, 0, 1);
     if (!options.anisotropy) return best.variogram;
     Fit anisotropic;
-    for (double angle = 0; angle < 180; angle += 15)
-        for (const double ratio : {0.8, 0.65, 0.5, 0.4, 0.3, 0.2})
+    for (double angle = 0; angle < 180; angle += constants.anisotropy_step)
+        for (const double ratio : constants.anisotropy_ratios)
             if (const Fit fit = best_model(bins, options, angle, ratio);
                 fit.misfit < anisotropic.misfit)
                 anisotropic = fit;

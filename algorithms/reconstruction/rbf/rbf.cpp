@@ -151,7 +151,7 @@ struct Level {
 };
 
 /// Tells whether the triangles cut corners at the border: whether the zero level there is farther
-/// from them than a quarter of their size.
+/// from them than a share of their size.
 bool cuts_corners(const Surface& mesh, const Level& level, double size) {
     const TriangleTree tree(mesh.vertices, mesh.triangles);
     const auto border = std::span(level.data.points).first(level.data.next.size());
@@ -159,7 +159,7 @@ bool cuts_corners(const Surface& mesh, const Level& level, double size) {
         const Point3 g = level.f.smooth.gradient(p);
         const double step = -level.f(p) / dot(g, g);
         const Point3 on{p.x + step * g.x, p.y + step * g.y, p.z + step * g.z};
-        return tree.distance(on, size) > size / 4;
+        return tree.distance(on, size) > constants.cut_corner * size;
     });
 }
 
@@ -171,7 +171,8 @@ bool is_too_flat(const Surface& mesh, const Level& level, double size, const Run
     for (const auto& [a, b] :
          detail::some_inner_edges(mesh.triangles, mesh.vertices.size(), constants.most_sags)) {
         const Point3 &p = mesh.vertices[a], &q = mesh.vertices[b], m = detail::middle_of(p, q);
-        if (level.tree.distance(m, size / 2) < size / 2) continue; // over the surface
+        const double over = constants.over_surface * size;
+        if (level.tree.distance(m, over) < over) continue; // over the surface
         sags.push_back((f(m) - (f(p) + f(q)) / 2) / length(f.gradient(m)));
         middles.push_back(m);
     }
@@ -188,7 +189,7 @@ Result<Surface> mesh_to_size(const Level& level, const BorderLoop& loop, const R
     size = options.size > 0 ? options.size : std::max(level.data.edge, least);
     auto mesh = mesh_zero_level(level.f, level.data, level.tree, size, run);
     if (options.size > 0) return mesh;
-    for (int halvings = 0; halvings < detail::most_halvings && size / 2 >= least; ++halvings) {
+    for (unsigned halvings = 0; halvings < detail::most_halvings && size / 2 >= least; ++halvings) {
         if (!mesh || !(cuts_corners(mesh.value(), level, size) ||
                        is_too_flat(mesh.value(), level, size, run)))
             break;
@@ -230,7 +231,8 @@ double mean_over_hole(const Filling& filling, const TriangleTree& tree, double s
     double squares = 0;
     std::size_t count = 0;
     for (std::size_t v = 0; v < filling.expected_error.size(); ++v) {
-        if (tree.distance(filling.surface.vertices[v], size / 2) < size / 2) continue;
+        const double over = constants.over_surface * size;
+        if (tree.distance(filling.surface.vertices[v], over) < over) continue;
         squares += filling.expected_error[v] * filling.expected_error[v];
         ++count;
     }

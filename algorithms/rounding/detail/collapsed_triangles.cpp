@@ -47,7 +47,7 @@ PointsInSides CollapsedTriangles::within(const Triangle& t) const {
     return result;
 }
 
-/// On a line, the lexicographic order is the order along it.
+/// The lexicographic order of points on a line is their order along it.
 std::vector<std::uint32_t> CollapsedTriangles::within(std::uint32_t from, std::uint32_t to) const {
     const auto line = line_of_.find({std::min(from, to), std::max(from, to)});
     if (line == line_of_.end()) return {};
@@ -61,7 +61,7 @@ std::vector<std::uint32_t> CollapsedTriangles::within(std::uint32_t from, std::u
     return result;
 }
 
-/// Cut from the first point to the corner opposite, and so on with both halves.
+/// Cuts the triangle from the first point to the opposite corner, then divides both halves.
 void divide_at(const Triangle& t, const PointsInSides& within, std::vector<Triangle>& out) {
     unsigned i = 0;
     while (i < 3 && within[i].empty()) ++i;

@@ -14,35 +14,37 @@ namespace terrane::rounding::detail {
 
 using Side = std::array<std::uint32_t, 2>; ///< two vertices, ascending
 
-/// From corner i to the next.
+/// Returns the side from corner i to the next.
 Side side_of(const Triangle& t, unsigned i);
 
 /// Points inside each side of a triangle, in order from its corner i.
 using PointsInSides = std::array<std::vector<std::uint32_t>, 3>;
 
-/// Triangles that became lines and are dropped leave corners inside the sides of their neighbours.
-/// Lost triangles that share a side lie on one line; the neighbours' sides on it are divided at all
-/// their corners. Then these sides fit again: statement (2) of docs/explanation/rounding.md.
+/// Triangles that collapsed to lines. When they are dropped, their corners remain inside the sides
+/// of their neighbours. Collapsed triangles that share a side lie on one line. Dividing the
+/// neighbours' sides on that line at all corners on it makes these sides match again: statement (2)
+/// of docs/explanation/rounding.md.
 class CollapsedTriangles {
 public:
-    /// Precondition: points with the same coordinates have the same index; the lost triangles are
-    /// without area.
+    /// lost: indices of the collapsed triangles. Preconditions: points with the same coordinates
+    /// have the same index, and the lost triangles have no area.
     CollapsedTriangles(std::span<const Point3> points, std::span<const Triangle> triangles,
                        std::span<const std::uint32_t> lost);
 
-    /// Cost: three look-ups if two corners of t are corners of lost triangles, else nothing.
+    /// Returns the points at which the sides of t must be divided. Cost: three look-ups if two
+    /// corners of t are corners of lost triangles, else none.
     [[nodiscard]] PointsInSides within(const Triangle& t) const;
 
 private:
     [[nodiscard]] std::vector<std::uint32_t> within(std::uint32_t from, std::uint32_t to) const;
 
     std::span<const Point3> points_;
-    std::vector<bool> is_corner_;           ///< per point: of a lost triangle
-    std::map<Side, std::uint32_t> line_of_; ///< of lost triangles; not of two equal corners
+    std::vector<bool> is_corner_;           ///< per point: whether a lost triangle has it
+    std::map<Side, std::uint32_t> line_of_; ///< per side of lost triangles with different ends
     std::vector<std::vector<std::uint32_t>> corners_on_; ///< per line, in lexicographic order
 };
 
-/// Appends t, divided at points inside its sides.
+/// Divides t at points inside its sides and appends the parts to `out`.
 void divide_at(const Triangle& t, const PointsInSides& within, std::vector<Triangle>& out);
 
 } // namespace terrane::rounding::detail

@@ -20,24 +20,24 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Where a vertex is: a part that leaves a plane to one side is above or below with all corners that
-// do not rest on it.
+// Positions of a vertex relative to a plane. A part leaves the plane to one side if all corners
+// that do not rest on it are above, or all are below.
 constexpr std::uint8_t rests = 0, above = 1, below = 2, neither = 3;
 constexpr std::uint8_t unknown = 0xff;
 
-/// Of the parts of two faces at their common vertices.
+/// The sizes of the parts of two faces at their common vertices.
 struct Common {
     std::uint32_t first = none; ///< the first of the two faces
     Sizes sizes;
 };
 
 struct Scratch {
-    std::vector<Common> common;                 ///< per face, with the first of a group of pairs
+    std::vector<Common> common;                 ///< per face: with the first face of a group
     std::vector<std::uint8_t> sides;            ///< per vertex of a face
     std::vector<std::uint8_t> beyond;           ///< per vertex: see edges_before, or unknown
     std::vector<std::uint32_t> low;             ///< vertices that are not clearly above or below
     std::vector<std::uint32_t> left, left_back; ///< entries of Faces::parts without proof
-    std::vector<Box> boxes;                     ///< of left_back
+    std::vector<Box> boxes;                     ///< per entry of left_back
 };
 
 struct Found {
@@ -49,9 +49,9 @@ double most_of(std::span<const double> moves) {
     return moves.empty() ? 0 : *std::max_element(moves.begin(), moves.end());
 }
 
-/// The interval that a face has on the line in which its plane meets another one.
+/// The interval in which a face meets the line between its plane and another plane.
 struct Cut {
-    double low = infinity, high = -infinity; ///< no end lies farther out
+    double low = infinity, high = -infinity; ///< outer bounds of the ends
     double least_sine = 1;                   ///< of the angles of crossed edges with the line
     bool is_certain = false;                 ///< the face has points on both sides of the line
     bool is_usable = true;
@@ -66,7 +66,7 @@ public:
     [[nodiscard]] Unproven operator()(const Run& run);
 
 private:
-    /// Parts of f are to be told clear of g.
+    /// A pair of faces, for proving that parts of f are clear of g.
     struct Pair {
         std::uint32_t f_slot, g_slot;
         const Face &f, &g;
@@ -91,16 +91,16 @@ private:
 
     const MovedParts& moved_;
     std::span<const CandidatePair> meeting_;
-    double move_; ///< d: the most
+    double move_; ///< d: the largest move
     Faces faces_;
 };
 
-/// a^2 >= 64 d l; also false where anything has underflown.
+/// Whether a^2 >= 64 d l. Returns false if anything has underflowed.
 bool is_well_conditioned(const Sizes& s, double d) {
     return s.altitude > smallest_area && s.altitude * s.altitude >= 64 * d * s.longest;
 }
 
-/// Parts of it that may meet another one of it improperly.
+/// Adds the parts of a face that may meet another part of it improperly.
 void Prover::add_restless(const Face& f, std::vector<std::uint32_t>& parts) const {
     if (f.part_end - f.part == 1) return;
     const auto calm = [&](std::uint32_t v) {
@@ -112,7 +112,8 @@ void Prover::add_restless(const Face& f, std::vector<std::uint32_t>& parts) cons
     }
 }
 
-/// d of the lemma for parts of f and the functionals of g, with room for errors in both directions.
+/// Returns the d of statements (3) and (4) for parts of f and the functionals of g, with room for
+/// errors in both directions.
 double Prover::margin(const Face& f, const Face& g) const {
     return 4 * (move_ + (f.extent + g.extent) * g.functional_error);
 }
@@ -123,9 +124,10 @@ Prover::Pair Prover::pair_of(std::uint32_t f_slot, std::uint32_t g_slot) const {
         f_slot, g_slot, f, g, margin(f, g), g.height(), {g.beyond(0), g.beyond(1), g.beyond(2)}};
 }
 
-/// Where f is cut by the plane of g: an edge between corners on both sides is crossed at one place,
-/// as exactly as their heights are known. Near a corner that may be on the plane the line may cross
-/// either edge. An edge may lie on the line only if both faces have its ends.
+/// Cuts f by the plane of g. An edge between corners on both sides is crossed at one place, which
+/// is known as precisely as the heights of the corners. Near a corner that may be on the plane, the
+/// line may cross either edge. An edge may lie on the line only if its ends are vertices of both
+/// faces.
 Cut Prover::cut(std::uint32_t f_slot, std::uint32_t g_slot, const Point3& origin,
                 const Point3& line) const {
     const Face &f = faces_.faces[f_slot], &g = faces_.faces[g_slot];
@@ -162,8 +164,8 @@ Cut Prover::cut(std::uint32_t f_slot, std::uint32_t g_slot, const Point3& origin
     return cut;
 }
 
-/// Cases (1) and (2) of the lemma. Sines and directions are off by a thousandth at most; what they
-/// lead to is taken half or twice as large.
+/// Tests statements (1) and (2). Sines and directions err by a thousandth at most; factors of two
+/// in the conditions cover the consequences.
 bool Prover::is_clear_as_a_whole(std::uint32_t f_slot, std::uint32_t g_slot,
                                  const Common& common) const {
     constexpr double least_edge_sine = 0x1p-7;
@@ -185,8 +187,8 @@ bool Prover::is_clear_as_a_whole(std::uint32_t f_slot, std::uint32_t g_slot,
     return gap * s / (1 + 4 / least) > 4 * move_;
 }
 
-/// What the other corners must rise to when a part leaves g at a vertex; infinite where g is not
-/// calm.
+/// Returns the height to which the other corners must rise if a part leaves g at a vertex; infinity
+/// if the vertex is not well conditioned.
 double least_rise(const Sizes& there, double longest, double d) {
     const double l = std::max(there.longest, longest);
     if (!is_well_conditioned({there.altitude, l}, d)) return infinity;
@@ -194,9 +196,10 @@ double least_rise(const Sizes& there, double longest, double d) {
     return 128 * d * ratio * ratio;
 }
 
-/// Where a part passes the end of a line on which faces cross, it has corners above and below. So
-/// the distance e beyond the edge there is turned round it, into the height h, until two corners
-/// are equally far. Corners `before` the edge must all rise by that.
+/// A part that passes the end of a line on which two faces cross has corners above and below.
+/// The functional that measures the distance e beyond the edge is therefore rotated about the edge
+/// towards the height h, until two corners have equal values. All corners `before` the edge must
+/// rise by more than `least` on the same side.
 template <class Leaves>
 bool leaves_turned(const std::array<double, 3>& e, const std::array<double, 3>& h,
                    const std::array<bool, 3>& before, double least, const Leaves& leaves) {
@@ -216,20 +219,20 @@ bool leaves_turned(const std::array<double, 3>& e, const std::array<double, 3>& 
     return false;
 }
 
-/// Case (3) or (4) of the lemma for a part of f, by any of the functionals.
+/// Tests statements (3) and (4) for a part of f with all functionals.
 bool Prover::is_clear(const Pair& pair, const Triangle& part) const {
     const double d = pair.d;
     std::array<Point3, 3> at;
-    std::array<bool, 3> on{}; // it is a vertex of g
+    std::array<bool, 3> on{}; // whether the corner is a vertex of g
     std::array<std::uint32_t, 3> there{};
     double longest = infinity;
     for (unsigned i = 0; i < 3; ++i) {
         there[i] = faces_.find(pair.g_slot, faces_.vertices[part[i]]);
         on[i] = there[i] != none;
         at[i] = faces_.places[part[i]];
-        longest = std::min(longest, faces_.sizes[part[i]].longest); // its own is in all three
+        longest = std::min(longest, faces_.sizes[part[i]].longest); // >= the part's longest edge
     }
-    double least = d; // what corners off g must rise above
+    double least = d; // corners off g must rise above this height
     for (unsigned i = 0; i < 3; ++i)
         if (on[i]) least = std::max(least, least_rise(faces_.sizes[there[i]], longest, d));
     if (std::isinf(least)) return false;
@@ -254,8 +257,8 @@ bool Prover::is_clear(const Pair& pair, const Triangle& part) const {
     return false;
 }
 
-/// Where the vertices of f are: above the plane of g, below it, resting on a vertex of g in it, or
-/// neither. True if what rises at all rises enough for whatever rests.
+/// Classifies the vertices of f: above the plane of g, below it, resting on a vertex of g, or
+/// neither. Returns true if every vertex that rises rises enough for all vertices that rest.
 bool Prover::find_sides(const Pair& pair, Scratch& scratch) const {
     const std::uint32_t first = pair.f.vertex, count = pair.f.vertex_end - first;
     auto& sides = scratch.sides;
@@ -266,7 +269,7 @@ bool Prover::find_sides(const Pair& pair, Scratch& scratch) const {
     const Functional height = pair.height;
     const double d = pair.d;
     double least_lift = infinity, most_rise = 0;
-    std::uint32_t lows = 0; // no branches: they would be foretold badly
+    std::uint32_t lows = 0; // the loop avoids branches, which would be mispredicted
     for (std::uint32_t k = 0; k < count; ++k) {
         const double u = height(place[k]), lift = std::fabs(u);
         sides[k] = static_cast<std::uint8_t>(neither - (u > d ? below : 0) - (u < -d ? above : 0));
@@ -285,7 +288,7 @@ bool Prover::find_sides(const Pair& pair, Scratch& scratch) const {
     return least_lift > most_rise;
 }
 
-/// The edges of g beyond which p lies by more than d: a bit for each.
+/// Returns one bit for each edge of g, set if p lies beyond the edge by more than d.
 std::uint8_t edges_before(const std::array<Functional, 3>& beyond, const Point3& p, double d) {
     unsigned edges = 0;
     for (unsigned j = 0; j < 3; ++j)
@@ -293,8 +296,8 @@ std::uint8_t edges_before(const std::array<Functional, 3>& beyond, const Point3&
     return static_cast<std::uint8_t>(edges);
 }
 
-/// The parts of f that may meet parts of g improperly. Most lie on one side of its plane, or leave
-/// it at vertices of both.
+/// Finds the parts of f that may meet parts of g improperly. Most parts lie on one side of the
+/// plane of g, or leave it at common vertices.
 void Prover::find_left(const Pair& pair, Scratch& scratch, std::vector<std::uint32_t>& left) const {
     left.clear();
     const bool all_leave = find_sides(pair, scratch);
@@ -321,8 +324,8 @@ void Prover::find_left(const Pair& pair, Scratch& scratch, std::vector<std::uint
     }
 }
 
-/// Few pairs are listed where their boxes overlap; where they are many, the parts of the smaller
-/// side.
+/// Adds the pairs whose boxes overlap if they are few; else the parts of the face with fewer parts
+/// left.
 void Prover::add_pairs(Scratch& scratch, Found& found) const {
     const auto &f = scratch.left, &g = scratch.left_back;
     if (f.empty() || g.empty()) return;
@@ -346,7 +349,7 @@ void Prover::add_pairs(Scratch& scratch, Found& found) const {
     }
 }
 
-/// Sizes of the parts of g and of each other face at the vertices that both have.
+/// Computes the sizes of the parts of g and of each other face at their common vertices.
 void Prover::find_common(std::uint32_t g_slot, std::vector<Common>& common) const {
     common.resize(faces_.faces.size());
     const Face& g = faces_.faces[g_slot];
@@ -360,7 +363,7 @@ void Prover::find_common(std::uint32_t g_slot, std::vector<Common>& common) cons
         }
 }
 
-/// Pairs with the same first face.
+/// Tests a group of pairs with the same first face.
 void Prover::test_group(std::size_t first, std::size_t last, Scratch& scratch, Found& found) const {
     const std::uint32_t g = faces_.slot_of[meeting_[first].first];
     find_common(g, scratch.common);
@@ -375,7 +378,7 @@ void Prover::test_group(std::size_t first, std::size_t last, Scratch& scratch, F
 }
 
 Unproven Prover::operator()(const Run& run) {
-    std::vector<std::size_t> groups; // first pairs, and the end
+    std::vector<std::size_t> groups; // the first pair of each group, and the end
     for (std::size_t i = 0; i < meeting_.size(); ++i)
         if (i == 0 || meeting_[i].first != meeting_[i - 1].first) groups.push_back(i);
     groups.push_back(meeting_.size());

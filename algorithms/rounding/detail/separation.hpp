@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Lists the parts of divided triangles that may meet improperly after their vertices moved a little.
-// Most provably do not: docs/explanation/separation.md states and proves the conditions.
-// (1) Faces whose intervals on the line of their planes are apart do not meet.
-// (2) Faces that cross meet properly where the parts at their common vertices are well conditioned.
+// Lists the parts of divided triangles that may meet improperly after their vertices moved a
+// little. Most provably do not: docs/explanation/separation.md states and proves the conditions.
+// (1) Faces whose intervals on the common line of their planes are apart do not meet.
+// (2) Faces that cross meet properly if the parts at their common vertices are well conditioned.
 // (3) A part beyond a functional that bounds the other face does not meet that face.
 // (4) A part that leaves the other face at common vertices, steeply enough, meets it properly.
-// (5) Parts of one face meet properly where one of them has well conditioned vertices only.
-// A vertex is well conditioned where a^2 >= 64 d l: a the least altitude, l the longest edge of the
-// parts at it, d the largest move. All is computed in doubles, with the rounding errors added to d.
+// (5) Two parts of one face meet properly if one of them has well conditioned vertices only.
+// A vertex is well conditioned if a^2 >= 64 d l, where a is the least altitude and l the longest
+// edge of the parts at it, and d is the largest move. All numbers are doubles; their rounding
+// errors are added to d.
 #pragma once
 
 #include <cstdint>
@@ -27,25 +28,26 @@ namespace terrane::rounding::detail {
 struct MovedParts {
     std::span<const Point3> face_points; ///< exact corners of faces
     std::span<const Triangle> faces;     ///< indices into face_points
-    std::span<const PointIndex> names;   ///< per point: its index into face_points, if it is one
-                                         ///< of them; else no index of these
+    std::span<const PointIndex> names;   ///< per point: its index into face_points if it is one of
+                                         ///< them, else an index beyond their end
     std::span<const Point3> points;      ///< moved vertices of the parts
-    std::span<const double> moves;       ///< per point: at most this far from its exact place
+    std::span<const double> moves;       ///< per point: upper bound of its move
     std::span<const Triangle> parts;     ///< indices into points
     const IndexLists<std::uint32_t>& faces_of; ///< per part: the faces that contain it, sorted
 };
 
-/// Of parts whose faces are a pair of `meeting`, whatever meets improperly is among `pairs` or has
-/// one of `parts` in it; of parts of one face, it has one of `ill_conditioned` in it.
+/// Everything that may meet improperly after the move. Two parts of different faces (a pair of
+/// `meeting`): the pair is in `pairs`, or one of them is in `parts`. Two parts of one face: one of
+/// them is in `ill_conditioned`.
 struct Unproven {
-    std::vector<CandidatePair> pairs;           ///< of parts; sorted, unique
+    std::vector<CandidatePair> pairs;           ///< pairs of parts; sorted, unique
     std::vector<std::uint32_t> parts;           ///< ascending
     std::vector<std::uint32_t> ill_conditioned; ///< ascending
 };
 
-/// `meeting`: pairs of faces of which one is divided; sorted.
-/// Cost: linear in all parts of the mesh, and in the common vertices of pairs; where a pair is not
-/// clear as a whole, in the parts of its faces.
+/// Finds the parts for which no condition proves that they meet properly. `meeting`: the pairs of
+/// faces of which one is divided; sorted. Cost: linear in the parts of the mesh, in the common
+/// vertices of pairs and, for pairs that are not clear as a whole, in the parts of their faces.
 Unproven find_unproven(const MovedParts& moved, std::span<const CandidatePair> meeting,
                        const Run& run);
 

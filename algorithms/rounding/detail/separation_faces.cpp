@@ -18,8 +18,8 @@ std::array<Point3, 3> corners_of(const MovedParts& moved, std::uint32_t face) {
     return {moved.face_points[c[0]], moved.face_points[c[1]], moved.face_points[c[2]]};
 }
 
-/// The unit normal where a face is so thin that hardly anything is left of it in differences of
-/// doubles.
+/// Computes the unit normal with higher precision, for faces so thin that differences of doubles
+/// lose most of its digits.
 void refine(Face& f) {
     const ToNearest mode;
     using namespace polynomial;
@@ -33,8 +33,8 @@ void refine(Face& f) {
     f.functional_error = error;
 }
 
-// Relative to an edge of length e between points whose differences err by a unit, the altitude and
-// the direction of the normal err by a few: the bounds are several times larger.
+// Measures a face. Differences of points err by one unit, and the altitude and the direction of the
+// normal by a few units, relative to the length of an edge. The bounds are several times larger.
 Face measure(const std::array<Point3, 3>& corners) {
     constexpr double thin = 0x1p+20; // longest edge to altitude
     Face f;
@@ -52,10 +52,10 @@ Face measure(const std::array<Point3, 3>& corners) {
     return f;
 }
 
-/// Under the default rounding mode.
+/// Calls visit(k) for all k below `count`, under the default rounding mode.
 template <class Visit>
 void for_several(std::size_t count, const Run& run, const Visit& visit) {
-    constexpr std::size_t least = 256; // for a thread
+    constexpr std::size_t least = 256; // calls per thread
     for_ranges(
         count, run,
         [&](std::size_t first, std::size_t last) {
@@ -133,7 +133,7 @@ void Faces::collect_parts(const MovedParts& moved, const Run& run) {
 void Faces::number_vertices(const MovedParts& moved) {
     last_at.assign(moved.points.size(), none);
     corners.resize(parts.size());
-    const std::size_t most = parts.size() + 2 * faces.size(); // a triangle's division is a disk
+    const std::size_t most = parts.size() + 2 * faces.size(); // the parts of a face form a disk
     vertices.reserve(most);
     places.reserve(most);
     face_at.reserve(most);

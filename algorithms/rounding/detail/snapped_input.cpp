@@ -55,8 +55,8 @@ std::vector<Surface> SnappedInput::surfaces(int digits) {
         for (std::uint32_t v = in.first_vertex[s]; v < in.first_vertex[s + 1]; ++v)
             surface.vertices.push_back(snapped(inputs[v], grid, cells));
     }
-    // Corners count through all surfaces and may name a vertex of an earlier one with the same
-    // coordinates: each triangle gets its own corners' coordinates back.
+    // Corners are numbered through all surfaces and may name a vertex of an earlier surface with
+    // the same coordinates. Each triangle gets corners in its own surface.
     for (std::size_t s = 0; s + 1 < in.first.size(); ++s)
         for (std::uint32_t t = in.first[s]; t < in.first[s + 1]; ++t)
             out[s].triangles.push_back(own_corners(s, corners_of(t), out));
@@ -72,8 +72,8 @@ Point3 SnappedInput::snapped(const Point3& p, const SnapGrid& grid,
     return cell;
 }
 
-/// The corners of an input triangle. A degenerate one gets its first corner three times: the grid
-/// must not give it an area.
+/// Returns the corners of an input triangle. For a degenerate one it returns the first corner three
+/// times, so that the grid cannot give it an area.
 Triangle SnappedInput::corners_of(std::uint32_t t) const {
     const Triangle& c = arrangement_.state->corners[t];
     const auto& degenerate = arrangement_.degenerate;
@@ -81,7 +81,7 @@ Triangle SnappedInput::corners_of(std::uint32_t t) const {
     return {c[0], c[0], c[0]};
 }
 
-/// The corners as indices into surface s, which gets copies of vertices of other surfaces.
+/// Returns the corners as indices into surface s, which gets copies of vertices of other surfaces.
 Triangle SnappedInput::own_corners(std::size_t s, Triangle corners,
                                    std::vector<Surface>& surfaces) const {
     const auto& first = arrangement_.inputs.first_vertex;

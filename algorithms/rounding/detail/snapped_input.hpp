@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The input with some of its vertices moved to a grid, so that what is nearly coplanar becomes
-// coplanar and can be arranged anew.
+// Moves some vertices of the input to a grid, so that nearly coplanar triangles become coplanar and
+// the input can be arranged again.
 #pragma once
 
 #include <array>
@@ -17,12 +17,12 @@
 
 namespace terrane::rounding::detail {
 
-/// A grid with one spacing per axis, a power of two: its nodes up to 2^53 spacings from the origin
+/// A grid with one spacing per axis, a power of two. Its nodes up to 2^53 spacings from the origin
 /// are doubles.
 struct SnapGrid {
-    std::array<double, 3> step{};
+    std::array<double, 3> step{}; ///< 0: the axis is not snapped
 
-    /// The node nearest to a point.
+    /// Returns the node nearest to a point.
     [[nodiscard]] Point3 snap(const Point3& p) const {
         return {snap(p.x, step[0]), snap(p.y, step[1]), snap(p.z, step[2])};
     }
@@ -32,7 +32,7 @@ private:
     static double snap(double x, double s) { return s > 0 ? std::nearbyint(x / s) * s : x; }
 };
 
-/// The grid whose spacing, on each axis, is 2^digits units in the last place of the largest
+/// Returns the grid whose spacing on each axis is 2^digits units in the last place of the largest
 /// coordinate on that axis.
 SnapGrid grid_of_digits(std::span<const Point3> points, int digits);
 
@@ -45,12 +45,14 @@ public:
     /// had been chosen before.
     bool choose(const RoundedMesh& rounded);
 
-    /// Makes the surfaces with the chosen vertices, and all that share their cells, on the grid.
+    /// Returns the surfaces with the chosen vertices, and all vertices in their cells, moved to the
+    /// grid.
     std::vector<Surface> surfaces(int digits);
 
-    /// The largest distance by which `surfaces` last moved a vertex, rounded up.
+    /// Returns the largest distance by which the last call of surfaces() moved a vertex, rounded
+    /// up.
     [[nodiscard]] double largest_move() const { return largest_; }
-    /// The number of vertices that `surfaces` last moved.
+    /// Returns the number of vertices that the last call of surfaces() moved.
     [[nodiscard]] std::size_t moved() const { return moved_; }
 
 private:

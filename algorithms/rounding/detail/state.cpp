@@ -16,7 +16,7 @@
 namespace terrane::rounding::detail {
 namespace {
 
-// The few roundings of a distance, in any mode, are covered by the last factor.
+// Returns an upper bound of a length. The last factor covers the rounding errors, in any mode.
 double length_bound(double x, double y, double z) {
     const double most = std::max({x, y, z});
     if (most == 0 || std::isinf(most)) return most; // not 0 / 0 and not inf / inf
@@ -86,10 +86,11 @@ void RoundingState::end_round() {
     deviation = (deviation + most) * (1 + 0x1p-51);
 }
 
-/// A triangle that lost its area is now a line. Where no triangle that stays has this line as an
-/// edge (or both its halves), its points are up to half its length from the mesh.
+/// Bounds the gaps that collapsed triangles leave. A collapsed triangle is a line. If no remaining
+/// triangle has this line as an edge, and none its halves, points of the line are up to half its
+/// length away from the mesh.
 void RoundingState::find_gaps(const std::vector<bool>& gone) {
-    std::set<Side> lines; // all sides of triangles that go, then: not kept
+    std::set<Side> lines; // sides of dropped triangles, without those of remaining triangles
     std::vector<bool> concerned(points.size(), false);
     const auto side = [](const Triangle& t, unsigned i) { return side_of(t, i); };
     for (std::uint32_t t = 0; t < triangles.size(); ++t)
@@ -108,7 +109,7 @@ void RoundingState::find_gaps(const std::vector<bool>& gone) {
     };
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {
         if (!gone[t]) continue;
-        // The longest side spans the line; the two others together do so, too.
+        // The longest side spans the line, and so do the two other sides together.
         std::array<double, 3> open{};
         for (unsigned i = 0; i < 3; ++i)
             open[i] = lines.contains(side(triangles[t], i)) ? length(side(triangles[t], i)) : 0;
@@ -120,9 +121,10 @@ void RoundingState::find_gaps(const std::vector<bool>& gone) {
     }
 }
 
-/// Equal points get one name: the lowest. Only a dirty point can have become equal to another.
+/// Merges equal points into the one with the lowest index. Only a dirty point can have become equal
+/// to another.
 bool RoundingState::merge_points(const Run& run) {
-    std::vector<bool> maybe(std::size_t{1} << 20, false); // by hash: spares most look-ups
+    std::vector<bool> maybe(std::size_t{1} << 20, false); // by hash; saves most look-ups
     const auto slot = [&](const Point3& p) { return hash_of(p) & (maybe.size() - 1); };
     for (std::uint32_t v = 0; v < points.size(); ++v)
         if (is_dirty[v]) maybe[slot(points[v])] = true;
@@ -183,8 +185,8 @@ bool RoundingState::tidy(const Run& run) {
     return true;
 }
 
-/// Divides triangles at the points of lost lines inside their sides. Those points are dirty then,
-/// as the corners between which they lie may be. True if there are any.
+/// Divides triangles at the points of collapsed triangles inside their sides. These points become
+/// dirty, because the corners between which they lie may be. Returns whether there are any.
 bool RoundingState::divide_sides(const CollapsedTriangles& lines) {
     std::vector<Triangle> fresh;
     IndexLists<std::uint32_t> faces_of;
@@ -201,7 +203,8 @@ bool RoundingState::divide_sides(const CollapsedTriangles& lines) {
     return true;
 }
 
-/// Drops what is gone, and of equal triangles all but the first, which gets their parents.
+/// Drops the triangles that are gone. Of equal triangles it keeps the first, which gets the parents
+/// of all.
 void RoundingState::join_equal(std::span<const std::uint32_t> dirty, std::vector<bool>& gone) {
     std::map<Triangle, std::uint32_t> seen; // by sorted corners
     std::map<std::uint32_t, std::vector<std::uint32_t>> extra;

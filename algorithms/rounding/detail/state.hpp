@@ -20,46 +20,49 @@ class CollapsedTriangles;
 
 /// The mesh of doubles between rounds of snapping.
 ///
-/// A vertex is dirty when it has moved since its triangles were known to be conforming. Two
-/// triangles without a dirty corner meet properly.
-///
-/// Whatever moves, merges or collapses, the parts of an input triangle hang together as they did:
-/// where triangles that became lines go, the sides that met there are the same again, divided at
-/// the same points. So no move opens a slit between parts.
+/// (1) A vertex is dirty if it has moved since its triangles were known to be conforming. Two
+///     triangles without a dirty corner meet properly.
+/// (2) The parts of an input triangle stay connected, whatever moves, merges or collapses. When
+///     triangles that became lines are dropped, the sides that met there are divided at the same
+///     points and therefore coincide again. So no move opens a slit between parts.
 struct RoundingState {
     std::vector<Point3> points;
-    std::vector<double> move;   ///< per point: at most this far from its exact point
-    std::vector<bool> is_dirty; ///< per point
+    std::vector<double> move;   ///< per point: upper bound of the distance from its exact point
+    std::vector<bool> is_dirty; ///< per point: see (1)
     std::vector<Triangle> triangles;
     IndexLists<std::uint32_t> parents_of; ///< per triangle, sorted
     std::size_t input_vertices = 0;       ///< the first points are input vertices
-    std::size_t merged = 0;               ///< points that became another one
-    std::size_t collapsed = 0;            ///< triangles that lost their area
-    double deviation = 0;                 ///< sum over the ended rounds of the largest move
+    std::size_t merged = 0;               ///< number of points that drop_unused_points() dropped
+    std::size_t collapsed = 0;            ///< number of triangles that lost their area
+    double deviation = 0;                 ///< sum of the largest moves of all ended rounds
     std::vector<std::uint32_t>
         found_dirty; ///< dirty_triangles(), if the last tidy() changed nothing
 
+    /// Returns the triangles with a dirty corner, ascending.
     [[nodiscard]] std::vector<std::uint32_t> dirty_triangles(const Run& run) const;
 
-    /// Makes the corners of these triangles dirty and all other points not: right where these are
-    /// all the pairs that meet improperly.
+    /// Marks the corners of these triangles as dirty and all other points as not dirty.
+    /// Precondition: these are all pairs that meet improperly.
     void only_dirty(std::span<const CandidatePair> improper);
 
-    /// Appends a dirty point that is at most `moved` from its exact place.
+    /// Appends a dirty point whose distance from its exact place is at most `moved`.
     void add_point(const Point3& p, double moved);
 
-    /// Moves each point whose snap(point) is one of `cells` there.
+    /// Moves each point p for which snap(p) is one of `cells` to snap(p).
     template <class Snap>
     void move_into(std::span<const Point3> cells, const Snap& snap);
 
-    /// Merges equal points, drops triangles without area, divides the sides next to those at their
-    /// corners, joins equal triangles. True if anything changed.
-    /// Cost: a pass over all points, exact tests for triangles with dirty corners only.
+    /// Merges equal points, drops triangles without area, divides the sides of their neighbours at
+    /// their corners and joins equal triangles. Returns whether anything changed. Cost: a pass over
+    /// all points, and exact tests for triangles with dirty corners only.
     bool tidy(const Run& run);
 
-    /// Takes new triangles, each contained in the triangles faces_of names.
+    /// Replaces all triangles by new ones. faces_of lists for each the old triangles that contain
+    /// it.
     void replace_triangles(std::vector<Triangle> fresh, const IndexLists<std::uint32_t>& faces_of);
 
+    /// Drops the points that no triangle uses, such as merged ones, and adds their number to
+    /// merged. `move` and `is_dirty` are no longer valid afterwards.
     void drop_unused_points();
 
     /// Adds the largest move since the last call to the deviation.
@@ -73,13 +76,13 @@ private:
     bool divide_sides(const CollapsedTriangles& lines);
 
     double largest_move_ = 0;
-    double largest_gap_ = 0; ///< half the length of a line to which triangles collapsed and that no
-                             ///< other triangle contains
+    double largest_gap_ = 0; ///< half the length of the longest line to which triangles collapsed
+                             ///< and that no other triangle contains
 };
 
-/// At least the distance between a point and its nearest doubles; in the unit of the points.
+/// Returns an upper bound of the distance between a point and its nearest doubles.
 double rounding_bound(const PointStore& points, PointIndex p);
-/// At least the distance between the point enclosed and p.
+/// Returns an upper bound of the distance between the enclosed point and p.
 double distance_bound(const Enclosure& e, const Point3& p);
 
 template <class Snap>

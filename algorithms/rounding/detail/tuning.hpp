@@ -1,32 +1,56 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The constants that decide how rounding repairs contacts. They change which conforming mesh comes
-// out, never whether it is checked.
+// Defines the constants that control how rounding repairs contacts. They affect which conforming
+// mesh results, never whether it is checked.
 #pragma once
 
 #include <array>
 #include <cstddef>
+#include <vector>
+
+#include <terrane/algorithms/core/named_constant.hpp>
 
 namespace terrane::rounding::detail {
 
-/// Grids are named by the number of binary digits that they drop: their spacing is 2^digits units
-/// in the last place of the largest coordinate on each axis.
+/// The constants of rounding. A grid is given by the number of binary digits that it drops: its
+/// spacing is 2^digits units in the last place of the largest coordinate on each axis.
 ///
-/// What crosses is first snapped where it lies, with fine grids, so that as little as possible
-/// moves. That is enough for single mishaps. Sheets that are nearly coplanar over an area multiply
-/// under it (touching_ridges_turned). So where a round does not shrink the contacts to a quarter,
-/// the input triangles concerned are snapped instead, and the input is arranged anew; at once where
-/// contacts are crowded from the start (coplanar_half_turned), since fine rounds only multiply them.
+/// (1) Crossing triangles of the output are snapped first, to fine grids, so that as little as
+///     possible moves. This removes isolated contacts. It multiplies the contacts of surfaces that
+///     are nearly coplanar over an area (touching_ridges_turned).
+/// (2) If a round does not reduce the contacts to a quarter, the input triangles concerned are
+///     snapped instead, and the input is arranged again. If contacts are crowded from the start
+///     (coplanar_half_turned), this happens at once, because fine rounds would only multiply them.
 struct RoundingTuning {
-    std::array<int, 3> fine_digits{4, 8, 12}; ///< grids for the output, one after the other
-    std::array<int, 5> coarse_digits{16, 20, 24, 28, 32}; ///< grids for the input
-    std::size_t many = 1024;                              ///< contacts: fewer are never crowded
-    std::size_t crowded = 8;    ///< triangles per contact: fewer are crowded
+    std::array<int, 3> fine_digits{4, 8, 12};             ///< grids for the output, in this order
+    std::array<int, 5> coarse_digits{16, 20, 24, 28, 32}; ///< grids for the input, in this order
+    std::size_t many = 1024;                              ///< fewer contacts are never crowded
+    std::size_t crowded = 8;    ///< contacts are crowded if there are fewer triangles per contact
     std::size_t multiplied = 8; ///< growth of contacts in a round that counts as a failure
-    unsigned widenings = 3;     ///< times that more input triangles are snapped to one grid
+    unsigned widenings = 3;     ///< attempts per grid of the input, each on more triangles
     unsigned shrinking = 4;     ///< a round helps if it divides the contacts by at least this
 };
 
 inline constexpr RoundingTuning rounding_tuning;
+
+/// Lists all constants by name, in the order of their declaration.
+inline std::vector<NamedConstant> named_constants() {
+    const RoundingTuning& t = rounding_tuning;
+    return {
+        {"fine_digits_1", static_cast<double>(t.fine_digits[0])},
+        {"fine_digits_2", static_cast<double>(t.fine_digits[1])},
+        {"fine_digits_3", static_cast<double>(t.fine_digits[2])},
+        {"coarse_digits_1", static_cast<double>(t.coarse_digits[0])},
+        {"coarse_digits_2", static_cast<double>(t.coarse_digits[1])},
+        {"coarse_digits_3", static_cast<double>(t.coarse_digits[2])},
+        {"coarse_digits_4", static_cast<double>(t.coarse_digits[3])},
+        {"coarse_digits_5", static_cast<double>(t.coarse_digits[4])},
+        {"many", static_cast<double>(t.many)},
+        {"crowded", static_cast<double>(t.crowded)},
+        {"multiplied", static_cast<double>(t.multiplied)},
+        {"widenings", static_cast<double>(t.widenings)},
+        {"shrinking", static_cast<double>(t.shrinking)},
+    };
+}
 
 } // namespace terrane::rounding::detail

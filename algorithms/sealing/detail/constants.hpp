@@ -24,6 +24,9 @@ struct SealConstants {
     double least_width = 1024;
     /// Samples per edge of a triangle whose distance from a curve is judged.
     std::size_t overshoot_samples = 8;
+    /// Distance up to which the ends of a gap look for the surface that the gap is measured to,
+    /// in distances of sealing.
+    double end_reach = 2;
 };
 
 inline constexpr SealConstants constants;
@@ -35,6 +38,7 @@ inline std::vector<NamedConstant> named_constants() {
         {"most_rounds", static_cast<double>(constants.most_rounds)},
         {"least_width", constants.least_width},
         {"overshoot_samples", static_cast<double>(constants.overshoot_samples)},
+        {"end_reach", constants.end_reach},
     };
 }
 

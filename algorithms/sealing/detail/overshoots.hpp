@@ -7,11 +7,12 @@
 #include <vector>
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>
+#include <terrane/algorithms/core/id.hpp>
 
 namespace terrane::sealing::detail {
 
 struct Overshoot {
-    std::uint32_t surface = 0;
+    SurfaceId surface{};
     std::vector<std::uint32_t> triangles{}; ///< of the arrangement, ascending
     double length = 0;                      ///< of the free border around it
     double largest = 0;                     ///< distance from the curve; unit of the input

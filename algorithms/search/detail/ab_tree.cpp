@@ -12,7 +12,7 @@ double key(const Box& b, unsigned level) {
     return level < 3 ? b.low[level] : b.high[level - 3];
 }
 
-/// A sorted list from which entries are taken; finds the next one that is left.
+/// The boxes sorted by one key. It finds the next box that is not taken yet.
 class Sequence {
 public:
     Sequence(std::span<const Box> boxes, unsigned level) :
@@ -25,7 +25,8 @@ public:
         });
     }
 
-    /// The first one at `position` or behind it that is not taken; boxes.size() for none.
+    /// Returns the first box at `position` or behind it that is not taken; boxes.size() if there is
+    /// none.
     std::uint32_t left_from(std::uint32_t position, const std::vector<bool>& taken) {
         std::uint32_t at = position;
         while (at < sorted_.size() && taken[sorted_[at]])
@@ -36,7 +37,7 @@ public:
 
 private:
     std::vector<std::uint32_t> sorted_;
-    std::vector<std::uint32_t> next_; ///< per position: all from it to there are taken
+    std::vector<std::uint32_t> next_; ///< per position p: the boxes at [p, next_[p]) are taken
 };
 
 } // namespace
@@ -86,7 +87,7 @@ std::vector<std::uint32_t> table_1_order(std::span<const Box> boxes) {
         for (std::size_t j = 1; j < t; j += 2) {
             const auto quantile = static_cast<std::uint32_t>(j * n / t);
             const std::uint32_t i = sequences[depth % 6].left_from(quantile, taken);
-            if (i == n) continue; // a later depth comes to those before
+            if (i == n) continue; // later depths reach the boxes before the quantile
             taken[i] = true;
             order.push_back(i);
         }

@@ -12,10 +12,10 @@ namespace {
 using Pairs = std::vector<CandidatePair>;
 using Blocks = std::vector<Pairs>;
 
-constexpr std::size_t most_trees = 8; ///< with more groups than this, one tree holds all
+constexpr std::size_t most_trees = 8; ///< with more groups than this, one tree holds all boxes
 constexpr std::size_t leaves_per_block = 256;
 
-/// What all joins of one search have in common.
+/// The common inputs of all joins of one search.
 struct Task {
     const BoxSource& boxes;
     std::span<const std::uint32_t> groups;
@@ -23,7 +23,8 @@ struct Task {
     const Run& run;
 };
 
-/// Joins the leaves of one tree with another; adds what keep(i, j) and the filter let through.
+/// Joins the leaves of one tree with another and adds the pairs that keep(i, j) and the filter
+/// accept.
 template <class Keep>
 void join(const PackedTree& a, const PackedTree& b, const Task& task, Blocks& blocks,
           const Keep& keep) {
@@ -44,13 +45,13 @@ void join(const PackedTree& a, const PackedTree& b, const Task& task, Blocks& bl
     std::move(found.begin(), found.end(), std::back_inserter(blocks));
 }
 
-/// Adds boxes [k, end) of a selection.
+/// Appends boxes [k, end) of a selection.
 void append(Selection& to, const Selection& from, std::size_t k, std::size_t end) {
     to.boxes.insert(to.boxes.end(), from.boxes.data() + k, from.boxes.data() + end);
     to.indices.insert(to.indices.end(), from.indices.data() + k, from.indices.data() + end);
 }
 
-/// The selected boxes by group; none where there are too many groups.
+/// Splits the selected boxes by group. Returns nothing if there are more than most_trees groups.
 std::vector<Selection> by_group(const Selection& all, std::span<const std::uint32_t> groups) {
     std::vector<Selection> parts;
     std::vector<std::uint32_t> names;
@@ -102,7 +103,7 @@ std::vector<CandidatePair> sorted(const Blocks& blocks, std::size_t count) {
     std::size_t total = 0;
     for (const Pairs& b : blocks) total += b.size();
     Pairs pairs;
-    if (total < count / 16) { // few: no array of all rows
+    if (total < count / 16) { // few pairs: an array of all rows would cost more
         pairs.reserve(total);
         for (const Pairs& b : blocks) pairs.insert(pairs.end(), b.begin(), b.end());
         std::sort(pairs.begin(), pairs.end());
@@ -116,7 +117,7 @@ std::vector<CandidatePair> sorted(const Blocks& blocks, std::size_t count) {
     for (const Pairs& b : blocks)
         for (const CandidatePair& p : b) pairs[row[p.first]++] = p;
     auto begin = pairs.begin();
-    for (std::size_t i = 0; i < count; ++i) { // row[i] is now where row i ends
+    for (std::size_t i = 0; i < count; ++i) { // row[i] is now the end of row i
         const auto end = pairs.begin() + static_cast<std::ptrdiff_t>(row[i]);
         std::sort(begin, end);
         begin = end;

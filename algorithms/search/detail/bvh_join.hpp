@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The search that `automatic` stands for: reduction to what can meet, then trees joined leaf by
-// leaf.
+// Implements Search::bvh: reduces the boxes to those that may meet, then joins trees leaf by leaf.
 #pragma once
 
 #include <cstdint>
@@ -13,18 +12,20 @@
 
 namespace terrane::search {
 
-/// Search::bvh. A tree per group (one for all where groups are many), each joined with itself
-/// or with the others. Cost: linear in boxes and pairs but for the depth of the trees.
+/// Returns all pairs of overlapping boxes except those within one group; sorted, unique. It builds
+/// one tree per group (one for all if there are many groups) and joins each with the others, a tree
+/// of boxes without group also with itself. Cost: linear in boxes and pairs, up to a factor for the
+/// depth of the trees.
 std::vector<CandidatePair> bvh_pairs(const BoxSource& boxes, std::span<const std::uint32_t> groups,
                                      const Run& run);
 
-/// All pairs of which at least one is active (ascending indices) and that the filter keeps.
+/// Implements candidate_pairs_of.
 std::vector<CandidatePair> active_pairs(const BoxSource& boxes,
                                         std::span<const std::uint32_t> active,
                                         std::span<const std::uint32_t> groups,
                                         const PairFilter& filter, const Run& run);
 
-/// Sorts pairs of indices below `count`.
+/// Merges and sorts pairs of indices below `count`.
 std::vector<CandidatePair> sorted(const std::vector<std::vector<CandidatePair>>& blocks,
                                   std::size_t count);
 

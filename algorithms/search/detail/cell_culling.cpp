@@ -34,13 +34,12 @@ bool is_empty(const Box& b) {
     return b.low[0] > b.high[0];
 }
 
-/// Eight boxes at a time as they stand in the list: what is together in a file mostly is so in
-/// space.
+/// Groups of eight consecutive boxes. Triangles adjacent in a file are usually adjacent in space.
 struct Blocks {
     static constexpr std::uint32_t size = 8;
 
-    std::vector<Box> boxes;  ///< per block: of all in it
-    std::vector<char> alike; ///< per block, 1: all in it are of one group; 0: not
+    std::vector<Box> boxes;  ///< per block: the bounding box of its boxes
+    std::vector<char> alike; ///< per block: 1 if all its boxes have the same group, else 0
 
     Blocks(const BoxSource& all, std::span<const std::uint32_t> groups, const Run& run) :
         boxes((all.size() + size - 1) / size), alike(boxes.size()) {
@@ -66,7 +65,8 @@ struct Blocks {
     }
 };
 
-/// Per group the box of all boxes of other groups; boxes without group are one more group.
+/// For each group, the bounding box of all boxes of other groups. Boxes without group form one more
+/// group.
 class Regions {
 public:
     Regions(const BoxSource& boxes, std::span<const std::uint32_t> groups, const Blocks& blocks,
@@ -90,17 +90,18 @@ public:
         unite_others(own);
     }
 
-    /// No box outside meets one of another group; empty_box: none does.
+    /// Returns a region that every box of the group which meets one of another group overlaps;
+    /// empty_box if there are no boxes of other groups.
     [[nodiscard]] const Box& of(std::uint32_t group) const { return of_others_[place(group)]; }
-    /// Where boxes of different groups meet, they do so in here.
+    /// Returns a region that contains all contacts between boxes of different groups.
     [[nodiscard]] const Box& any() const { return any_; }
 
 private:
-    /// Groups numbered sparsely are taken as one that meets itself.
+    /// Returns the number of groups. Sparsely numbered groups count as boxes without group.
     static std::size_t group_count(std::span<const std::uint32_t> groups, const Run& run) {
         const auto counts = parts_of_ranges<std::size_t>(
             groups.size(), run, [&](std::size_t first, std::size_t last) {
-                std::uint32_t most = 0; // one more than the largest, but for no_group
+                std::uint32_t most = 0; // one more than the largest; no_group + 1 wraps to 0
                 for (const std::uint32_t g : groups.subspan(first, last - first))
                     most = std::max(most, g + 1);
                 return std::size_t{most};
@@ -128,13 +129,13 @@ private:
         for (std::size_t g = 0; g < own.size(); ++g) extend(any_, common(own[g], of_others_[g]));
     }
 
-    std::size_t last_;           ///< of no_group
+    std::size_t last_;           ///< index of the boxes without group
     std::vector<Box> of_others_; ///< per group
     Box any_ = empty_box;
 };
 
-/// Cells of 2^shift lattice units, about as large as the mean of some of the boxes, and at most
-/// about one for two boxes.
+/// A grid of cells of 2^shift lattice units. They are about as large as the mean box of a sample,
+/// and there is at most about one cell for every two boxes.
 class Cells {
 public:
     Cells(const BoxSource& boxes, const Lattice& lattice) {
@@ -158,7 +159,7 @@ public:
         in_.assign(layer_ << bits[2], empty);
     }
 
-    /// Number of cells that a box overlaps.
+    /// Returns the number of cells that a box overlaps.
     [[nodiscard]] std::size_t covered(const PackedBox& b) const {
         const Range r = range(b);
         return (r.to[0] - r.from[0] + 1) * (r.to[1] - r.from[1] + 1) * (r.to[2] - r.from[2] + 1);
@@ -166,7 +167,7 @@ public:
 
     [[nodiscard]] std::size_t row_count() const { return in_.size() / row_; }
 
-    /// Enters a box of a group in rows [first, last); no_group mixes.
+    /// Enters a box of a group in its cells of rows [first, last). no_group makes cells mixed.
     void enter(const PackedBox& b, std::uint32_t group, std::size_t first, std::size_t last) {
         if (group == empty) group = mixed;
         any_of(
@@ -199,7 +200,8 @@ private:
         return r;
     }
 
-    /// Visits the cells in rows [first, last) until it returns true; says whether it did.
+    /// Calls visit for the box's cells of rows [first, last) until it returns true. Returns whether
+    /// it did.
     template <class Visit>
     bool any_of(const PackedBox& b, const Visit& visit, std::size_t first = 0,
                 std::size_t last = SIZE_MAX) const {
@@ -217,18 +219,19 @@ private:
 
     std::array<unsigned, 3> shift_{};
     std::size_t row_ = 1, layer_ = 1;
-    std::vector<std::uint32_t> in_; ///< per cell: the group of its boxes, empty or mixed
+    std::vector<std::uint32_t> in_; ///< per cell: the group of its boxes, or empty, or mixed
 };
 
-constexpr std::size_t most_cells = 2 * Blocks::size; ///< of a block; with more, box by box
+/// A block that covers more cells is entered box by box.
+constexpr std::size_t most_cells = 2 * Blocks::size;
 
-/// So many cells may all boxes together cover.
+/// Returns the number of cells that all boxes together may cover.
 constexpr std::size_t most_covered(std::size_t boxes) {
     return 16 * boxes + 4096;
 }
 
-/// Calls visit(packed box, group) for what is to be entered of blocks [first, last): all boxes that
-/// lie in the region of their group, block by block where one is compact.
+/// Calls visit(packed box, group) for all boxes of blocks [first, last) that overlap the region of
+/// their group; once for the whole block if it is compact.
 template <class Visit>
 void for_entries(const BoxSource& boxes, std::span<const std::uint32_t> groups,
                  const Blocks& blocks, const Regions& regions, const Lattice& lattice,
@@ -255,8 +258,9 @@ struct Entries {
     std::size_t covered = 0; ///< cells
 };
 
-/// Enters what entries(first, last, visit) visits of [0, count): with several threads each has rows
-/// of its own. False where all boxes together cover more cells than `most`.
+/// Enters the boxes that entries(first, last, visit) visits for ranges of [0, count). Each thread
+/// enters them in rows of its own. Returns false if all boxes together cover more cells than
+/// `most`.
 template <class Source>
 bool enter_all(std::size_t count, std::size_t most, Cells& cells, const Run& run,
                const Source& entries) {
@@ -291,7 +295,7 @@ bool enter_all(std::size_t count, std::size_t most, Cells& cells, const Run& run
     return true;
 }
 
-/// The boxes that overlap region(i) and a mixed cell (any, if there are no cells).
+/// Selects the boxes i that overlap region(i) and, if there are cells, a mixed cell.
 template <class Region>
 Selection select(const BoxSource& boxes, const Blocks& blocks, const Lattice& lattice,
                  const Cells* cells, const Region& region, const Run& run) {

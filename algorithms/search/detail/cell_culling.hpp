@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The reduction step of the mixed search (paper 2.3), for any number of groups: which boxes can
-// meet one of another group at all.
+// Implements the reduction step of the mixed search (paper 2.3) for any number of groups: it
+// selects the boxes that may meet one of another group.
 #pragma once
 
 #include <cstdint>
@@ -19,19 +19,21 @@ struct Selection {
     std::vector<std::uint32_t> indices; ///< per box: its index in the list, ascending
 };
 
-/// All boxes.
+/// Selects all boxes.
 Selection select_all(const BoxSource& boxes);
 
-/// At least all boxes that overlap one of another group (no_group: any other one). First the boxes
-/// outside all other groups' common box go, then those in whose cells there is only their own
-/// group. Unlike in the paper a box is entered in each cell that it overlaps, so two boxes that
-/// overlap share a cell, and no cell need be searched around it. Cost: linear; where a few boxes
-/// cover very many cells the second step is left out.
+/// Selects at least all boxes that overlap one of another group (for no_group: any other one).
+/// (1) The first step drops the boxes outside the bounding box of all other groups.
+/// (2) The second step drops the boxes whose cells contain their own group only. Unlike in the
+///     paper, a box is entered in each cell that it overlaps. Two boxes that overlap therefore
+///     share a cell, and no neighbouring cells need be searched. The step is omitted if the boxes
+///     cover very many cells.
+/// Cost: linear.
 Selection select_meeting(const BoxSource& boxes, std::span<const std::uint32_t> groups,
                          const Run& run);
 
-/// At least all boxes that overlap an active one, and the active ones themselves.
-/// active: indices, ascending.
+/// Selects at least the active boxes and all boxes that overlap one of them. active: ascending
+/// indices.
 Selection select_near(const BoxSource& boxes, std::span<const std::uint32_t> active,
                       const Run& run);
 

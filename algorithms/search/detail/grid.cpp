@@ -12,7 +12,8 @@ double centre(const Box& b, unsigned k) {
     return b.low[k] / 2 + b.high[k] / 2;
 }
 
-// Cells are capped at twice the number of boxes: halving the largest axis count costs time only.
+// Limits the number of cells. Halving the count along the axis with the most cells makes queries
+// slower but changes no result.
 void cap(std::array<double, 3>& cells, double most) {
     while (cells[0] * cells[1] * cells[2] > most) {
         double& largest = *std::max_element(cells.begin(), cells.end());
@@ -46,8 +47,8 @@ void CellGrid::choose_cells(std::span<const Box> boxes) {
         origin_[k] = low[k];
         const double extent = high[k] - low[k];
         size_[k] = extent > 0 && extent < infinity ? extent / cells[k] : 1;
-        // Half of the largest box, not of a cell; the last bits cover the rounding of the centre,
-        // the smallest normal number that of halves of denormals.
+        // The widening is half of the largest box, not of a cell. The terms in 2^-40 and 2^-50
+        // cover the rounding of the centre, the smallest normal number that of halves of denormals.
         widening_[k] = largest[k] * 0.5 * (1 + 0x1p-40) +
                        0x1p-50 * std::max(std::fabs(low[k]), std::fabs(high[k])) +
                        std::numeric_limits<double>::min();
@@ -66,7 +67,7 @@ CellGrid::CellGrid(std::span<const Box> boxes) {
 }
 
 std::uint32_t CellGrid::cell(unsigned axis, double x) const {
-    const double c = (x - origin_[axis]) / size_[axis]; // monotone in x, also where it rounds
+    const double c = (x - origin_[axis]) / size_[axis]; // monotone in x even when rounded
     if (!(c > 0)) return 0;
     const double last = counts_[axis] - 1;
     return static_cast<std::uint32_t>(std::min(c, last));

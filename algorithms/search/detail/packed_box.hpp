@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Boxes in 16 bytes, for a first test that never misses an overlap.
+// Packs boxes into 16 bytes, for a first test that never misses an overlap.
 #pragma once
 
 #include <algorithm>
@@ -11,9 +11,9 @@
 
 namespace terrane::search {
 
-/// Six coordinates of 20 bits. Fields of 21 bits, x lowest; the highest bit of each is a guard, set
-/// in `high` alone, so that one subtraction compares three coordinates: a guard survives exactly
-/// where nothing had to be borrowed from it.
+/// A box of six 20-bit coordinates. Each coordinate has a field of 21 bits, x in the lowest. The
+/// highest bit of a field is a guard, set in `high` only, so that one subtraction compares three
+/// coordinates: a guard survives iff its field needs no borrow.
 struct PackedBox {
     std::uint64_t low, high;
 
@@ -27,8 +27,8 @@ struct PackedBox {
     [[nodiscard]] bool overlaps(const PackedBox& o) const {
         return (((o.high - low) & (high - o.low)) & guards) == guards;
     }
-    /// Of boxes that overlap: whether each reaches beyond where the other begins, along all axes.
-    /// Then so do those they were packed from.
+    /// Whether each box ends strictly beyond the start of the other along all axes. If so, the
+    /// boxes that they were packed from overlap. Precondition: overlaps(o).
     [[nodiscard]] bool overlaps_inside(const PackedBox& o) const {
         constexpr std::uint64_t ones =
             1 | std::uint64_t{1} << field | std::uint64_t{1} << 2 * field;
@@ -46,11 +46,11 @@ struct PackedBox {
         return {low[0] | low[1] << field | low[2] << 2 * field,
                 high[0] | high[1] << field | high[2] << 2 * field | guards};
     }
-    /// Overlaps nothing: each low coordinate is 2^20.
+    /// Returns a box that overlaps nothing: each low coordinate is 2^20.
     static constexpr PackedBox none() { return {guards, guards}; }
 };
 
-/// Eight boxes, at first none(), laid out for comparing two of them at once with another.
+/// Eight boxes, initially none(), laid out so that two of them are compared with another at once.
 class EightBoxes {
 public:
     EightBoxes() {
@@ -64,17 +64,17 @@ public:
     }
     PackedBox operator[](unsigned i) const { return {low_[place(i)], high_[place(i)]}; }
 
-    /// Bit i: whether box i overlaps q.
+    /// Returns a mask whose bit i says whether box i overlaps q.
     [[nodiscard]] unsigned overlapping(const PackedBox& q) const {
         constexpr unsigned bits = PackedBox::bits, field = PackedBox::field;
-        std::array<std::uint64_t, lanes> found{}; // the guards of box k, 3 - k bits below theirs
+        std::array<std::uint64_t, lanes> found{}; // the guards of box k, shifted down by 3 - k bits
         for (unsigned k = 0; k < per_lane; ++k)
             for (unsigned l = 0; l < lanes; ++l) {
                 const std::uint64_t left =
                     (q.high - low_[lanes * k + l]) & (high_[lanes * k + l] - q.low);
                 found[l] |= (left & PackedBox::guards) >> (per_lane - 1 - k);
             }
-        for (std::uint64_t& f : found) // all three
+        for (std::uint64_t& f : found) // boxes with all three guards
             f = (f & f >> field & f >> 2 * field) >> (bits + 1 - per_lane) & ((1u << per_lane) - 1);
         return static_cast<unsigned>(found[0] | found[1] << per_lane);
     }
@@ -87,8 +87,8 @@ private:
     std::array<std::uint64_t, std::size_t{lanes} * per_lane> low_{}, high_{};
 };
 
-/// Maps a region onto coordinates 0 .. 2^20 - 1 of each axis; what lies outside goes to the ends.
-/// The map is monotone, also where it rounds, so boxes that overlap still do when packed.
+/// Maps a region onto coordinates 0 .. 2^20 - 1 of each axis and clamps coordinates outside the
+/// region. The map is monotone even when rounded, so boxes that overlap still overlap when packed.
 class Lattice {
 public:
     explicit Lattice(const Box& region) {

@@ -12,7 +12,7 @@ struct Keyed {
     std::uint32_t key, position;
 };
 
-/// Stable; one pass per digit of 11 bits.
+/// Sorts stably by key, with one pass per digit of 11 bits.
 void sort_by_key(std::vector<Keyed>& items) {
     constexpr std::uint32_t digits = 1u << 11;
     std::vector<Keyed> sorted(items.size());
@@ -30,7 +30,7 @@ std::uint32_t extent(const PackedBox& b, unsigned axis) {
     return b.high_of(axis) - b.low_of(axis);
 }
 
-/// Two zeros before each of nine bits.
+/// Inserts two zeros before each of nine bits.
 std::uint32_t spread(std::uint32_t x) {
     x = (x | x << 16) & 0x030000ff;
     x = (x | x << 8) & 0x0300f00f;
@@ -38,8 +38,8 @@ std::uint32_t spread(std::uint32_t x) {
     return (x | x << 2) & 0x09249249;
 }
 
-/// Positions in units of the median box of each axis, so that the shape of the order fits the
-/// boxes.
+/// A space-filling curve whose unit along each axis is the extent of the median box, so that the
+/// curve fits the shape of the boxes.
 class Curve {
 public:
     explicit Curve(const Selection& s) {
@@ -57,7 +57,7 @@ public:
                                         : std::min(PackedBox::bits, shift_[k] + coarser);
     }
 
-    /// Size class, then the bits of the centre in turn.
+    /// Returns the key of a box: its size class, then the interleaved bits of its centre.
     [[nodiscard]] std::uint32_t key(const PackedBox& b) const {
         std::uint32_t ratio = 0, bits = 0;
         for (unsigned k = 0; k < 3; ++k) {
@@ -83,7 +83,7 @@ private:
     std::array<unsigned, 3> shift_{};
 };
 
-/// The box of the first `count` of eight.
+/// Returns the box of the first `count` of eight boxes.
 PackedBox box_of(const EightBoxes& boxes, unsigned count) {
     std::array<std::uint64_t, 3> low{}, high{};
     low.fill(PackedBox::last);
@@ -95,7 +95,7 @@ PackedBox box_of(const EightBoxes& boxes, unsigned count) {
     return PackedBox::of(low, high);
 }
 
-/// Of each eight of `count` boxes that box which holds them.
+/// Returns the bounding boxes of each eight of `count` boxes.
 std::vector<EightBoxes> boxes_of_eight(std::span<const EightBoxes> boxes, std::size_t count) {
     std::vector<EightBoxes> level(boxes.size() / 8 + 1);
     for (std::size_t i = 0; i < boxes.size(); ++i)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// A bounding volume hierarchy without pointers: boxes in the order of a space-filling curve, eight
-// neighbours to a node.
+// Implements a bounding volume hierarchy without pointers: boxes are in the order of a
+// space-filling curve, with eight neighbours per node.
 #pragma once
 
 #include <array>
@@ -13,20 +13,22 @@
 
 namespace terrane::search {
 
-/// Boxes of similar size come together in the order, so a few large ones do not blow up the nodes
-/// of many small ones. Cost: sorting 32-bit keys by digits, then linear.
+/// A tree of packed boxes. The order groups boxes of similar size, so that a few large boxes do not
+/// enlarge the nodes of many small ones. Cost: linear (radix sort of 32-bit keys, one pass per
+/// level).
 class PackedTree {
 public:
-    PackedTree() = default; ///< of nothing; not to be joined
+    PackedTree() = default; ///< an empty tree, which must not be joined
     explicit PackedTree(const Selection& selection);
 
-    /// Number of leaves of eight boxes.
+    /// Returns the number of leaves of eight boxes.
     [[nodiscard]] std::uint32_t leaf_count() const { return leaves_; }
 
-    /// Calls report(index here, index there, inside) for all boxes of a leaf here and of the other
-    /// tree, packed on the same lattice, that overlap; each pair once. inside: their boxes surely
-    /// overlap, not only as packed. Of pairs within one tree, whatever the order, only those that
-    /// no smaller leaf reports.
+    /// Calls report(index here, index there, inside) once for each pair of overlapping packed
+    /// boxes, one in a leaf of this tree and one in the other tree. Both trees must be packed on
+    /// the same lattice. `inside` says that the original boxes certainly overlap, too. If both
+    /// trees are the same object, a leaf reports only the pairs that no leaf with a smaller number
+    /// reports.
     template <class Report>
     void join(std::uint32_t leaf, const PackedTree& other, const Report& report) const {
         struct Node {
@@ -77,8 +79,9 @@ private:
         }
     }
 
-    std::vector<std::vector<EightBoxes>> levels_; ///< the boxes, then boxes of each eight of the
-                                                  ///< level before (once at least), up to one eight
+    std::vector<std::vector<EightBoxes>> levels_; ///< level 0: the boxes; level k >= 1: bounding
+                                                  ///< boxes of each eight of level k - 1; the last
+                                                  ///< level is one eight
     std::vector<std::uint32_t> indices_;          ///< per box of levels_[0]
     std::uint32_t leaves_ = 0;
 };

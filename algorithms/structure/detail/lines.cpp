@@ -177,7 +177,7 @@ private:
         std::vector<std::uint32_t> number(mesh_.vertices.size(), none);
         for (const std::uint32_t v : vertices) {
             number[v] = static_cast<std::uint32_t>(out_.corners.size());
-            out_.corners.push_back({v, {}});
+            out_.corners.push_back({VertexId(v), {}});
         }
         for (std::uint32_t l = 0; l < out_.lines.size(); ++l) {
             ModelLine& line = out_.lines[l];

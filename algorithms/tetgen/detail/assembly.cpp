@@ -56,7 +56,7 @@ bool sort_corners(Triangle& t) {
     return even;
 }
 
-/// Groups of equal numbers.
+/// Union-find over the numbers 0 ... size - 1.
 class UnionFind {
 public:
     explicit UnionFind(std::size_t size) : parent_(size) {
@@ -72,7 +72,7 @@ private:
     std::vector<std::uint32_t> parent_;
 };
 
-/// Turns TetGen's answer into the result, step by step, trusting none of it.
+/// Checks TetGen's answer and turns it into the result, step by step, without trusting any of it.
 class Assembly {
 public:
     Assembly(const Mesh& mesh, const TetgenDomain& domain, TetgenOutput output) :
@@ -112,8 +112,8 @@ private:
         return Done{};
     }
 
-    /// Vertices added on a side of the box come rounded; they are put on it exactly. Others stay:
-    /// TetGen may call a face inside a part of the box.
+    /// Puts added vertices on a side of the box exactly on it, as TetGen rounds them. Other
+    /// vertices stay: TetGen may take a face inside the box for a part of its side.
     Status take_vertices() {
         out_.vertices = std::move(in_.points);
         const auto& [low, high] = domain_.box;
@@ -158,8 +158,8 @@ private:
         return Done{};
     }
 
-    /// Faces on the mesh's triangles, in their order. Those on the box are left to match_faces:
-    /// TetGen loses track of some when it improves tetrahedra there.
+    /// Takes the faces on the mesh's triangles, in the order of the triangles. match_faces() finds
+    /// those on the box, as TetGen loses some of them when it improves tetrahedra there.
     Status take_faces() {
         for (std::size_t i = 0; i < in_.faces.size(); ++i) {
             if (on_box(in_.face_facet[i])) continue;
@@ -190,8 +190,9 @@ private:
         return t;
     }
 
-    /// Each face belongs to two tetrahedra, on opposite sides, or to one and lies on the box. With
-    /// all volumes positive it follows that the tetrahedra fill the box and none overlap.
+    /// Checks that each face belongs to two tetrahedra on opposite sides, or to one and lies on the
+    /// box. As all volumes are positive, it follows that the tetrahedra cover each point of the box
+    /// equally often.
     Status match_faces() {
         const std::vector<TetFace> faces = faces_of_tetrahedra();
         std::vector<Triangle> barriers; // faces on the mesh
@@ -242,7 +243,8 @@ private:
         at_box_.push_back(face.tetrahedron);
     }
 
-    /// With the above, this leaves no room for covering the box twice.
+    /// Checks that the volumes add up to the box's. With match_faces(), the tetrahedra cover it
+    /// exactly once.
     Status check_volume() {
         Exact sum = 0.0;
         for (const auto& [a, b, c, d] : out_.tetrahedra) sum += six_volumes(a, b, c, d);
@@ -282,8 +284,9 @@ private:
         return faces;
     }
 
-    /// Region 0 touches the box; the others follow in the order of their lowest tetrahedra (by
-    /// the positions of their vertices, not by TetGen's numbers) until they get those of volumes.
+    /// Numbers the regions: 0 touches the box, the others follow in the order of their lowest
+    /// tetrahedra, compared by the positions of the vertices, not by TetGen's numbers.
+    /// adopt_volume_numbers() later replaces these numbers by those of the volumes.
     Status number_regions() {
         using Position = std::array<Point3, 4>;
         const std::size_t count = out_.tetrahedra.size();
@@ -319,7 +322,8 @@ private:
         return Done{};
     }
 
-    /// Each triangle has faces, and each of its corners is a corner of one of them.
+    /// Checks that each triangle has faces, and that each of its corners is a corner of one of
+    /// them.
     Status check_triangles() {
         auto face = marked_.begin();
         for (std::uint32_t t = 0; t < domain_.triangles.size(); ++t) {
@@ -345,7 +349,7 @@ private:
     TetrahedralMesh out_;
     std::vector<MarkedFace> marked_;      ///< those on the mesh, parallel to out_.faces
     std::vector<std::uint32_t> at_box_;   ///< tetrahedra with a face on the box
-    std::vector<std::uint32_t> group_of_; ///< per tetrahedron: the same number within a region
+    std::vector<std::uint32_t> group_of_; ///< per tetrahedron: one number for each region
 };
 
 } // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// From TetGen's answer to a proven result. Private to terrane::tetgen.
+// Checks TetGen's answer and turns it into the result.
 #pragma once
 
 #include <vector>
@@ -12,16 +12,16 @@
 
 namespace terrane::tetgen::detail {
 
-/// The mesh without unused vertices, and the box around it.
+/// The mesh without unused vertices, and the box around it: the domain that TetGen fills.
 struct TetgenDomain {
     std::vector<Point3> points;      ///< used vertices of the mesh in its order, then 8 box corners
     std::vector<Triangle> triangles; ///< of the mesh, indices into points
     Box3 box;
 };
 
-/// Facets of the output: the triangles of the domain, then the sides of its box in the order low x,
-/// high x, low y, high y, low z, high z.
-/// Errors: internal, when a promise of tetrahedralize (see there) would not be kept.
+/// Turns TetGen's answer into the tetrahedra of the mesh, with proof. The facets of `output` are
+/// the triangles of the domain, then the sides of its box in the order low x, high x, low y, high
+/// y, low z, high z. Errors: internal, if the result would break a guarantee of tetrahedralize().
 Result<TetrahedralMesh> assemble(const Mesh& mesh, const TetgenDomain& domain, TetgenOutput output);
 
 } // namespace terrane::tetgen::detail

@@ -20,11 +20,11 @@
 namespace terrane::tetgen::detail {
 namespace {
 
-constexpr double poll_milliseconds = 50; // how soon a stop request is seen
-constexpr std::size_t most_said = 400;   // characters of standard error that are kept
+constexpr double poll_milliseconds = 50; // longest delay in noticing a stop request
+constexpr std::size_t most_said = 400;   // most characters of standard error that are kept
 
-/// Both are above the standard descriptors, even where the caller has closed some of these: another
-/// thread that prints must not reach the helper.
+/// Moves both ends above the standard descriptors, some of which the caller may have closed.
+/// Otherwise another thread that prints could write to the helper.
 using Ends = std::array<Descriptor, 2>;
 
 bool above_standard(Ends& ends) {
@@ -43,7 +43,7 @@ bool make_socket(Ends& ends) {
     return above_standard(ends);
 }
 
-/// Reading from the first one never waits.
+/// Makes a pipe. Reading from its first end never blocks.
 bool make_pipe(Ends& ends) {
     int both[2];
     if (pipe2(both, O_CLOEXEC) != 0) return false;
@@ -58,7 +58,7 @@ sigset_t signals(std::initializer_list<int> members) {
     return set;
 }
 
-/// The helper's descriptors.
+/// Sets up the helper's descriptors.
 class FileActions {
 public:
     FileActions() { posix_spawn_file_actions_init(&actions_); }
@@ -75,7 +75,7 @@ public:
                 return failed;
 #if defined(__GLIBC_PREREQ)
 #if __GLIBC_PREREQ(2, 34)
-        // What the caller has opened without O_CLOEXEC.
+        // Closes what the caller has opened without O_CLOEXEC.
         return posix_spawn_file_actions_addclosefrom_np(&actions_, STDERR_FILENO + 1);
 #endif
 #endif
@@ -89,7 +89,8 @@ private:
     posix_spawn_file_actions_t actions_{};
 };
 
-/// The helper's signals. What the caller ignores stays ignored, but for those of a crash.
+/// Sets up the helper's signals. Those that the caller ignores stay ignored, except those of a
+/// crash.
 class Attributes {
 public:
     Attributes() { posix_spawnattr_init(&attributes_); }
@@ -113,7 +114,7 @@ private:
     posix_spawnattr_t attributes_{};
 };
 
-/// 0, or the number of the error.
+/// Starts the program; returns 0 or the number of the error.
 int spawn(const std::filesystem::path& program, int talk, int errors, pid_t& pid) {
     FileActions actions;
     if (const int failed = actions.set(talk, errors); failed != 0) return failed;
@@ -128,7 +129,7 @@ Error no_process() {
     return {ErrorCode::out_of_memory, "no process could be started for TetGen", ""};
 }
 
-/// The first line, without what a terminal would take for commands.
+/// Returns the first line, without characters that a terminal would take for commands.
 std::string first_line(const std::string& text) {
     std::string line = text.substr(0, text.find('\n'));
     std::replace_if(
@@ -183,7 +184,7 @@ void HelperProcess::drain_errors() {
     if (got == 0) errors_ = Descriptor(); // closed at the other end
 }
 
-/// Those of the events, and hang-ups, that hold for the socket.
+/// Waits for `events` on the socket; returns those that occurred, with any hang-up.
 Result<short> HelperProcess::wait_for(short events) {
     while (true) {
         if (Status within = check_limits(); !within) return within.error();
@@ -202,7 +203,7 @@ Status HelperProcess::send(std::span<const std::byte> bytes) {
     while (fed_ && !bytes.empty()) {
         const Result<short> ready = wait_for(POLLIN | POLLOUT);
         if (!ready) return ready.error();
-        fed_ = ready.value() == POLLOUT; // else it answers, or has gone
+        fed_ = ready.value() == POLLOUT; // otherwise the helper answers already or has ended
         if (!fed_) break;
         const ssize_t sent =
             ::send(talk_.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
@@ -239,7 +240,7 @@ Status HelperProcess::finish() {
     return Done{};
 }
 
-/// What waitpid says of it; 0 where the caller's process reaps all children by itself.
+/// Returns the status from waitpid, or 0 if the caller's process reaps all children by itself.
 Result<int> HelperProcess::wait_for_exit() {
     while (pid_ > 0) {
         int status = 0;
@@ -248,13 +249,13 @@ Result<int> HelperProcess::wait_for_exit() {
         if (ended == pid_ || (ended < 0 && errno != EINTR)) pid_ = -1;
         if (pid_ < 0) break;
         if (Status within = check_limits(); !within) return within.error();
-        poll(nullptr, 0, 1); // it closes its descriptors a moment before it has ended
+        poll(nullptr, 0, 1); // the helper closes its descriptors a moment before it ends
     }
     drain_errors();
     return exit_status_;
 }
 
-/// For a helper that says nothing more.
+/// Returns the reason why a helper ended that sends nothing more.
 Error HelperProcess::why_it_ended() {
     const Result<int> ended = wait_for_exit();
     if (!ended) return ended.error();
@@ -266,7 +267,8 @@ Error HelperProcess::why_it_ended() {
         return {ErrorCode::internal, fmt::format("TetGen crashed (signal {})", signal), ""};
     if (heard_) return broken("did not end as it should");
     if (said_.empty()) return {ErrorCode::internal, "TetGen gave up", ""};
-    // TetGen's own words go nowhere: it is the loader, or the shell of a script.
+    // The helper discards TetGen's own output, so that this text comes from the loader or a
+    // script's shell.
     return {ErrorCode::cannot_open,
             fmt::format("TetGen's helper can't be run (exit status {}): {}", WEXITSTATUS(status),
                         first_line(said_)),
@@ -275,7 +277,8 @@ Error HelperProcess::why_it_ended() {
 
 void HelperProcess::kill_and_reap() {
     if (pid_ <= 0) return;
-    // Where something else has reaped it, its number may be another process's by now.
+    // If something else has reaped the helper, its process number may belong to another process by
+    // now.
     if (waitpid(pid_, nullptr, WNOHANG) != 0) return;
     kill(pid_, SIGKILL);
     while (waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) {

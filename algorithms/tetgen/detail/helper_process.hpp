@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// One run of TetGen's helper program, from its start to its end.
+// Runs TetGen's helper program once, from its start to its end.
 #pragma once
 
 #include <chrono>
@@ -16,7 +16,7 @@
 
 namespace terrane::tetgen::detail {
 
-/// A file descriptor that is closed at the end.
+/// Owns a file descriptor and closes it.
 class Descriptor {
 public:
     explicit Descriptor(int number = -1) : number_(number) {}
@@ -34,15 +34,14 @@ private:
     int number_;
 };
 
-/// Starts the helper, feeds it and reads from it. The destructor kills and reaps it.
+/// Starts the helper, sends it data and receives its reply. The destructor kills and reaps it.
 ///
 /// (1) A call returns within some 50 ms of a stop request and of the end of the time limit,
-/// whatever
-///     the helper does.
+///     whatever the helper does.
 /// (2) The helper gets three descriptors and no other: a socket as its standard input and output,
-///     and a pipe as its standard error. SIGINT, SIGTERM and SIGHUP are blocked in it: they are for
-///     the caller, who decides. Other signals are not, whatever the caller blocks.
-/// (3) No signal reaches the caller: what the helper does not read raises no SIGPIPE.
+///     and a pipe as its standard error. SIGINT, SIGTERM and SIGHUP are blocked in it, as the
+///     caller decides about them. No other signal is blocked, even if the caller blocks it.
+/// (3) No signal reaches the caller: data that the helper does not read raise no SIGPIPE.
 ///
 /// Errors about the helper itself, rather than about TetGen, have its path as their place:
 /// cannot_open (it could not be run) and internal (it broke the protocol).
@@ -56,17 +55,17 @@ public:
 
     Status start();
 
-    /// Ends without an error, though early, if the helper answers already or has gone; if it
-    /// answers well after that, finish() fails.
+    /// Sends data. Returns early and without an error if the helper already answers or has ended;
+    /// finish() fails if such an answer says that all went well.
     Status send(std::span<const std::byte> bytes);
 
-    /// Fills the memory. If the helper ends before: why it did.
+    /// Fills the memory with received data. If the helper ends before that, the error says why.
     Status receive(std::span<std::byte> memory);
 
-    /// Waits for the end of the helper, which must not say more and must not fail.
+    /// Waits for the helper to end; fails if it sends more data or ends with a failure.
     Status finish();
 
-    /// An error about the helper itself.
+    /// Makes an error about the helper itself.
     [[nodiscard]] Error broken(std::string sentence) const;
 
 private:
@@ -82,11 +81,11 @@ private:
     std::stop_token stop_;
     pid_t pid_ = -1;
     Descriptor talk_;     ///< its standard input and output
-    Descriptor errors_;   ///< its standard error
-    std::string said_;    ///< the start of what it wrote there
-    int exit_status_ = 0; ///< as waitpid says it
-    bool fed_ = true;     ///< it got all that was sent
-    bool heard_ = false;  ///< it said something
+    Descriptor errors_;   ///< its standard error, which this process reads
+    std::string said_;    ///< the start of what it wrote to standard error
+    int exit_status_ = 0; ///< status from waitpid
+    bool fed_ = true;     ///< whether it took all data that were sent
+    bool heard_ = false;  ///< whether any data came from it
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 

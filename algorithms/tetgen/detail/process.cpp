@@ -57,7 +57,7 @@ Error from_tetgen(std::int32_t code, const HelperProcess& helper) {
         return {ErrorCode::out_of_memory, "TetGen ran out of memory", ""};
     case 3:
     case 4:
-    case 5: // the facets do not cross: this is TetGen's tolerance
+    case 5: // the facets do not cross: they are too close for TetGen's tolerance
         return {ErrorCode::unsupported, "the surfaces come too close to each other for TetGen", ""};
     case 10:
         return {ErrorCode::internal, "TetGen did not accept its input", ""};
@@ -81,7 +81,7 @@ Status check(const ReplyHeader& header, const HelperProcess& helper) {
     return Done{};
 }
 
-/// The array grows as its contents come: lengths that are only announced cost no memory.
+/// Receives an array, which grows as its contents arrive: a length alone reserves little memory.
 template <class T>
 Status receive(HelperProcess& helper, std::uint64_t length, std::vector<T>& array) {
     constexpr std::size_t least = (std::size_t{1} << 24U) / sizeof(T);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// TetGen's input and output, and one run of it in a process of its own, so that its asserts, its
-// crashes and what it prints cost the caller nothing, and so that it can be stopped.
+// Runs TetGen once, in a process of its own, so that its asserts, its crashes and its output cost
+// the caller nothing and so that it can be stopped.
 #pragma once
 
 #include <array>
@@ -21,40 +21,39 @@ namespace terrane::tetgen::detail {
 /// A bound on the tetrahedra of a region that facets enclose.
 struct RegionBound {
     Point3 place;          ///< inside the region
-    double max_volume = 0; ///< of a tetrahedron, > 0
+    double max_volume = 0; ///< largest volume of a tetrahedron, > 0
 };
 
 /// TetGen's input: convex planar facets that meet in shared vertices and edges only.
 struct TetgenInput {
     std::vector<Point3> points;       ///< pairwise distinct, all used
-    IndexLists<std::uint32_t> facets; ///< per facet its corners, in order around it
-    bool keep_facets = true;          ///< split no facet: not with any of the last four
+    IndexLists<std::uint32_t> facets; ///< corners of each facet, in order around it
+    bool keep_facets = true;          ///< do not split facets; goes with none of the last four
     bool improve = true;              ///< flip and smooth where shapes are bad
     bool sort_points = true;          ///< insert points along a curve, not in their order
-    std::optional<double> max_volume; ///< of a tetrahedron, anywhere
+    std::optional<double> max_volume; ///< largest volume of any tetrahedron
     std::vector<RegionBound> regions; ///< bounds of single regions
-    std::vector<double> max_areas;    ///< per facet: of a face on it, infinite: no bound; or empty
+    std::vector<double> max_areas;    ///< per facet: largest area of a face, or infinite; or empty
     std::optional<double> radius_edge_ratio;
     double time_limit = std::numeric_limits<double>::infinity(); ///< seconds
     std::filesystem::path helper;                                ///< the program that runs TetGen
 };
 
-/// TetGen's answer. Nothing is checked but the array lengths; assemble() checks the rest.
+/// TetGen's answer. run_tetgen() checks only the array lengths; assemble() checks the rest.
 struct TetgenOutput {
     std::vector<Point3> points; ///< those of the input, then added ones
     std::vector<std::array<std::uint32_t, 4>> tetrahedra;
     std::vector<Triangle> faces;           ///< faces of tetrahedra on a facet
-    std::vector<std::uint32_t> face_facet; ///< per face: its facet
+    std::vector<std::uint32_t> face_facet; ///< facet of each face
 };
 
-/// Runs TetGen once, in the helper program.
+/// Runs TetGen once, in the helper program. The same input gives the same output, as each process
+/// starts from the same state.
 ///
 /// Errors: unsupported (too many facets, or facets too close to tell apart), out_of_memory,
 /// interrupted (the helper is killed), timed_out (likewise), internal (TetGen failed). Errors about
-/// the helper itself have its path as their place: cannot_open (it can't be run), unsupported (it
-/// is of another version), internal (it broke the protocol).
-///
-/// The same input gives the same output: each process starts from the same state.
+/// the helper itself have its path as their place: cannot_open (it can't be run), unsupported (its
+/// version differs), internal (it broke the protocol).
 Result<TetgenOutput> run_tetgen(const TetgenInput& input, const std::stop_token& stop);
 
 } // namespace terrane::tetgen::detail

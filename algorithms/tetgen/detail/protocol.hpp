@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The messages between the library and TetGen's helper program, both on one machine.
+// The messages between the library and TetGen's helper program, which run on the same machine.
 //
 // Request: RequestHeader; points as 3 doubles each; facets + 1 offsets into the corners (uint32);
-// corners (uint32); a bound on the area of faces per facet, infinite where there is none, or no
-// bounds at all (double); regions as x, y, z and the largest volume of a tetrahedron (double).
+// corners (uint32); per facet a bound on the area of its faces, infinite for no bound, or no bounds
+// at all (double); regions as x, y, z and the largest volume of a tetrahedron (double).
 //
-// Reply: ReplyHeader; where its status is `done`, then: points as 3 doubles each; tetrahedra as 4
-// corners each (uint32); faces on facets as 3 corners each (uint32); per face 1 + its facet
+// Reply: ReplyHeader. If its status is `done`, there follow: points as 3 doubles each; tetrahedra
+// as 4 corners each (uint32); faces on facets as 3 corners each (uint32); per face 1 + its facet
 // (uint32).
 #pragma once
 
@@ -18,14 +18,15 @@
 
 namespace terrane::tetgen::detail {
 
-/// First bytes of each message. Another byte order reads as another number.
+/// The first bytes of each message. They read as another number in another byte order.
 inline constexpr std::uint64_t request_mark = 0x7467'7265'7175'6573;
 inline constexpr std::uint64_t reply_mark = 0x7467'7265'706c'7931;
 
-/// To be raised with each change of the messages. The helper of another version is refused.
+/// The version of the messages, to be raised with each change. A helper of another version is
+/// refused.
 inline constexpr std::uint32_t protocol_version = 1;
 
-/// TetGen counts in int, up to 4 corners per item.
+/// The most items of a kind. TetGen counts in int, and up to 4 corners per item.
 inline constexpr std::uint64_t most_items = std::numeric_limits<std::int32_t>::max() / 4;
 
 /// Bits of RequestHeader::flags.
@@ -60,8 +61,9 @@ struct ReplyHeader {
     std::uint64_t faces = 0;
 };
 
-// ReplyHeader::status: 0, or the code that TetGen threw (1 memory, 2 internal, 3 self-intersection,
-// 4 feature too small, 5 facets too close, 10 input), or one of the helper's own.
+// Values of ReplyHeader::status: 0, the code that TetGen threw (1 memory, 2 internal, 3
+// self-intersection, 4 feature too small, 5 facets too close, 10 input), or one of the helper's
+// own.
 inline constexpr std::int32_t done = 0;
 inline constexpr std::int32_t tetgen_out_of_memory = 1;
 inline constexpr std::int32_t unknown_exception = 100;

@@ -20,7 +20,8 @@ Error bad_option(std::string sentence) {
     return {ErrorCode::bad_option, std::move(sentence), ""};
 }
 
-/// The numbers given to `what` are in range, differ, and come with lengths.
+/// Checks that the numbers given to `what` are in range and differ, and that their lengths are
+/// positive.
 class SizeList {
 public:
     SizeList(const char* what, std::size_t count) : what_(what), count_(count) {}
@@ -51,7 +52,7 @@ Status check_sizes(const Mesh& mesh, const Volumes& volumes, const TetrahedraOpt
     return Done{};
 }
 
-/// Half way from the mesh to the box, where nothing is.
+/// Returns a point half way from the mesh to the low corner of the box, where there is no triangle.
 Point3 outside_point(const Mesh& mesh, const Box3& box) {
     Point3 low = box.high;
     for (const Triangle& t : mesh.triangles)
@@ -120,7 +121,7 @@ Result<std::vector<RegionPoint>> points_of_bounded(const Mesh& mesh, const Volum
                                      "doubles was found in it",
                                      v),
                          ""};
-        points.push_back({*places[v], v});
+        points.push_back({*places[v], BlockId(v)});
     }
     return points;
 }

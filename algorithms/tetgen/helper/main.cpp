@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// terrane-tetgen: reads one request (see protocol.hpp) on standard input, has TetGen carry it out
-// and writes one reply on standard output. The library starts it as a process of its own, so that
+// terrane-tetgen reads one request (see protocol.hpp) from standard input, has TetGen carry it out
+// and writes one reply to standard output. The library starts it as a process of its own, so that
 // TetGen's asserts, crashes and prints cost the caller nothing, and so that it can be killed.
 //
 // This file is LGPL. The program made from it contains TetGen, which is AGPL-3.0-or-later, so that
@@ -41,7 +41,7 @@ constexpr auto usage =
 
 // ---- Input and output -------------------------------------------------------------------------
 
-/// Fills the memory from standard input; false if that ends too early.
+/// Fills the memory from standard input; returns false if that ends too early.
 bool read_all(void* data, std::size_t size) {
     char* bytes = static_cast<char*>(data);
     while (size > 0) {
@@ -93,7 +93,8 @@ bool is_sound(const RequestHeader& header) {
            ((header.flags & radius_edge_ratio_flag) == 0 || is_bound(header.radius_edge_ratio));
 }
 
-/// Whether facets are lists of at least three points that exist, and numbers are numbers.
+/// Tells whether each facet has at least three points, all of which exist, and all numbers are
+/// valid.
 bool is_sound(const Request& request) {
     const auto finite = [](const auto& numbers) {
         return std::all_of(numbers.begin(), numbers.end(),
@@ -137,7 +138,7 @@ void set_facet(tetgenio::facet& facet, std::span<const std::uint32_t> corners) {
     std::copy(corners.begin(), corners.end(), polygon.vertexlist);
 }
 
-/// TetGen takes pairs of a facet's marker and a bound.
+/// Sets the bounds on areas: TetGen takes pairs of a facet's marker and a bound.
 void set_area_bounds(const Request& request, tetgenio& io) {
     std::vector<double> list;
     for (std::size_t i = 0; i < request.area_bounds.size(); ++i)
@@ -149,7 +150,7 @@ void set_area_bounds(const Request& request, tetgenio& io) {
     std::copy(list.begin(), list.end(), io.facetconstraintlist);
 }
 
-/// TetGen takes five numbers each: a point, an attribute (of no use here), the volume.
+/// Sets the bounds on volumes: TetGen takes a point, an attribute (not used here) and the bound.
 void set_region_bounds(const Request& request, tetgenio& io) {
     if (request.regions.empty()) return;
     io.numberofregions = static_cast<int>(request.regions.size());
@@ -179,9 +180,9 @@ void fill(const Request& request, tetgenio& io) {
     set_region_bounds(request, io);
 }
 
-/// p: facets are given. z: count from 0. J: keep all points. M: merge neither coplanar facets (each
-/// has its own marker) nor close vertices. Q: quiet. Y: split no facet.
-/// O0: leave shapes as they are. b0: insert points in the order of the input.
+/// Chooses TetGen's switches. p: facets are given. z: count from 0. J: keep all points. M: merge
+/// neither coplanar facets (each has its own marker) nor close vertices. Q: quiet. Y: split no
+/// facet. O0: leave shapes alone. b0: insert points in the order of the input.
 tetgenbehavior behavior_for(const Request& request) {
     const bool max_volume = request.has(max_volume_flag);
     const bool ratio = request.has(radius_edge_ratio_flag);
@@ -195,7 +196,7 @@ tetgenbehavior behavior_for(const Request& request) {
     if (!request.regions.empty()) switches += "Aa"; // without A 1.5.0 ignores bounds of regions
     if (max_volume) switches += "a1";
     behavior.parse_commandline(switches.data());
-    if (max_volume) behavior.maxvolume = request.header.max_volume; // exact, not through text
+    if (max_volume) behavior.maxvolume = request.header.max_volume; // text would round it
     if (ratio) behavior.minratio = request.header.radius_edge_ratio;
     return behavior;
 }
@@ -219,7 +220,7 @@ std::int32_t carry_out(Request& request, tetgenio& out) {
         request = {}; // TetGen needs the memory
         tetrahedralize(&behavior, &in, &out);
         return is_complete(out) ? done : unknown_exception;
-    } catch (int code) { // TetGen's own
+    } catch (int code) { // thrown by TetGen
         return code;
     } catch (const std::bad_alloc&) {
         return tetgen_out_of_memory;
@@ -247,15 +248,16 @@ void reply(int fd, std::int32_t status, const tetgenio& out) {
 
 // ---- The process ------------------------------------------------------------------------------
 
-/// Ends with the caller: by a signal from now on, or here if the caller is gone already.
+/// Makes this process end with the caller: by a signal from now on, or at once if the caller has
+/// ended.
 void end_with_caller() {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     pollfd output{STDOUT_FILENO, 0, 0};
     if (poll(&output, 1, 0) > 0 && (output.revents & (POLLHUP | POLLERR)) != 0) _exit(EXIT_FAILURE);
 }
 
-/// Crashes end the process by their signal, whatever a sanitizer makes of them, without a core
-/// file; and this process is the first to go when the machine runs out of memory.
+/// Lets a crash end this process by its signal, even under a sanitizer, and without a core file;
+/// and makes it the first process to be killed when the machine runs out of memory.
 void be_expendable() {
     const rlimit no_core{0, 0};
     setrlimit(RLIMIT_CORE, &no_core);
@@ -265,7 +267,7 @@ void be_expendable() {
         const auto written = write(score, "1000", 4);
 }
 
-/// A descriptor for the reply. What TetGen prints goes nowhere.
+/// Returns a descriptor for the reply, and discards all that TetGen prints.
 int silence() {
     const int output = fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
     const int null = open("/dev/null", O_WRONLY | O_CLOEXEC);
@@ -292,5 +294,5 @@ int main(int argc, char** argv) {
     tetgenio out;
     const std::int32_t status = carry_out(request, out);
     reply(output, status, out);
-    _exit(EXIT_SUCCESS); // without taking apart what TetGen left
+    _exit(EXIT_SUCCESS); // skips the destructors of TetGen's data
 }

@@ -23,7 +23,8 @@ template <class Polynomial>
 bool not_negative(const Polynomial& value) {
     {
         const UpwardRounding guard;
-        if (const auto sign = certain_sign(value(Interval{}))) return *sign != Sign::Negative;
+        if (const auto sign = certain_sign(guard, value(Interval{})))
+            return *sign != Sign::Negative;
     }
     return exact_sign(value(Exact{})) != Sign::Negative;
 }

@@ -3,12 +3,12 @@
 
 namespace terrane::triangulation::detail {
 
-/// The corner of a triangle that follows corner i in its order.
+/// Returns the corner that follows corner i of a triangle.
 constexpr unsigned next(unsigned i) {
     return i == 2 ? 0 : i + 1;
 }
 
-/// The corner of a triangle that corner i follows in its order.
+/// Returns the corner that precedes corner i of a triangle.
 constexpr unsigned previous(unsigned i) {
     return i == 0 ? 2 : i - 1;
 }

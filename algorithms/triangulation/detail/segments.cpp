@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The part of FaceTriangulation that inserts segments into a triangulation of the points.
-// Source: Sloan (1993).
+// Defines the functions of FaceTriangulation that insert segments into a triangulation of the
+// points. Source: Sloan (1993).
 #include <terrane/algorithms/triangulation/triangulation.hpp>
 
 #include <terrane/algorithms/triangulation/detail/corners.hpp>
@@ -16,7 +16,7 @@ void FaceTriangulation::fix(Side s) {
     if (o != none) cells_[o].fixed[index_in(o, s.cell)] = true;
 }
 
-// From u towards v, vertex by vertex: the segment may pass through other points.
+// Inserts the segment from u to v vertex by vertex, because it may pass through other points.
 void FaceTriangulation::insert_segment(Local u, Local v) {
     while (u != v) {
         Local reached = none;
@@ -25,11 +25,12 @@ void FaceTriangulation::insert_segment(Local u, Local v) {
     }
 }
 
-// Looks at the cells round u. True: an edge of the segment was there already, from u to `reached`;
-// false: edges (now in crossed_) lie between u and `reached`.
+// Searches the cells around u for the segment to v. Returns true if the edge from u to `reached`,
+// which is part of the segment, exists already; false if the edges now in crossed_ lie between u
+// and `reached`.
 bool FaceTriangulation::advance(Local u, Local v, Local& reached) {
-    // Find the cell whose corner at u contains the direction to v, turning counterclockwise; at the
-    // border turn back and go on clockwise.
+    // The search visits the cells counterclockwise, and from the border on clockwise, for the one
+    // whose corner at u contains the direction to v.
     const auto corner = [&](Local cell) {
         const auto& w = cells_[cell].v;
         return w[0] == u ? 0u : w[1] == u ? 1u : 2u;
@@ -46,8 +47,8 @@ bool FaceTriangulation::advance(Local u, Local v, Local& reached) {
             return true;
         }
         const Sign right = turn(u, a, v), left = turn(u, v, b);
-        // The corner is less than a straight angle: both signs >= 0 mean v lies within it, or
-        // straight behind one of its sides in the forward direction of the other.
+        // The angle of the corner is less than a straight angle. If both signs are >= 0, v lies
+        // within it, or one of its sides points towards v.
         if (right == Sign::Zero && left == Sign::Positive) {
             reached = a;
             fix({cell, previous(k)});
@@ -73,7 +74,8 @@ bool FaceTriangulation::advance(Local u, Local v, Local& reached) {
     }
 }
 
-// Walks from u towards v across edges until a vertex lies on the segment: `reached`.
+// Walks from u towards v across edges until a vertex lies on the segment, and returns it in
+// `reached`.
 void FaceTriangulation::collect_crossed(Local u, Local v, Side first, Local& reached) {
     crossed_.clear();
     Side s = first;
@@ -93,7 +95,8 @@ void FaceTriangulation::collect_crossed(Local u, Local v, Side first, Local& rea
             reached = apex;
             return;
         }
-        // In o = (apex, left end, right end), go on across the edge that the segment leaves by.
+        // In o = (apex, left end, right end) the walk continues across the edge through which the
+        // segment leaves the cell.
         s = {o, side == Sign::Positive ? next(j) : previous(j)};
     }
 }
@@ -106,10 +109,11 @@ bool FaceTriangulation::is_convex(Side s) const {
     return turn(p, a, q) == Sign::Positive && turn(q, b, p) == Sign::Positive;
 }
 
-// Flips the crossed edges away (Sloan), then restores the Delaunay property around the new ones.
+// Flips crossed edges until none crosses the segment (Sloan), then restores the Delaunay property
+// around the new edges.
 void FaceTriangulation::remove_crossed(Local u, Local v) {
     const auto side_of = [&](const std::array<Local, 2>& e) {
-        // a cell that has both ends, e[0] right of the segment, seen from u
+        // Finds a cell that has both ends; e[0] lies to the right of the segment, seen from u.
         Local cell = cell_of_[e[0]];
         const Local begin = cell;
         bool clockwise = false;

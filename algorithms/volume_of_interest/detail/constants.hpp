@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The constants of the extension to a boundary; those of its strips are StripConstants.
+// The constants of boundaries and of the extension to one; those of its strips are StripConstants.
 #pragma once
+
+#include <cstddef>
 
 namespace terrane::volume_of_interest::detail {
 
@@ -16,5 +18,12 @@ struct ExtensionConstants {
     unsigned most_doublings = 3;
 };
 inline constexpr ExtensionConstants extension_tuning;
+
+/// They decide what the surfaces of a boundary are.
+struct BoundaryConstants {
+    /// Sides of a boundary up to which each is a surface of its own; more are one surface together.
+    std::size_t most_named_sides = 12;
+};
+inline constexpr BoundaryConstants boundary_tuning;
 
 } // namespace terrane::volume_of_interest::detail

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include <terrane/algorithms/core/id.hpp>
 #include <terrane/algorithms/core/index_lists.hpp>
 #include <terrane/algorithms/mesh/edges.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
@@ -40,11 +41,11 @@ constexpr std::uint32_t opposite(std::uint32_t side) {
     return side ^ 1U;
 }
 
-/// Returns the side of the plane of a triangle on which a vertex lies: Positive in front. The
-/// caller holds an UpwardRounding.
-inline Sign side_of(const TriangleComplex& sheets, std::uint32_t triangle, std::uint32_t vertex) {
+/// Returns the side of the plane of a triangle on which a vertex lies: Positive in front.
+inline Sign side_of(UpwardWitness upward, const TriangleComplex& sheets, TriangleId triangle,
+                    VertexId vertex) {
     const Triangle& p = sheets.planes[triangle];
-    return sheets.points.side_of_plane(p[0], p[1], p[2], sheets.vertices[vertex]);
+    return sheets.points.side_of_plane(upward, p[0], p[1], p[2], sheets.vertices[vertex]);
 }
 
 } // namespace terrane::volumes::detail

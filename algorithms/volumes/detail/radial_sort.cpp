@@ -20,7 +20,9 @@ bool have_common_value(std::span<const std::uint32_t> a, std::span<const std::ui
 /// Compares the directions of triangles away from one edge by their angles.
 class Directions {
 public:
-    Directions(const TriangleComplex& sheets, std::uint32_t low, const Side& reference) :
+    Directions(UpwardWitness upward, const TriangleComplex& sheets, std::uint32_t low,
+               const Side& reference) :
+        upward_(upward),
         sheets_(sheets), low_(low), reference_(reference) {}
 
     /// Tells whether p has a strictly smaller angle than q, measured from the reference in
@@ -48,10 +50,11 @@ private:
             return Sign::Zero;
         const auto [a, b, c] = sheets_.triangles[q.triangle];
         const std::uint32_t apex = a ^ b ^ c ^ low_ ^ q.high; // the third corner
-        const Sign side = side_of(sheets_, p.triangle, apex);
+        const Sign side = side_of(upward_, sheets_, TriangleId(p.triangle), VertexId(apex));
         return runs_along(sheets_.triangles[p.triangle], low_, p.high) ? side : -side;
     }
 
+    [[no_unique_address]] UpwardWitness upward_;
     const TriangleComplex& sheets_;
     std::uint32_t low_; ///< vertex of the edge
     const Side reference_;
@@ -65,9 +68,10 @@ std::uint32_t ahead(const TriangleComplex& sheets, std::uint32_t low, const Side
 
 } // namespace
 
-void sort_round_edge(const TriangleComplex& sheets, std::uint32_t low, std::span<Side> sides) {
+void sort_round_edge(UpwardWitness upward, const TriangleComplex& sheets, std::uint32_t low,
+                     std::span<Side> sides) {
     if (sides.size() < 3) return;
-    const Directions directions(sheets, low, sides[0]);
+    const Directions directions(upward, sheets, low, sides[0]);
     std::sort(sides.begin(), sides.end(),
               [&](const Side& p, const Side& q) { return directions.before(p, q); });
 }
@@ -77,7 +81,7 @@ void join_round_edges(const TriangleComplex& sheets, DisjointSets& sides) {
     std::vector<Side> round;
     sheets.edges.for_each([&](std::uint32_t low, std::uint32_t, std::span<const Side> at_edge) {
         round.assign(at_edge.begin(), at_edge.end());
-        sort_round_edge(sheets, low, round);
+        sort_round_edge(guard, sheets, low, round);
         for (std::size_t i = 0; i < round.size(); ++i) {
             const Side& next = round[(i + 1) % round.size()];
             sides.join(ahead(sheets, low, round[i]), opposite(ahead(sheets, low, next)));

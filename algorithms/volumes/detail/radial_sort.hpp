@@ -15,8 +15,8 @@ namespace terrane::volumes::detail {
 /// Sorts the sides of one edge (low, high) counterclockwise around the direction from low to high;
 /// the first one stays first. The order is exact; triangles that share a parent need no exact
 /// arithmetic. Precondition: no two triangles overlap, so that no two have the same direction; if
-/// two do, std::logic_error is thrown. The caller holds an UpwardRounding.
-void sort_round_edge(const TriangleComplex& sheets, std::uint32_t low,
+/// two do, std::logic_error is thrown.
+void sort_round_edge(UpwardWitness upward, const TriangleComplex& sheets, std::uint32_t low,
                      std::span<EdgeSides::Side> sides);
 
 /// Joins the sides of triangles that face each other around each edge. Joined sides form a shell,

@@ -42,8 +42,8 @@ double coordinate(const Point3& p, unsigned k) {
 /// The lines along one axis, and their intersections with triangles.
 class Bundle {
 public:
-    Bundle(const TriangleComplex& sheets, Axis axis) :
-        sheets_(sheets), axis_(axis), k_(static_cast<unsigned>(axis)) {}
+    Bundle(UpwardWitness upward, const TriangleComplex& sheets, Axis axis) :
+        upward_(upward), sheets_(sheets), axis_(axis), k_(static_cast<unsigned>(axis)) {}
 
     void add_line_through(std::uint32_t triangle) {
         lines_.push_back(inside(triangle));
@@ -84,7 +84,7 @@ private:
     /// Returns the side of a triangle that faces the positive end of the axis.
     [[nodiscard]] std::uint32_t upper_side(std::uint32_t triangle) const {
         const Triangle& p = sheets_.planes[triangle];
-        const Sign s = sheets_.points.orient2d(axis_, p[0], p[1], p[2]);
+        const Sign s = sheets_.points.orient2d(upward_, axis_, p[0], p[1], p[2]);
         return s == Sign::Positive ? front_of(triangle) : back_of(triangle);
     }
 
@@ -95,6 +95,7 @@ private:
         if (seen != lines_.size()) throw std::logic_error("a line misses its own triangle");
     }
 
+    [[no_unique_address]] UpwardWitness upward_;
     const TriangleComplex& sheets_;
     Axis axis_;
     unsigned k_;
@@ -198,7 +199,7 @@ Interval Bundle::height(std::uint32_t triangle, const Line& line) const {
     const auto n = cross(difference(at(1), a), difference(at(2), a));
     const unsigned u = (k_ + 1) % 3, v = (k_ + 2) % 3;
     const Interval nk = coordinate(n, k_);
-    if (line.about.radius != 0 || certain_sign(nk).value_or(Sign::Zero) == Sign::Zero)
+    if (line.about.radius != 0 || certain_sign(upward_, nk).value_or(Sign::Zero) == Sign::Zero)
         return {-HUGE_VAL, HUGE_VAL};
     const Point3& p = sheets_.points.input(plane[0]);
     const Interval du = Interval(coordinate(p, u)) - line.about.u,
@@ -261,8 +262,8 @@ void join_nested(const TriangleComplex& sheets, DisjointSets& sides) {
         sides; // in addition to the shells, the front and the back of a triangle are joined
     for (std::uint32_t t = 0; t < count; ++t) components.join(front_of(t), back_of(t));
     const UpwardRounding guard;
-    std::array<Bundle, 3> bundles{Bundle(sheets, Axis::x), Bundle(sheets, Axis::y),
-                                  Bundle(sheets, Axis::z)};
+    std::array<Bundle, 3> bundles{Bundle(guard, sheets, Axis::x), Bundle(guard, sheets, Axis::y),
+                                  Bundle(guard, sheets, Axis::z)};
     for (std::uint32_t t = 0; t < count; ++t)
         if (components.find(front_of(t)) == front_of(t)) // the lowest triangle of its component
             bundles[static_cast<std::size_t>(best_axis(sheets, t))].add_line_through(t);

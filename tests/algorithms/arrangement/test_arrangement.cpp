@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Small models of every kind of contact, each judged by the verifier, with counts pinned.
+// Small models with every kind of contact: the verifier judges each one, and the counts are fixed.
 #include "support/claim.hpp"
 #include "support/points.hpp"
 #include "support/shapes.hpp"
@@ -26,7 +26,7 @@ struct Counts {
     }
 };
 
-/// Verified first.
+/// Arranges the surfaces, has the result verified, and counts.
 Counts arranged(const std::vector<Surface>& surfaces) {
     const auto a = arrange(surfaces);
     REQUIRE(a);
@@ -125,7 +125,7 @@ TEST_CASE("arrange: three surfaces through one point, and four planes") {
                                      triangle({0, -4, -4}, {0, 4, -4}, {0, 0, 8})};
     arranged(three);
     auto four = three;
-    four.push_back(triangle({-5, 5, 1}, {5, -5, 1}, {1, 1, -2})); // through the origin too
+    four.push_back(triangle({-5, 5, 1}, {5, -5, 1}, {1, 1, -2})); // also through the origin
     for (auto& p : four.back().vertices) p.z = -p.x - p.y;
     arranged(four);
     const auto a = arrange(four);
@@ -167,7 +167,7 @@ TEST_CASE("arrange: a surface that crosses itself, and one with a Moebius twist"
 }
 
 TEST_CASE("arrange: an arrangement of doubles is its own arrangement") {
-    // all intersection points of these are integers
+    // All intersection points of these are integers.
     const std::vector<Surface> surfaces{triangle({0, 0, 0}, {8, 0, 0}, {0, 8, 0}),
                                         triangle({2, 0, -2}, {2, 0, 2}, {2, 8, 0})};
     const auto once = arrange(surfaces);
@@ -208,7 +208,7 @@ TEST_CASE("arrange: a stop request ends it") {
     const auto a = arrange(std::vector{floor_triangle}, {}, run);
     REQUIRE_FALSE(a);
     CHECK(a.error().code == ErrorCode::interrupted);
-    // in the midst
+    // A stop request in the middle of the work.
     std::stop_source later;
     const Run stopped{.threads = 2, .stop = later.get_token(), .progress = [&](auto, double share) {
                           if (share > 0.2) later.request_stop();

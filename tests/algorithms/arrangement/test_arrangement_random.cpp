@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Random soups, mostly degenerate, judged by the verifier; and what must not change the result.
+// Random soups, mostly degenerate: the verifier judges them, and some changes must not affect the
+// result.
 #include "support/claim.hpp"
 #include "support/effort.hpp"
 #include "support/points.hpp"
@@ -50,7 +51,7 @@ Point3 corner(Random& random, Shape shape) {
     }
 }
 
-/// Corners of a stacked triangle lie in one sheet.
+/// Returns the corners of a random triangle; those of a stacked one lie in the same sheet.
 std::array<Point3, 3> corners(Random& random, Shape shape) {
     std::array<Point3, 3> t;
     for (auto& p : t) p = corner(random, shape);
@@ -64,7 +65,7 @@ std::array<Point3, 3> corners(Random& random, Shape shape) {
     return t;
 }
 
-/// `count` triangles in one to three surfaces.
+/// Returns `count` triangles in one to three surfaces.
 std::vector<Surface> random_soup(Random& random, Shape shape, int count) {
     std::vector<Surface> surfaces(static_cast<std::size_t>(random_int(random, 1, 3)));
     std::vector<Point3> few;
@@ -85,13 +86,13 @@ void transform(std::vector<Surface>& surfaces, const std::function<Point3(const 
         for (Point3& p : s.vertices) p = map(p);
 }
 
-/// Mostly few triangles: many that all cross take the verifier long.
+/// Returns a mostly small number: the verifier takes long for many triangles that all cross.
 int random_count(Random& random) {
     const int size = random_int(random, 0, 19);
     return size == 0 ? random_int(random, 25, 40) : random_int(random, 3, size < 6 ? 16 : 8);
 }
 
-/// `count` soups per shape, of `most` triangles at most.
+/// Checks `count` soups of each shape, with at most `most` triangles each.
 void check_soups(std::uint64_t seed, int count, int most,
                  const std::function<void(Random&, std::vector<Surface>&)>& change) {
     Random random(seed);
@@ -119,7 +120,7 @@ bool same(const Arrangement& a, const Arrangement& b) {
            a.inputs.duplicates == b.inputs.duplicates;
 }
 
-/// Threads 1 and 2, all search methods.
+/// Tells whether 1 and 2 threads and all search methods give the same arrangement.
 bool always_the_same(const std::vector<Surface>& surfaces) {
     const auto first = arrange(surfaces);
     if (!first) return false;
@@ -187,7 +188,7 @@ TEST_CASE("arrangements depend on neither threads nor search method") {
     for (const Shape shape : all_shapes)
         for (int i = 0; i < cases(20); ++i)
             REQUIRE(always_the_same(random_soup(random, shape, random_count(random))));
-    // enough triangles for several blocks of work
+    // There are enough triangles for several blocks of work.
     std::vector<Surface> sheets;
     for (int k = 0; k < 3; ++k) sheets.push_back(rough_sheet(random, 30, 0.1));
     REQUIRE(always_the_same(sheets));
@@ -208,7 +209,7 @@ TEST_CASE("arrangements of powers of two and of turned axes are the same") {
             REQUIRE(scaled);
             REQUIRE(same(first.value(), scaled.value()));
             transform(soup, [](const Point3& p) { return Point3{p.y, p.z, p.x}; });
-            const auto turned = arrange(soup); // projected along another axis: other diagonals
+            const auto turned = arrange(soup); // projected along another axis, with other diagonals
             REQUIRE(turned);
             REQUIRE(turned.value().vertices.size() == vertices);
             REQUIRE(turned.value().triangles.size() == first.value().triangles.size());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Pairs of surfaces against CGAL's corefinement in its exact kernel: the same points, the same
-// number of triangles, the same area.
+// Compares pairs of surfaces with CGAL's corefinement in its exact kernel: the points, the number
+// of triangles, the area.
 #include "support/corefine_oracle.hpp"
 #include "support/effort.hpp"
 #include "support/points.hpp"
@@ -15,7 +15,7 @@ namespace {
 using namespace terrane;
 using namespace test_support;
 
-/// n x m squares over [0, n] x [0, m] with heights.
+/// Returns n x m squares over [0, n] x [0, m] with the given heights.
 Surface height_field(int n, int m, const std::function<double(int, int)>& height) {
     Surface s;
     for (int j = 0; j <= m; ++j)
@@ -32,7 +32,7 @@ Surface height_field(int n, int m, const std::function<double(int, int)>& height
 
 enum class Model { two_horizons, horizon_and_fault, integer_heights, integer_fault, shifted };
 
-/// Neither crosses itself: each is a graph over z = 0 or x = 0.
+/// Returns two surfaces, neither of which crosses itself: each is a graph over z = 0 or x = 0.
 std::array<Surface, 2> random_pair(Random& random, Model model) {
     const bool integers = model == Model::integer_heights || model == Model::integer_fault;
     const auto height = [&](int, int) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The canonical digest: twice implemented, the same; any other arrangement has another one.
+// Both implementations of the canonical digest agree; any other arrangement has another digest.
 #include "support/certified_inputs.hpp"
 #include "support/claim.hpp"
 
@@ -18,7 +18,7 @@ namespace {
 using namespace terrane;
 using test_support::claim_of;
 
-/// Coplanar overlap, a duplicate, one without area, and a wall through them.
+/// Returns a coplanar overlap, a duplicate, a triangle without area, and a wall through them.
 std::vector<Surface> some_surfaces() {
     return {
         {"a", Role::horizon, {{0, 0, 0}, {8, 0, 0}, {0, 8, 0}, {4, 0, 0}}, {{0, 1, 2}, {0, 3, 1}}},
@@ -82,7 +82,7 @@ TEST_CASE("digest: changes with anything that is said") {
     const auto expected = verifier::digest_of(surfaces, claim);
     using Mutation = std::function<void(ArrangementClaim&)>;
     const std::vector<Mutation> mutations{
-        [](ArrangementClaim& c) { // one triangle less
+        [](ArrangementClaim& c) { // one triangle fewer
             c.triangles.pop_back();
             c.parents_of.offsets.pop_back();
             c.parents_of.values.resize(c.parents_of.offsets.back());

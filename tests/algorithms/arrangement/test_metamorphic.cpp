@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What must not change the arrangement, tried on the inputs of tests/certified.
+// Changes that must not affect the arrangement, on the inputs of tests/certified.
 #include "support/certified_inputs.hpp"
 #include "support/metamorphic.hpp"
 #include "support/rounded.hpp"
@@ -22,13 +22,15 @@ std::string digest(std::span<const Surface> surfaces) {
     return canonical_digest(surfaces, arranged(surfaces));
 }
 
-/// Both must be the same, with the claim about what was transformed carried back.
+/// Checks that both arrangements are equal, with the claim about the transformed surfaces carried
+/// back.
 void check_same(const Surfaces& original, const ArrangementClaim& carried) {
     CHECK(carried.triangles.size() == arranged(original).triangles.size());
     CHECK(verifier::digest_of(original, carried) == digest(original));
 }
 
-/// Triangles with corners anywhere: no three lines through a point, no four points on a circle.
+/// Returns triangles in general position: no three lines meet in a point, no four points lie on a
+/// circle.
 Surfaces random_surfaces(unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> coordinate(-1, 1);
@@ -124,7 +126,7 @@ TEST_CASE("metamorphic: arranging what is arranged changes nothing") {
         CHECK(same.triangles.size() == mesh.triangles.size());
         CHECK(triangles_of(same.vertices, same.triangles) ==
               triangles_of(mesh.vertices, mesh.triangles));
-        // Triangles of several coplanar parents in one surface have one parent now.
+        // Triangles that had several coplanar parents in one surface now have one parent.
         const bool one_parent_each =
             std::ranges::equal(mesh.parents_of.offsets, mesh.surfaces_of.offsets);
         if (one_parent_each)

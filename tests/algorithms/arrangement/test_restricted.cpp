@@ -22,17 +22,19 @@ TEST_CASE("restricted: keeping everything changes nothing, keeping nothing leave
     const auto a = arrange(std::vector{cube(0, 4), level(2, -1, -1, 5, 5)}).value();
     const Arrangement same = restricted(a, std::vector<bool>(a.triangles.size(), true));
     CHECK(same.triangles == a.triangles);
-    CHECK(same.whole);
+    CHECK(same.state->whole);
     const Arrangement none = restricted(a, std::vector<bool>(a.triangles.size(), false));
     CHECK(none.triangles.empty());
+    CHECK(none.statistics.triangles == a.triangles.size()); // a part keeps the counts of the whole
+    CHECK(none.statistics.vertices == a.vertices.size());
     CHECK(none.vertices.empty());
-    CHECK_FALSE(none.whole);
+    CHECK_FALSE(none.state->whole);
     check_consistent(none);
     CHECK(find_volumes(none).value().block_count() == 0);
 }
 
 TEST_CASE("restricted: removing one surface leaves the arrangement of the others", "[voi]") {
-    // The cube cuts the level; without the cube its pieces are one region again.
+    // The cube cuts the level; without the cube, its pieces are one region again.
     const auto a = arrange(std::vector{cube(0, 4), level(2, -1, -1, 5, 5)}).value();
     std::vector<bool> keep(a.triangles.size());
     for (std::size_t t = 0; t < keep.size(); ++t) keep[t] = a.surfaces_of[t][0] == 1;

@@ -18,7 +18,7 @@ CheckReport report_of(const std::vector<Surface>& surfaces) {
     return std::move(report).value();
 }
 
-/// The only contact of the triangle (0,0) (4,0) (0,4) in the plane z = 0 with another one.
+/// Returns the only contact of the triangle (0,0) (4,0) (0,4) in the plane z = 0 with another one.
 ImproperContact contact_with(const Point3& a, const Point3& b, const Point3& c) {
     const auto report = report_of(
         {surface({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{0, 1, 2}}), surface({a, b, c}, {{0, 1, 2}})});

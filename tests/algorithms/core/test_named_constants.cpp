@@ -16,8 +16,12 @@
 #include <terrane/algorithms/reconstruction/joining/join.hpp>
 #include <terrane/algorithms/reconstruction/kriging/fill_kriging.hpp>
 #include <terrane/algorithms/reconstruction/rbf/rbf.hpp>
+#include <terrane/algorithms/rounding/rounding.hpp>
 #include <terrane/algorithms/sealing/sealing.hpp>
 #include <terrane/algorithms/structure/structure.hpp>
+#include <terrane/algorithms/tetgen/tetrahedra.hpp>
+#include <terrane/algorithms/triangulation/point_surface.hpp>
+#include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
 #include <terrane/algorithms/volume_of_interest/extension.hpp>
 
 using namespace terrane;
@@ -25,7 +29,8 @@ using namespace terrane;
 TEST_CASE("constants: each stage lists its constants once, by name", "[constants]") {
     for (const auto& list :
          {improve_constants(), hole_constants(), join_constants(), kriging_constants(),
-          rbf_constants(), seal_constants(), extension_constants(), structure_constants()}) {
+          rbf_constants(), seal_constants(), extension_constants(), structure_constants(),
+          rounding_constants(), boundary_constants(), point_constants(), tetrahedra_constants()}) {
         CHECK_FALSE(list.empty());
         std::set<std::string> names;
         for (const NamedConstant& c : list) {
@@ -49,4 +54,9 @@ TEST_CASE("constants: the lists have the values that documents state", "[constan
     CHECK(value(kriging_constants(), "most_places") == 20'000);
     CHECK(value(rbf_constants(), "left_out_width") == 0.25);
     CHECK(value(structure_constants(), "least_share") == 0.1);
+    CHECK(value(rounding_constants(), "coarse_digits_5") == 32);
+    CHECK(value(boundary_constants(), "most_named_sides") == 12);
+    CHECK(value(point_constants(), "worth_tilting") == 0.8);
+    CHECK(value(join_constants(), "strips_4") == 1.4);
+    CHECK(value(tetrahedra_constants(), "least_ratio") == 1.1);
 }

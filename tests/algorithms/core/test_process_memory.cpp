@@ -29,7 +29,7 @@ using namespace terrane;
 
 namespace {
 
-/// What waitpid says of a child of this process that does the work. Nothing of Catch may be used.
+/// Returns the waitpid status of a child that does the work, which must use nothing of Catch.
 int status_of_child(const std::function<int()>& work) {
     const pid_t pid = fork();
     if (pid == 0) {
@@ -44,7 +44,7 @@ int status_of_child(const std::function<int()>& work) {
     return status;
 }
 
-// ---- Functions that fail when they are told to
+// ---- Functions that fail on request
 
 long countdown = -1;    ///< allocations until one fails; negative: none does
 std::set<void*> living; ///< blocks that GMP has
@@ -74,7 +74,7 @@ void release(void* memory, std::size_t) {
     std::free(memory);
 }
 
-/// They are GMP's while this lives. What GMP has lost by then is freed.
+/// Makes GMP use these functions while it lives; then frees the memory that GMP lost.
 class FailingFunctions {
 public:
     FailingFunctions() { mp_set_memory_functions(allocate, reallocate, release); }
@@ -89,7 +89,8 @@ public:
     FailingFunctions& operator=(const FailingFunctions&) = delete;
 };
 
-/// A box whose volume lies halfway between two doubles: only exact numbers tell which is nearest.
+/// Returns a box whose volume lies halfway between two doubles: only exact numbers give the nearest
+/// one.
 Mesh box_with_tied_volume() {
     const double a = 1 + 0x1p-26, b = 1 + 0x1p-27; // a b = 1 + 2^-26 + 2^-27 + 2^-53
     Mesh mesh;
@@ -110,11 +111,11 @@ Mesh box_with_tied_volume() {
 
 } // namespace
 
-#ifndef TERRANE_SANITIZED // AddressSanitizer itself needs more address space than any limit
+#ifndef TERRANE_SANITIZED // AddressSanitizer itself needs more address space than this limit
 
 namespace {
 
-/// 2 to the power of 2^35: 4 GiB, where the process may have 3.
+/// Computes 2 to the power of 2^35, which takes 4 GiB; the process may have 3.
 int ask_for_too_much() {
     const rlimit limit{std::size_t{3} << 30U, std::size_t{3} << 30U};
     setrlimit(RLIMIT_AS, &limit);
@@ -123,7 +124,7 @@ int ask_for_too_much() {
     try {
         mpz_ui_pow_ui(power, 2, 1UL << 35U);
     } catch (const std::bad_alloc&) {
-        mpz_set_ui(power, 7); // still a number
+        mpz_set_ui(power, 7); // the number can still be used
         const bool sound = mpz_cmp_ui(power, 7) == 0;
         mpz_clear(power);
         return sound ? 3 : 4;
@@ -148,7 +149,7 @@ TEST_CASE("memory: GMP ends the process where it gets none, unless it was told t
 TEST_CASE("memory: allocation functions of the program's own are left alone", "[core]") {
     const int status = status_of_child([] {
         if (!throw_on_gmp_out_of_memory() || !throw_on_gmp_out_of_memory())
-            return 1; // twice is fine
+            return 1; // a second call is allowed
         mp_set_memory_functions(allocate, reallocate, release);
         if (throw_on_gmp_out_of_memory()) return 2;
         void* (*found)(std::size_t) = nullptr;
@@ -165,14 +166,14 @@ TEST_CASE("memory: whichever allocation of GMP fails, a stage says so and stays 
     const FailingFunctions failing;
     long failures = 0;
     for (long n = 0;; ++n) {
-        mpfr_free_cache(); // what MPFR keeps for itself
+        mpfr_free_cache(); // frees the numbers that MPFR caches
         const std::size_t before = living.size();
         countdown = n;
         const auto volumes = find_volumes(mesh);
         countdown = -1;
         INFO(n);
         mpfr_free_cache();
-        // A constructor of gmpxx.h that fails midway loses its numerator and denominator.
+        // A constructor of gmpxx.h that fails halfway leaks its numerator and denominator.
         REQUIRE(living.size() - before <= (volumes ? 0 : 2));
         REQUIRE(mpfr_get_emin() == low);
         REQUIRE(mpfr_get_emax() == high);

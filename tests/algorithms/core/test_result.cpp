@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Result has the functions of std::expected, with their meaning.
+// Result has the functions of std::expected, with the same meaning.
 #include <terrane/algorithms/core/result.hpp>
 
 #include <catch2/catch.hpp>
@@ -128,7 +128,7 @@ TEST_CASE("result: rvalues are moved from, never copied") {
     CHECK(error.sentence.data() == sentence);
 }
 
-#ifdef NDEBUG // an assertion is there otherwise
+#ifdef NDEBUG // other builds end in an assertion
 TEST_CASE("result: value and error throw where assertions are off and the other one is held") {
     CHECK_THROWS_AS(number("").value(), std::bad_variant_access);
     CHECK_THROWS_AS(number("1").error(), std::bad_variant_access);

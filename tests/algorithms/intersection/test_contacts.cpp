@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The order of the points of an arrangement against the comparison of each with each other one.
+// Compares the order of the points of an arrangement with the comparison of each pair of points.
 #include "support/point_store_cases.hpp"
 
 #include <terrane/algorithms/intersection/contacts.hpp>
@@ -14,8 +14,8 @@ namespace {
 using namespace terrane;
 using namespace point_store_cases;
 
-/// Contacts that use all points of a store: a piece in each of the triangles whose corners are
-/// three of its input points.
+/// Contacts that use all points of a store, with a piece in each triangle whose corners are three
+/// consecutive input points.
 struct Used {
     std::vector<Point3> points;
     std::vector<Triangle> triangles;
@@ -39,7 +39,6 @@ void check_order(const Used& used) {
     const PointOrder order = used.order(1);
     const PointStore& store = used.contacts.points;
     const auto count = static_cast<PointIndex>(store.size());
-    const UpwardRounding guard;
     bool ok = true;
     for (PointIndex a = 0; a < count; ++a)
         for (PointIndex b = 0; b < count; ++b) {
@@ -47,7 +46,7 @@ void check_order(const Used& used) {
             const auto by_rank = order.rank[a] <=> order.rank[b];
             ok = ok && (sign < 0) == (by_rank < 0) && (sign > 0) == (by_rank > 0);
             ok = ok && (order.same_as[a] == order.same_as[b]) == (sign == 0);
-            // An input point stands for all that are equal, the first one.
+            // The first of equal input points represents them and all points equal to it.
             if (sign == 0 && store.is_input(b)) ok = ok && order.same_as[a] <= b;
         }
     REQUIRE(ok);
@@ -83,7 +82,7 @@ TEST_CASE("points are ordered as they compare, however x is spread") {
     const std::vector<std::vector<double>> spreads{
         {7.5},                                     // all on one plane
         {-most, most},                             // whose difference overflows
-        {-most, -1, 0, least, 1, most},            // all but two in one place
+        {-most, -1, 0, least, 1, most},            // all but two in the same place
         {0, least, 2 * least, 3 * least},          // of a length whose inverse overflows
         {1, 1 + 0x1p-52, 1 + 0x1p-51, 1 + 0x1p-50} // neighbours
     };

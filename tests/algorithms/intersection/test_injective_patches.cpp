@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Within a patch no two triangles may meet improperly: each pair is tested.
+// Tests each pair of triangles within a patch: no two may meet improperly.
 #include "support/effort.hpp"
 #include "support/points.hpp"
 
@@ -25,8 +25,8 @@ struct Sheet {
 
 enum class Shape {
     smooth,  ///< a height field
-    jagged,  ///< vertices of a grid moved sideways, too: folds
-    lattice, ///< the same on a lattice: folds that touch
+    jagged,  ///< grid vertices also moved sideways: folds
+    lattice, ///< likewise on a lattice: folds that touch
     rolled,  ///< a spiral: several windings, locally one-to-one
     holed,   ///< a height field with triangles missing: loops that share vertices
     touching ///< a height field bent until its border touches itself
@@ -129,7 +129,7 @@ TEST_CASE("patches: no two triangles of a patch meet improperly") {
 TEST_CASE("patches: scattered triangles are proven one by one") {
     Random random(92);
     Sheet m;
-    for (std::uint32_t k = 0; k < 100; ++k) { // all over each other in every projection
+    for (std::uint32_t k = 0; k < 100; ++k) { // all overlap in every projection
         const auto family = [&] { return point_of([&] { return random_real(random, 0, 1); }); };
         for (int i = 0; i < 3; ++i) m.points.push_back(family());
         m.triangles.push_back({3 * k, 3 * k + 1, 3 * k + 2});

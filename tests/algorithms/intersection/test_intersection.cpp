@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Every class of contact between two triangles, written out.
+// Tests each class of contact between two triangles by an example.
 #include <terrane/algorithms/intersection/intersection.hpp>
 
 #include <catch2/catch.hpp>
@@ -14,13 +14,13 @@ namespace {
 using namespace terrane;
 using Kind = Construction::Kind;
 
-/// "c0" corner, "e1" edge, "f" face.
+/// Returns "c0" for a corner, "e1" for an edge, "f" for the face.
 std::string text(Simplex p) {
     if (is_corner(p)) return "c" + std::to_string(corner_of(p));
     return is_edge(p) ? "e" + std::to_string(edge_of(p)) : "f";
 }
 
-/// "c0-e1 f-e2": the places of all points, sorted.
+/// Returns the simplices of all points, sorted: "c0-e1 f-e2".
 std::string places(const Contact& c) {
     std::vector<std::string> all;
     for (unsigned i = 0; i < c.point_count; ++i)
@@ -31,14 +31,14 @@ std::string places(const Contact& c) {
     return joined;
 }
 
-/// How many points are of which kind: "input", "line_plane", "line_line".
+/// Counts the points of each kind: "input", "line_plane", "line_line".
 std::map<Kind, int> kinds(const Contact& c) {
     std::map<Kind, int> count;
     for (unsigned i = 0; i < c.point_count; ++i) ++count[c.points[i].how.kind];
     return count;
 }
 
-/// The first triangle (0, 1, 2) is this one in all cases; corners at (0,0), (4,0), (0,4).
+/// The first triangle (0, 1, 2) of all cases, with corners at (0,0), (4,0) and (0,4).
 const std::vector<Point3> base{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
 
 std::optional<Contact> meets(const std::vector<Point3>& more, const Triangle& second) {

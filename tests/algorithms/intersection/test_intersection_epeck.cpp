@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Random pairs of triangles of a small lattice, where every kind of contact is common, against
-// CGAL's intersection in its exact kernel.
+// Compares random pairs of triangles on a small lattice, on which every kind of contact is common,
+// with CGAL's intersection in its exact kernel.
 #include "support/contact_oracle.hpp"
 #include "support/effort.hpp"
 #include "support/points.hpp"
@@ -25,7 +25,7 @@ Corners lattice_points() {
     return Corners(std::move(points));
 }
 
-/// With area; of one plane z = 0, 1 in a third of the cases.
+/// Returns a triangle with an area; if `flat`, in the plane z = 0.
 Triangle random_triangle(Random& random, const Corners& lattice, bool flat) {
     const int end = flat ? width * width : width * width * width;
     for (;;) {

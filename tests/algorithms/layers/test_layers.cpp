@@ -91,7 +91,7 @@ std::vector<std::optional<double>> expected_heights(const std::vector<Surface>& 
     return z;
 }
 
-/// Number of bits in which sums and products of these coordinates are exact.
+/// A number with enough bits for sums and products of these coordinates to be exact.
 using Exactly = mpf_class;
 constexpr unsigned exact_bits = 1024;
 
@@ -177,7 +177,7 @@ TEST_CASE("stacks: 100 random stacks with crossings follow the definition", "[la
         std::uniform_int_distribution<int> hardness(0, 3);
         for (std::uint32_t s = 0; s < n; ++s) {
             surfaces.push_back(random_sheet(random, 0.4 * s, 5 + s + static_cast<unsigned>(i % 4)));
-            order.push_back({s, static_cast<double>(hardness(random))});
+            order.push_back({SurfaceId(s), static_cast<double>(hardness(random))});
         }
         std::reverse(order.begin(), order.end()); // the highest level comes first
         const Mesh mesh = check_stack(surfaces, order, {}, random);
@@ -194,7 +194,10 @@ TEST_CASE("stacks: layers of different outlines follow the definition and have s
         const std::vector<Surface> surfaces{random_sheet(random, 0.3, 7, 1.03, 8.1),
                                             random_sheet(random, 0, 8, 2.51, 9.7),
                                             random_sheet(random, -0.3, 6, 0.2, 9.9)};
-        check_stack(surfaces, {{0, 1}, {1, static_cast<double>(i % 4)}, {2, 2}}, {}, random);
+        check_stack(
+            surfaces,
+            {{SurfaceId(0), 1}, {SurfaceId(1), static_cast<double>(i % 4)}, {SurfaceId(2), 2}}, {},
+            random);
     }
 }
 
@@ -204,8 +207,10 @@ TEST_CASE("stacks: a minimum thickness is kept", "[layers]") {
         CAPTURE(i);
         const std::vector<Surface> surfaces{
             random_sheet(random, 0.6, 6), random_sheet(random, 0.3, 7), random_sheet(random, 0, 5)};
-        check_stack(surfaces, {{0, 2}, {1, static_cast<double>(i % 4)}, {2, 1.5}},
-                    {.min_thickness = 0.125}, random);
+        check_stack(
+            surfaces,
+            {{SurfaceId(0), 2}, {SurfaceId(1), static_cast<double>(i % 4)}, {SurfaceId(2), 1.5}},
+            {.min_thickness = 0.125}, random);
     }
 }
 
@@ -245,7 +250,8 @@ TEST_CASE("stacks: layers that do not cross do not change, and stacking twice ch
         sheet(graph([](double x, double) { return 1 + 0.1 * x; }), 0, 0, 10, 10, 4, 4);
     const Surface base =
         sheet(graph([](double x, double) { return -0.1 * x; }), 0, 0, 10, 10, 5, 5);
-    const auto apart = stack_layers(std::array{top, base}, std::array{Layer{0, 0}, Layer{1, 1}});
+    const auto apart = stack_layers(std::array{top, base},
+                                    std::array{Layer{SurfaceId(0), 0}, Layer{SurfaceId(1), 1}});
     REQUIRE(apart);
     CHECK(apart.value().rounded.mesh->triangles.size() ==
           top.triangles.size() + base.triangles.size());
@@ -253,7 +259,7 @@ TEST_CASE("stacks: layers that do not cross do not change, and stacking twice ch
 
     std::mt19937_64 random(14);
     const std::array surfaces{random_sheet(random, 0.1, 8), random_sheet(random, 0, 9)};
-    const std::array order{Layer{0, 0}, Layer{1, 1}};
+    const std::array order{Layer{SurfaceId(0), 0}, Layer{SurfaceId(1), 1}};
     const auto once = stack_layers(surfaces, order);
     REQUIRE(once);
     CHECK(once.value().reports[0].dropped > 0);
@@ -284,7 +290,7 @@ TEST_CASE("stacks: a soft layer has a step where the hard one ends, and its leng
 TEST_CASE("stacks: the result does not depend on the number of threads", "[layers]") {
     std::mt19937_64 random(15);
     const std::array surfaces{random_sheet(random, 0.1, 12), random_sheet(random, 0, 13)};
-    const std::array order{Layer{0, 0}, Layer{1, 1}};
+    const std::array order{Layer{SurfaceId(0), 0}, Layer{SurfaceId(1), 1}};
     const auto one = stack_layers(surfaces, order),
                three = stack_layers(surfaces, order, {}, {.threads = 3});
     REQUIRE(one);
@@ -302,17 +308,17 @@ TEST_CASE("stacks: layers that can't be stacked are refused", "[layers]") {
         return result.error().code;
     };
     CHECK(code({flat}, {}) == ErrorCode::nothing_to_do);
-    CHECK(code({flat}, {{1, 0}}) == ErrorCode::bad_option);
-    CHECK(code({flat}, {{0, 0}, {0, 1}}) == ErrorCode::bad_option);
-    CHECK(code({flat}, {{0, std::nan("")}}) == ErrorCode::bad_option);
-    CHECK(code({flat}, {{0, 0}}, {.min_thickness = -1}) == ErrorCode::bad_option);
+    CHECK(code({flat}, {{SurfaceId(1), 0}}) == ErrorCode::bad_option);
+    CHECK(code({flat}, {{SurfaceId(0), 0}, {SurfaceId(0), 1}}) == ErrorCode::bad_option);
+    CHECK(code({flat}, {{SurfaceId(0), std::nan("")}}) == ErrorCode::bad_option);
+    CHECK(code({flat}, {{SurfaceId(0), 0}}, {.min_thickness = -1}) == ErrorCode::bad_option);
     SECTION("a vertical wall, an overturned fold") {
         const Surface wall = sheet(
             [](double u, double v) {
                 return Point3{5, u, v - 5};
             },
             0, 0, 10, 10, 3, 3);
-        CHECK(code({flat, wall}, {{0, 1}, {1, 0}}) == ErrorCode::unsupported);
+        CHECK(code({flat, wall}, {{SurfaceId(0), 1}, {SurfaceId(1), 0}}) == ErrorCode::unsupported);
         const Surface fold = sheet(
             [](double u, double v) {
                 return Point3{5 + 2 * std::cos(u), v, 2 * std::sin(u) - 1};
@@ -322,7 +328,8 @@ TEST_CASE("stacks: layers that can't be stacked are refused", "[layers]") {
             Surface named = fold;
             named.name = "turned";
             const std::array<Surface, 2> two{named, flat};
-            const auto result = stack_layers(two, std::array{Layer{0, hardness}, Layer{1, 1}});
+            const auto result = stack_layers(
+                two, std::array{Layer{SurfaceId(0), hardness}, Layer{SurfaceId(1), 1}});
             REQUIRE(!result);
             CHECK(result.error().code == ErrorCode::unsupported);
             CHECK(result.error().place.starts_with("turned ("));
@@ -334,7 +341,8 @@ TEST_CASE("stacks: layers that can't be stacked are refused", "[layers]") {
         Run run;
         run.stop = source.get_token();
         const std::array<Surface, 2> two{flat, flat};
-        const auto result = stack_layers(two, std::array{Layer{0, 0}, Layer{1, 1}}, {}, run);
+        const auto result =
+            stack_layers(two, std::array{Layer{SurfaceId(0), 0}, Layer{SurfaceId(1), 1}}, {}, run);
         REQUIRE(!result);
         CHECK(result.error().code == ErrorCode::interrupted);
     }

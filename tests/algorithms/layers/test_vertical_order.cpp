@@ -72,7 +72,8 @@ TEST_CASE("vertical order: agrees with clipped polygons in rationals", "[layers]
     std::mt19937_64 random(21);
     int above = 0, below = 0, same = 0, apart = 0;
     for (int i = 0; i < test_support::cases(30000); ++i) {
-        // Few places, so that corners on edges and shared edges are common; heights may be equal.
+        // There are few positions, so that corners on edges and shared edges are common; heights
+        // may be equal.
         std::uniform_int_distribution<int> place(0, 2 + i % 4), level(0, i % 3 == 0 ? 2 : 9);
         const auto corner = [&](int shift) {
             return Point3{static_cast<double>(place(random)), static_cast<double>(place(random)),
@@ -83,7 +84,8 @@ TEST_CASE("vertical order: agrees with clipped polygons in rationals", "[layers]
             second{corner(shift), corner(shift), corner(shift)};
         const PointStore store({first[0], first[1], first[2], second[0], second[1], second[2]});
         const UpwardRounding guard;
-        const auto s = seen_along_z(store, {0, 1, 2}), t = seen_along_z(store, {3, 4, 5});
+        const auto s = seen_along_z(guard, store, {0, 1, 2}),
+                   t = seen_along_z(guard, store, {3, 4, 5});
         const auto corners = [&](const UpwardTriangle& u) {
             return Corners{store.input(u[0]), store.input(u[1]), store.input(u[2])};
         };
@@ -91,8 +93,8 @@ TEST_CASE("vertical order: agrees with clipped polygons in rationals", "[layers]
         if (!s || !t) continue;
         const auto shared = common(corners(*s), corners(*t));
         const bool overlap = area(shared) > 0;
-        REQUIRE(overlap_along_z(store, *s, *t) == overlap);
-        REQUIRE(overlap_along_z(store, *t, *s) == overlap);
+        REQUIRE(overlap_along_z(guard, store, *s, *t) == overlap);
+        REQUIRE(overlap_along_z(guard, store, *t, *s) == overlap);
         if (!overlap) {
             ++apart;
             continue;
@@ -105,8 +107,8 @@ TEST_CASE("vertical order: agrees with clipped polygons in rationals", "[layers]
         }
         if (higher && lower) continue; // they cross
         const Sign expected = higher ? Sign::Positive : lower ? Sign::Negative : Sign::Zero;
-        REQUIRE(above_along_z(store, *s, *t) == expected);
-        REQUIRE(above_along_z(store, *t, *s) == -expected);
+        REQUIRE(above_along_z(guard, store, *s, *t) == expected);
+        REQUIRE(above_along_z(guard, store, *t, *s) == -expected);
         ++(higher ? above : lower ? below : same);
     }
     CHECK(std::min({above, below, apart}) > 200 / test_support::effort_divisor);

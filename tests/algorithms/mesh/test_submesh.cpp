@@ -12,15 +12,15 @@ using namespace terrane;
 
 namespace {
 
-/// Vertex v lies at (v, v * v, 0): a place names its vertex.
+/// Puts vertex v at (v, v * v, 0), so that a point identifies its vertex.
 std::vector<Point3> row_of_points(std::uint32_t count) {
     std::vector<Point3> points;
     for (std::uint32_t v = 0; v < count; ++v) points.push_back({1.0 * v, 1.0 * v * v, 0});
     return points;
 }
 
-/// Checks what any part must be: the same places at the corners, no vertex without triangle, and
-/// the vertices in the order of the whole.
+/// Checks that the triangles have the same points as before, that each vertex has a triangle, and
+/// that the vertices keep their order.
 void check_part(const std::vector<Point3>& whole, const std::vector<Triangle>& before,
                 const std::vector<Point3>& part, const std::vector<Triangle>& after) {
     REQUIRE(after.size() == before.size());

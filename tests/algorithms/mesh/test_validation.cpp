@@ -48,7 +48,7 @@ TEST_CASE("validation: the first flaw is named, whatever the number of threads")
     mesh.triangles[20000] = {7, 8, 7};
     Run run;
     run.threads = 2;
-    CHECK(validate(mesh.vertices, mesh.triangles, run).ok()); // areas are not asked for
+    CHECK(validate(mesh.vertices, mesh.triangles, run).ok()); // areas are not required
     check_refused(validate_areas(mesh.vertices, mesh.triangles, run), ErrorCode::improper_contact,
                   "triangle 20000");
     mesh.triangles[25000][1] = 40000;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Models: the numbers of their blocks, and that nothing is proven or found twice on the way to one.
+// Tests the numbers of a model's blocks, and that nothing is proven or found twice on the way to
+// it.
 #include <catch2/catch.hpp>
 
 #include <algorithm>
@@ -33,7 +34,7 @@ TEST_CASE("model: blocks have the numbers of the exact ones where rounding loses
     CHECK(model->volumes.measures == std::vector<double>{512, 128, 64, 64, 64, 0, 128, 64});
     CHECK(model->structure.blocks.size() == 8);
     CHECK(model->structure.blocks[5].interfaces.empty());
-    auto numbers = model->number_of; // those of the mesh itself are in another order
+    auto numbers = model->number_of; // the mesh itself numbers them in another order
     std::sort(numbers.begin(), numbers.end());
     CHECK(numbers == std::vector<std::uint32_t>{0, 1, 2, 3, 4, 6, 7});
     const auto found = find_volumes(rounded->mesh);
@@ -76,7 +77,7 @@ TEST_CASE("model: each mesh is proven once, and searched for volumes once", "[vo
     CHECK(WorkCount::meshes_of("prove conforming") == 2);
     CHECK(WorkCount::meshes_of("find volumes") == 2);
     CHECK(WorkCount::meshes_of("find exact volumes") == 1);
-    // A mesh without its proof is proven again: the count notices it.
+    // A mesh without its proof is proven again, which the count shows.
     REQUIRE(improve(rounded->mesh, {.edge_length = 2}));
     CHECK(WorkCount::meshes_of("prove conforming") == 0);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Building a model from a project, as a function of the library.
+// Tests building a model from a project, by calls of the library.
 #include <catch2/catch.hpp>
 
 #include <string>
@@ -14,7 +14,7 @@ using namespace test_support;
 
 namespace {
 
-/// Stages as they began and ended: "+arrange", "-arrange".
+/// Records the stages as they begin and end: "+arrange", "-arrange".
 struct Stages {
     std::vector<std::string> seen{};
 

@@ -16,7 +16,7 @@
 #include "support/points.hpp"
 
 using namespace terrane;
-using namespace terrane::improving;
+using namespace terrane::quality::detail;
 using namespace test_support;
 
 namespace {

@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/algorithms/quality/deviation.hpp>
 
 #include "support/improve_cases.hpp"
@@ -30,17 +31,19 @@ TEST_CASE("improve: the original is near the result, and a hole is detected", "[
         CHECK(back.value()[s] >= sampled_distance(before, after));
     }
     // Without a triangle it is far: the inscribed circle is larger than the bound.
-    for (const std::size_t gone : {std::size_t{0}, better.mesh.triangles.size() / 2}) {
+    for (const std::size_t gone : {std::size_t{0}, better.mesh->triangles.size() / 2}) {
         Improved holed = better;
-        const std::uint32_t surface = better.mesh.surfaces_of[gone][0];
+        const std::uint32_t surface = better.mesh->surfaces_of[gone][0];
         const auto keep = [&](auto& list) {
             list.erase(list.begin() + static_cast<std::ptrdiff_t>(gone));
         };
-        keep(holed.mesh.triangles);
+        Mesh rest = better.mesh;
+        keep(rest.triangles);
         keep(holed.near_of);
-        holed.mesh.surfaces_of = {};
-        for (std::size_t t = 0; t < better.mesh.triangles.size(); ++t)
-            if (t != gone) holed.mesh.surfaces_of.push_back(better.mesh.surfaces_of[t]);
+        rest.surfaces_of = {};
+        for (std::size_t t = 0; t < better.mesh->triangles.size(); ++t)
+            if (t != gone) rest.surfaces_of.push_back(better.mesh->surfaces_of[t]);
+        holed.mesh = rest;
         const auto far = bounds_back(mesh, holed, options);
         REQUIRE(far);
         CHECK(far.value()[surface] > better.report.bound_of[surface]);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Regions of models whose regions are known.
+// Tests the regions of models for which they are known.
 #include "support/claim.hpp"
 #include "support/rounded.hpp"
 #include "support/shapes.hpp"
@@ -22,7 +22,7 @@ Surface horizon(unsigned n = 4) {
     return grid(n, n, [n](unsigned i, unsigned j) { return Point3{4.0 * i / n, 4.0 * j / n, 0}; });
 }
 
-/// A vertical wall over the line from (x0, y0) to (x1, y1), from z = -1 to 1.
+/// Returns a vertical wall over the line from (x0, y0) to (x1, y1), from z = -1 to 1.
 Surface wall(double x0, double y0, double x1, double y1) {
     return surface({{x0, y0, -1}, {x1, y1, -1}, {x1, y1, 1}, {x0, y0, 1}}, {{0, 1, 2}, {0, 2, 3}});
 }
@@ -36,7 +36,7 @@ void check_same(const Regions& r, const Regions& expected) {
     }
 }
 
-/// What a mesh alone says must agree with what the arrangement's adjacency says.
+/// Finds regions from the mesh alone and from the arrangement's adjacency, which must agree.
 Regions regions(const std::vector<Surface>& surfaces) {
     const Arrangement a = arranged(surfaces);
     REQUIRE(flaws(surfaces, a) == "");
@@ -52,12 +52,12 @@ Regions regions(const std::vector<Surface>& surfaces) {
               .parents_of = a.parents_of,
               .intersection_edges = a.intersection_edges};
     check_same(find_regions(mesh), found);
-    mesh.parents_of = {}; // as a mesh from elsewhere
+    mesh.parents_of = {}; // like a mesh from another program
     check_same(find_regions(mesh), found);
     return found;
 }
 
-/// Areas of a surface's regions, ascending.
+/// Returns the areas of a surface's regions, ascending.
 std::vector<double> areas(const Regions& r, std::uint32_t surface) {
     std::vector<double> all;
     for (const Region& region : r.regions)
@@ -72,7 +72,8 @@ void check_areas(const Regions& r, std::uint32_t surface, const std::vector<doub
     for (std::size_t i = 0; i < found.size(); ++i) CHECK(found[i] == Approx(expected[i]));
 }
 
-/// By surface, then by lowest triangle; sizes add up; neighbours are mutual.
+/// Checks that regions are sorted by surface, then by lowest triangle, that sizes add up, and that
+/// neighbours are mutual.
 void check_order(const Regions& r) {
     std::size_t slots = 0;
     for (std::size_t i = 0; i < r.regions.size(); ++i) {
@@ -133,7 +134,7 @@ TEST_CASE("regions: a fault that ends within the sheet leaves it one region") {
     const Regions r = regions({horizon(), wall(1.5, -1, 1.5, 2)});
     check_order(r);
     check_areas(r, 0, {16});
-    check_areas(r, 1, {6}); // it dangles beyond the sheet's border: one region, too
+    check_areas(r, 1, {6}); // it dangles beyond the sheet's border: also one region
     const Regions inside = regions({horizon(), wall(1.5, 1, 1.5, 3)});
     check_areas(inside, 0, {16});
     check_areas(inside, 1, {2, 2}); // the curve goes from border to border of the fault

@@ -9,15 +9,18 @@
 
 #include <catch2/catch.hpp>
 
+#include <terrane/algorithms/intersection/intersection.hpp>
+
 #include <limits>
 #include <span>
 
 namespace {
 
 using namespace terrane;
+using namespace terrane::rounding::detail;
 using namespace test_support;
 
-/// Twice the area, of triangles in the plane z = 0.
+/// Returns twice the area of a triangle in the plane z = 0.
 double twice_area(std::span<const Point3> points, const Triangle& t) {
     const Point3 &a = points[t[0]], &b = points[t[1]], &c = points[t[2]];
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
@@ -59,7 +62,7 @@ TEST_CASE("rounding: a sliver that becomes a line opens no slit between its neig
     const auto r = rounded(a);
     CHECK(r.report.collapsed_triangles == 1);
     CHECK(r.report.clean);
-    CHECK(r.report.rounds == 0); // nothing meets improperly but for that sliver's corner
+    CHECK(r.report.rounds == 0); // nothing meets improperly except the sliver's corner
     for (const unsigned rounds : {8U, 1U, 0U})
         CHECK(soup_laws::rounding_flaw(model, a, {.max_rounds = rounds}).empty());
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What rounding promises, judged by the independent verifier on the doubles themselves.
+// The independent verifier judges the guarantees of rounding on the doubles themselves.
 #include "support/claim.hpp"
 #include "support/effort.hpp"
 #include "support/points.hpp"
@@ -24,7 +24,7 @@ using namespace terrane;
 using namespace terrane::rounding::detail;
 using namespace test_support;
 
-/// A rotation and shift that no double is safe from: coplanar becomes nearly coplanar.
+/// Rotates and shifts a point. The result must be rounded: coplanar points become nearly coplanar.
 Point3 turned(const Point3& p) {
     const double y = std::cos(0.7) * p.y - std::sin(0.7) * p.z;
     const double z = std::sin(0.7) * p.y + std::cos(0.7) * p.z;
@@ -90,7 +90,7 @@ TEST_CASE("rounding: nothing is farther from its exact place than reported") {
 }
 
 TEST_CASE("rounding: nearly coplanar sheets come out conforming, hardly moved") {
-    for (const int n : {3, 8, 16, 32}) { // the last one's contacts are a crowd from the start
+    for (const int n : {3, 8, 16, 32}) { // for the last one, contacts are many from the start
         const auto a = arranged(turned_sheets(n));
         const auto naive = rounded(a, {.max_rounds = 0});
         CHECK(naive.report.clean == is_conforming(naive.mesh));
@@ -120,7 +120,7 @@ TEST_CASE("rounding: what is left is named when no round is allowed") {
 }
 
 TEST_CASE("rounding: a triangle too thin for doubles is reported as vanished, or still there") {
-    // Two needles cross a sheet; one is thinner than doubles can tell where it is cut.
+    // Two needles cross a sheet; one is thinner than the spacing of doubles where it is cut.
     std::vector<Surface> model{unit_grid(4, 4, [](double x, double y) {
         return Point3{x, y, 0.1 * x};
     })};
@@ -183,7 +183,7 @@ TEST_CASE("rounding: the same for any number of threads, and stopped on request"
 
 namespace {
 
-/// A wavy sheet of 2 n^2 triangles over a square.
+/// Returns a wavy sheet of 2 n^2 triangles over a square.
 Surface waves(std::uint32_t n, double height, double phase) {
     Surface s{"waves", Role::unknown, {}, {}};
     for (std::uint32_t j = 0; j <= n; ++j)
@@ -200,7 +200,7 @@ Surface waves(std::uint32_t n, double height, double phase) {
     return s;
 }
 
-/// Each triangle with vertices of its own.
+/// Gives each triangle vertices of its own.
 Surface loose(const Surface& s) {
     Surface apart{s.name, s.role, {}, {}};
     for (const Triangle& t : s.triangles) {
@@ -211,7 +211,7 @@ Surface loose(const Surface& s) {
     return apart;
 }
 
-/// What one thread makes of them, after checking that several make the same.
+/// Checks that several threads give the same result as one thread, and returns it.
 Arrangement check_threads_change_nothing(const std::vector<Surface>& surfaces) {
     Arrangement a = arrange(surfaces).value();
     const RoundedMesh m = round_to_doubles(a).value();
@@ -249,7 +249,8 @@ Arrangement check_threads_change_nothing(const std::vector<Surface>& surfaces) {
 
 } // namespace
 
-// Threads share passes over triangles, points and edges only where there are tens of thousands.
+// Threads share passes over triangles, points and edges only if there are tens of thousands of
+// them.
 TEST_CASE("rounding: what threads share gives the same as one thread") {
     std::vector<Surface> surfaces{waves(120, 0.3, 0), waves(110, 0.2, 1), waves(120, 0.3, 0)};
     surfaces[2].triangles.resize(9000);         // duplicates, and the surface ends within others

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Parts are moved by far more than rounding would, so that some do meet: what is not listed as
-// unproven must be proper, pair by pair.
+// Moves the parts by far more than rounding would, so that some of them do meet. Each pair that is
+// not listed as unproven must meet properly.
 #include "support/effort.hpp"
 #include "support/points.hpp"
 
@@ -67,7 +67,7 @@ struct Moved {
     std::vector<double> moves;
 };
 
-/// Each vertex of the arrangement to any place at most `size` away.
+/// Moves each vertex of the arrangement by at most `size`.
 Moved moved(Random& random, const Arrangement& a, double size) {
     Moved m;
     for (const PointIndex v : a.vertices) {
@@ -101,7 +101,8 @@ Point3 between(const Point3& a, const Point3& b, double at) {
     return {a.x + at * (b.x - a.x), a.y + at * (b.y - a.y), a.z + at * (b.z - a.z)};
 }
 
-/// As find_unproven promises: ill_conditioned parts are told of pairs within a face alone.
+/// Tells whether find_unproven lists the pair. Parts in ill_conditioned count only for pairs within
+/// a face.
 bool is_listed(const Arrangement& a, const Unproven& unproven, const CandidatePair& p) {
     const auto has = [](const auto& list, const auto& value) {
         return std::binary_search(list.begin(), list.end(), value);
@@ -134,7 +135,7 @@ void examine(Random& random, const Surface& surface, double size, Found& found) 
     }
 }
 
-/// A large triangle cut by two families of triangles into more than 256 parts.
+/// Returns a large triangle, cut by two families of triangles into more than 256 parts.
 Surface much_cut(Random& random) {
     const auto near = [&](double x) { return x + random_real(random, -0.02, 0.02); };
     Surface s;
@@ -208,7 +209,7 @@ TEST_CASE("clearance: two triangles that cross at a small angle, in a short line
         Surface s;
         const double tilt = std::pow(10, random_real(random, -6, 0));
         for (int v = 0; v < 6; ++v) s.vertices.push_back(flat(tilt));
-        if (i % 2 == 0) { // two edges that cross, or miss each other a little
+        if (i % 2 == 0) { // two edges that cross, or just miss each other
             const double at = random_real(random, 0, 1), near = random_real(random, -0.01, 0.01);
             const Point3 x = between(s.vertices[0], s.vertices[1], at);
             s.vertices[4] = between(s.vertices[3], between(s.vertices[2], x, 1 + near), 2);

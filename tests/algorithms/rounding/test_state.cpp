@@ -14,9 +14,10 @@
 namespace {
 
 using namespace terrane;
+using namespace terrane::rounding::detail;
 using namespace test_support;
 
-/// Dirty points, and triangles each with itself as its parent.
+/// Returns a state in which all points are dirty and each triangle is its own parent.
 RoundingState state_of(std::vector<Point3> points, std::vector<Triangle> triangles) {
     RoundingState state;
     state.move.assign(points.size(), 0);
@@ -30,7 +31,7 @@ RoundingState state_of(std::vector<Point3> points, std::vector<Triangle> triangl
 } // namespace
 
 TEST_CASE("rounding: triangles that became a line leave no corner inside their neighbours' sides") {
-    // Two between the side 0 3 above and the chain 0 1 2 3 below it.
+    // Two collapsed triangles lie between the side 0 3 above and the chain 0 1 2 3 below.
     auto state = state_of({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {1, 2, 0}, {1, -2, 0}},
                           {{0, 3, 4}, {0, 2, 3}, {0, 1, 2}, {1, 0, 5}, {2, 1, 5}, {3, 2, 5}});
     state.is_dirty.assign(state.points.size(), false);

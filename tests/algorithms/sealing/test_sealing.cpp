@@ -33,7 +33,8 @@ void check_strip_ends(const std::vector<Surface>& surfaces, const Sealed& s, dou
     for (std::size_t e = 0; e < a.state->adjacency.edges.size(); ++e) {
         const auto at = a.state->adjacency.triangles_at[e];
         if (at.size() != 1) continue;
-        const std::uint32_t parent = a.parents_of[at[0]][0], surface = a.inputs.surface_of(parent);
+        const InputTriangleId parent(a.parents_of[at[0]][0]);
+        const SurfaceId surface = a.inputs.surface_of(parent);
         if (parent - a.inputs.first[surface] < surfaces[surface].triangles.size()) continue;
         const auto [v, w] = a.state->adjacency.edges[e];
         const Point3 p = a.state->points.nearest(a.vertices[v]),

@@ -15,7 +15,7 @@ using namespace test_support;
 using namespace box_cases;
 
 TEST_CASE("alternating trees: a list does no harm, and Table 1 gives the same boxes") {
-    std::vector<Box> boxes; // ascending in all keys: everything goes right
+    std::vector<Box> boxes; // ascending in all keys, so that the tree is a list
     const int count = cases(5000);
     for (int i = 0; i < count; ++i) boxes.push_back(box({i * 1.0, i * 1.0, i * 1.0}, {1, 1, 1}));
     search::AbTree list(boxes);

@@ -14,7 +14,7 @@ using namespace test_support;
 using namespace box_cases;
 
 TEST_CASE("the mixed search keeps what lies in cells of both") {
-    std::vector<Box> boxes; // two rows at right angles; they meet in the middle
+    std::vector<Box> boxes; // two perpendicular rows, which meet in the middle
     Groups groups;
     for (int i = 0; i < 50; ++i) {
         boxes.push_back(box({i * 1.0, 25, 0}, {1, 1, 1}));

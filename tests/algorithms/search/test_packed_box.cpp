@@ -18,7 +18,8 @@ using namespace box_cases;
 TEST_CASE("packed boxes are compared as their coordinates are, one by one and eight at once") {
     using search::PackedBox;
     Random random(48);
-    // Few different coordinates, so that many are equal; the ends of the range among them.
+    // There are few different coordinates, so that many are equal; they include the ends of the
+    // range.
     constexpr std::array<std::uint64_t, 5> values{0, 1, 2, PackedBox::last - 1, PackedBox::last};
     const auto any = [&] {
         std::array<std::uint64_t, 3> low{}, high{};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// All searches give the pairs that comparing every box with every other gives.
+// Compares all search methods with comparing every box with every other.
 #include "support/boxes.hpp"
 #include "support/effort.hpp"
 #include "support/points.hpp"
@@ -38,7 +38,7 @@ Pairs expected(const std::vector<Box>& boxes, const Groups& groups) {
     return pairs;
 }
 
-/// Number of pairs, the same for all methods.
+/// Checks that all methods find the same pairs, and returns their number.
 std::size_t check(const std::vector<Box>& boxes, const Groups& groups = {}) {
     const Pairs right = expected(boxes, groups);
     for (const Search method : all_methods()) {
@@ -82,7 +82,8 @@ std::vector<Box> random_boxes(Random& random, Kind kind) {
     return boxes;
 }
 
-/// Paper 2.1 without the widening: only the cells that the query box itself overlaps. One axis.
+/// Searches as in the paper, 2.1, along one axis, but without the widening: it visits only the
+/// cells that the query box overlaps.
 Pairs without_widening(const std::vector<Box>& boxes, double cell) {
     const auto index = [&](double x) { return std::floor(x / cell); };
     Pairs pairs;
@@ -127,7 +128,7 @@ TEST_CASE("searches: one box among many is larger by a factor of 2^60") {
     auto boxes = random_boxes(random, Kind::sizes);
     boxes.push_back(box({-0x1p59, -0x1p59, -0x1p59}, {0x1p60, 0x1p60, 0x1p60}));
     check(boxes);
-    boxes.push_back(box({-1e308, 0, 0}, {1.5e308, 1, 1})); // their extent is no double
+    boxes.push_back(box({-1e308, 0, 0}, {1.5e308, 1, 1})); // their extent exceeds the doubles
     boxes.push_back(box({0.9e308, 0, 0}, {0.8e308, 1, 1}));
     check(boxes);
 }
@@ -160,8 +161,8 @@ TEST_CASE("searches agree with brute force on random boxes of all kinds, with an
 }
 
 TEST_CASE("searches: the half-cell widening is needed, and there") {
-    // Cells of size 1. The second box reaches from cell 1 into cell 0, where the first one is, but
-    // is stored in cell 1 alone, by its centre.
+    // Cells have size 1. The second box reaches from cell 1 into cell 0, which has the first box,
+    // but is stored in cell 1 alone, by its centre.
     const std::vector<Box> boxes{box({0.2, 0, 0}, {0.6, 0, 0}), box({0.7, 0, 0}, {1, 0, 0}),
                                  box({0, 0, 0}, {0, 0, 0}), box({4, 0, 0}, {0, 0, 0})};
     CHECK(without_widening(boxes, 1).empty());

@@ -121,7 +121,7 @@ void check_laws(const Built& b) {
     double sum = 0;
     std::map<std::array<Point3, 3>, int> shared;
     for (std::uint32_t block = 0; block < s.blocks.size(); ++block) {
-        const MeshPart part = block_part(b.mesh, b.volumes, s, block);
+        const MeshPart part = block_part(b.mesh, b.volumes, s, BlockId(block));
         CHECK(is_closed(part.mesh));
         if (block > 0) sum += s.blocks[block].volume;
         for (const Triangle& t : part.mesh.triangles) {

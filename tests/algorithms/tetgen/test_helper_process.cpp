@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The helper's process: how it ends, and what it shares with the caller.
+// Tests how the helper's process ends and what it shares with the caller.
 #include <terrane/algorithms/tetgen/detail/helper_process.hpp>
 
 #include <atomic>
@@ -41,12 +41,12 @@ TEST_CASE("TetGen's helper: how it ends decides the error", "[tetrahedra][helper
     }
     const Error killed = Impostor("kill -KILL $$").fails();
     CHECK(killed.code == ErrorCode::out_of_memory);
-    // A whole reply does not make up for an end like that.
+    // A complete reply does not excuse such an end.
     const std::string reply = reply_of(true_output());
     CHECK(Impostor(reply, cube_input(), "kill -SEGV $$").fails().message() ==
           "TetGen crashed (signal 11)");
     CHECK(Impostor(reply, cube_input(), "exit 3").fails().code == ErrorCode::internal);
-    // Much on standard error blocks nobody.
+    // Much output on standard error blocks neither side.
     const Error loud = Impostor("yes no | head -c 1000000 >&2; exit 2").fails();
     CHECK(loud.code == ErrorCode::cannot_open);
     CHECK(loud.sentence.size() < 500);
@@ -72,7 +72,7 @@ TEST_CASE("TetGen's helper: one that never listens, never answers or never ends 
         };
         end(Impostor("exec sleep 100"), cube_input());                      // answers nothing
         end(Impostor("exec sleep 100"), large);                             // reads nothing
-        end(Impostor("exec sleep 100 >&- <&-"), cube_input());              // hangs up, but stays
+        end(Impostor("exec sleep 100 >&- <&-"), cube_input());              // hangs up, but goes on
         end(Impostor(reply, cube_input(), "exec sleep 100"), cube_input()); // does not end
         end(Impostor("trap '' TERM INT; exec sleep 100"), cube_input());
     }
@@ -99,7 +99,8 @@ TEST_CASE("TetGen's helper: one that leaves or speaks before it has read all is 
 
 namespace {
 
-/// In a child of its own, so that what is changed there stays there. Nothing of Catch may be used.
+/// Tells whether `work` succeeds in a child process, which keeps its changes away from this one. It
+/// must use nothing of Catch.
 template <class Work>
 bool holds_in_child(const Work& work) {
     const pid_t pid = fork();
@@ -130,7 +131,7 @@ TEST_CASE("TetGen's helper: it works whichever standard streams are closed",
             for (int fd = 0; fd < 3; ++fd)
                 if ((closed >> static_cast<unsigned>(fd) & 1U) != 0) close(fd);
             const bool filled = cube_is_filled(helper);
-            bool still = true; // nothing is left open there
+            bool still = true; // the child leaves nothing open
             for (int fd = 0; fd < 3; ++fd)
                 if ((closed >> static_cast<unsigned>(fd) & 1U) != 0)
                     still = still && fcntl(fd, F_GETFD) == -1;
@@ -148,7 +149,8 @@ TEST_CASE("TetGen's helper: no channel to it takes the place of a closed standar
     CHECK(holds_in_child([&] {
         for (int fd = 0; fd < 3; ++fd) close(fd);
         const std::jthread caller([&] { (void)run_tetgen(input, {}); });
-        std::this_thread::sleep_for(std::chrono::milliseconds(300)); // it runs; we may print
+        std::this_thread::sleep_for(
+            std::chrono::milliseconds(300)); // the helper runs; we may print
         return fcntl(0, F_GETFD) == -1 && fcntl(1, F_GETFD) == -1 && fcntl(2, F_GETFD) == -1;
     }));
 }
@@ -162,7 +164,7 @@ TEST_CASE("TetGen's helper: it works whatever signals are blocked or ignored",
         pthread_sigmask(SIG_SETMASK, &all, nullptr);
         return cube_is_filled(helper);
     }));
-    CHECK(holds_in_child([&] { // children are reaped by the system: how they end is not to be known
+    CHECK(holds_in_child([&] { // the system reaps children, so that their status is not known
         std::signal(SIGCHLD, SIG_IGN);
         std::signal(SIGPIPE, SIG_IGN);
         return cube_is_filled(helper);
@@ -188,7 +190,7 @@ TEST_CASE("TetGen's helper: nothing of it is left, neither processes nor descrip
 
 namespace {
 
-/// Whether such a process runs, rather than being dead and not yet reaped.
+/// Tells whether a process runs, rather than being dead and not yet reaped.
 bool runs(pid_t pid) {
     std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
     std::string text{std::istreambuf_iterator<char>(file), {}};
@@ -196,7 +198,7 @@ bool runs(pid_t pid) {
     return name_end != std::string::npos && text.substr(name_end + 2, 1) != "Z";
 }
 
-/// The first child of a process, once it has become the helper; 0 after ten seconds without.
+/// Returns the first child of a process once it has become the helper, or 0 after ten seconds.
 pid_t helper_of(pid_t caller) {
     const auto id = std::to_string(caller);
     for (int k = 0; k < 1000; ++k, std::this_thread::sleep_for(std::chrono::milliseconds(10))) {
@@ -231,7 +233,7 @@ TEST_CASE(
     }
     const pid_t helper = helper_of(caller);
     REQUIRE(helper > 0);
-    std::this_thread::sleep_for(std::chrono::milliseconds(200)); // it is at work
+    std::this_thread::sleep_for(std::chrono::milliseconds(200)); // the helper is at work
     CHECK(runs(helper));
     const auto folder = fs::path("/proc") / std::to_string(helper);
     for (const auto& entry : fs::directory_iterator(folder / "fd"))
@@ -258,7 +260,7 @@ TEST_CASE("TetGen's helper: several at once, while other threads allocate and st
     std::atomic<int> filled = 0;
     {
         std::vector<std::jthread> threads;
-        threads.emplace_back([](const std::stop_token& stop) { // a thread with children of its own
+        threads.emplace_back([](const std::stop_token& stop) { // a thread with its own children
             while (!stop.stop_requested()) std::vector<char>(100'000 + std::system("true"));
         });
         std::vector<std::jthread> fillers;

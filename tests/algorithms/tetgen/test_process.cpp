@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What the library makes of helpers that do not keep to the protocol, and the helper of requests that
-// make no sense.
+// Tests how the library handles helpers that break the protocol, and how the helper handles
+// requests that make no sense.
 #include <terrane/algorithms/tetgen/detail/process.hpp>
 
 #include <algorithm>
@@ -90,7 +90,7 @@ TEST_CASE("TetGen's helper: garbage, other versions and giant lengths are refuse
             CHECK(contains(error.sentence, "more than TetGen can count"));
         }
     CHECK(seconds_since(start) < 20);
-    // As many as there may be, but none of them comes: this must not cost memory either.
+    // The largest allowed number is announced, but no item comes: this must not cost memory either.
     header = {};
     header.points = most_items;
     const Error missing = Impostor(bytes_of(header), cube_input()).fails();
@@ -118,7 +118,8 @@ TEST_CASE("TetGen's helper: each status is its error", "[tetrahedra][helper]") {
 }
 
 TEST_CASE("TetGen's helper: forged numbers never become tetrahedra", "[tetrahedra][helper]") {
-    // The domain of `square` in a box: what TetGen makes of it, then with one number changed.
+    // The domain of square() in a box: TetGen's true output, then the output with one number
+    // changed.
     const Mesh mesh = square();
     const Box3 box{{-1, -1, -1}, {2, 2, 2}};
     TetgenInput input;
@@ -143,7 +144,7 @@ TEST_CASE("TetGen's helper: forged numbers never become tetrahedra", "[tetrahedr
     };
     const auto control = outcome(truth.value());
     INFO((control ? "" : control.error().message()));
-    REQUIRE(control); // so what fails below fails by its one change
+    REQUIRE(control); // so that each failure below is due to its one change
 
     const double nan = std::numeric_limits<double>::quiet_NaN();
     std::vector<TetgenOutput> forged(9, truth.value());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Sizes of tetrahedra per block and per surface.
+// Tests the sizes of tetrahedra per block and per surface.
 #include <terrane/algorithms/tetgen/tetrahedra.hpp>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ using namespace test_support;
 
 namespace {
 
-/// Volumes may be a fifth larger than asked after TetGen's improvement of shapes.
+/// Bounds on volumes are exceeded by up to a fifth when TetGen improves shapes.
 constexpr double slack = 1.5;
 
 double regular_volume(double edge) {
@@ -31,7 +31,8 @@ double regular_area(double edge) {
     return edge * edge * std::sqrt(3.0) / 4;
 }
 
-/// A box of 8 with two horizons and a fault that ends in it: blocks 1 (below), 2, 3 (above).
+/// Returns a box of 8 with two horizons and a fault that ends in it: blocks 1 (below), 2, 3
+/// (above).
 const Mesh& layers() {
     static const Mesh mesh = [] {
         const std::vector<Surface> surfaces{
@@ -45,8 +46,8 @@ const Mesh& layers() {
 struct Made {
     TetrahedralMesh mesh;
     std::vector<std::size_t> counts;   ///< per block
-    std::vector<double> largest;       ///< per block: volume of a tetrahedron
-    std::vector<double> largest_areas; ///< per surface: of a face
+    std::vector<double> largest;       ///< per block: largest volume of a tetrahedron
+    std::vector<double> largest_areas; ///< per surface: largest area of a face
 };
 
 Made make(const TetrahedraOptions& options) {
@@ -92,9 +93,9 @@ TEST_CASE("tetrahedra: a size in one block holds there, and not in others", "[te
     const Made plain = make({.radius_edge_ratio = 2});
     for (std::uint32_t block = 0; block < 4; ++block) {
         const double edge = block == 0 ? 1.5 : 0.7;
-        const Made made = make({.block_sizes = {{block, edge}}});
+        const Made made = make({.block_sizes = {{BlockId(block), edge}}});
         CAPTURE(block);
-        CHECK(plain.largest[block] > slack * regular_volume(edge)); // else nothing is shown
+        CHECK(plain.largest[block] > slack * regular_volume(edge)); // else the test shows nothing
         CHECK(made.largest[block] <= slack * regular_volume(edge));
         CHECK(made.counts[block] > 2 * plain.counts[block]);
         for (std::uint32_t other = 0; other < 4; ++other)
@@ -105,7 +106,7 @@ TEST_CASE("tetrahedra: a size in one block holds there, and not in others", "[te
 TEST_CASE("tetrahedra: smaller sizes, more tetrahedra, and never fewer", "[tetrahedra]") {
     std::size_t before = 0;
     for (const double edge : {4.0, 2.0, 1.0, 0.5}) {
-        const Made made = make({.block_sizes = {{2, edge}}});
+        const Made made = make({.block_sizes = {{BlockId(2), edge}}});
         CHECK(made.largest[2] <= slack * regular_volume(edge));
         CHECK(made.counts[2] > before);
         before = made.counts[2];
@@ -114,7 +115,7 @@ TEST_CASE("tetrahedra: smaller sizes, more tetrahedra, and never fewer", "[tetra
 
 TEST_CASE("tetrahedra: the size of a block goes before the global one, finer or coarser",
           "[tetrahedra]") {
-    const Made made = make({.edge_length = 1, .block_sizes = {{0, 4}, {2, 0.6}}});
+    const Made made = make({.edge_length = 1, .block_sizes = {{BlockId(0), 4}, {BlockId(2), 0.6}}});
     CHECK(made.largest[0] <= slack * regular_volume(4));
     CHECK(made.largest[0] > 2 * regular_volume(1));
     CHECK(made.largest[1] <= slack * regular_volume(1));
@@ -126,7 +127,7 @@ TEST_CASE("tetrahedra: the size of a block goes before the global one, finer or 
 TEST_CASE("tetrahedra: a size of a surface holds for its faces, and grades from there",
           "[tetrahedra]") {
     const Made plain = make({.radius_edge_ratio = 2});
-    const Made made = make({.surface_sizes = {{3, 0.4}}});
+    const Made made = make({.surface_sizes = {{SurfaceId(3), 0.4}}});
     CHECK(plain.largest_areas[3] > 2 * regular_area(0.4));
     CHECK(made.largest_areas[3] <= regular_area(0.4) * (1 + 1e-9));
     for (const std::size_t other : {0, 1, 2}) // far from the fault they stay large
@@ -135,25 +136,28 @@ TEST_CASE("tetrahedra: a size of a surface holds for its faces, and grades from 
         CHECK(made.counts[block] > plain.counts[block]);
         CHECK(made.largest[block] > 4 * regular_volume(0.4));
     }
-    // Longer than what holds anyway: no effect.
-    CHECK(make({.edge_length = 2, .surface_sizes = {{3, 5}}}).mesh.tetrahedra ==
+    // A length above the one that applies anyway has no effect.
+    CHECK(make({.edge_length = 2, .surface_sizes = {{SurfaceId(3), 5}}}).mesh.tetrahedra ==
           make({.edge_length = 2}).mesh.tetrahedra);
 }
 
 TEST_CASE("tetrahedra: one size for all blocks is the global one", "[tetrahedra]") {
-    const Made each = make({.block_sizes = {{0, 1.5}, {1, 1.5}, {2, 1.5}, {3, 1.5}}});
+    const Made each =
+        make({.block_sizes = {
+                  {BlockId(0), 1.5}, {BlockId(1), 1.5}, {BlockId(2), 1.5}, {BlockId(3), 1.5}}});
     CHECK(each.mesh.tetrahedra == make({.edge_length = 1.5}).mesh.tetrahedra);
 }
 
 TEST_CASE("tetrahedra: sizes that make no sense are named", "[tetrahedra]") {
     const double infinity = std::numeric_limits<double>::infinity();
-    CHECK(refused({.block_sizes = {{4, 1}}}).sentence == "there is no block 4");
-    CHECK(refused({.surface_sizes = {{4, 1}}}).sentence == "there is no surface 4");
-    CHECK(refused({.block_sizes = {{1, 1}, {1, 2}}}).sentence == "block 1 has two edge lengths");
-    CHECK(refused({.surface_sizes = {{1, -1}}}).sentence ==
+    CHECK(refused({.block_sizes = {{BlockId(4), 1}}}).sentence == "there is no block 4");
+    CHECK(refused({.surface_sizes = {{SurfaceId(4), 1}}}).sentence == "there is no surface 4");
+    CHECK(refused({.block_sizes = {{BlockId(1), 1}, {BlockId(1), 2}}}).sentence ==
+          "block 1 has two edge lengths");
+    CHECK(refused({.surface_sizes = {{SurfaceId(1), -1}}}).sentence ==
           "the edge length of surface 1 must be a positive number, not -1");
-    refused({.block_sizes = {{1, 0}}});
-    refused({.block_sizes = {{1, infinity}}});
-    CHECK(refused({.block_sizes = {{1, 1e-4}}}).sentence ==
+    refused({.block_sizes = {{BlockId(1), 0}}});
+    refused({.block_sizes = {{BlockId(1), infinity}}});
+    CHECK(refused({.block_sizes = {{BlockId(1), 1e-4}}}).sentence ==
           "the wanted sizes would need more than 500000000 tetrahedra");
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Where TetGen's helper program is looked for.
+// Tests where TetGen's helper program is looked for.
 #include <terrane/algorithms/tetgen/tetgen_helper.hpp>
 
 #include <cstdlib>
@@ -28,7 +28,7 @@ Mesh square() {
             .intersection_edges = {}};
 }
 
-/// Sets an environment variable for a while.
+/// Sets an environment variable and restores it at the end.
 class Variable {
 public:
     Variable(const char* name, const std::string& value) : name_(name) {

@@ -47,7 +47,8 @@ std::vector<double> region_volumes(const TetrahedralMesh& mesh) {
     return volumes;
 }
 
-/// Regions on the two sides of a face: the tetrahedra that have all its corners.
+/// Returns the regions on the two sides of a face: those of the tetrahedra that have all its
+/// corners.
 std::vector<std::uint32_t> regions_at(const TetrahedralMesh& mesh, const Triangle& face) {
     std::vector<std::uint32_t> regions;
     for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
@@ -60,7 +61,7 @@ std::vector<std::uint32_t> regions_at(const TetrahedralMesh& mesh, const Triangl
     return regions;
 }
 
-/// Per triangle of the mesh its faces as points, first corner first.
+/// Returns the first `count` triangles as points, each rotated so that its least point comes first.
 std::multiset<std::array<Point3, 3>> as_points(const std::vector<Point3>& vertices,
                                                const std::vector<Triangle>& triangles,
                                                std::size_t count) {
@@ -234,11 +235,11 @@ TEST_CASE("tetrahedra: improper meshes are refused with the place", "[tetrahedra
         INFO(bad->mesh().surfaces[0].name);
         const Error error = must_fail(bad->mesh(), {});
         CHECK(error.code == ErrorCode::improper_contact);
-        const bool first = error.place == "triangle 0"; // the sentence names the other one
+        const bool first = error.place == "triangle 0"; // the sentence names the other triangle
         CHECK((first || error.place == "triangle 1"));
         CHECK(error.sentence.find(first ? "triangle 1" : "triangle 0") != std::string::npos);
     }
-    Mesh torn = rectangle(); // two vertices at one place
+    Mesh torn = rectangle(); // two vertices at the same point
     torn.vertices.push_back(torn.vertices[torn.triangles[1][0]]);
     torn.triangles[1][0] = 4;
     CHECK(must_fail(torn, {}).code == ErrorCode::improper_contact);
@@ -267,8 +268,8 @@ TEST_CASE("tetrahedra: each option that makes no sense is an error", "[tetrahedr
     const double infinity = std::numeric_limits<double>::infinity();
     const TetrahedraOptions bad[] = {
         {.box = Box3{{0, 0, -1}, {1, 1, 1}}},   // touches the mesh
-        {.box = Box3{{5, 5, 5}, {6, 6, 6}}},    // elsewhere
-        {.box = Box3{{2, 2, 2}, {-1, -1, -1}}}, // inside out
+        {.box = Box3{{5, 5, 5}, {6, 6, 6}}},    // apart from the mesh
+        {.box = Box3{{2, 2, 2}, {-1, -1, -1}}}, // low and high exchanged
         {.box = Box3{{-1, -1, nan_value}, {2, 2, 2}}},
         {.margin = 0},
         {.margin = -0.1},
@@ -294,7 +295,7 @@ TEST_CASE("tetrahedra: each option that makes no sense is an error", "[tetrahedr
 
 TEST_CASE("tetrahedra: a margin lost in rounding is as wide as it can be told apart",
           "[tetrahedra]") {
-    Mesh small = rectangle(); // as large as doubles are apart: a tenth of it is nothing
+    Mesh small = rectangle(); // so small that a tenth of it is lost in rounding
     for (Point3& p : small.vertices) p = {2 + 0x1p-51 * p.x, 2 + 0x1p-51 * p.y, 2 + 0x1p-51 * p.z};
     CHECK(std::max(small.vertices[2].x, small.vertices[1].x) > 2);
     for (const auto& [mesh, margin] : {std::pair{small, 0.1}, std::pair{rectangle(), 1e-300}}) {

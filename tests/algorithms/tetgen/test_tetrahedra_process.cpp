@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// TetGen in a process of its own: time limits, stop requests, threads, output.
+// Tests TetGen in a process of its own: time limits, stop requests, threads, output.
 #include <terrane/algorithms/tetgen/tetrahedra.hpp>
 
 #include <algorithm>
@@ -25,6 +25,7 @@
 #include "support/tetgen_cases.hpp"
 
 using namespace terrane;
+using namespace terrane::tetgen::detail;
 using namespace test_support;
 using namespace tetgen_cases;
 
@@ -35,7 +36,7 @@ TEST_CASE("tetrahedra: TetGen is given up when its time is over", "[tetrahedra]"
 TEST_CASE("tetrahedra: where TetGen never ends, the work does", "[tetrahedra]") {
     const Mesh mesh = mesh_of(read_data("regression/009-tetgen-never-ends.obj"));
     const auto made = tetrahedralize(mesh, {.time_limit = 2}, {});
-    REQUIRE_FALSE(made); // all ways run out of time, or crash
+    REQUIRE_FALSE(made); // in all ways TetGen runs out of time or crashes
     CHECK(made.error().sentence.find("TetGen") == 0);
 }
 
@@ -59,7 +60,7 @@ TEST_CASE("tetrahedra: a stop request ends TetGen while it runs", "[tetrahedra]"
         source.request_stop();
     });
     const Run run{.stop = source.get_token()};
-    // Tens of millions of tetrahedra: minutes, if nothing stopped it.
+    // Tens of millions of tetrahedra would take minutes.
     const Error error = must_fail(cube(), {.box = unit_box, .edge_length = 0.01}, run);
     CHECK(error.code == ErrorCode::interrupted);
     CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(20));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Tetrahedra as TetGen makes them against blocks as find_volumes finds them: both must agree.
+// Compares tetrahedra as TetGen makes them with blocks as find_volumes finds them.
 #include <terrane/algorithms/tetrahedra/check_tetrahedra.hpp>
 
 #include <set>
@@ -21,7 +21,8 @@ using namespace test_support;
 
 namespace {
 
-/// Checks; returns how many blocks have exactly the volume of their tetrahedra.
+/// Checks the tetrahedra; returns the number of blocks whose volume equals exactly that of their
+/// tetrahedra.
 std::size_t check_and_count_equal(const Filled& f) {
     const auto report = check_tetrahedra(f.tetrahedra, f.mesh, f.volumes);
     CHECK(text_of(report.violations) == "");

@@ -18,7 +18,7 @@ TEST_CASE("sharpest_angle: between triangles at an edge", "[tetrahedra]") {
     const auto cube_angle = sharpest_angle(mesh_of({cube(0, 2)}));
     REQUIRE(cube_angle);
     CHECK(cube_angle->degrees == Approx(90));
-    // a wedge of one degree on the edge from (0, 0, 0) to (4, 0, 0)
+    // A wedge of one degree on the edge from (0, 0, 0) to (4, 0, 0).
     const double rise = std::tan(std::acos(-1.0) / 180);
     const auto wedge = sharpest_angle(
         mesh_of({{"a", Role::unknown, {{0, 0, 0}, {4, 0, 0}, {2, 3, 0}}, {{0, 1, 2}}},

@@ -47,7 +47,7 @@ Key face_without(const std::array<std::uint32_t, 4>& corners, unsigned apex) {
     return key;
 }
 
-/// The definition, word by word: which tetrahedra at a vertex hang together.
+/// Applies the definition literally: which tetrahedra at a vertex are connected.
 class Oracle {
 public:
     Oracle(const TetrahedralMesh& mesh, const std::vector<std::uint32_t>& surfaces) : mesh_(mesh) {
@@ -67,7 +67,7 @@ public:
                 if (vertices_.contains(v)) around_[v].push_back(t);
     }
 
-    /// Per split vertex its sectors.
+    /// Returns the sectors of each split vertex.
     [[nodiscard]] std::map<std::uint32_t, std::vector<Key>> sectors() const {
         std::map<std::uint32_t, std::vector<Key>> all;
         for (const auto& [vertex, tetrahedra] : around_) {
@@ -120,11 +120,11 @@ void check_places(const TetrahedralMesh& before, const TetrahedralMesh& after) {
         for (unsigned k = 0; k < 4; ++k)
             same = same && after.vertices[after.tetrahedra[t][k]] ==
                                before.vertices[before.tetrahedra[t][k]];
-    CHECK(same); // so volumes are the same as well
+    CHECK(same); // so that volumes are equal, too
 }
 
-/// Tetrahedra share a node iff they are in one sector; copies are numbered by vertex, then by
-/// lowest tetrahedron; vertices off the cut stay.
+/// Checks that tetrahedra share a node iff they are in the same sector, that copies are numbered by
+/// vertex, then by lowest tetrahedron, and that vertices off the cut stay.
 void check_nodes(const TetrahedralMesh& before, const TetrahedralMesh& after,
                  const Oracle& oracle) {
     auto next = static_cast<std::uint32_t>(before.vertices.size());
@@ -140,7 +140,8 @@ void check_nodes(const TetrahedralMesh& before, const TetrahedralMesh& after,
     CHECK(after.tetrahedra == wanted);
 }
 
-/// Each face is one of a tetrahedron; twins lie in front and behind, corner by corner.
+/// Checks that each face belongs to a tetrahedron, and that twins lie in front and behind with
+/// equal corners.
 void check_faces(const TetrahedralMesh& before, const TetrahedralMesh& after,
                  const Oracle& oracle) {
     std::map<Key, std::vector<std::uint32_t>> apexes;
@@ -184,7 +185,7 @@ void check_faces(const TetrahedralMesh& before, const TetrahedralMesh& after,
     CHECK(cut == oracle.split_faces().size());
 }
 
-/// Splits and compares with the oracle; the result.
+/// Splits the nodes, compares the result with the oracle, and returns it.
 TetrahedralMesh check_split(const TetrahedralMesh& before,
                             const std::vector<std::uint32_t>& surfaces) {
     auto after = split(before, surfaces);
@@ -195,7 +196,7 @@ TetrahedralMesh check_split(const TetrahedralMesh& before,
     return after;
 }
 
-/// How many nodes are at a place.
+/// Counts the nodes at a point.
 std::ptrdiff_t nodes_at(const TetrahedralMesh& mesh, const Point3& place) {
     return std::count(mesh.vertices.begin(), mesh.vertices.end(), place);
 }
@@ -230,11 +231,11 @@ TEST_CASE("split nodes: where faults cross, each sector has its node", "[split_n
     CHECK(nodes_at(check_split(before, {1, 2}), {4, 4, 3}) == 4);
     CHECK(nodes_at(check_split(before, {1, 2, 3}), {4, 4, 3}) == 8);
     CHECK(nodes_at(check_split(before, {1}), {4, 4, 3}) == 2);
-    // On the border of the box the cuts end, unless nothing is beyond it.
+    // On the border of the box the cuts end, unless there is nothing beyond it.
     CHECK(nodes_at(check_split(before, {1, 2}), {4, 4, 0}) == 1);
     const auto inner = without_outside(before);
     CHECK(nodes_at(check_split(inner, {1, 2}), {4, 4, 0}) == 4);
-    // A branch that ends on the other one: three sectors.
+    // A branch that ends on the other fault makes three sectors.
     const std::vector<Surface> branching{
         cube(0, 8), quad({4, 0, 0}, {4, 8, 0}, {4, 8, 8}, {4, 0, 8}, "F1"),
         quad({4, 4, 0}, {8, 4, 0}, {8, 4, 8}, {4, 4, 8}, "F2"), level(3, 0, 0, 8, 8, "base")};
@@ -308,7 +309,7 @@ TEST_CASE("split nodes: without the outside, the blocks are left as they were", 
     CHECK(inner.vertices.size() == used.size());
     CHECK(std::count(inner.region_of.begin(), inner.region_of.end(), 0U) == 0);
     CHECK(inner.region_count == before.region_count);
-    // Each face is one of a tetrahedron, and the border of the blocks is made of faces.
+    // Each face belongs to a tetrahedron, and the border of the blocks consists of faces.
     std::map<Key, int> times;
     for (const auto& corners : inner.tetrahedra)
         for (unsigned apex = 0; apex < 4; ++apex) ++times[face_without(corners, apex)];

@@ -35,7 +35,8 @@ TEST_CASE("shape: angles and ratios of known tetrahedra", "[tetrahedra]") {
     for (const double angle : dihedral_angles(regular))
         CHECK(angle == Approx(std::acos(1.0 / 3) * 180 / std::numbers::pi));
     CHECK(radius_edge_ratio(regular) == Approx(std::sqrt(6.0) / 4));
-    // A corner of a cube: right angles along the three edges, the centre is the cube's.
+    // A corner of a cube has right angles at its three edges, and the circumcentre is the cube's
+    // centre.
     const auto angles = dihedral_angles(of_cube);
     for (const std::size_t i : {0, 1, 2}) CHECK(angles[i] == Approx(90));
     for (const std::size_t i : {3, 4, 5})
@@ -71,7 +72,7 @@ TEST_CASE("shape: histograms count each angle and each tetrahedron once", "[tetr
     dihedral[7] = 6; // 70.5 degrees
     dihedral[5] = 6; // 54.7
     dihedral[9] = shape.dihedral_histogram[9];
-    dihedral[8] = 6 - dihedral[9]; // 90 degrees, but for rounding
+    dihedral[8] = 6 - dihedral[9]; // 90 degrees, up to rounding
     CHECK(shape.dihedral_histogram == dihedral);
     CHECK(shape.radius_edge_histogram[0] == 1);
     CHECK(shape.radius_edge_histogram[1] == 2);

@@ -34,7 +34,7 @@ double six_volumes(const TetrahedralMesh& m) {
 } // namespace
 
 TEST_CASE("without_outside: the blocks are left, and nothing else", "[tetrahedra]") {
-    // A sheet dangles inside, one ends outside.
+    // One sheet dangles inside, another lies outside.
     const Mesh mesh = mesh_of({cube(0, 4), level(2, 1, 1, 3, 3), level(6, 0, 0, 1, 1)});
     const auto whole = tetrahedralize(mesh, {}, {});
     REQUIRE(whole);

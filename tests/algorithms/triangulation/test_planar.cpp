@@ -27,7 +27,7 @@ std::vector<Point3> lattice_points(Random& random, int count, int size) {
     return points;
 }
 
-/// Of integers: exact.
+/// Computes twice the area of the convex hull; exact for integers.
 double doubled_hull_area(std::vector<Point3> p) {
     std::sort(p.begin(), p.end());
     std::vector<Point3> hull;
@@ -50,7 +50,7 @@ double doubled_hull_area(std::vector<Point3> p) {
     return sum;
 }
 
-/// A polygon with corners at the given radii, seen counterclockwise.
+/// Returns a star-shaped polygon with random radii in a range, seen counterclockwise.
 std::vector<Point3> star(Random& random, std::size_t corners, double low, double high) {
     std::vector<Point3> points;
     for (std::size_t i = 0; i < corners; ++i) {
@@ -161,7 +161,7 @@ TEST_CASE("triangulate_inside: a star with an island, filled but for the island"
                 const auto found = counts.find({std::min(a, b), std::max(a, b)});
                 CHECK((found != counts.end() && found->second == 1));
             }
-        // Delaunay but for what borders hide: no inner edge could be flipped to a better one.
+        // The triangles use at least as many vertices as the polygons have corners.
         std::set<std::uint32_t> used;
         for (const Triangle& t : triangles) used.insert(t.begin(), t.end());
         CHECK(used.size() >= 52);

@@ -24,7 +24,7 @@ TEST_CASE("connect_points: long edges are left out, by the plane of the points",
     double area = doubled_area(points, level.value()) / 2;
     CHECK(area < 19 * 19 * 100 - M_PI * 1600 * 0.8);
     CHECK(area > 19 * 19 * 100 - M_PI * 2500 * 1.3);
-    // Upright: the same as seen from the side.
+    // The same points upright give the same surface, seen from the side.
     std::vector<Point3> upright;
     for (const Point3& p : points) upright.push_back({p.z / 10, p.x, p.y});
     const auto wall = connect_points(upright);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// FaceTriangulation on lattices, where points on a circle are the rule: covering, constrained
-// Delaunay, and unique.
+// Tests FaceTriangulation on lattices, where points on a circle are common: the result covers the
+// face, is constrained Delaunay, and is unique.
 #include "support/effort.hpp"
 #include "support/oracle.hpp"
 #include "support/points.hpp"
@@ -41,8 +41,8 @@ int sign(std::int64_t i) {
     return i > 0 ? 1 : i < 0 ? -1 : 0;
 }
 
-/// A square lattice of input points in a tilted plane. Points are numbered; (u, v) are their
-/// integer coordinates there.
+/// A square lattice of input points in a tilted plane; (u, v) are the integer coordinates of a
+/// point.
 class Sheet {
 public:
     Sheet(Random& random, int width) {
@@ -87,14 +87,14 @@ private:
     std::vector<oracle::Point> exact_;
 };
 
-/// p strictly between a and b.
+/// Tells whether p lies strictly between a and b.
 bool is_between(const Sheet& s, PointIndex p, PointIndex a, PointIndex b) {
     const Uv ab = s.uv(b) - s.uv(a), ap = s.uv(p) - s.uv(a);
     const std::int64_t along = ab.u * ap.u + ab.v * ap.v;
     return cross(ab, ap) == 0 && along > 0 && along < ab.u * ab.u + ab.v * ab.v;
 }
 
-/// Whether the open segments meet in a point, other than along a common line.
+/// Tells whether the open segments meet in a point, other than along a common line.
 bool cross_inside(const Sheet& s, const Segment& a, const Segment& b) {
     const Uv p = s.uv(a[0]), q = s.uv(a[1]), r = s.uv(b[0]), t = s.uv(b[1]);
     return sign(turn(p, q, r)) * sign(turn(p, q, t)) < 0 &&
@@ -108,7 +108,7 @@ std::vector<PointIndex> points_named(const FaceInput& face) {
     return all;
 }
 
-/// Points of the sheet on the triangle, each with the given probability in percent.
+/// Adds points of the sheet on the triangle, each with the given probability in percent.
 void add_points(Random& random, const Sheet& s, FaceInput& face, int percent) {
     const auto& c = face.corners;
     const int up = sign(turn(s.uv(c[0]), s.uv(c[1]), s.uv(c[2])));
@@ -127,7 +127,7 @@ void add_points(Random& random, const Sheet& s, FaceInput& face, int percent) {
                   [&](PointIndex a, PointIndex b) { return is_between(s, a, c[e], b); });
 }
 
-/// Segments that cross no other one inside; they may overlap, and pass through points.
+/// Adds segments that do not cross any other inside; they may overlap, and pass through points.
 void add_segments(Random& random, const Sheet& s, FaceInput& face, int tries) {
     const auto points = points_named(face);
     for (int i = 0; i < tries; ++i) {
@@ -139,7 +139,8 @@ void add_segments(Random& random, const Sheet& s, FaceInput& face, int tries) {
         const bool free =
             std::none_of(face.segments.begin(), face.segments.end(),
                          [&](const Segment& other) { return cross_inside(s, segment, other); });
-        // a crossing at a lattice point that is not named would be one, too: seen as such above
+        // Crossings at lattice points that are not named are excluded as well: cross_inside() sees
+        // them.
         if (segment[0] != segment[1] && free) face.segments.push_back(segment);
     }
 }
@@ -158,7 +159,7 @@ FaceInput random_face(Random& random, const Sheet& s, int percent, int segments)
 
 Triangles triangulate(const Sheet& s, const FaceInput& face) {
     const UpwardRounding guard;
-    FaceTriangulation triangulation;
+    FaceTriangulation triangulation(guard);
     const auto result = triangulation(s.store, s.rank, face);
     return {result.begin(), result.end()};
 }
@@ -174,7 +175,7 @@ std::set<Triangle> as_set(const Triangles& triangles) {
     return all;
 }
 
-/// Apexes per edge.
+/// Returns the apexes opposite each edge.
 Edges edges_of(const Triangles& triangles) {
     Edges edges;
     for (const Triangle& t : triangles)
@@ -202,7 +203,7 @@ bool covers(const Sheet& s, const FaceInput& face, const Triangles& triangles) {
            triangles.size() == 2 * face.inner_points.size() + border - 2;
 }
 
-/// The edges of which a segment must be the union.
+/// Returns the edges of which a segment must be the union.
 std::vector<Segment> steps_of(const Sheet& s, const FaceInput& face, const Segment& segment) {
     std::vector<PointIndex> on{segment[0], segment[1]};
     for (const PointIndex p : points_named(face))
@@ -244,7 +245,7 @@ bool contains_segments(const Sheet& s, const FaceInput& face, const Triangles& t
                        [&](const Segment& e) { return edges.contains(e); });
 }
 
-/// The same face with its lists in another order, turned, and reversed or not.
+/// Returns the same face with its lists in another order, corners rotated, and reversed if asked.
 FaceInput shuffled(Random& random, FaceInput face, bool reversed) {
     std::shuffle(face.inner_points.begin(), face.inner_points.end(), random);
     std::shuffle(face.segments.begin(), face.segments.end(), random);
@@ -260,7 +261,7 @@ FaceInput shuffled(Random& random, FaceInput face, bool reversed) {
     return face;
 }
 
-/// In all cases: on small sheets and larger ones, sparse and full, with few and many segments.
+/// Visits faces on small and larger sheets, sparse and full, with few and many segments.
 template <class Visit>
 void for_faces(std::uint64_t seed, int count, const Visit& visit) {
     Random random(seed);
@@ -300,7 +301,7 @@ TEST_CASE("two coplanar triangles triangulate a common part in the same way") {
     for (int i = 0; i < cases(12'000); ++i) {
         const Sheet sheet(random, 8);
         const FaceInput common = random_face(random, sheet, 60, 10);
-        // the border of the common part, in both
+        // Both triangles have the border of the common part.
         std::vector<Segment> border;
         for (unsigned e = 0; e < 3; ++e)
             border.push_back({common.corners[e], common.corners[(e + 1) % 3]});
@@ -320,7 +321,7 @@ TEST_CASE("two coplanar triangles triangulate a common part in the same way") {
                 return true;
             };
             if (!std::all_of(common.corners.begin(), common.corners.end(), holds)) continue;
-            // all of the common part's points, and others outside of it
+            // Both have all points of the common part, and others outside of it.
             FaceInput all = face;
             add_points(random, sheet, all, 100);
             const int side = sign(turn(sheet.uv(common.corners[0]), sheet.uv(common.corners[1]),

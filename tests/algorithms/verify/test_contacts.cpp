@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The verifier on meshes of doubles: each class of contact, and an independent decision to compare
-// with. That one clips one triangle by the other and looks at what remains.
+// Tests the verifier on meshes of doubles: each class of contact, and random pairs compared with an
+// independent decision, which clips one triangle by the other and examines what remains.
 #include <terrane/algorithms/verify/verify.hpp>
 
 #include <catch2/catch.hpp>
@@ -23,7 +23,7 @@ struct Example {
     std::string name;
     std::vector<Point3> vertices;
     std::vector<Triangle> triangles;
-    std::string verdict; ///< the rules that are broken, such as "R3 R5"
+    std::string verdict; ///< violated rules, such as "R3 R5"
 };
 
 std::string verdict(const std::vector<Point3>& vertices, const std::vector<Triangle>& triangles) {
@@ -44,12 +44,12 @@ const std::vector<Triangle> two{{0, 1, 2}, {3, 4, 5}};       // no shared corner
 const std::vector<Triangle> at_corner{{0, 1, 2}, {0, 3, 4}}; // corner 0 shared
 const std::vector<Triangle> at_edge{{0, 1, 2}, {1, 0, 3}};   // edge 0, 1 shared
 
-/// Six points: the triangle (0,0,0), (4,0,0), (0,4,0) and another.
+/// Returns six points: the triangle (0,0,0), (4,0,0), (0,4,0) and another one.
 std::vector<Point3> beside_base(const Point3& a, const Point3& b, const Point3& c) {
     return {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, a, b, c};
 }
 
-/// Five points: that triangle, and another at its corner 0.
+/// Returns five points: that triangle, and another one at its corner 0.
 std::vector<Point3> at_base_corner(const Point3& a, const Point3& b) {
     return {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, a, b};
 }
@@ -185,8 +185,8 @@ TEST_CASE("verify_conforming: order, orientation, axes and powers of two change 
 }
 
 TEST_CASE("verify_conforming sees the last bit of a double") {
-    // The plane x + y = z holds (0.1, 0.2, 0.1 + 0.2) only if that sum is not rounded, and it is:
-    // up.
+    // The plane x + y = z would contain (0.1, 0.2, 0.1 + 0.2) only if the sum were not rounded; it
+    // is rounded up.
     const auto with_corner_at = [](double z) {
         return verdict({{-1, -1, -2}, {8, -1, 7}, {-1, 8, 7}, {0.1, 0.2, z}, {0, 0, 9}, {1, 0, 9}},
                        two);
@@ -203,7 +203,7 @@ TEST_CASE("verify_conforming sees the last bit of a double") {
 }
 
 TEST_CASE("verify_conforming names all pairs, sorted") {
-    // A triangle is pierced by three others, which do not touch each other.
+    // Three triangles, which do not touch each other, pierce another one.
     std::vector<Point3> vertices{{0, 0, 0}, {9, 0, 0}, {0, 9, 0}};
     std::vector<Triangle> triangles;
     for (std::uint32_t i = 0; i < 3; ++i) {
@@ -250,7 +250,7 @@ TEST_CASE("verify_conforming finds the one bad triangle in a grid") {
     }
 }
 
-// --- An independent decision ------------------------------------------------------------------
+// --- An independent decision -----------------------------------------------------------------
 
 namespace {
 
@@ -270,7 +270,7 @@ mpq_class inner(const Rational3& a, const Rational3& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// Keeps of a convex polygon (or segment, or point) what lies where normal . (p - origin) >= 0.
+/// Clips a convex polygon (or segment, or point) to the side normal . (p - origin) >= 0.
 std::vector<Rational3> clip(const std::vector<Rational3>& polygon, const Rational3& normal,
                             const Rational3& origin) {
     std::vector<Rational3> kept;
@@ -297,7 +297,7 @@ std::vector<Rational3> rational(const Corners& corners) {
     return result;
 }
 
-/// The extreme points of what two triangles share.
+/// Returns the extreme points of the intersection of two triangles.
 std::set<Rational3> common_part(const Corners& a, const Corners& b) {
     const auto t = rational(a);
     const Rational3 normal = cross(minus(t[1], t[0]), minus(t[2], t[0]));
@@ -319,7 +319,7 @@ std::set<Rational3> common_corners(const Corners& a, const Corners& b) {
     return result;
 }
 
-/// What the verifier says of two triangles whose equal corners are one vertex.
+/// Tells whether the verifier accepts two triangles whose equal corners are one vertex.
 bool accepted(const Corners& a, const Corners& b) {
     std::vector<Point3> vertices;
     std::map<std::array<int, 3>, std::uint32_t> number_of;
@@ -340,8 +340,8 @@ bool accepted(const Corners& a, const Corners& b) {
     return violations.empty();
 }
 
-/// A triangle with area and corners in 0..3, or in a plane z = 0 if `flat`; some of them corners of
-/// `near`, if there is one.
+/// Returns a triangle with an area and corners in 0..3, in the plane z = 0 if `flat`; some of its
+/// corners are those of `near`, if given.
 Corners random_triangle(std::mt19937& random, bool flat, const Corners* near) {
     for (;;) {
         Corners corners{};

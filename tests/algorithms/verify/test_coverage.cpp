@@ -14,7 +14,8 @@ using namespace terrane::verifier;
 
 using namespace verify_points;
 
-/// The parent (0,0) (12,0) (0,12) in z = 0, and its children by their corners.
+/// Judges the coverage of the parent (0,0) (12,0) (0,12) in z = 0 by children, given by their
+/// corners.
 bool covered(const std::vector<Vector4>& points, const std::vector<Triangle>& children,
              int collar) {
     const Vector4 a = point(0, 0, 0), b = point(12, 0, 0), c = point(0, 12, 0);
@@ -43,7 +44,7 @@ TEST_CASE("verifier: coverage by children that moved") {
 }
 
 TEST_CASE("verifier: coverage with a fold, that others cover") {
-    // 3 was pulled over the edge from 1 to 4: the child 1 3 4 is turned over.
+    // Vertex 3 was pulled over the edge from 1 to 4, so that the child 1 3 4 is flipped.
     const std::vector<Vector4> points{point(0, 0, 0), point(12, 0, 0), point(0, 12, 0),
                                       point(4, 2, 0), point(3, 4, 0)};
     CHECK(covered(points, {{0, 1, 3}, {1, 4, 3}, {0, 3, 4}, {1, 2, 4}, {2, 0, 4}}, 0));
@@ -54,7 +55,7 @@ TEST_CASE("verifier: coverage with a fold, that others cover") {
 }
 
 TEST_CASE("verifier: coverage is not fooled by two sheets with a hole between them") {
-    // Children on both sides of the middle line, each with a border there.
+    // There are children on both sides of the middle line, each with a border there.
     const std::vector<Vector4> points{point(0, 0, 0), point(12, 0, 0), point(0, 12, 0),
                                       point(5, 0, 0), point(7, 0, 0),  point(0, 5, 0),
                                       point(0, 7, 0)};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Distances and coverage, the parts of the verifier that judge moved triangles.
+// Tests distances, with which the verifier judges moved triangles.
 #include <terrane/algorithms/verify/detail/distance.hpp>
 
 #include <catch2/catch.hpp>

@@ -46,12 +46,13 @@ TEST_CASE("verify_arrangement: a duplicate within its surface makes no intersect
     c.inputs.push_back(surface(c.inputs[0].vertices, {{0, 1, 2}}));
     set_parents(c.claim, 0, {0, 2, 3});
     c.claim.duplicates.push_back({3, 0});
-    c.claim.intersection_edges = {{0, 2}}; // but one in another surface does
+    c.claim.intersection_edges = {{0, 2}}; // but a duplicate in another surface makes one
     CHECK(verdict(c).empty());
 }
 
 TEST_CASE("verify_arrangement: parents are counted surface by surface") {
-    // Both triangles at the diagonal 0, 2 have two parents: one of each surface, two of the first.
+    // Both triangles at the diagonal 0, 2 have two parents: one has one of each surface, the other
+    // two of the first.
     Case c;
     c.inputs = {surface({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {-1, 1, 0}},
                         {{0, 1, 2}, {0, 2, 3}, {0, 2, 4}}),

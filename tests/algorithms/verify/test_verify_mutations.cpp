@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The verifier refutes each way to break a true claim, by the rule that it breaks.
+// The verifier refutes each way of breaking a true claim, by the rule that is broken.
 #include "support/verify_cases.hpp"
 
 #include <catch2/catch.hpp>

@@ -11,10 +11,10 @@
 #include <catch2/catch.hpp>
 #include <gmpxx.h>
 
+#include "support/boundary_bodies.hpp"
 #include "support/certified_inputs.hpp"
 #include "support/cut_cases.hpp"
 #include "support/effort.hpp"
-#include "support/boundary_bodies.hpp"
 #include "support/points.hpp"
 #include "support/solids.hpp"
 

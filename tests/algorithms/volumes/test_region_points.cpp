@@ -28,7 +28,7 @@ Model model_of(const std::vector<Surface>& surfaces) {
     return {std::move(mesh), std::move(volumes).value()};
 }
 
-/// Number of the box that a point lies strictly inside; the inner one where they are nested.
+/// Returns the number of nested boxes that a point lies strictly inside.
 std::size_t level_of(const Point3& p) {
     const auto in = [&](double low, double high) {
         return p.x > low && p.x < high && p.y > low && p.y < high && p.z > low && p.z < high;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Cases small enough to know the answer; each is judged by the oracle as well.
+// Tests cases small enough for the answer to be known; the oracle judges each of them as well.
 #include <terrane/algorithms/volumes/volumes.hpp>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ using namespace test_support;
 
 namespace {
 
-/// Arranges, finds the volumes, and has them judged.
+/// Arranges the surfaces, finds the volumes, and has the oracle judge them.
 Found find(const std::vector<Surface>& surfaces) {
     Found found = find_in(surfaces);
     const auto& [arrangement, volumes] = found;
@@ -88,7 +88,7 @@ TEST_CASE("volumes: cubes within cubes", "[volumes]") {
     const auto found = find({cube(1, 9, "b"), cube(3, 4, "d"), cube(0, 10, "a"), cube(2, 6, "c")});
     CHECK(sorted_measures(found.volumes) == Blocks{1, 63, 448, 488});
     CHECK(found.volumes.measures[0] == 1000);
-    CHECK(found.volumes.measures[1] == 488); // by the least vertex
+    CHECK(found.volumes.measures[1] == 488); // blocks are ordered by their least vertex
     CHECK(found.volumes.measures[4] == 1);
 }
 
@@ -203,7 +203,7 @@ TEST_CASE("volumes: volumes that no double holds are rounded correctly", "[volum
         CHECK(abs(is - should) <= abs(mpq_class(up) - should));
         CHECK(abs(is - should) <= abs(mpq_class(down) - should));
     }
-    // half-way between two doubles: ties to even, which only the exact sum can tell
+    // A tie between two doubles, rounded to even, which only the exact sum can decide.
     const double ulp = std::ldexp(1.0, -52);
     CHECK(find({box({0, 0, 0}, {1 + ulp, 1 + ulp, 1})}).volumes.measures[1] == 1 + 2 * ulp);
     const auto tie = find({box({0, 0, 0}, {1, 1, 1}), box({2, 0, 0}, {3, ulp / 2, 1})});
@@ -220,7 +220,7 @@ TEST_CASE("volumes: coordinates near the ends of double's range", "[volumes]") {
 }
 
 TEST_CASE("volumes: blocks as thin as doubles can be", "[volumes]") {
-    // The doubles nearest to the centroid of a face lie outside of it for some of these.
+    // For some of these, the double nearest to the centroid of a face lies outside the face.
     const double ulp = std::ldexp(1.0, -52);
     for (unsigned k = 0; k < 8; ++k) {
         const double x = (k & 1U) != 0 ? 1 : -1, y = (k & 2U) != 0 ? 1 : -1,

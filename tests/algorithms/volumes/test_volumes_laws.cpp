@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Laws of volumes: what may not change them, how many a formula says, what real models state.
+// Laws of volumes: changes that must not affect them, their number by a formula, the blocks that
+// real models state.
 #include <terrane/algorithms/volumes/volumes.hpp>
 
 #include <algorithm>
@@ -28,7 +29,7 @@ using namespace test_support;
 
 namespace {
 
-/// Models with something to find.
+/// Returns models that have volumes.
 std::vector<Model> models() {
     std::vector<Model> all = certified_inputs(200);
     all.push_back({"eight cubes", {}});
@@ -45,7 +46,7 @@ std::vector<Model> models() {
     return all;
 }
 
-/// Surfaces and triangles in another order, triangles turned, vertices renumbered.
+/// Reorders surfaces and triangles, rotates and flips triangles, and renumbers vertices.
 std::vector<Surface> shuffled(std::vector<Surface> surfaces, std::mt19937_64& random) {
     for (Surface& s : surfaces) {
         std::shuffle(s.triangles.begin(), s.triangles.end(), random);
@@ -79,7 +80,7 @@ std::vector<mpq_class> exact(const Found& found) {
     return measures;
 }
 
-/// Which volumes touch, and which have something dangling in them.
+/// Returns the pairs of volumes that touch; a pair of equal numbers has something dangling in it.
 std::set<std::array<std::uint32_t, 2>> neighbours(const Volumes& volumes) {
     std::set<std::array<std::uint32_t, 2>> pairs;
     for (auto sides : volumes.of_sides) {
@@ -165,12 +166,12 @@ TEST_CASE("volumes: the certified inputs hold for the oracle", "[volumes]") {
 
 namespace {
 
-/// n x + d = 0, with integers.
+/// A plane n x + d = 0 with integer coefficients.
 using Plane = std::array<long, 4>;
 const long half_width = 1L << 20; ///< of the box
 
-/// The plane over the box and beyond, as a quadrilateral whose corners are doubles on it: z is made
-/// from x and y, so the coefficient of z is 1.
+/// Returns the plane over the box and beyond, as a quadrilateral whose corners are doubles on it: z
+/// is computed from x and y, since the coefficient of z is 1.
 Surface surface_of(const Plane& p) {
     const auto reach = static_cast<double>(2 * half_width);
     const auto at = [&](double x, double y) {
@@ -183,9 +184,9 @@ bool inside(const std::array<mpq_class, 3>& x) {
     return std::all_of(x.begin(), x.end(), [](const mpq_class& c) { return abs(c) < half_width; });
 }
 
-/// Whether the line in which two planes meet passes through the box: x = q + t r clipped.
+/// Tells whether the line in which two planes meet passes through the box, by clipping x = q + t r.
 bool line_meets_box(const Plane& a, const Plane& b) {
-    // z = -(a0 x + a1 y + a3) = -(b0 x + b1 y + b3): a line in x, y
+    // On z = -(a0 x + a1 y + a3) = -(b0 x + b1 y + b3) lies a line in x and y.
     const mpq_class u = a[0] - b[0], v = a[1] - b[1], w = a[3] - b[3];
     if (u == 0 && v == 0) return false;
     std::array<mpq_class, 3> start, step;
@@ -223,7 +224,7 @@ bool point_in_box(const Plane& a, const Plane& b, const Plane& c) {
     return inside({x, y, -(a[0] * x + a[1] * y + a[3])});
 }
 
-/// Blocks without a corner outside of the box: the planes enclose more beyond it.
+/// Returns the blocks without a corner outside the box; the planes enclose other blocks beyond it.
 std::set<std::uint32_t> blocks_inside(const Found& found, double half) {
     std::set<std::uint32_t> in, out;
     for (std::size_t t = 0; t < found.arrangement.triangles.size(); ++t)
@@ -254,7 +255,8 @@ TEST_CASE("volumes: random planes through a box make as many blocks as Euler's f
                        random_int(random, -1000000, 1000000)});
         model.push_back(surface_of(all.back()));
     }
-    // In general position each plane, each line of two and each point of three inside adds a cell.
+    // In general position each plane, each line of two and each point of three inside the box adds
+    // a cell.
     std::size_t cells = 1 + all.size();
     for (std::size_t i = 0; i < all.size(); ++i)
         for (std::size_t j = 0; j < i; ++j) {
@@ -281,7 +283,8 @@ TEST_CASE("volumes: real models have the regions that they state", "[volumes]") 
         const Found found = find_in(stated.surfaces);
         CHECK(found.volumes.block_count() + 1 == stated.regions.size());
         if (name == "split_cube") continue; // its signs do not fit its triangles
-        // Each triangle of the file is one of the arrangement, so that the sides can be compared.
+        // Each triangle of the file is a triangle of the arrangement, so that the sides can be
+        // compared.
         REQUIRE(found.arrangement.triangles.size() == found.arrangement.parents_of.values.size());
         std::map<std::uint32_t, std::uint32_t> triangle_of; // by input triangle
         for (std::uint32_t t = 0; t < found.arrangement.triangles.size(); ++t)

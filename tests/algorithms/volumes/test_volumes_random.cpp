@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Random models of planes, sheets, polyhedra and dangling pieces, judged by the oracle.
+// The oracle judges random models of planes, sheets, polyhedra and dangling pieces.
 #include <terrane/algorithms/volumes/volumes.hpp>
 
 #include <algorithm>
@@ -54,5 +54,5 @@ TEST_CASE("volumes: 1000 random models hold for the oracle", "[volumes]") {
     const char* const wanted = std::getenv("TERRANE_RANDOM_MODELS"); // for longer runs
     const int models = wanted != nullptr ? std::atoi(wanted) : cases(1000);
     for (int seed = 0; seed < models; ++seed) judge_model(static_cast<std::uint64_t>(seed), blocks);
-    CHECK(blocks > 3 * static_cast<std::size_t>(models)); // or the models are too easy
+    CHECK(blocks > 3 * static_cast<std::size_t>(models)); // otherwise the models are too easy
 }

@@ -48,7 +48,7 @@ TEST_CASE("files: a write cut short leaves what was there", "[io][files]") {
     struct rlimit before {};
     REQUIRE(::getrlimit(RLIMIT_FSIZE, &before) == 0);
     auto limit = before;
-    limit.rlim_cur = 100; // bytes: stands for a disk that fills up half way
+    limit.rlim_cur = 100; // bytes: like a disk that fills up half way
     const auto handler = std::signal(SIGXFSZ, SIG_IGN);
     REQUIRE(::setrlimit(RLIMIT_FSIZE, &limit) == 0);
     const auto status = write_mesh(awkward_mesh(), folder / "a.obj");
@@ -74,7 +74,7 @@ TEST_CASE("files: replacing keeps permissions and follows links", "[io][files]")
 }
 
 TEST_CASE("files: protected folders and files stay as they are", "[io][files]") {
-    if (::geteuid() == 0) return; // nothing is forbidden to root
+    if (::geteuid() == 0) return; // root may write anywhere
     TemporaryFolder folder;
     fs::permissions(folder.path(), fs::perms::owner_read | fs::perms::owner_exec);
     CHECK(code_of(write_file(folder / "a", "x")) == ErrorCode::cannot_open);

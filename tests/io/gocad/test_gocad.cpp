@@ -13,7 +13,7 @@ namespace {
 
 constexpr Reader parse{Format::gocad, "a.ts"};
 
-/// A TSurf with the given lines between its first line and END.
+/// Returns a TSurf with the given lines between its first line and END.
 std::string tsurf(std::string_view lines) {
     return "GOCAD TSurf 1\n" + std::string(lines) + "END\n";
 }

@@ -26,7 +26,7 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/// Values that are exact in float32, some missing.
+/// Makes a grid of values that are exact in float32, some of them missing.
 Grid sample(std::uint32_t nx, std::uint32_t ny, unsigned seed) {
     std::mt19937 random(seed);
     Grid grid{"top", 461000.5, 5932000.25, nx, ny, 25.5, 12.5, 0, {}};
@@ -82,7 +82,7 @@ std::string irap_binary(const Grid& g) {
     return out;
 }
 
-/// Columns from the left, each from the top down.
+/// Writes the columns from the left, each from the top down.
 std::string columns(const Grid& g, const char* null, int width = 0) {
     std::string text;
     for (std::uint32_t i = 0; i < g.nx; ++i) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// .poly and .smesh, read back by TetGen's own reader and filled by TetGen.
+// TetGen's own reader reads back .poly and .smesh files, and TetGen fills the meshes.
 #include <catch2/catch.hpp>
 
 #include <cmath>
@@ -28,7 +28,7 @@ Mesh faulted() {
     return mesh_of(surfaces);
 }
 
-/// What TetGen's reader makes of the file `path`, named without its extension.
+/// Reads `path`, named without its extension, with TetGen's reader.
 void load(tetgenio& io, const std::filesystem::path& path) {
     auto name = path.string();
     REQUIRE(io.load_poly(name.data()));
@@ -56,7 +56,7 @@ void check_facets(const tetgenio& io, const Mesh& mesh, const std::vector<int>& 
     }
 }
 
-/// Volume of TetGen's tetrahedra by their attribute.
+/// Sums the volumes of TetGen's tetrahedra by their attribute.
 std::map<int, double> volumes_of(const tetgenio& out) {
     std::map<int, double> volumes;
     for (int t = 0; t < out.numberoftetrahedra; ++t) {
@@ -81,8 +81,9 @@ std::map<int, double> volumes_of(const tetgenio& out) {
 TEST_CASE("TetGen: .poly and .smesh read back by its own reader", "[io][poly]") {
     TemporaryFolder folder;
     auto mesh = awkward_mesh();
-    mesh.surfaces[0].name = "top # reservoir"; // in a comment: TetGen must not see it
-    const std::vector<RegionPoint> regions{{{0.1, -2, 3e-300}, 7}, {{1.0 / 3, 5, 6}, 8}};
+    mesh.surfaces[0].name = "top # reservoir"; // in a comment, which TetGen must skip
+    const std::vector<RegionPoint> regions{{{0.1, -2, 3e-300}, BlockId(7)},
+                                           {{1.0 / 3, 5, 6}, BlockId(8)}};
     for (const std::string extension : {"poly", "smesh"}) {
         INFO(extension);
         REQUIRE(message_of(write_mesh(mesh, folder / ("a_" + extension + "." + extension),

@@ -33,7 +33,7 @@ std::string decoded(std::string_view base64) {
     return bytes;
 }
 
-/// An uncompressed array: its bytes follow their number.
+/// Reads an uncompressed array: the number of its bytes, then the bytes.
 template <class T>
 std::vector<T> values(const pugi::xml_node& parent, const char* name) {
     const auto node = parent.find_child_by_attribute("DataArray", "Name", name);

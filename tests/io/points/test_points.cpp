@@ -106,7 +106,7 @@ TEST_CASE("points: horizons of real surveys", "[io][points]") {
     CHECK(s.name == "F3_Demo_2_FS6");
     CHECK(s.vertices.size() == 3019);
     CHECK(s.vertices[0] == Point3{110, 1042, -865.397810935974121});
-    // Points two apart on a lattice: all triangles are half cells of it.
+    // The points form a lattice of spacing 2, so that each triangle is half of a cell.
     for (const Triangle& t : s.triangles) {
         const Point3 &a = s.vertices[t[0]], &b = s.vertices[t[1]], &c = s.vertices[t[2]];
         CHECK((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) >= 4);

@@ -16,7 +16,7 @@ namespace {
 
 constexpr Reader parse{Format::ply, "a.ply"};
 
-/// A header of one vertex element (x y z) and one face element.
+/// Returns a header with one vertex element (x y z) and one face element.
 std::string header(std::string_view format, int vertices, int faces,
                    std::string_view index_type = "int") {
     return "ply\nformat " + std::string(format) + " 1.0\nelement vertex " +

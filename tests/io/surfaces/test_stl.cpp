@@ -16,12 +16,12 @@ namespace {
 
 constexpr Reader parse{Format::stl, "a.stl"};
 
-/// Binary STL with the given header and three corners per triangle.
+/// Returns a binary STL file with the given header and three corners per triangle.
 std::string binary(std::string header, const std::vector<float>& coordinates) {
     header.resize(80, ' ');
     detail::store(header, static_cast<std::uint32_t>(coordinates.size() / 9));
     for (std::size_t i = 0; i < coordinates.size(); i += 9) {
-        header.append(12, '\xFF'); // the normal: NaN, not read
+        header.append(12, '\xFF'); // the normal: NaN, which is not read
         for (std::size_t k = 0; k < 9; ++k) detail::store(header, coordinates[i + k]);
         detail::store(header, std::uint16_t(7));
     }

@@ -39,7 +39,7 @@ TEST_CASE("decimals become the nearest double", "[io][text]") {
     CHECK(parsed("1.") == 1);
     CHECK(parsed("1e5") == 1e5);
     CHECK(parsed("1E-5") == 1e-5);
-    CHECK(parsed("9007199254740993") == 9007199254740992.0); // tie to even
+    CHECK(parsed("9007199254740993") == 9007199254740992.0); // a tie, rounded to even
     CHECK(parsed("9007199254740993.00000000000000000001") == 9007199254740994.0);
     CHECK(std::signbit(parsed("-0")));
     CHECK(parsed("1.7976931348623158e308") == std::numeric_limits<double>::max());

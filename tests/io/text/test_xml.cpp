@@ -25,7 +25,7 @@ TEST_CASE("XML: a reader gets each character back, in an element and in an attri
     pugi::xml_document read;
     const auto in = "<e a=\"" + xml + "\">" + xml + "</e>";
     REQUIRE(read.load_buffer(in.data(), in.size(), pugi::parse_default, pugi::encoding_latin1));
-    // What was read as Latin-1 comes out as UTF-8.
+    // Text read as Latin-1 is returned as UTF-8.
     std::string utf8;
     for (const unsigned char c : expected) {
         if (c < 128) utf8 += static_cast<char>(c);

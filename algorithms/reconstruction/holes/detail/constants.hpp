@@ -29,6 +29,9 @@ struct HoleConstants {
     double outer_share = 0.5;
     /// Sags below this share of the edge length count as rounding.
     double rounding = 1e-6;
+    /// How often a default mesh size may be halved. Larger: finer fillings of sharp bends, more
+    /// time.
+    unsigned most_halvings = 2;
 };
 
 inline constexpr HoleConstants constants;
@@ -42,6 +45,7 @@ inline std::vector<NamedConstant> named_constants() {
         {"most_probes", static_cast<double>(constants.most_probes)},
         {"outer_share", constants.outer_share},
         {"rounding", constants.rounding},
+        {"most_halvings", static_cast<double>(constants.most_halvings)},
     };
 }
 

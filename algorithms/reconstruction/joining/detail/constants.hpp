@@ -3,6 +3,7 @@
 // The constants of joining a filling to a surface.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -21,6 +22,9 @@ struct JoinConstants {
     double least_swap_gain = 1e-3;
     /// Passes of swapping; few suffice, as the worst shape only improves.
     unsigned most_swap_passes = 20;
+    /// Half widths of strips that are tried one after the other, in halves of the median border
+    /// edge: a strip must reach the filling, and nothing else.
+    std::array<double, 5> strips{1, 0.125, 2, 1.4, 4};
 };
 
 inline constexpr JoinConstants constants;
@@ -31,6 +35,11 @@ inline std::vector<NamedConstant> named_constants() {
         {"most_sides", static_cast<double>(constants.most_sides)},
         {"least_swap_gain", constants.least_swap_gain},
         {"most_swap_passes", static_cast<double>(constants.most_swap_passes)},
+        {"strips_1", constants.strips[0]},
+        {"strips_2", constants.strips[1]},
+        {"strips_3", constants.strips[2]},
+        {"strips_4", constants.strips[3]},
+        {"strips_5", constants.strips[4]},
     };
 }
 

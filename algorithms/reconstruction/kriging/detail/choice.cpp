@@ -77,7 +77,7 @@ public:
         double share = share_for(degree, options);
         Variogram variogram = fit_variogram(bins_[degree - 1], options);
         const bool smooth = variogram.model == VariogramModel::gaussian && options.most_nugget == 0;
-        for (int stretched = 0; stretched < (smooth ? 3 : 1); ++stretched) {
+        for (int stretched = 0; stretched < (smooth ? constants.stretches : 1); ++stretched) {
             const auto blocks = patches_.validate(variogram, degree);
             if (best_.blocks.count == 0 || blocks.error < share * best_.blocks.error) {
                 best_ = {variogram, degree, blocks};

@@ -3,6 +3,7 @@
 // The constants of kriging that decide the model and the filling.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -63,6 +64,45 @@ struct KrigingConstants {
     double border_distance = 0.7;
     /// Points at which noise is estimated.
     std::size_t most_noise_points = 2000;
+    /// Ratios of the ranges across and along that a fit of anisotropy tries.
+    std::array<double, 6> anisotropy_ratios{0.8, 0.65, 0.5, 0.4, 0.3, 0.2};
+    /// Angle between the directions that a fit of anisotropy tries, in degrees.
+    double anisotropy_step = 15;
+    /// Least range that is fitted: the longest distance of the experimental variogram divided
+    /// by this.
+    double range_part = 30;
+    /// Largest range that is fitted, in longest distances of the experimental variogram.
+    double range_factor = 4;
+    /// Least exponent of a power model.
+    double least_power = 0.1;
+    /// Largest exponent of a power model; 2 would be no variogram.
+    double most_power = 1.98;
+    /// Steps of the grid on which a range or exponent is searched.
+    int fit_steps = 24;
+    /// Steps of the golden section search between grid points.
+    int fit_refinements = 20;
+    /// Ranges of a gaussian model without nugget that are validated, each twice the one before.
+    int stretches = 3;
+    /// Longest distance of the experimental variogram, in diagonals of the data.
+    double variogram_share = 0.5;
+    /// Growth of the addition to the diagonal of a singular system.
+    double addition_growth = 100;
+    /// Spacing of the first thinning, in spacings of the data.
+    double first_spacing = 2;
+    /// Thinning ends with this number of data or fewer, in neighbours of an estimate.
+    std::size_t least_level = 4;
+    /// Neighbours without which a point takes no part in the estimate of noise.
+    std::size_t noise_neighbours = 10;
+    /// Reciprocal condition below which the fit of noise at a point counts as singular.
+    double noise_singular = 1e-10;
+    /// Samples of a border per mesh size, for distances from it.
+    double border_samples = 2;
+    /// Samples of a border edge.
+    double most_border_samples = 1000;
+    /// First growth that is tried if a filling has too many vertices: the spacing of vertices
+    /// grows to at most their distance from the border divided by the growth, which is halved
+    /// until they are few enough.
+    double first_growth = 64;
 };
 
 inline constexpr KrigingConstants constants;
@@ -94,6 +134,29 @@ inline std::vector<NamedConstant> named_constants() {
         {"most_sags", static_cast<double>(constants.most_sags)},
         {"border_distance", constants.border_distance},
         {"most_noise_points", static_cast<double>(constants.most_noise_points)},
+        {"anisotropy_ratios_1", constants.anisotropy_ratios[0]},
+        {"anisotropy_ratios_2", constants.anisotropy_ratios[1]},
+        {"anisotropy_ratios_3", constants.anisotropy_ratios[2]},
+        {"anisotropy_ratios_4", constants.anisotropy_ratios[3]},
+        {"anisotropy_ratios_5", constants.anisotropy_ratios[4]},
+        {"anisotropy_ratios_6", constants.anisotropy_ratios[5]},
+        {"anisotropy_step", constants.anisotropy_step},
+        {"range_part", constants.range_part},
+        {"range_factor", constants.range_factor},
+        {"least_power", constants.least_power},
+        {"most_power", constants.most_power},
+        {"fit_steps", static_cast<double>(constants.fit_steps)},
+        {"fit_refinements", static_cast<double>(constants.fit_refinements)},
+        {"stretches", static_cast<double>(constants.stretches)},
+        {"variogram_share", constants.variogram_share},
+        {"addition_growth", constants.addition_growth},
+        {"first_spacing", constants.first_spacing},
+        {"least_level", static_cast<double>(constants.least_level)},
+        {"noise_neighbours", static_cast<double>(constants.noise_neighbours)},
+        {"noise_singular", constants.noise_singular},
+        {"border_samples", constants.border_samples},
+        {"most_border_samples", constants.most_border_samples},
+        {"first_growth", constants.first_growth},
     };
 }
 

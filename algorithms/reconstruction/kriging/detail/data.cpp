@@ -117,7 +117,7 @@ std::optional<double> squared_noise(const Point3& p, const std::vector<const Poi
     double scale = 0;
     for (const Point3* q : others)
         scale = std::max({scale, std::abs(q->x - p.x), std::abs(q->y - p.y)});
-    if (others.size() < 10 || !(scale > 0)) return std::nullopt;
+    if (others.size() < constants.noise_neighbours || !(scale > 0)) return std::nullopt;
     Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
     Terms right = Terms::Zero();
     for (const Point3* q : others) {
@@ -128,7 +128,7 @@ std::optional<double> squared_noise(const Point3& p, const std::vector<const Poi
         right += terms * (q->z - p.z);
     }
     const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> solver(normal);
-    if (!(solver.rcond() > 1e-10)) return std::nullopt;
+    if (!(solver.rcond() > constants.noise_singular)) return std::nullopt;
     const double off = solver.solve(right)[0];
     const Terms first = Terms::Unit(0);
     return off * off / (1 + solver.solve(first)[0]);
@@ -162,13 +162,13 @@ double noise_of(const std::vector<Point3>& points,
 
 /// Samples the borders at distances of at most half a mesh size.
 FlatCloud sampled(std::span<const Point3> points, std::span<const Polygon> borders, double size) {
-    constexpr double most = 1000; // per edge
     FlatCloud cloud;
     for (const Polygon& polygon : borders)
         for (std::size_t i = 0; i < polygon.size(); ++i) {
             const Point3 &a = points[polygon[i]], &b = points[polygon[(i + 1) % polygon.size()]];
             const double length = std::hypot(b.x - a.x, b.y - a.y);
-            const double steps = std::clamp(std::ceil(2 * length / size), 1.0, most);
+            const double steps = std::clamp(std::ceil(constants.border_samples * length / size),
+                                            1.0, constants.most_border_samples);
             for (double k = 0; k < steps; ++k)
                 cloud.points.push_back(
                     {a.x + (b.x - a.x) * k / steps, a.y + (b.y - a.y) * k / steps});
@@ -365,7 +365,8 @@ std::vector<Point3> places_within(std::span<const Point3> points, std::span<cons
                                   double mesh_size, std::size_t most) {
     const Placer placer(points, borders, mesh_size);
     std::vector<Point3> places;
-    for (double growth = 1e9; growth > 1; growth = growth > 64 ? 64 : growth / 2) {
+    for (double growth = 1e9; growth > 1;
+         growth = growth > constants.first_growth ? constants.first_growth : growth / 2) {
         places = placer.place(growth, most);
         if (places.size() <= most) break;
     }

@@ -118,7 +118,7 @@ public:
         const bool bounded = model_.model != VariogramModel::power;
         constant_ = bounded ? model_.sill : 2 * farthest;
         const double scale = constant_ > 0 ? constant_ : 1;
-        for (double addition = constants.least_addition;; addition *= 100) {
+        for (double addition = constants.least_addition;; addition *= constants.addition_growth) {
             MatrixXd covariance = (constant_ - gamma.array()).matrix();
             covariance.diagonal().array() += model_.nugget + addition * scale;
             factor_.compute(covariance);
@@ -207,7 +207,8 @@ struct Kriging::State {
         spacing = std::sqrt(area / static_cast<double>(data.size()));
         levels.push_back(std::make_unique<Level>(all, numbers));
         if (!(spacing > 0)) return;
-        for (double cell = 2 * spacing; levels.back()->size() > 4 * neighbours; cell *= 2) {
+        for (double cell = constants.first_spacing * spacing;
+             levels.back()->size() > constants.least_level * neighbours; cell *= 2) {
             FlatCloud kept;
             std::vector<std::uint32_t> kept_numbers;
             std::unordered_set<std::uint64_t> taken;
@@ -229,7 +230,7 @@ struct Kriging::State {
         const auto closest = levels[0]->nearest(p, 1).at(0);
         const double distance = variogram.distance(data[closest].x - x, data[closest].y - y);
         std::size_t level = 0;
-        for (double cell = 2 * spacing;
+        for (double cell = constants.first_spacing * spacing;
              level + 1 < levels.size() && cell <= constants.spacing_per_distance * distance;
              cell *= 2)
             ++level;

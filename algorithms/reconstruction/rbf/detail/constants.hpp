@@ -3,6 +3,7 @@
 // The constants of filling by radial basis functions that decide its result.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -73,13 +74,133 @@ struct RbfConstants {
     double mask_sure = 0.99;
     /// Edges at which flatness is judged.
     std::size_t most_sags = 1024;
+    /// Degrees of polynomials along the surface that are tried.
+    std::array<unsigned, 6> degrees{1, 2, 3, 4, 6, 8};
+    /// Degrees of polynomials in space that are tried.
+    std::array<unsigned, 5> degrees_in_space{2, 3, 4, 5, 6};
+    /// Centres per term of a polynomial along the surface, at least. Larger: lower degrees.
+    std::size_t centres_per_term = 3;
+    /// Least number of centres at the start.
+    std::size_t least_start = 10;
+    /// The start has one in so many of the centres that are allowed.
+    std::size_t start_part = 4;
+    /// Largest growth of the number of centres in a round.
+    std::size_t centre_growth = 2;
+    /// Least distance between new centres, in spacings of the round before. Larger: fewer
+    /// centres per round.
+    double crowded = 0.5;
+    /// Distance of offset constraints: the radius of the hole divided by this, if that is more
+    /// than by offset_edges.
+    double offset_part = 20;
+    /// Least distance of offset constraints, in median border edges.
+    double offset_edges = 0.5;
+    /// Least distance of offset constraints near noisy data, in radii of the hole.
+    double noisy_offset = 0.25;
+    /// Largest width of what is left out for validation: that of the data divided by this.
+    double left_out_part = 3;
+    /// Least width of what is left out for validation, in median border edges.
+    double left_out_edges = 1.5;
+    /// With fewer data left, forms are not compared.
+    std::size_t least_judged = 10;
+    /// Centres of a trial fit.
+    std::size_t trial_centres = 800;
+    /// Centres of a trial fit with smoothing.
+    std::size_t trial_centres_smoothed = 400;
+    /// Centres of a trial fit, at most, in centres that are allowed.
+    std::size_t trial_growth = 4;
+    /// Least slope by which the value at a datum is divided for its distance from the level.
+    double least_slope = 0.1;
+    /// Length of the mean border normal below which it is no axis.
+    double least_mean_normal = 0.1;
+    /// One normal in so many may lean farther than the steepness that is compared.
+    std::size_t outlier_part = 20;
+    /// Least degree of smoothing that cross-validation tries: power of ten, in largest
+    /// eigenvalues.
+    double least_lambda = -13;
+    /// Largest degree of smoothing, likewise.
+    double most_lambda = 3;
+    /// Step between degrees of smoothing, in powers of ten.
+    double lambda_step = 0.25;
+    /// Eigenvalues below this share of the largest one count as 0.
+    double eigenvalue_noise = 1e-14;
+    /// The solution is refined until the residual shrinks to no less than this share.
+    double least_refinement = 0.5;
+    /// Half of the points of the power function are no farther from the border than this, in
+    /// radii of the hole, beyond the margin.
+    double error_near = 0.25;
+    /// Room of the lattice around the border, in sizes of the border.
+    double domain_share = 0.5;
+    /// Room of the lattice around the border, in lattice steps, in addition.
+    double domain_steps = 8;
+    /// How often a long edge is halved.
+    unsigned long_edge_halvings = 10;
+    /// Largest step of a vertex towards the level: the edge length divided by this.
+    double level_part = 3;
+    /// Least shape, relative to that before, after a vertex has moved to the mean of its
+    /// neighbours.
+    double least_moved_shape = 0.4;
+    /// The same after a vertex has moved to the level alone.
+    double least_levelled_shape = 0.05;
+    /// Distance of the level from the triangles at the border, in edge lengths, above which the
+    /// triangles are halved.
+    double cut_corner = 0.25;
+    /// Distance from the surface up to which the filling counts as over it, in edge lengths.
+    double over_surface = 0.5;
 };
 
 inline constexpr RbfConstants constants;
 
+/// Lists the constants of the fit, by name, in the order of their declaration.
+inline std::vector<NamedConstant> named_constants_of_fit() {
+    return {
+        {"degrees_1", static_cast<double>(constants.degrees[0])},
+        {"degrees_2", static_cast<double>(constants.degrees[1])},
+        {"degrees_3", static_cast<double>(constants.degrees[2])},
+        {"degrees_4", static_cast<double>(constants.degrees[3])},
+        {"degrees_5", static_cast<double>(constants.degrees[4])},
+        {"degrees_6", static_cast<double>(constants.degrees[5])},
+        {"degrees_in_space_1", static_cast<double>(constants.degrees_in_space[0])},
+        {"degrees_in_space_2", static_cast<double>(constants.degrees_in_space[1])},
+        {"degrees_in_space_3", static_cast<double>(constants.degrees_in_space[2])},
+        {"degrees_in_space_4", static_cast<double>(constants.degrees_in_space[3])},
+        {"degrees_in_space_5", static_cast<double>(constants.degrees_in_space[4])},
+        {"centres_per_term", static_cast<double>(constants.centres_per_term)},
+        {"least_start", static_cast<double>(constants.least_start)},
+        {"start_part", static_cast<double>(constants.start_part)},
+        {"centre_growth", static_cast<double>(constants.centre_growth)},
+        {"crowded", constants.crowded},
+        {"offset_part", constants.offset_part},
+        {"offset_edges", constants.offset_edges},
+        {"noisy_offset", constants.noisy_offset},
+        {"left_out_part", constants.left_out_part},
+        {"left_out_edges", constants.left_out_edges},
+        {"least_judged", static_cast<double>(constants.least_judged)},
+        {"trial_centres", static_cast<double>(constants.trial_centres)},
+        {"trial_centres_smoothed", static_cast<double>(constants.trial_centres_smoothed)},
+        {"trial_growth", static_cast<double>(constants.trial_growth)},
+        {"least_slope", constants.least_slope},
+        {"least_mean_normal", constants.least_mean_normal},
+        {"outlier_part", static_cast<double>(constants.outlier_part)},
+        {"least_lambda", constants.least_lambda},
+        {"most_lambda", constants.most_lambda},
+        {"lambda_step", constants.lambda_step},
+        {"eigenvalue_noise", constants.eigenvalue_noise},
+        {"least_refinement", constants.least_refinement},
+        {"error_near", constants.error_near},
+        {"domain_share", constants.domain_share},
+        {"domain_steps", constants.domain_steps},
+        {"long_edge_halvings", static_cast<double>(constants.long_edge_halvings)},
+        {"level_part", constants.level_part},
+        {"least_moved_shape", constants.least_moved_shape},
+        {"least_levelled_shape", constants.least_levelled_shape},
+        {"cut_corner", constants.cut_corner},
+        {"over_surface", constants.over_surface},
+    };
+}
+
 /// Lists all constants by name, in the order of their declaration.
 inline std::vector<NamedConstant> named_constants() {
-    return {
+    std::vector<NamedConstant> all{
         {"graph_cosine", constants.graph_cosine},
         {"steep_cosine", constants.steep_cosine},
         {"worth_degree", constants.worth_degree},
@@ -107,6 +228,9 @@ inline std::vector<NamedConstant> named_constants() {
         {"mask_sure", constants.mask_sure},
         {"most_sags", static_cast<double>(constants.most_sags)},
     };
+    const auto fit = named_constants_of_fit();
+    all.insert(all.end(), fit.begin(), fit.end());
+    return all;
 }
 
 } // namespace terrane::rbf::detail

@@ -23,7 +23,8 @@ double cubed_distance(const Point3& a, const Point3& b) {
 /// Chooses half of the points near the border, the others anywhere.
 std::vector<std::uint32_t> chosen(const RbfData& data, double margin) {
     std::vector<bool> near, far;
-    for (const double d : data.distances) near.push_back(d <= margin + data.radius / 4);
+    for (const double d : data.distances)
+        near.push_back(d <= margin + constants.error_near * data.radius);
     auto points = well_spread(data.points, constants.most_error_points / 2, near);
     far.assign(data.points.size(), true);
     for (const std::uint32_t i : points) far[i] = false;

@@ -23,7 +23,7 @@ Point3 along(const Point3& p, double d, const Point3& direction) {
 
 /// Returns the number of centres with which step (2) starts.
 std::size_t start_size(const RbfOptions& options) {
-    return std::max<std::size_t>(10, options.most_centres / 4);
+    return std::max(constants.least_start, options.most_centres / constants.start_part);
 }
 
 /// The data that all forms have in common.
@@ -32,7 +32,9 @@ struct Start {
     Start(const RbfData& data, const TriangleTree& tree, const RbfOptions& options) :
         centres(well_spread(data.points, start_size(options),
                             std::vector<bool>(data.points.size(), true))),
-        offset(options.offset > 0 ? options.offset : std::max(data.radius / 20, data.edge / 2)),
+        offset(options.offset > 0 ? options.offset
+                                  : std::max(data.radius / constants.offset_part,
+                                             constants.offset_edges * data.edge)),
         surface(tree) {
         for (const std::uint32_t i : centres) {
             double least = std::numeric_limits<double>::infinity();
@@ -103,8 +105,9 @@ private:
         for (const std::uint32_t i : start_.centres) add_centre(i);
         // Near noisy data, offset constraints would be dominated by the noise.
         const bool noisy = form_.along_axis && (form_.smoothed || options_.smoothing);
-        const double d = noisy && !(options_.offset > 0) ? std::max(start_.offset, data_.radius / 4)
-                                                         : start_.offset;
+        const double d = noisy && !(options_.offset > 0)
+                             ? std::max(start_.offset, constants.noisy_offset * data_.radius)
+                             : start_.offset;
         report_.offset = d;
         for (const std::uint32_t i : start_.centres)
             for (const double side : {-1.0, 1.0}) add_offset(i, side * d);
@@ -195,17 +198,19 @@ private:
             const double x = std::fabs(errors[a]), y = std::fabs(errors[b]);
             return x > y || (x == y && a < b);
         });
-        const std::size_t most = std::min(options_.most_centres, 2 * centres_) - centres_;
+        const std::size_t most =
+            std::min(options_.most_centres, constants.centre_growth * centres_) - centres_;
         std::vector<std::uint32_t> taken;
         for (const std::uint32_t i : missed) {
             if (taken.size() == most) break;
             const bool crowded = std::any_of(taken.begin(), taken.end(), [&](std::uint32_t j) {
-                return length(minus(data_.points[i], data_.points[j])) < spacing_ / 2;
+                return length(minus(data_.points[i], data_.points[j])) <
+                       constants.crowded * spacing_;
             });
             if (!crowded) taken.push_back(i);
         }
         for (const std::uint32_t i : taken) add_centre(i);
-        spacing_ /= 2;
+        spacing_ *= constants.crowded;
         return true;
     }
 
@@ -251,7 +256,8 @@ LeftOut leave_out(const RbfData& data) {
     const double most = *std::max_element(data.distances.begin(), data.distances.end());
     LeftOut result;
     result.width =
-        std::max(std::min(constants.left_out_width * data.radius, most / 3), 1.5 * data.edge);
+        std::max(std::min(constants.left_out_width * data.radius, most / constants.left_out_part),
+                 constants.left_out_edges * data.edge);
     RbfData& kept = result.kept;
     std::vector<std::uint32_t> name(data.points.size(), UINT32_MAX);
     for (std::uint32_t i = 0; i < data.points.size(); ++i) {
@@ -296,8 +302,9 @@ struct Trials {
 
     /// Limits the number of centres to what distinguishes forms.
     static RbfOptions fewer(RbfOptions options) {
-        const std::size_t enough = options.smoothing ? 400 : 800;
-        options.most_centres = std::min<std::size_t>(4 * options.most_centres, enough);
+        const std::size_t enough =
+            options.smoothing ? constants.trial_centres_smoothed : constants.trial_centres;
+        options.most_centres = std::min(constants.trial_growth * options.most_centres, enough);
         return options;
     }
 
@@ -319,7 +326,7 @@ Result<Trial> try_form(const Trials& trials, const RbfForm& form, bool quick, co
     std::vector<double> missed;
     for (const std::uint32_t i : trials.left.points) {
         const double slope = length(f.value().smooth.gradient(data.points[i]));
-        missed.push_back(f.value()(data.points[i]) / std::max(slope, 0.1));
+        missed.push_back(f.value()(data.points[i]) / std::max(slope, constants.least_slope));
     }
     return Trial{rms(missed), f.value().nugget};
 }
@@ -329,7 +336,8 @@ std::array<Point3, 3> axes_of(const RbfData& data) {
     Point3 n;
     for (std::size_t i = 0; i < data.next.size(); ++i) n = along(n, 1, data.normals[i]);
     const double size = length(n);
-    if (!(size > 0.1 * static_cast<double>(data.next.size()))) return RbfPolynomial{}.axes;
+    if (!(size > constants.least_mean_normal * static_cast<double>(data.next.size())))
+        return RbfPolynomial{}.axes;
     n = {n.x / size, n.y / size, n.z / size};
     const Point3 other = std::fabs(n.x) < 0.7 ? Point3{1, 0, 0} : Point3{0, 1, 0};
     Point3 u = cross(other, n);
@@ -345,7 +353,8 @@ double steepest_slope(const RbfData& data, const Point3& axis) {
     for (const Point3& n : data.normals)
         if (!(n == Point3{})) cosines.push_back(dot(n, axis));
     if (cosines.empty()) return 0;
-    const auto worst = cosines.begin() + static_cast<std::ptrdiff_t>(cosines.size() / 20);
+    const auto worst =
+        cosines.begin() + static_cast<std::ptrdiff_t>(cosines.size() / constants.outlier_part);
     std::nth_element(cosines.begin(), worst, cosines.end());
     return *worst;
 }
@@ -358,9 +367,9 @@ std::vector<RbfForm> forms_for(const RbfData& data, const RbfOptions& options) {
     const double steepest = steepest_slope(data, form.polynomial.axes[2]);
     const std::size_t centres = std::min(data.points.size(), start_size(options));
     std::vector<RbfForm> forms;
-    for (const unsigned degree : {1U, 2U, 3U, 4U, 6U, 8U}) {
+    for (const unsigned degree : constants.degrees) {
         form.polynomial.degree = options.degree > 0 ? options.degree : degree;
-        if (degree > 1 && 3 * form.polynomial.terms() > centres) break;
+        if (degree > 1 && constants.centres_per_term * form.polynomial.terms() > centres) break;
         form.along_axis = true;
         if (steepest > constants.graph_cosine) forms.push_back(form);
         form.along_axis = false;
@@ -370,7 +379,7 @@ std::vector<RbfForm> forms_for(const RbfData& data, const RbfOptions& options) {
     if (!(steepest < constants.steep_cosine) || options.degree > 0) return forms;
     form.along_axis = false;
     form.polynomial.in_space = true;
-    for (const unsigned degree : {2U, 3U, 4U, 5U, 6U}) {
+    for (const unsigned degree : constants.degrees_in_space) {
         form.polynomial.degree = degree;
         if (form.polynomial.terms() < centres) forms.push_back(form);
     }
@@ -416,7 +425,7 @@ Result<RbfChoice> choose_form(const RbfData& data, const RbfOptions& options, co
     RbfChoice best{forms[0], no_number, no_number};
     const Trials trials(data, options);
     const RbfData& kept = trials.left.kept;
-    if (kept.points.size() < 10 || trials.left.points.empty()) return best;
+    if (kept.points.size() < constants.least_judged || trials.left.points.empty()) return best;
     Trial least;
     const auto consider = [&](const RbfForm& form, const Trial& trial, double share) {
         if (!std::isfinite(trial.missed)) return;

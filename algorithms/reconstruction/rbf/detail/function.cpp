@@ -164,7 +164,7 @@ void solve(const System& system, const Solver& solver, Vector& weights, Vector& 
         const Vector next = residual(system, kernel, better, polynomial_better);
         const double largest = next.cwiseAbs().maxCoeff();
         if (!(largest < solution.residual)) return;
-        const bool enough = largest > solution.residual / 2;
+        const bool enough = largest > constants.least_refinement * solution.residual;
         weights = better;
         polynomial = polynomial_better;
         left = next;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include <terrane/algorithms/mesh/vectors.hpp>
+#include <terrane/algorithms/reconstruction/rbf/detail/constants.hpp>
 
 namespace terrane::rbf::detail {
 namespace {
@@ -125,9 +126,8 @@ private:
 } // namespace
 
 void divide_long_edges(RbfData& data, double limit, double near) {
-    constexpr int most = 10; // a thousandth of an edge is short enough
     LongEdges edges(data, limit, near);
-    for (int k = 0; k < most && edges.halve(); ++k) {
+    for (unsigned k = 0; k < constants.long_edge_halvings && edges.halve(); ++k) {
     }
 }
 

@@ -47,10 +47,9 @@ struct Spectrum {
 /// Lists values of lambda from almost no smoothing to the polynomial alone, a quarter of a decade
 /// apart.
 std::vector<double> degrees_of(const Spectrum& s) {
-    constexpr double least = -13, most = 3, step = 0.25;
     const double unit = s.values.size() > 0 ? s.values.maxCoeff() : 1;
     std::vector<double> all;
-    for (double e = least; e <= most; e += step)
+    for (double e = constants.least_lambda; e <= constants.most_lambda; e += constants.lambda_step)
         all.push_back((unit > 0 ? unit : 1) * std::pow(10.0, e));
     return all;
 }
@@ -141,7 +140,8 @@ public:
         right_ = directions_.eigenvectors().transpose() * (across.transpose() * wanted);
         spectrum_ = {directions_.eigenvalues(), right_.cwiseAbs2(), wanted.squaredNorm(),
                      static_cast<double>(count_), static_cast<double>(m_)};
-        const double noise = 1e-14 * spectrum_.values.maxCoeff(); // of the decomposition itself
+        const double noise = // of the decomposition itself
+            constants.eigenvalue_noise * spectrum_.values.maxCoeff();
         for (Eigen::Index i = 0; i < spectrum_.values.size(); ++i) {
             double& value = spectrum_.values[i];
             if (!(value > noise)) value = 0;

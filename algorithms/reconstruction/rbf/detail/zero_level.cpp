@@ -127,7 +127,8 @@ private:
             high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
         }
         const double room =
-            std::max({high.x - low.x, high.y - low.y, high.z - low.z}) / 2 + 8 * step_;
+            constants.domain_share * std::max({high.x - low.x, high.y - low.y, high.z - low.z}) +
+            constants.domain_steps * step_;
         origin_ = {low.x - room, low.y - room, low.z - room};
         const double most = std::max({high.x - low.x, high.y - low.y, high.z - low.z}) + 2 * room;
         if (!(most / step_ < static_cast<double>(most_steps)))
@@ -152,7 +153,7 @@ private:
                     nodes.push_back(cube.corner(c));
         std::vector<double> values(nodes.size());
         for_blocks<char>(nodes.size(), 256, run_, [&](std::size_t a, std::size_t b) {
-            CGAL::Protect_FPU_rounding<true> nearest(CGAL_FE_TONEAREST);
+            const ToNearest mode;
             for (std::size_t n = a; n < b; ++n) values[n] = function_.value(place(nodes[n]));
             return '\0';
         });
@@ -348,8 +349,9 @@ void smooth(DiskMesh& mesh, const SpaceFunction& function, double size, bool mov
         // The distance from the level matters more than shape; vertices that move on need not be on
         // it yet.
         const int steps = move_to_middle ? 1 : 2;
-        mesh.move_if_sound(v, onto_level(function, p, size / 3, steps),
-                           move_to_middle ? 0.4 : 0.05);
+        mesh.move_if_sound(v, onto_level(function, p, size / constants.level_part, steps),
+                           move_to_middle ? constants.least_moved_shape
+                                          : constants.least_levelled_shape);
     }
 }
 

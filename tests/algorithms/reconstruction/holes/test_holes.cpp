@@ -15,8 +15,8 @@
 #include "support/loops.hpp"
 #include "support/points.hpp"
 #include "support/shapes.hpp"
-#include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
+#include <terrane/algorithms/mesh/vectors.hpp>
 
 using namespace terrane;
 using namespace test_support;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/algorithms/reconstruction/kriging/detail/variogram.hpp>
+#include <terrane/algorithms/reconstruction/kriging/variogram.hpp>
 
 #include <cmath>
 #include <vector>

@@ -16,6 +16,7 @@
 #include <terrane/algorithms/reconstruction/rbf/rbf.hpp>
 
 using namespace terrane;
+using namespace terrane::rbf::detail;
 using namespace test_support;
 
 namespace {

@@ -12,6 +12,7 @@
 #include <terrane/algorithms/mesh/vectors.hpp>
 
 using namespace terrane;
+using namespace terrane::rbf::detail;
 using namespace test_support;
 
 namespace {

@@ -11,6 +11,7 @@
 #include "support/points.hpp"
 
 using namespace terrane;
+using namespace terrane::rbf::detail;
 using namespace test_support;
 
 TEST_CASE("rbf: patches interpolate any number of values and fade away from them", "[rbf]") {

@@ -10,7 +10,6 @@
 #include <terrane/algorithms/check/check.hpp>
 
 using namespace terrane;
-using namespace terrane::rbf::detail;
 using namespace test_support;
 
 namespace {} // namespace

@@ -15,6 +15,7 @@
 #include "support/shapes.hpp"
 #include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/reconstruction/joining/join.hpp>
+#include <terrane/algorithms/reconstruction/rbf/detail/function.hpp>
 #include <terrane/algorithms/reconstruction/rbf/rbf.hpp>
 
 using namespace terrane;

@@ -16,6 +16,7 @@
 #include "support/points.hpp"
 
 using namespace terrane;
+using namespace terrane::rbf::detail;
 using namespace test_support;
 
 TEST_CASE("zero level: a sphere is a closed manifold of good triangles", "[rbf]") {

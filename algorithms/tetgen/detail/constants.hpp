@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// The constants of the domain that is filled with tetrahedra.
+#pragma once
+
+#include <vector>
+
+#include <terrane/algorithms/core/named_constant.hpp>
+
+namespace terrane::tetgen::detail {
+
+/// They decide the box around the mesh and which requests are refused.
+struct TetrahedraConstants {
+    /// Least distance of the box from the mesh, in largest coordinates: room for doubles between.
+    double least_margin = 0x1p-40;
+    /// Least ratio of circumradius to shortest edge that may be asked for: TetGen need not end below.
+    double least_ratio = 1.1;
+    /// Largest expected number of tetrahedra; TetGen counts in int.
+    double most_tetrahedra = 5e8;
+};
+
+inline constexpr TetrahedraConstants constants;
+
+/// Lists all constants by name, in the order of their declaration.
+inline std::vector<NamedConstant> named_constants() {
+    return {
+        {"least_margin", constants.least_margin},
+        {"least_ratio", constants.least_ratio},
+        {"most_tetrahedra", constants.most_tetrahedra},
+    };
+}
+
+} // namespace terrane::tetgen::detail
