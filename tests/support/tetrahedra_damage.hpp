@@ -18,6 +18,12 @@ struct Damage {
     bool needs_outside = false;           ///< is about the outside or its box
 };
 
+/// Appends a list to another one.
+inline std::vector<Damage> joined(std::vector<Damage> first, const std::vector<Damage>& second) {
+    first.insert(first.end(), second.begin(), second.end());
+    return first;
+}
+
 /// Damage to places: nodes are moved, doubled, or lost.
 std::vector<Damage> damage_to_nodes();
 

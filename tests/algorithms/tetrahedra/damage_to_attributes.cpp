@@ -63,7 +63,10 @@ void exchange_blocks(Filled& f, std::uint32_t a, std::uint32_t b) {
 
 } // namespace
 
-std::vector<Damage> damage_to_attributes() {
+namespace {
+
+/// Lists damage to what faces say.
+std::vector<Damage> damage_to_faces() {
     return {
         {"the triangles of two faces swapped", Defect::broken_outline,
          [](Filled& f) {
@@ -119,6 +122,12 @@ std::vector<Damage> damage_to_attributes() {
          }},
         {"faces that cover another triangle than they name", Defect::broken_outline,
          [](Filled& f) { std::swap(f.mesh.triangles[0], f.mesh.triangles[1]); }},
+    };
+}
+
+/// Lists damage to what blocks and lists say.
+std::vector<Damage> damage_to_blocks() {
+    return {
         {"the block of one tetrahedron changed", Defect::wrong_block,
          [](Filled& f) {
              auto& region = f.tetrahedra.region_of;
@@ -146,6 +155,12 @@ std::vector<Damage> damage_to_attributes() {
         {"lists of different lengths", Defect::unusable_lists,
          [](Filled& f) { f.tetrahedra.face_triangle.pop_back(); }},
     };
+}
+
+} // namespace
+
+std::vector<Damage> damage_to_attributes() {
+    return joined(damage_to_faces(), damage_to_blocks());
 }
 
 std::vector<Damage> damage_to_cuts() {

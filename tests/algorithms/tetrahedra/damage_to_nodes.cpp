@@ -82,7 +82,10 @@ constexpr double ulp = std::numeric_limits<double>::epsilon();
 
 } // namespace
 
-std::vector<Damage> damage_to_nodes() {
+namespace {
+
+/// Lists damage to nodes that divide triangles and edges.
+std::vector<Damage> damage_to_nodes_on_triangles() {
     return {
         {"a node on a triangle 40 ulps off its plane", Defect::node_off_plane,
          [](Filled& f) { lift(f, f.on_faces.front(), 40 * ulp * size_of(f)); }},
@@ -114,6 +117,12 @@ std::vector<Damage> damage_to_nodes() {
                  }
              }
          }},
+    };
+}
+
+/// Lists damage to corners, to nodes inside blocks, and to copies of nodes.
+std::vector<Damage> damage_to_other_nodes() {
+    return {
         {"an input vertex moved by one ulp", Defect::missing_vertex,
          [](Filled& f) {
              double& x = f.tetrahedra.vertices[corner_node(f)].x;
@@ -158,6 +167,12 @@ std::vector<Damage> damage_to_nodes() {
              f.tetrahedra.vertices[f.inside.front()].z = std::numeric_limits<double>::quiet_NaN();
          }},
     };
+}
+
+} // namespace
+
+std::vector<Damage> damage_to_nodes() {
+    return joined(damage_to_nodes_on_triangles(), damage_to_other_nodes());
 }
 
 } // namespace test_support

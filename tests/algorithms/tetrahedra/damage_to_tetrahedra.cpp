@@ -86,7 +86,10 @@ void move_out_of_star(Filled& f) {
 
 } // namespace
 
-std::vector<Damage> damage_to_tetrahedra() {
+namespace {
+
+/// Lists damage to one tetrahedron.
+std::vector<Damage> damage_to_single_tetrahedra() {
     return {
         {"a tetrahedron removed", Defect::open_face,
          [](Filled& f) { remove(f, [at = inner(f)](std::uint32_t t) { return t == at; }); }},
@@ -126,6 +129,12 @@ std::vector<Damage> damage_to_tetrahedra() {
              add(f, {side.at(0), side.at(1), side.at(2), side.at(3)}, 0);
          },
          true},
+    };
+}
+
+/// Lists damage to the tetrahedra around a node, of a block, and of all.
+std::vector<Damage> damage_to_many_tetrahedra() {
+    return {
         {"a node out of its star, the tetrahedra there turned to have a volume again",
          Defect::crowded_face, move_out_of_star},
         {"a hole: all tetrahedra at a node inside removed", Defect::open_face,
@@ -159,6 +168,12 @@ std::vector<Damage> damage_to_tetrahedra() {
                  static_cast<std::uint32_t>(f.tetrahedra.vertices.size());
          }},
     };
+}
+
+} // namespace
+
+std::vector<Damage> damage_to_tetrahedra() {
+    return joined(damage_to_single_tetrahedra(), damage_to_many_tetrahedra());
 }
 
 } // namespace test_support
