@@ -9,6 +9,7 @@
 #include <terrane/algorithms/arrangement/input_triangles.hpp>
 #include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/check/conforming.hpp>
+#include <terrane/algorithms/check/pair_check.hpp>
 #include <terrane/algorithms/core/id.hpp>
 #include <terrane/algorithms/core/index_lists.hpp>
 #include <terrane/algorithms/core/named_constant.hpp>

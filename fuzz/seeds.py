@@ -3,7 +3,7 @@
 """Writes the seed corpora: fuzz/seeds.py [FOLDER]   (fuzz/corpus unless given)
 
 Every seed is a case with a name, in the language that the target reads its bytes in: see
-shapes.cpp, corefine.cpp, predicates.cpp and search.cpp. The same files come out each time.
+shapes.cpp, corefine.cpp, predicates.cpp, search.cpp and forge.cpp. The same files come out each time.
 """
 import pathlib
 import struct
@@ -340,10 +340,25 @@ FILES.update({
 })
 
 
+def forge():
+    """A list of changes (forge_changes.hpp), then an OBJ file: each kind of change once per part."""
+    certified = pathlib.Path(__file__).parent.parent / "tests" / "certified"
+    inputs = ["contact_pierced", "coplanar_overlap", "junction_x", "triple_point", "duplicates",
+              "degenerate", "triple_point_inexact", "tetrahedra_star", "one_ulp_tilted", "tips_touch"]
+    kinds, change, most = 29, 8, 3
+    for kind in range(kinds):
+        for part in range(3):
+            name = inputs[(3 * kind + part) % len(inputs)]
+            first = bytes([kind, part, 7 * kind % 256, 0, part, kind + 1, 5 * part + kind, 0])
+            header = bytes([0]) + first + bytes(change * (most - 1))
+            yield (f"change_{kind:02}_{part}_{name}",
+                   header + (certified / name / "input.obj").read_bytes())
+
+
 def main():
     folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else
                           pathlib.Path(__file__).parent / "corpus")
-    targets = {"tri_tri": tri_tri, "corefine": corefine, "predicates": predicates, "search": search,
+    targets = {"tri_tri": tri_tri, "corefine": corefine, "predicates": predicates, "search": search, "forge": forge,
                "arrange": soups, "rounding": soups, "regions": soups, "volumes": soups, "tetrahedra": soups}
     seeds = {t: dict(make()) for t, make in targets.items()}
     for fmt, files in FILES.items():

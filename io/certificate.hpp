@@ -3,12 +3,19 @@
 // A certificate holds all that is needed to check a result against its input files. It is a JSON
 // text in UTF-8:
 //
-//   { "format": "terrane-certificate", "version": 1,
+//   { "format": "terrane-certificate", "version": 2,
+//     "kind": "arrangement",         of the surfaces as they are in the files
 //     "inputs": [                    the files, in the order of reading
 //       { "name": "faults.ts",       relative to the folder of the certificate
 //         "sha256": "9f86d0...",     of the bytes of the file, 64 lower-case hexadecimal digits
 //         "bytes": 1204,
 //         "surfaces": [{ "name": "F1", "role": "fault", "vertices": 12, "triangles": 14 }] } ],
+//     "outputs": [                   the files with the mesh of doubles
+//       { "name": "model.vtp",       relative to the folder of the certificate; "-" is standard
+//                                    output
+//         "format": "vtp",           "stl": binary; "stl-ascii"; else the extension
+//         "sha256": "...", "bytes": 4711,
+//         "surfaces": [{ "name": "F1", "role": "fault" }] } ],  what the file calls them
 //     "exact": {                     the arrangement, in exact numbers
 //       "vertices": [                by construction from input vertices; no two are equal
 //         ["v", i],                  input vertex i
@@ -27,12 +34,14 @@
 //       "triangles", "parents", "intersection_edges": as above, of these vertices
 //       "regions": [[r, ...]],       per triangle: its region in each of its surfaces
 //       "clean": true,               triangles meet in shared vertices and edges only
-//       "rounds": 0,                 of snapping
-//       "max_move": "1.1e-16",       upper bound of the distance of a vertex to its exact point
-//       "deviation": "1.1e-16",      upper bound of the distance of a triangle to its parents
+//       "max_move": "1.1e-16",       upper bound of the distance of a vertex to its exact point;
+//                                    null if the triangles are not those of "exact"
+//       "deviation": "1.1e-16",      upper bound of the distances of triangles to their parents and
+//                                    of parents to their triangles; the verifier computes its own
 //       "vanished": [t, ...] },      input triangles with area that have no part left, ascending
 //     "digest": "sha256:..." }       of the exact part; digest.hpp defines it
 //
+// Each object has these keys and no others. Numbers are whole and without sign.
 // Input vertices and triangles are counted from 0 through all surfaces of all files. In names that
 // are not UTF-8 each wrong byte becomes U+FFFD, so that the verifier refuses them.
 #pragma once
@@ -47,6 +56,7 @@
 #include <terrane/algorithms/arrangement/arrangement.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
+#include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
 
@@ -64,17 +74,31 @@ struct InputRecord {
 Result<InputRecord> record_input(const std::filesystem::path& path, std::string name,
                                  std::size_t surfaces);
 
-/// Returns the name of an input file in a certificate: its path relative to the folder of the
+/// An output file: the hash of its bytes, and what it calls the surfaces.
+struct OutputRecord {
+    std::string name;                  ///< its name in the certificate; "-": standard output
+    std::string format;                ///< "obj", "stl", "stl-ascii", ...
+    std::string sha256;                ///< 64 lower-case hexadecimal digits
+    std::uint64_t bytes = 0;           ///< length of the file
+    std::vector<SurfaceInfo> surfaces; ///< order of the input
+};
+
+/// Hashes the contents of an output file with this mesh.
+OutputRecord record_output(std::string_view contents, std::string name, std::string format,
+                           const Mesh& mesh);
+
+/// Returns the name of a file in a certificate: its path relative to the folder of the
 /// certificate.
 std::string certified_name(const std::filesystem::path& path,
                            const std::filesystem::path& certificate);
 
 /// The contents of a certificate, by reference: the values must outlive it.
 struct Certified {
-    std::span<const InputRecord> files;   ///< in the order in which they were read
-    std::span<const Surface> surfaces;    ///< of all files, in order
-    const Arrangement& exact;             ///< of these surfaces
-    const RoundedMesh* rounded = nullptr; ///< nullptr: "rounded" is null
+    std::span<const InputRecord> files;      ///< in the order in which they were read
+    std::span<const Surface> surfaces;       ///< of all files, in order
+    const Arrangement& exact;                ///< of these surfaces
+    const RoundedMesh* rounded = nullptr;    ///< nullptr: "rounded" is null
+    std::span<const OutputRecord> outputs{}; ///< the files that hold the rounded mesh
 };
 
 /// Returns the text of a certificate. Cost: linear; a second for 200 000 triangles.

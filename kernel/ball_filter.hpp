@@ -19,6 +19,21 @@
 
 namespace terrane {
 
+namespace ball_filter {
+
+// E is at most so much of M.
+constexpr double turn2d_widest = 1.0 / 8, in_circle_widest = 1.0 / 1024;
+constexpr double turn2d_radius_factor = 6;     ///< of M E
+constexpr double in_circle_radius_factor = 56; ///< of M^3 E
+constexpr double in_circle_rounding_factor =
+    static_filter::in_circle_factor + 1;   ///< of unit M^4: the radii add one rounding of the bound
+constexpr double terms_factor = 14;        ///< of unit and the sum of the terms' sizes
+constexpr double slopes_factor = 1.01;     ///< of E and the sum of the partial derivatives
+constexpr double second_order_factor = 80; ///< of E^2 M^2
+constexpr double smallest = 0x1p-1000;     ///< more than underflow can hide
+
+} // namespace ball_filter
+
 /// A point of a projection: each true coordinate differs from u, v by at most radius.
 struct ApproximatePoint {
     double u, v, radius;
@@ -34,11 +49,12 @@ inline std::optional<Sign> filtered_orient2d(const ApproximatePoint& a, const Ap
         std::max(std::max(std::fabs(bu), std::fabs(bv)), std::max(std::fabs(cu), std::fabs(cv)));
     const double e = 2 * std::max({a.radius, b.radius, c.radius});
     using namespace static_filter;
-    if (!(range_of_degree2.contains(m, m) && e <= m / 8)) return std::nullopt;
+    using namespace ball_filter;
+    if (!(range_of_degree2.contains(m, m) && e <= m * turn2d_widest)) return std::nullopt;
     const double value = bu * cv - bv * cu;
     TERRANE_ASSERT_SHADOW(
         shadow::turn2d(a, b, a, c).is_near(shadow::Twin(value), turn2d_factor * unit * m * m));
-    return Estimate{value, m * (turn2d_factor * unit * m + 6 * e)}.sign();
+    return Estimate{value, m * (turn2d_factor * unit * m + turn2d_radius_factor * e)}.sign();
 }
 
 /// Returns Positive iff d lies inside the circle through a, b, c (counterclockwise). Let M be the
@@ -48,7 +64,8 @@ inline std::optional<Sign> filtered_orient2d(const ApproximatePoint& a, const Ap
 ///     changes them by in_circle_factor unit M^4.
 /// (2) Where that is too coarse, the second bound uses the sizes of the terms. Rounding adds 11
 ///     unit times their sum; the radii add E times the sum of the partial derivatives, and at most
-///     72 E^2 M^2 for all higher orders.
+///     73 E^2 M^2 for all higher orders.
+/// kernel/proofs/ball_*.g are proofs of all this that Gappa checks.
 inline std::optional<Sign> filtered_in_circle(const ApproximatePoint& a, const ApproximatePoint& b,
                                               const ApproximatePoint& c,
                                               const ApproximatePoint& d) {
@@ -58,15 +75,16 @@ inline std::optional<Sign> filtered_in_circle(const ApproximatePoint& a, const A
         {std::fabs(au), std::fabs(av), std::fabs(bu), std::fabs(bv), std::fabs(cu), std::fabs(cv)});
     const double e = 2 * std::max({a.radius, b.radius, c.radius, d.radius});
     using namespace static_filter;
-    if (!(range_of_degree4.contains(m, m) && e <= m / 1024)) return std::nullopt;
+    using namespace ball_filter;
+    if (!(range_of_degree4.contains(m, m) && e <= m * in_circle_widest)) return std::nullopt;
     const double la = au * au + av * av, lb = bu * bu + bv * bv, lc = cu * cu + cv * cv;
     const double value =
         la * (bu * cv - bv * cu) + lb * (cu * av - cv * au) + lc * (au * bv - av * bu);
     const double m3 = m * m * m;
     TERRANE_ASSERT_SHADOW(shadow::in_circle(a, b, c, d)
                               .is_near(shadow::Twin(value), in_circle_factor * unit * m3 * m));
-    constexpr double factor = in_circle_factor + 1; // the radii add one rounding of the bound
-    if (const auto sign = Estimate{value, m3 * (factor * unit * m + 56 * e)}.sign()) return sign;
+    const double coarse = m3 * (in_circle_rounding_factor * unit * m + in_circle_radius_factor * e);
+    if (const auto sign = Estimate{value, coarse}.sign()) return sign;
     const double bc = std::fabs(bu * cv) + std::fabs(bv * cu);
     const double ca = std::fabs(cu * av) + std::fabs(cv * au);
     const double ab = std::fabs(au * bv) + std::fabs(av * bu);
@@ -75,9 +93,9 @@ inline std::optional<Sign> filtered_in_circle(const ApproximatePoint& a, const A
     const double terms = la * bc + lb * ca + lc * ab;
     const double slopes =
         2 * (sa * bc + sb * ca + sc * ab) + la * (sb + sc) + lb * (sc + sa) + lc * (sa + sb);
-    const double smallest = (1 + m * m) * 0x1p-1000; // more than underflow can hide
-    return Estimate{value,
-                    14 * unit * terms + 1.01 * e * slopes + 80 * (e * e) * (m * m) + smallest}
+    const double mm = m * m, normal_e = e + smallest; // a subnormal one would lose the factor
+    return Estimate{value, terms_factor * unit * terms + slopes_factor * normal_e * slopes +
+                               second_order_factor * (e * e) * mm + (1 + mm) * smallest}
         .sign();
 }
 

@@ -12,7 +12,7 @@ namespace terrane {
 namespace {
 
 using polynomial::cartesian;
-using static_filter::in_circle_factor, static_filter::turn2d_factor, static_filter::unit;
+using static_filter::in_circle_factor, static_filter::projection_axis_factor, static_filter::unit;
 using static_filter::project, static_filter::Uv;
 
 double largest(double a, double b, double c) {
@@ -50,8 +50,7 @@ std::optional<Sign> static_in_circle(const Uv& a, const Uv& b, const Uv& c, cons
 }
 
 // Finds the axis along which the normal is longest, if it is so by more than the rounding error.
-// Each coordinate of the normal is a minor of differences, off by at most 8 unit times the square
-// of the largest difference.
+// Each coordinate of the normal is a minor of differences: (5) of static_filter_bounds.hpp.
 std::optional<Axis> static_projection_axis(const Point3& a, const Point3& b, const Point3& c) {
     const double bx = b.x - a.x, by = b.y - a.y, bz = b.z - a.z;
     const double cx = c.x - a.x, cy = c.y - a.y, cz = c.z - a.z;
@@ -59,7 +58,7 @@ std::optional<Axis> static_projection_axis(const Point3& a, const Point3& b, con
     if (!static_filter::range_of_degree2.contains(m, m)) return std::nullopt;
     const double x = std::fabs(by * cz - bz * cy), y = std::fabs(bz * cx - bx * cz),
                  z = std::fabs(bx * cy - by * cx);
-    const double bound = 2 * turn2d_factor * unit * m * m; // for the difference of two minors
+    const double bound = projection_axis_factor * unit * m * m;
     if (x > y + bound && x > z + bound) return Axis::x;
     if (y > z + bound && y > x + bound) return Axis::y;
     if (z > x + bound && z > y + bound) return Axis::z;

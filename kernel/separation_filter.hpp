@@ -21,20 +21,23 @@ namespace terrane {
 ///     2^-51 (M + N), where M and N are the largest absolute coordinates of the two triangles, in
 ///     any rounding mode. Rounding to nearest moves a point of a triangle by at most
 ///     sqrt(3) 2^-53 M.
-/// The bounds of static_filter_bounds.hpp are enlarged by that distance.
+/// The bounds of static_filter_bounds.hpp are enlarged by that distance, times the length of the
+/// normal or of the edge, which is bounded from above. kernel/proofs/separation_*.g are proofs that
+/// Gappa checks.
 class SeparationFilter {
 public:
     SeparationFilter(const Point3& a, const Point3& b, const Point3& c) :
         at_{a, b, c}, plane_(a, b, c) {
         const Point3& n = plane_.normal();
-        length_ = std::fabs(n.x) + std::fabs(n.y) + std::fabs(n.z);
+        length_ = std::fabs(n.x) + std::fabs(n.y) + std::fabs(n.z) + plane_.normal_error();
         size_ = std::max({size_of(a), size_of(b), size_of(c)});
     }
 
     /// Whether p, q, r lie on one side of the plane, far enough by law (1).
     [[nodiscard]] bool is_beside(const Point3& p, const Point3& q, const Point3& r) const {
-        const int side = side_of_plane(p);
-        return side != 0 && side_of_plane(q) == side && side_of_plane(r) == side;
+        const double room = room_for(p, q, r);
+        const int side = side_of_plane(p, room);
+        return side != 0 && side_of_plane(q, room) == side && side_of_plane(r, room) == side;
     }
 
     /// Whether p, q, r lie on the outer side of an edge in a projection, far enough by law (1).
@@ -48,7 +51,7 @@ public:
         const std::array<Uv, 3> others{static_filter::project(axis, p),
                                        static_filter::project(axis, q),
                                        static_filter::project(axis, r)};
-        const double room = share * (size_ + std::max({size_of(p), size_of(q), size_of(r)}));
+        const double room = room_for(p, q, r);
         for (unsigned j = 0; j < 3; ++j) {
             const Uv &from = corners[j], &to = corners[(j + 1) % 3];
             if (std::all_of(others.begin(), others.end(),
@@ -58,11 +61,15 @@ public:
         return false;
     }
 
+    static constexpr double least_distance = 0x1p-51; ///< of law (1), per M + N
+    static constexpr double share = 0x1p-50; ///< what the bounds are enlarged by, per M + N
+
 private:
     using Uv = static_filter::Uv;
 
-    static constexpr double share = 0x1p-50; ///< the distance, relative to the sum of the sizes
-
+    [[nodiscard]] double room_for(const Point3& p, const Point3& q, const Point3& r) const {
+        return share * (size_ + std::max({size_of(p), size_of(q), size_of(r)}));
+    }
     static double size_of(const Point3& p) {
         return std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
     }
@@ -79,10 +86,10 @@ private:
         const double bound = e.bound + room;
         return e.value > bound ? 1 : e.value < -bound ? -1 : 0;
     }
-    [[nodiscard]] int side_of_plane(const Point3& p) const {
+    [[nodiscard]] int side_of_plane(const Point3& p, double room) const {
         const auto determinant = plane_.determinant(p);
         if (!determinant.in_range()) return 0;
-        return sign_with_room(determinant.estimate(), length_ * (share * (size_ + size_of(p))));
+        return sign_with_room(determinant.estimate(), length_ * room);
     }
     static int side_of_line(const Uv& a, const Uv& b, const Uv& p, double room) {
         const static_filter::Turn2d turn(a, b, a, p);
@@ -92,7 +99,8 @@ private:
 
     std::array<Point3, 3> at_;
     static_filter::Plane plane_;
-    double length_, size_; ///< L1 norm of the normal; largest absolute coordinate
+    double length_, size_; ///< at least the L1 norm of the true normal; largest absolute
+                           ///< coordinate
 };
 
 } // namespace terrane

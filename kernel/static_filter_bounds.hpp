@@ -14,9 +14,12 @@
 //     errs by 8 unit M^2. So does a lifted coordinate (two squares that err by 3 unit each, and a
 //     sum of size 2). Their product is at most 4 M^4 and errs by 36 unit M^4. Three products give
 //     108 and two additions 8 + 12: 128 unit M^4 in all.
-// (4) The bounds hold unless products underflow or overflow. All products of 2, 3, 4 numbers within
-//     range_of_degree2, 3, 4 are normal.
+// (4) The bounds hold unless products overflow, or underflow by more than the bounds leave room for.
+//     All products of 2, 3, 4 numbers within range_of_degree2, 3, 4 are normal.
+// (5) Comparing two minors of size M^2: both err by 8 unit M^2, and the sum of one of them and the
+//     bound rounds by 2 unit M^2. 18 unit M^2 in all.
 // The factors below also cover the terms of second order and the rounding of the bound itself.
+// kernel/proofs/*.g are proofs of (1) to (5) that Gappa checks with the numbers of this file.
 #pragma once
 
 #include <terrane/kernel/config.hpp>
@@ -41,9 +44,12 @@ namespace terrane::static_filter {
 
 constexpr double unit = std::numeric_limits<double>::epsilon();
 
-constexpr double turn2d_factor = 9;      ///< times unit U V, by (1)
-constexpr double orient3d_factor = 48;   ///< times unit A B C, by (2)
-constexpr double in_circle_factor = 132; ///< times unit M^4, by (3)
+constexpr double turn2d_factor = 9;                   ///< times unit U V, by (1)
+constexpr double orient3d_factor = 48;                ///< times unit A B C, by (2)
+constexpr double in_circle_factor = 132;              ///< times unit M^4, by (3)
+constexpr double projection_axis_factor = 20;         ///< times unit M^2, by (5)
+constexpr double normal_error_factor = turn2d_factor; ///< times unit (A B + B C + C A), by (1)
+constexpr double smallest_normal_error = 0x1p-1000;   ///< more than underflow can hide
 
 /// The open range of sizes for which the bounds hold.
 struct Range {
@@ -185,6 +191,11 @@ public:
     }
     [[nodiscard]] const Point3& normal() const {
         return normal_;
+    }
+    /// Bounds the sum of the errors of the normal's coordinates.
+    [[nodiscard]] double normal_error() const {
+        const auto& [x, y, z] = largest_;
+        return normal_error_factor * unit * (x * y + y * z + z * x) + smallest_normal_error;
     }
 
 private:

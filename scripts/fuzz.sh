@@ -14,7 +14,7 @@ seconds=${1:-60}
 shift || true
 targets=("$@")
 [[ ${#targets[@]} -gt 0 ]] ||
-    targets=(corefine arrange rounding tetrahedra predicates tri_tri search regions volumes
+    targets=(corefine arrange rounding tetrahedra predicates tri_tri search regions volumes forge
              read_ts read_ml read_obj read_off read_stl read_ply read_irap read_zmap read_cps3
              read_asc read_xyz read_vs)
 
@@ -40,6 +40,7 @@ run_target() {
     if [[ $target == read_* ]]; then
         options=(-max_len=4096 -malloc_limit_mb=256 "-dict=$PWD/fuzz/dictionaries/${target#read_}.dict")
     fi
+    [[ $target != forge ]] || options[0]=-max_len=4096 # it has an OBJ file in it
     # len_control lets inputs grow sooner. entropic is off, as its cost is linear in the features of
     # a run and took two thirds of the time.
     "$binaries/fuzz_$target" "${options[@]}" -seed="$seed" -max_total_time="$seconds" -timeout=20 \

@@ -12,6 +12,7 @@ packages=(
     libcli11-dev libfmt-dev nlohmann-json3-dev libpugixml-dev zlib1g-dev
     libtet1.5-dev catch2 libbenchmark-dev
     python3-vtk9 python3-meshio gmsh # these read the written files back, in tests only
+    gappa                            # checks the proofs of error bounds, in tests only
 )
 
 is_installed() {

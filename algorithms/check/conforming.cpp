@@ -56,20 +56,26 @@ Status distinct_points(std::span<const Point3> points, std::span<const Triangle>
     return Done{};
 }
 
+/// Returns the injective patch of each triangle; empty for a full check, which uses none.
+std::vector<std::uint32_t> patches_of(std::span<const Point3> points,
+                                      std::span<const Triangle> triangles,
+                                      std::span<const std::uint32_t> label_of, PairCheck method,
+                                      const Run& run) {
+    if (method == PairCheck::full) return {};
+    const EdgeSides edges = group_edges(triangles, points.size(), run);
+    return find_injective_patches(points, triangles, label_of, edges, run).of;
+}
+
 /// Returns the first pair of triangles that meet improperly.
 std::optional<CandidatePair> first_contact(std::span<const Point3> points,
                                            std::span<const Triangle> triangles,
-                                           std::span<const std::uint32_t> label_of,
-                                           const Run& run) {
-    const EdgeSides edges = group_edges(triangles, points.size(), run);
-    const InjectivePatches patches =
-        find_injective_patches(points, triangles, label_of, edges, run);
+                                           std::span<const std::uint32_t> patches, const Run& run) {
     std::vector<std::uint32_t> all(triangles.size());
     std::iota(all.begin(), all.end(), 0U);
     const auto improper = [&](const CandidatePair& p) {
         return improper_contact(points, triangles[p.first], triangles[p.second]).has_value();
     };
-    const auto pairs = candidate_pairs_of({points, triangles}, all, patches.of, improper, run);
+    const auto pairs = candidate_pairs_of({points, triangles}, all, patches, improper, run);
     return pairs.empty() ? std::nullopt : std::optional(pairs.front());
 }
 
@@ -77,24 +83,47 @@ std::optional<CandidatePair> first_contact(std::span<const Point3> points,
 
 Status conforming(std::span<const Point3> points, std::span<const Triangle> triangles,
                   std::span<const std::uint32_t> label_of, const Run& run) {
-    if (auto valid = validate_areas(points, triangles, run); !valid) return valid;
-    if (auto distinct = distinct_points(points, triangles); !distinct) return distinct;
-    if (auto distinct = distinct_triangles(triangles); !distinct) return distinct;
+    const auto proof = conforming(points, triangles, label_of, PairCheckOptions{}, run);
+    if (!proof) return proof.error();
+    return Done{};
+}
+
+Result<std::optional<PairCounts>> conforming(std::span<const Point3> points,
+                                             std::span<const Triangle> triangles,
+                                             std::span<const std::uint32_t> label_of,
+                                             const PairCheckOptions& check, const Run& run) {
+    if (auto valid = validate_areas(points, triangles, run); !valid) return valid.error();
+    if (auto distinct = distinct_points(points, triangles); !distinct) return distinct.error();
+    if (auto distinct = distinct_triangles(triangles); !distinct) return distinct.error();
     detail::announce_work("prove conforming", points, triangles);
-    const auto pair = first_contact(points, triangles, label_of, run);
+    const auto patches = patches_of(points, triangles, label_of, check.method, run);
+    const auto pair = first_contact(points, triangles, patches, run);
     if (run.stop.stop_requested()) return Error{ErrorCode::interrupted, "stopped on request", ""};
-    if (!pair) return Done{};
-    const auto how = improper_contact(points, triangles[pair->first], triangles[pair->second]);
-    return contact("it meets triangle " + std::to_string(pair->second) +
-                       " improperly: " + std::string(name_of(kind_of(*how))),
-                   pair->first);
+    if (pair) {
+        const auto how = improper_contact(points, triangles[pair->first], triangles[pair->second]);
+        return contact("it meets triangle " + std::to_string(pair->second) +
+                           " improperly: " + std::string(name_of(kind_of(*how))),
+                       pair->first);
+    }
+    if (!check.count) return std::optional<PairCounts>();
+    const auto decided_by = [&](const CandidatePair& p) {
+        const bool in_one = !patches.empty() && patches[p.first] != no_group &&
+                            patches[p.first] == patches[p.second];
+        return in_one ? DecidedBy::patch : DecidedBy::test;
+    };
+    return std::optional(count_pairs(points, triangles, decided_by, run));
 }
 
 Result<ConformingMesh> prove_conforming(Mesh mesh, std::span<const std::uint32_t> label_of,
                                         const Run& run) {
-    const auto proof = conforming(mesh.vertices, mesh.triangles, label_of, run);
+    return prove_conforming(std::move(mesh), label_of, PairCheckOptions{}, run);
+}
+
+Result<ConformingMesh> prove_conforming(Mesh mesh, std::span<const std::uint32_t> label_of,
+                                        const PairCheckOptions& check, const Run& run) {
+    const auto proof = conforming(mesh.vertices, mesh.triangles, label_of, check, run);
     if (!proof) return proof.error();
-    return ConformingMesh(std::move(mesh));
+    return ConformingMesh(std::move(mesh), proof.value());
 }
 
 Result<ConformingMesh> prove_conforming(Mesh mesh, const Run& run) {

@@ -183,7 +183,7 @@ Result<Layered> stack_valid(std::span<const Surface> surfaces, std::span<const L
             surface_of(arrangement.value(), sets[i], whole, surfaces[order[i].surface]));
     const auto exact = arrange(stacked, {}, run);
     if (!exact) return exact.error();
-    auto rounded = round_to_doubles(exact.value(), {.max_rounds = options.max_rounds}, run);
+    auto rounded = round_to_doubles(exact.value(), {options.max_rounds, options.check}, run);
     if (!rounded) return rounded.error();
     progress(1);
     return Layered{std::move(rounded).value(), resolver.reports()};

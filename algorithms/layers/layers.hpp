@@ -48,6 +48,7 @@ struct Layer {
 struct LayerOptions {
     double min_thickness = 0; ///< D, along z, unit of the surfaces; >= 0
     unsigned max_rounds = 8;  ///< of snapping, see rounding.hpp
+    PairCheckOptions check{}; ///< how the doubles are checked
 };
 
 /// Describes the changes of one horizon. Areas are true areas, squared unit, in floating point.

@@ -27,6 +27,9 @@ Error flaw_of(const Preprocessed& done) {
     return refused("the stack of layers is no conforming mesh of doubles");
 }
 
+/// Each mesh that is proven conforming says what decided its pairs of triangles.
+constexpr PairCheckOptions counted_pairs{.count = true};
+
 /// Runs the stages of one call of build().
 class Builder {
 public:
@@ -72,7 +75,8 @@ private:
     }
 
     Status arrange_surfaces() {
-        const ArrangeWithinOptions options{.seal = project_.seal.value_or(0),
+        const ArrangeWithinOptions options{.rounding = {.check = counted_pairs},
+                                           .seal = project_.seal.value_or(0),
                                            .extend = project_.extend.value_or(0)};
         auto arranged =
             arrange_within(std::move(input_.surfaces), std::move(input_.boundary), options, run_);
@@ -90,6 +94,7 @@ private:
         const ProjectImprove& wanted = *project_.improve;
         const auto& surfaces = rounded()->surfaces;
         ImproveOptions options;
+        options.check = counted_pairs;
         options.edge_length = wanted.edge_length.value_or(0);
         options.max_deviation = wanted.max_deviation.value_or(0);
         if (!wanted.edge_length_of.empty()) options.edge_length_of.resize(surfaces.size());

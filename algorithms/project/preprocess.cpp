@@ -125,7 +125,8 @@ Status fill(const std::vector<FillTask>& tasks, std::vector<Surface>& surfaces, 
 Status stack(const std::vector<Layer>& order, double min_thickness, std::vector<Surface>& surfaces,
              const Run& run, Preprocessed& done) {
     if (run.progress) run.progress("layers", 0);
-    auto layered = stack_layers(surfaces, order, {.min_thickness = min_thickness}, run);
+    auto layered = stack_layers(surfaces, order,
+                                {.min_thickness = min_thickness, .check = {.count = true}}, run);
     if (!layered) return layered.error();
     auto replaced = surfaces_of(layered->rounded.mesh);
     for (std::size_t i = 0; i < order.size(); ++i)

@@ -298,7 +298,7 @@ Status Improver::check(Mesh after, std::span<const std::uint32_t> sheets, Improv
     std::optional<Result<bool>> kept;
     both(
         run_, [&] { report_.before = measure_quality(input_.vertices, input_.triangles, run_); },
-        [&] { proof = prove_conforming(std::move(after), sheets, run_); });
+        [&] { proof = prove_conforming(std::move(after), sheets, options_.check, run_); });
     if (!*proof && proof->error().code == ErrorCode::interrupted) return proof->error();
     if (!*proof)
         return Error{ErrorCode::internal,

@@ -58,6 +58,7 @@ struct ImproveOptions {
     double crease_angle = 50; ///< edges at which a surface turns by more are curves
     double curve_angle = 45;  ///< vertices at which a curve turns by more are corners
     unsigned passes = 6;      ///< rounds of the four operations, 1 to 100
+    PairCheckOptions check{}; ///< how the improved mesh is checked
 };
 
 /// The reason why the worst triangle can't be improved; the first one that applies.
@@ -100,7 +101,8 @@ struct Improved {
     /// edges as before. parents_of is empty, as triangles no longer lie in input triangles. All
     /// triangles of a sheet have the orientation of its first input triangle.
     SharedMesh mesh;
-    std::optional<ConformingMesh> conforming{}; ///< the same mesh with its proof; always there
+    std::optional<ConformingMesh> conforming{}; ///< the same mesh with its proof; always there;
+                                                ///< pairs() where options.check counts them
     Volumes volumes{};                          ///< of the mesh, found for report.sides_kept
     Volumes volumes_before{};                   ///< of the mesh before
     std::vector<std::uint32_t> volume_before; ///< per volume of the mesh: the volume before that it

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -18,6 +19,7 @@
 #include <terrane/algorithms/intersection/intersection.hpp>
 #include <terrane/algorithms/mesh/work_hook.hpp>
 #include <terrane/algorithms/regions/regions_over.hpp>
+#include <terrane/algorithms/rounding/detail/pair_decisions.hpp>
 #include <terrane/algorithms/rounding/detail/separation.hpp>
 #include <terrane/algorithms/rounding/detail/snapped_input.hpp>
 #include <terrane/algorithms/rounding/detail/state.hpp>
@@ -32,9 +34,9 @@ namespace rounding::detail {
 /// improperly, and end without one.
 class RoundingProof {
 public:
-    static ConformingMesh of(const SharedMesh& mesh) {
+    static ConformingMesh of(const SharedMesh& mesh, const std::optional<PairCounts>& pairs) {
         terrane::detail::announce_work("prove conforming", mesh->vertices, mesh->triangles);
-        return ConformingMesh(mesh);
+        return {mesh, pairs};
     }
 };
 
@@ -94,6 +96,7 @@ private:
     bool divide_again(std::size_t most_pairs);
     void find_first_regions();
     void finish(std::span<const CandidatePair> pairs);
+    [[nodiscard]] bool tests_all() const { return options_.check.method == PairCheck::full; }
     void report_moves();
     void report_vanished();
 
@@ -103,6 +106,7 @@ private:
     const Run& run_;
     RoundingState state_;
     bool left_crowded_ = false;
+    FirstSearch first_search_;       ///< how the first search decided pairs, if they are counted
     bool changed_ = false;           ///< whether the triangles differ from the arrangement's
     std::optional<Regions> regions_; ///< set in advance while the triangles do not differ
     RoundedMesh out_;
@@ -172,12 +176,20 @@ PairFilter Rounding::is_improper() const {
     };
 }
 
-/// Finds the pairs that meet improperly. Two triangles without a dirty corner never do.
+/// Finds the pairs that meet improperly. Two triangles without a dirty corner never do, and are
+/// tested on request only.
 std::vector<CandidatePair> Rounding::contacts() {
-    const auto dirty = state_.dirty_triangles(run_);
-    if (dirty.empty()) return {};
+    state_.search_dirty();
+    std::vector<std::uint32_t> active;
+    if (tests_all()) {
+        active.resize(state_.triangles.size());
+        std::iota(active.begin(), active.end(), 0U);
+    } else {
+        active = state_.dirty_triangles(run_);
+    }
+    if (active.empty()) return {};
     auto pairs =
-        candidate_pairs_of({state_.points, state_.triangles}, dirty, {}, is_improper(), run_);
+        candidate_pairs_of({state_.points, state_.triangles}, active, {}, is_improper(), run_);
     state_.only_dirty(pairs);
     return pairs;
 }
@@ -185,7 +197,7 @@ std::vector<CandidatePair> Rounding::contacts() {
 /// Finds the pairs that meet improperly right after rounding to nearest. Only pairs that neither
 /// injective patches nor the separation of faces exclude need a test.
 std::vector<CandidatePair> Rounding::first_contacts() {
-    if (changed_) return contacts();
+    if (changed_ || tests_all()) return contacts();
     const Arrangement& a = arrangement_;
     const auto& dirty = state_.found_dirty;
     if (dirty.empty()) return {};
@@ -226,10 +238,12 @@ std::vector<CandidatePair> Rounding::first_contacts() {
         if (patch_of(t) != a.state->patches.of[t]) unproven.parts.push_back(t);
     for (const std::uint32_t t : unproven.ill_conditioned) // parts of one patch meet properly
         if (patch_of(t) == no_group) unproven.parts.push_back(t);
-    if (unproven.parts.empty()) return pairs;
+    if (unproven.parts.empty() && !options_.check.count) return pairs;
     sort_unique(unproven.parts);
     std::vector<std::uint32_t> patches(state_.triangles.size());
     for (std::uint32_t t = 0; t < patches.size(); ++t) patches[t] = patch_of(t);
+    if (options_.check.count) first_search_ = {unproven.pairs, unproven.parts, dirty, patches};
+    if (unproven.parts.empty()) return pairs;
     const auto more = candidate_pairs_of({state_.points, state_.triangles}, unproven.parts, patches,
                                          improper, run_);
     pairs.insert(pairs.end(), more.begin(), more.end());
@@ -320,6 +334,9 @@ void Rounding::finish(std::span<const CandidatePair> pairs) {
             if (!changed_) mesh.surfaces_of = arrangement_.surfaces_of;
         });
     report_vanished();
+    if (options_.check.count)
+        out_.report.pairs = count_decisions(state_, arrangement_.triangles, first_search_,
+                                            options_.check.method, run_);
     if (changed_) state_.drop_unused_points();
     for (const CandidatePair& p : pairs) {
         const auto contact =
@@ -349,7 +366,8 @@ void Rounding::finish(std::span<const CandidatePair> pairs) {
     mesh.regions_of = std::move(regions_->regions_of);
     out_.regions = std::move(regions_->regions);
     out_.mesh = std::move(mesh);
-    if (out_.report.clean) out_.conforming = rounding::detail::RoundingProof::of(out_.mesh);
+    if (out_.report.clean)
+        out_.conforming = rounding::detail::RoundingProof::of(out_.mesh, out_.report.pairs);
 }
 
 /// Returns the largest distance between exact vertices and those of a mesh with the same triangles.

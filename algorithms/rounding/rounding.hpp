@@ -21,6 +21,7 @@
 #include <terrane/algorithms/arrangement/arrangement.hpp>
 #include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/check/conforming.hpp>
+#include <terrane/algorithms/check/pair_check.hpp>
 #include <terrane/algorithms/core/id.hpp>
 #include <terrane/algorithms/core/named_constant.hpp>
 #include <terrane/algorithms/core/result.hpp>
@@ -33,7 +34,8 @@ namespace terrane {
 
 /// Options of round_to_doubles().
 struct RoundingOptions {
-    unsigned max_rounds = 8; ///< limit on the rounds of snapping; 0: nearest doubles only
+    unsigned max_rounds = 8;  ///< limit on the rounds of snapping; 0: nearest doubles only
+    PairCheckOptions check{}; ///< how the doubles are checked; the mesh does not depend on it
 };
 
 /// A surface that lost regions because they were too thin for doubles.
@@ -59,6 +61,7 @@ struct RoundingReport {
     std::size_t collapsed_triangles = 0;   ///< number of triangles that lost their area
     std::vector<LostRegions> lost_regions; ///< surfaces with fewer regions than the exact ones
     std::vector<std::uint32_t> vanished;   ///< input triangles without any part left, ascending
+    std::optional<PairCounts> pairs;       ///< what decided each pair of triangles, if counted
 };
 
 /// The mesh of doubles, with regions, parents and intersection edges, and the report.

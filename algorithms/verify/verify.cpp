@@ -9,6 +9,7 @@
 #include <terrane/algorithms/verify/detail/contacts.hpp>
 #include <terrane/algorithms/verify/detail/indices.hpp>
 #include <terrane/algorithms/verify/detail/inputs.hpp>
+#include <terrane/algorithms/verify/detail/meetings.hpp>
 #include <terrane/algorithms/verify/detail/partition.hpp>
 #include <terrane/algorithms/verify/detail/rational.hpp>
 
@@ -242,8 +243,6 @@ void check_all_parents(const Inputs& inputs, std::span<const Vector4> input_poin
     }
 }
 
-// --- R7: intersection edges -------------------------------------------------------------------
-
 // --- R8: set aside ----------------------------------------------------------------------------
 
 void check_set_aside(const SetAside& truth, const ArrangementClaim& claim, Violations& found) {
@@ -272,6 +271,11 @@ void check_set_aside(const SetAside& truth, const ArrangementClaim& claim, Viola
     });
 }
 
+/// Tells whether a violation leaves open which input triangles contain a vertex.
+bool breaks_structure(const Violation& violation) {
+    return violation.rule >= Rule::R3_distinct && violation.rule <= Rule::R6_parents;
+}
+
 } // namespace
 
 std::string name_of(Rule rule) {
@@ -296,6 +300,10 @@ std::vector<Violation> verify_arrangement(std::span<const Surface> inputs,
                                                   set_aside),
                 claim.intersection_edges, Rule::R7_intersection_edges, found);
             check_set_aside(set_aside, claim, found);
+            const verifier::ExactParts parts{joined, input_points, set_aside, claim, mesh};
+            verifier::check_orientation(parts, found);
+            if (std::ranges::none_of(found, breaks_structure))
+                verifier::check_meetings(parts, found);
         }
     }
     verifier::sort_by_rule(found);

@@ -48,12 +48,18 @@ enum class Rule : std::uint8_t {
     R11_conforming,      ///< the doubles are stated to be conforming and are not, or the reverse
     R12_rounded_parents, ///< a parent without area; an input triangle without any part that is not
                          ///< listed as vanished, or the reverse
-    R13_deviation,       ///< a triangle is farther from a parent than the stated deviation
+    R13_deviation,       ///< a triangle and a parent are farther apart than the stated deviation,
+                         ///< or this is larger than the largest that is accepted
     R14_moves,           ///< a vertex is farther from its exact point than the stated largest move
     R15_rounded_edges,   ///< as R7, in the mesh of doubles
     R16_regions,         ///< regions are not those into which intersection edges divide surfaces
     R17_digest,          ///< the digest is not that of the arrangement
     R18_coverage,        ///< the triangles that name an input triangle leave a hole in it
+    R19_orientation,     ///< a triangle does not face the side that its first parent faces
+    R20_meetings,        ///< a vertex is neither a corner of an input triangle nor a point where
+                         ///< intersection segments end or cross
+    R21_output,          ///< an output file is not the one that the certificate describes, or does
+                         ///< not hold the mesh of doubles
 };
 
 /// Returns "R5" for rule R5, and so on.
@@ -71,6 +77,8 @@ struct Violation {
                                          ///< R3 to R5; R12: {input triangle} or {triangle, parent}
                                          ///< R13: {vertex, input triangle}; R14: vertex
                                          ///< R16: triangles, or none for the whole; R17: none
+                                         ///< R18: an input triangle; R19: {triangle, parent}
+                                         ///< R20: a vertex; R21: an output
     std::string sentence;                ///< what is wrong
 };
 
@@ -84,7 +92,10 @@ inline constexpr std::size_t most_contacts_listed = 100'000;
 ///     vertices that they share: nothing, a vertex or an edge.
 /// (3) R7: an edge is an intersection edge iff more than two triangles meet in it, or if it has two
 ///     triangles that differ in the number of geometrically distinct parents in some surface.
-/// (4) R8: triangles without area are degenerate and are not compared for duplicates; points are
+/// (4) R20: the local structure at a vertex consists of the planes and the edges of the input
+///     triangles through it. It is a meeting iff no direction lies in all of these planes and along
+///     all of these edges; so the vertices of a true claim are determined by the inputs.
+/// (5) R8: triangles without area are degenerate and are not compared for duplicates; points are
 ///     equal if their coordinates are equal, whatever their indices.
 ///
 /// Cost: O(n log n + k) for k pairs of triangles whose boxes touch, with an exact test each.

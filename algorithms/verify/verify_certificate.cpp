@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <iterator>
 
-#include <terrane/algorithms/core/sha256.hpp>
 #include <terrane/algorithms/verify/detail/digest.hpp>
 #include <terrane/algorithms/verify/detail/inputs.hpp>
+#include <terrane/algorithms/verify/detail/sha256.hpp>
 
 namespace terrane {
 
@@ -62,27 +62,34 @@ void check_digest(std::span<const Surface> surfaces, const Certificate& certific
 } // namespace
 
 InputFile input_file(std::string_view contents, std::vector<Surface> surfaces) {
-    return {hexadecimal(sha256(contents)), contents.size(), std::move(surfaces)};
+    return {verifier::in_hexadecimal(verifier::hash_of(contents)), contents.size(),
+            std::move(surfaces)};
 }
 
-std::vector<Violation> verify_certificate(std::span<const InputFile> files,
-                                          const Certificate& certificate) {
-    Violations found;
+Verdict verify_certificate(std::span<const InputFile> files, const Certificate& certificate,
+                           const VerifyOptions& options) {
+    Verdict verdict;
+    Violations& found = verdict.violations;
     check_inputs(files, certificate.inputs, found);
-    if (!found.empty()) return found;
+    if (!found.empty()) return verdict;
     std::vector<Surface> surfaces;
     for (const InputFile& file : files)
         surfaces.insert(surfaces.end(), file.surfaces.begin(), file.surfaces.end());
     found = verify_arrangement(surfaces, certificate.exact);
     if (!breaks_first_rules(found)) {
         if (certificate.rounded) {
-            auto more = verify_rounded(surfaces, certificate.exact, *certificate.rounded);
-            std::move(more.begin(), more.end(), std::back_inserter(found));
+            auto rounded =
+                verify_rounded(surfaces, certificate.exact, *certificate.rounded, options);
+            std::move(rounded.violations.begin(), rounded.violations.end(),
+                      std::back_inserter(found));
+            verdict.measured = rounded.measured;
         }
         check_digest(surfaces, certificate, found);
     }
+    if (!certificate.rounded && !certificate.outputs.empty())
+        found.push_back({Rule::R21_output, {}, "there are output files, but no mesh of doubles"});
     verifier::sort_by_rule(found);
-    return found;
+    return verdict;
 }
 
 } // namespace terrane

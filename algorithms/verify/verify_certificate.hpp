@@ -1,18 +1,24 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Judges a certificate (for its format see io/certificate.hpp) from the inputs only. This uses
-// value types, GMP, SHA-256 and JSON, but no reader, predicate, search or arrangement code.
+// Judges a certificate (for its format see io/certificate.hpp) from the input files and the output
+// files. This uses value types, GMP, SHA-256 and zlib, but no writer, predicate, search or
+// arrangement code of the producer, and readers of its own for the output files.
 //
 // A certificate that is accepted proves, for the input files whose hashes it contains:
-// (1) The exact part is the arrangement of the surfaces in these files (rules R1 to R8).
+// (1) The exact part is the arrangement of the surfaces in these files (rules R1 to R8). It is the
+//     only one: its vertices and the way its triangles face are determined by the inputs (R19,
+//     R20); only the diagonals of its triangulation are free.
 // (2) The mesh of doubles is conforming, or is stated not to be (R10, R11).
-// (3) Each point of a triangle of the mesh is within `deviation` of each of its parents (R13; the
-//     distance to a triangle is convex, so it suffices to judge corners). Each input triangle with
-//     area is a parent, or listed as vanished (R12). Projected along its normal, each point of an
-//     input triangle that is farther than `deviation` from its border is covered (R18).
+// (3) Each point of a triangle of the mesh is within `deviation` of each of its parents, and each
+//     point of an input triangle is within `deviation` of the triangles that name it (R13, R18).
+//     An input triangle without any is listed as vanished, and within `deviation` of triangles that
+//     name input triangles that it meets (R12); so are thin parts of others that have vanished. The verifier computes the deviation itself, and
+//     refuses one that is larger than the largest that is accepted; see VerifyOptions.
 // (4) If the mesh has the triangles of the exact part, each vertex is within `max_move` of the
 //     exact vertex (R14).
 // (5) Its intersection edges, its regions and the digest are correct (R15 to R17).
+// (6) Each output file that was given holds this mesh (R21): all coordinates and all triangles, bit
+//     for bit; with the numbers rounded to float32 where this is what the file holds.
 #pragma once
 
 #include <cstdint>
@@ -48,34 +54,50 @@ struct CertifiedInput {
     std::vector<CertifiedSurface> surfaces; ///< order of the file
 };
 
+/// An output file as the certificate describes it.
+struct CertifiedOutput {
+    std::string name;        ///< relative to the folder of the certificate; "-": standard output
+    std::string format;      ///< "obj", "vtp", ...: an extension without its dot; "stl-ascii"
+    std::string sha256;      ///< 64 lower-case hexadecimal digits
+    std::uint64_t bytes = 0; ///< length of the file
+    std::vector<SurfaceInfo> surfaces; ///< what the file calls the surfaces of the inputs, in order
+};
+
 /// The claims of a certificate about the mesh of doubles.
 struct RoundedClaim {
     std::vector<Point3> vertices;         ///< unit of the input
     std::vector<Triangle> triangles;      ///< indices into vertices
     IndexLists<std::uint32_t> parents_of; ///< per triangle: input triangles, sorted, >= 1
     std::vector<Edge> intersection_edges; ///< sorted, unique
-    std::optional<IndexLists<std::uint32_t>>
-        regions_of;                      ///< per triangle: its region in each surface of
-                                         ///< its parents, by surface
-    bool clean = false;                  ///< conforming
-    std::uint32_t rounds = 0;            ///< rounds of snapping; not judged
-    double max_move = 0;                 ///< of a vertex, unit of the input
-    double deviation = 0;                ///< of a triangle from a parent, unit of the input
+    IndexLists<std::uint32_t> regions_of; ///< per triangle: its region in each surface of its
+                                          ///< parents, by surface
+    bool clean = false;                   ///< conforming
+    std::optional<double> max_move;       ///< of a vertex, unit of the input; none if the triangles
+                                          ///< are not those of the exact part
+    double deviation = 0; ///< of the triangles from their parents and the reverse, unit of the
+                          ///< input
     std::vector<std::uint32_t> vanished; ///< input triangles, sorted
+};
+
+/// What a certificate is about.
+enum class CertificateKind : std::uint8_t {
+    arrangement, ///< the arrangement of the surfaces as they are in the input files
 };
 
 /// A certificate, parsed.
 struct Certificate {
-    std::vector<CertifiedInput> inputs;  ///< in the order in which they were read
-    ArrangementClaim exact;              ///< the arrangement in exact numbers
-    std::optional<RoundedClaim> rounded; ///< the mesh of doubles, if there is one
-    std::string digest;                  ///< "sha256:" and 64 hexadecimal digits; see digest.hpp
+    CertificateKind kind = CertificateKind::arrangement; ///< which sections it has
+    std::vector<CertifiedInput> inputs;                  ///< in the order in which they were read
+    std::vector<CertifiedOutput> outputs;                ///< the files with the mesh of doubles
+    ArrangementClaim exact;                              ///< the arrangement in exact numbers
+    std::optional<RoundedClaim> rounded;                 ///< the mesh of doubles, if there is one
+    std::string digest; ///< "sha256:" and 64 hexadecimal digits; see digest.hpp
 };
 
 /// Parses a certificate. Errors: bad_syntax with "source, line l, column c" if the text is not
-/// JSON, and with "source, exact.triangles[12]" if it is not a certificate: if a key is missing or
-/// unknown, a value has the wrong type, or a number is out of range.
-/// Cost: linear; about ten times the size of the text in memory.
+/// strict JSON (see detail/json.hpp), and with "source, exact.triangles[12]" if it is not a
+/// certificate: if a key is missing, unknown or there twice, a value has the wrong type, or a
+/// number is out of range. Cost: linear; about three times the size of the text in memory.
 Result<Certificate> parse_certificate(std::string_view text, std::string_view source);
 
 /// An input file as it was found.
@@ -88,15 +110,62 @@ struct InputFile {
 /// Hashes the contents of a file; `surfaces` are what a reader made of it.
 InputFile input_file(std::string_view contents, std::vector<Surface> surfaces);
 
-/// Returns all violations, sorted by rule and elements; none if the certificate is true. After a
-/// violation of R9 no other rule is judged; after one of R1, R2 or R10 the rules that need the
-/// index are not judged. Cost: about twice that of verify_arrangement.
-std::vector<Violation> verify_certificate(std::span<const InputFile> files,
-                                          const Certificate& certificate);
+/// Options of verify_certificate().
+struct VerifyOptions {
+    /// The largest deviation that is accepted, unit of the input. None: the largest of
+    /// (1) 2^-20 of the diagonal of the box around the triangles of the inputs,
+    /// (2) 2^-40 of their largest coordinate, which is 4096 units in its last place, and
+    /// (3) 16 times the smallest positive double.
+    std::optional<double> max_deviation{};
+};
+
+/// The verifier's own measure of the mesh of doubles.
+struct Measured {
+    double deviation = 0;     ///< upper bound, both ways; unit of the input
+    double max_deviation = 0; ///< the largest that was accepted
+    std::size_t vanished = 0; ///< number of input triangles with area of which nothing is left
+    std::size_t partly_vanished = 0; ///< number of those of which only a thin part is not left
+};
+
+/// What the verifier found.
+struct Verdict {
+    std::vector<Violation> violations; ///< sorted by rule and elements; none: the claims are true
+    std::optional<Measured> measured;  ///< of the mesh of doubles; none if it was not judged
+};
+
+/// Judges a certificate without its output files. After a violation of R9 no other rule is judged;
+/// after one of R1, R2 or R10 the rules that need the index are not judged.
+/// Cost: about twice that of verify_arrangement.
+Verdict verify_certificate(std::span<const InputFile> files, const Certificate& certificate,
+                           const VerifyOptions& options = {});
 
 /// Judges the rules R10 to R16 and R18 only. Precondition: the exact claim violates neither R1 nor
 /// R2.
-std::vector<Violation> verify_rounded(std::span<const Surface> inputs,
-                                      const ArrangementClaim& exact, const RoundedClaim& rounded);
+Verdict verify_rounded(std::span<const Surface> inputs, const ArrangementClaim& exact,
+                       const RoundedClaim& rounded, const VerifyOptions& options = {});
+
+/// What an output file was compared with.
+enum class OutputCheck : std::uint8_t {
+    doubles,  ///< with all coordinates and triangles
+    float32,  ///< with all coordinates, rounded to float32, and all triangles
+    hash_only ///< with its SHA-256 only: the verifier has no reader for the format
+};
+
+/// What the verifier found about an output file.
+struct OutputVerdict {
+    OutputCheck check = OutputCheck::doubles; ///< what it was compared with
+    std::vector<Violation> violations;        ///< of R21; none: the file is the one it should be
+    std::vector<std::uint32_t> renamed; ///< surfaces with another name or role than in the input
+    double float32_move = 0; ///< no number's point is farther from its doubles; unit of the input
+};
+
+/// Judges an output file by its contents: whether it is the file that the certificate names, and
+/// holds its mesh of doubles (R21). Numbers and triangles are compared bit for bit and in their
+/// order; so are the surfaces of triangles, their regions and their first parents in formats that
+/// hold them. A file of float32 must be conforming, too, if the doubles are.
+/// Precondition: verify_certificate() found no violation. Cost: linear in the size of the file; for
+/// float32 that of verify_conforming.
+OutputVerdict verify_output(std::string_view contents, const Certificate& certificate,
+                            std::size_t output);
 
 } // namespace terrane

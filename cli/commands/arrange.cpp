@@ -67,8 +67,10 @@ Result<ExitStatus> arrange_files(const ArrangeCommand& command, Session& session
         if (!written) return written.error();
     }
     if (!keep) print(stderr, "terrane: nothing written (see --keep-unverified)\n");
+    const ProofFiles certified{files.inputs, keep ? outputs.value() : std::vector<Output>(),
+                               files.ascii, summary_stream(files)};
     const auto proved =
-        write_proof(command.proof, files, inputs.value(), arranged.value(), session);
+        write_proof(command.proof, certified, inputs.value(), arranged.value(), session);
     if (!proved) return proved.error();
     statistics["seconds"]["write"] = writing.lap();
     const auto status = write_statistics(statistics, files.stats, total.lap());

@@ -324,7 +324,11 @@ private:
             arranged.surfaces[s].name = read_.as_read[s].name;
             arranged.surfaces[s].role = read_.as_read[s].role;
         }
-        const auto text = certificate_text(path.string(), files(), inputs_, arranged, session_);
+        ProofFiles certified{files(), {}, true};
+        for (const std::string& format : project_.outputs.surfaces)
+            certified.outputs.push_back(
+                {(to / file_name("surfaces", format)).string(), format_named(format).value()});
+        const auto text = certificate_text(path.string(), certified, inputs_, arranged, session_);
         if (!text) return text.error();
         return write_file(path, text.value());
     }

@@ -12,6 +12,7 @@
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/options/files.hpp>
 #include <terrane/cli/options/statistics.hpp>
+#include <terrane/cli/reports/pair_report.hpp>
 #include <terrane/cli/stages/layer_stage.hpp>
 
 namespace terrane::cli {
@@ -23,6 +24,7 @@ struct LayerCommand {
     std::string keep;
     std::vector<std::string> layers; ///< NAME=HARDNESS, from the top down
     double min_thickness = 0;
+    PairCheck check = PairCheck::bounds;
 };
 
 constexpr auto layer_footer =
@@ -117,7 +119,8 @@ Result<ExitStatus> layer_files(LayerCommand& command, Session& session) {
     if (!order) return order.error();
 
     const auto layered =
-        layer_inputs(inputs.value(), order.value(), {.min_thickness = command.min_thickness},
+        layer_inputs(inputs.value(), order.value(),
+                     {.min_thickness = command.min_thickness, .check = {command.check, true}},
                      session, statistics);
     if (!layered) return layered.error();
     const RoundedMesh& rounded = layered.value().rounded;
@@ -152,6 +155,7 @@ Command layer_command(CLI::App& program) {
                     "of the files (default: 0)")
         ->type_name("LENGTH");
     add_output(*app, command->files, "File for the mesh; - is standard output");
+    add_check(*app, command->check);
     app->add_flag("--ascii", command->files.ascii, "STL as text, with doubles, not float32");
     add_threads(*app, command->files);
     add_stats(*app, command->files);

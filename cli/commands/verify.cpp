@@ -25,7 +25,9 @@ constexpr std::size_t most_violations = 50; ///< named on the terminal
 
 struct VerifyCommand {
     std::string certificate;
-    FileOptions files; ///< inputs and how they are read
+    FileOptions files;                ///< inputs and how they are read
+    std::vector<std::string> outputs; ///< files to judge; empty: those that the certificate names
+    VerifyOptions options;
     bool json = false;
 };
 
@@ -35,20 +37,30 @@ arithmetic, by code that shares nothing with what made it. IN are the input file
 the certificate; without IN they are looked for beside it, under the names that it gives. What
 changed how they were read (--depth, --max-edge, --input-format) must be given here, too.
 
-Exit status: 0 valid, 1 refuted (which rule, which elements), 2 cannot read, 3 internal.
+The output files that the certificate names are read and compared with it: every coordinate and
+every triangle, bit for bit. Name a file that was moved with --output.
+
+The verifier computes how far the mesh is from the inputs. It accepts at most 2^-20 of the diagonal
+of the box around them or, if that is more, 2^-40 of their largest coordinate.
+
+Exit status: 0 all is verified; 1 refuted (which rule, which elements); 2 a file cannot be read, or
+nothing is verified about an output file; 3 internal.
 
 Examples:
   terrane arrange horizons.ts faults.ts -o model.vtp --certificate model.json
   terrane verify model.json
-  terrane verify model.json data/horizons.ts data/faults.ts)";
+  terrane verify model.json data/horizons.ts data/faults.ts
+  terrane verify model.json --output sent/model.vtp)";
+
+fs::path folder_of(const VerifyCommand& command) {
+    return command.certificate == "-" ? fs::path() : fs::path(command.certificate).parent_path();
+}
 
 std::vector<std::string> paths_of(const VerifyCommand& command, const Certificate& certificate) {
     if (!command.files.inputs.empty()) return command.files.inputs;
-    const fs::path folder =
-        command.certificate == "-" ? fs::path() : fs::path(command.certificate).parent_path();
     std::vector<std::string> paths;
     for (const CertifiedInput& input : certificate.inputs)
-        paths.push_back((folder / input.name).string());
+        paths.push_back((folder_of(command) / input.name).string());
     return paths;
 }
 
@@ -89,17 +101,138 @@ Result<std::vector<InputFile>> read_inputs(const VerifyCommand& command,
     return files;
 }
 
-std::string verdict_text(const Certificate& certificate, const std::string& name,
-                         const std::vector<Violation>& violations) {
+// --- Output files -----------------------------------------------------------------------------
+
+/// An output file of the certificate, and what was found about it.
+struct JudgedOutput {
+    std::size_t number = 0; ///< in the certificate
+    std::string path;       ///< where it was looked for
+    std::string missing;    ///< why it could not be read; empty: it was
+    OutputVerdict verdict;
+
+    [[nodiscard]] bool verified() const {
+        return missing.empty() && verdict.violations.empty() &&
+               verdict.check != OutputCheck::hash_only;
+    }
+};
+
+JudgedOutput judge_output(const Certificate& certificate, std::size_t number,
+                          const std::string& path) {
+    JudgedOutput judged{number, path, {}, {}};
+    const auto contents = read_file(path);
+    if (contents)
+        judged.verdict = verify_output(contents.value(), certificate, number);
+    else
+        judged.missing = contents.error().sentence;
+    return judged;
+}
+
+/// Returns the output that a file is compared with: the one with its bytes, else the one with its
+/// extension, else the first.
+std::size_t output_like(const Certificate& certificate, const std::string& path) {
+    const auto& outputs = certificate.outputs;
+    const auto found_if = [&](const auto& fits) {
+        return static_cast<std::size_t>(std::ranges::find_if(outputs, fits) - outputs.begin());
+    };
+    if (const auto contents = read_file(path); contents) {
+        const auto hash = input_file(contents.value(), {}).sha256;
+        const auto same = found_if([&](const CertifiedOutput& o) { return o.sha256 == hash; });
+        if (same < outputs.size()) return same;
+    }
+    const auto extension = fs::path(path).extension();
+    const auto alike = found_if(
+        [&](const CertifiedOutput& o) { return fs::path(o.name).extension() == extension; });
+    return alike < outputs.size() ? alike : 0;
+}
+
+Result<std::vector<JudgedOutput>> judge_outputs(const VerifyCommand& command,
+                                                const Certificate& certificate) {
+    const auto& outputs = certificate.outputs;
+    std::vector<JudgedOutput> judged;
+    if (!command.outputs.empty() && outputs.empty())
+        return Error{ErrorCode::bad_option, "the certificate names no output file", "--output"};
+    for (const std::string& path : command.outputs)
+        judged.push_back(judge_output(certificate, output_like(certificate, path), path));
+    if (command.outputs.empty())
+        for (std::size_t i = 0; i < outputs.size(); ++i) {
+            const auto path = (folder_of(command) / outputs[i].name).string();
+            judged.push_back(outputs[i].name == "-"
+                                 ? JudgedOutput{i, "standard output", "give it with --output", {}}
+                                 : judge_output(certificate, i, path));
+        }
+    return judged;
+}
+
+/// All that was found.
+struct Judgement {
+    const Certificate& certificate;
+    Verdict verdict;
+    std::vector<JudgedOutput> outputs; ///< none if the certificate is refuted
+
+    [[nodiscard]] std::vector<Violation> violations() const {
+        auto all = verdict.violations;
+        for (const JudgedOutput& output : outputs)
+            all.insert(all.end(), output.verdict.violations.begin(),
+                       output.verdict.violations.end());
+        return all;
+    }
+    [[nodiscard]] ExitStatus status() const {
+        if (!violations().empty()) return ExitStatus::negative;
+        const bool all = std::ranges::all_of(outputs, &JudgedOutput::verified);
+        return all && !outputs.empty() ? ExitStatus::done : ExitStatus::bad_input;
+    }
+};
+
+// --- Text and JSON ----------------------------------------------------------------------------
+
+std::string output_text(const JudgedOutput& output) {
+    const auto renamed = output.verdict.renamed.size();
+    const std::string names =
+        renamed > 0 ? fmt::format("; names or roles of {} are not those of the inputs",
+                                  counted(renamed, "surface"))
+                    : "";
+    if (!output.missing.empty())
+        return fmt::format("{}: NOT verified: {}\n", output.path, output.missing);
+    switch (output.verdict.check) {
+    case OutputCheck::doubles:
+        return fmt::format("{}: holds these triangles, bit for bit{}\n", output.path, names);
+    case OutputCheck::float32:
+        return fmt::format("{}: holds these triangles rounded to float32, at most {:.3g} away{}\n",
+                           output.path, output.verdict.float32_move, names);
+    case OutputCheck::hash_only:
+        break;
+    }
+    return fmt::format("{}: NOT verified: its SHA-256 is that of the certificate, but there is no "
+                       "reader for its format\n",
+                       output.path);
+}
+
+std::string doubles_text(const Judgement& judged) {
+    const auto& rounded = judged.certificate.rounded;
+    if (!rounded || !judged.verdict.measured) return "no doubles";
+    const Measured& measured = *judged.verdict.measured;
+    auto text = counted(rounded->triangles.size(), "triangle") + " of doubles, " +
+                (rounded->clean ? "conforming" : "not conforming, as it says");
+    text += measured.deviation > 0
+                ? fmt::format(", at most {:.3g} from the exact result", measured.deviation)
+                : ", at their exact places";
+    if (measured.vanished > 0)
+        text += fmt::format("; {} vanished", counted(measured.vanished, "input triangle"));
+    if (measured.partly_vanished > 0)
+        text += fmt::format("; a thin part of {} vanished",
+                            counted(measured.partly_vanished, "input triangle"));
+    return text;
+}
+
+std::string verdict_text(const Judgement& judged, const std::string& name) {
+    const auto violations = judged.violations();
     if (violations.empty()) {
-        const auto& rounded = certificate.rounded;
-        return fmt::format(
-            "{}: valid: {} exact triangles; {}\n{}\n", name, certificate.exact.triangles.size(),
-            !rounded         ? std::string("no doubles")
-            : rounded->clean ? fmt::format("{} of doubles, conforming",
-                                           counted(rounded->triangles.size(), "triangle"))
-                             : std::string("doubles not conforming, as it says"),
-            certificate.digest);
+        auto text = fmt::format("{}: valid: {} exact triangles; {}\n", name,
+                                judged.certificate.exact.triangles.size(), doubles_text(judged));
+        for (const JudgedOutput& output : judged.outputs) text += output_text(output);
+        if (judged.outputs.empty())
+            text += "NOT verified about any file: the certificate names no output file\n";
+        return text + judged.certificate.digest + "\n";
     }
     auto text = fmt::format("{}: refuted: {}\n", name, counted(violations.size(), "violation"));
     for (std::size_t i = 0; i < violations.size() && i < most_violations; ++i)
@@ -109,10 +242,38 @@ std::string verdict_text(const Certificate& certificate, const std::string& name
     return text;
 }
 
-std::string verdict_json(const Certificate& certificate, const std::vector<Violation>& violations) {
-    Json json{{"valid", violations.empty()},
-              {"digest", certificate.digest},
+std::string_view output_state(const JudgedOutput& output) {
+    if (!output.missing.empty()) return "missing";
+    if (!output.verdict.violations.empty()) return "refuted";
+    switch (output.verdict.check) {
+    case OutputCheck::doubles:
+        return "verified";
+    case OutputCheck::float32:
+        return "verified as float32";
+    case OutputCheck::hash_only:
+        break;
+    }
+    return "hash only";
+}
+
+std::string verdict_json(const Judgement& judged) {
+    const auto violations = judged.violations();
+    Json json{{"valid", violations.empty()}, {"digest", judged.certificate.digest},
+              {"deviation", nullptr},        {"max_deviation", nullptr},
+              {"vanished", nullptr},         {"outputs", Json::array()},
               {"violations", Json::array()}};
+    if (const auto& measured = judged.verdict.measured) {
+        json["deviation"] = measured->deviation;
+        json["max_deviation"] = measured->max_deviation;
+        json["vanished"] = measured->vanished;
+        json["partly_vanished"] = measured->partly_vanished;
+    }
+    for (const JudgedOutput& output : judged.outputs)
+        json["outputs"].push_back({{"name", judged.certificate.outputs[output.number].name},
+                                   {"file", output.path},
+                                   {"state", output_state(output)},
+                                   {"renamed", output.verdict.renamed},
+                                   {"float32_move", output.verdict.float32_move}});
     for (const Violation& v : violations)
         json["violations"].push_back(
             {{"rule", name_of(v.rule)}, {"elements", v.elements}, {"sentence", v.sentence}});
@@ -127,10 +288,16 @@ Result<ExitStatus> verify_file(const VerifyCommand& command) {
     if (!certificate) return certificate.error();
     const auto files = read_inputs(command, certificate.value());
     if (!files) return files.error();
-    const auto violations = verify_certificate(files.value(), certificate.value());
-    print(stdout, command.json ? verdict_json(certificate.value(), violations)
-                               : verdict_text(certificate.value(), name, violations));
-    return violations.empty() ? ExitStatus::done : ExitStatus::negative;
+    Judgement judged{certificate.value(),
+                     verify_certificate(files.value(), certificate.value(), command.options),
+                     {}};
+    if (judged.verdict.violations.empty()) {
+        auto outputs = judge_outputs(command, certificate.value());
+        if (!outputs) return outputs.error();
+        judged.outputs = std::move(outputs).value();
+    }
+    print(stdout, command.json ? verdict_json(judged) : verdict_text(judged, name));
+    return judged.status();
 }
 
 } // namespace
@@ -143,6 +310,13 @@ Command verify_command(CLI::App& program) {
         ->type_name("CERT");
     app->add_option("IN", options->files.inputs, "The input files")->type_name("FILE");
     add_reading(*app, options->files);
+    app->add_option("--output", options->outputs,
+                    "An output file that is not where the certificate says; may be repeated")
+        ->type_name("FILE");
+    app->add_option("--max-deviation", options->options.max_deviation,
+                    "The largest distance between the mesh and the inputs that is accepted")
+        ->check(CLI::NonNegativeNumber.description(""))
+        ->type_name("D");
     app->add_flag("--json", options->json, "The verdict as JSON");
     app->footer(verify_footer);
     return {app, [options] {

@@ -75,10 +75,19 @@ void add_statistics(Json& json, const RoundedMesh& rounded, const StageTimes& ti
                         {"collapsed_triangles", r.collapsed_triangles},
                         {"surfaces_with_lost_regions", r.lost_regions.size()},
                         {"vanished_input_triangles", r.vanished.size()}};
+    if (r.pairs) json["rounding"]["pairs"] = json_of(*r.pairs);
     add_constants(json, "round", rounding_constants());
     const double regions = times.latest("round/regions");
     json["seconds"]["round"] = times.latest("round") - regions;
     json["seconds"]["regions"] = regions;
+}
+
+Json json_of(const PairCounts& pairs) {
+    return {{"tested", pairs.tested},
+            {"in_patches", pairs.in_patches},
+            {"separated", pairs.separated},
+            {"unmoved", pairs.unmoved},
+            {"apart", pairs.apart}};
 }
 
 void add_constants(Json& json, const char* stage, std::span<const NamedConstant> constants) {

@@ -28,6 +28,9 @@ void add_statistics(Json& json, const RoundedMesh& rounded, const StageTimes& ti
 /// Adds the times of the steps of an arrangement; `stage` is its path, "arrange" or "seal/arrange".
 void add_arrangement_times(Json& json, const std::string& stage, const StageTimes& times);
 
+/// Returns the keys tested, in_patches, separated, unmoved and apart.
+Json json_of(const PairCounts& pairs);
+
 /// Adds the constants of a stage under the key constants.
 void add_constants(Json& json, const char* stage, std::span<const NamedConstant> constants);
 

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <terrane/cli/reports/pair_report.hpp>
 #include <terrane/cli/session/console.hpp>
 #include <terrane/io/text/histogram_svg.hpp>
 
@@ -43,12 +44,13 @@ std::string deviation_text(const ImprovedAndMeasured& measured, const Inputs& in
         where = s;
     }
     return fmt::format(
-        "deviation: {} is shown to be within {:.4g} of what it was, measured {:.4g}; "
-        "the others keep farther below their bounds; from old to new measured {:.4g}, {}\n"
-        "verified: the improved mesh is conforming, by exact check\n",
-        inputs.labels[where], r.bound_of[where], deviations[where].out, back,
-        measured.is_near_back() ? "shown to be within the bounds as well"
-                                : "not shown to be within the bounds");
+               "deviation: {} is shown to be within {:.4g} of what it was, measured {:.4g}; "
+               "the others keep farther below their bounds; from old to new measured {:.4g}, {}\n"
+               "verified: the improved mesh is conforming, by exact check\n",
+               inputs.labels[where], r.bound_of[where], deviations[where].out, back,
+               measured.is_near_back() ? "shown to be within the bounds as well"
+                                       : "not shown to be within the bounds") +
+           text_of(measured.improved.conforming->pairs());
 }
 
 Json json_of(const Spread& s) {
@@ -104,6 +106,8 @@ void add_statistics(Json& json, const ImprovedAndMeasured& measured, const Stage
                        {"curves", r.curves},
                        {"sheets", r.sheets},
                        {"worst_cause", name_of(r.worst_cause)}};
+    if (const auto& pairs = improved.conforming->pairs())
+        json["improve"]["pairs"] = json_of(*pairs);
     json["quality"] = {{"before", json_of(r.before)}, {"after", json_of(r.after)}};
     Json out = Json::array(), back = Json::array();
     for (const Deviation& d : measured.deviations) {

@@ -12,7 +12,6 @@
 namespace terrane::cli {
 namespace {
 
-constexpr std::size_t most_defects = 20;
 constexpr std::size_t most_regions = 50; ///< listed on the terminal
 
 struct Comparison {
@@ -77,6 +76,13 @@ Json spread_json(const ShapeSpread& spread) {
             {"max", number_or_null(spread.largest)}};
 }
 
+/// Counts the violations of all kinds.
+std::size_t count_of(const TetrahedraReport& report) {
+    std::size_t count = 0;
+    for (const TetrahedraViolation& violation : report.violations) count += violation.count;
+    return count;
+}
+
 /// Counts the tetrahedra of each region.
 std::vector<std::size_t> counts_of_regions(const TetrahedralMesh& mesh) {
     std::vector<std::size_t> counts(mesh.region_count);
@@ -90,25 +96,25 @@ std::string report_text(const TetrahedraReport& report) {
     const auto verdict =
         report.violations.empty()
             ? std::string("checked: each triangle is a union of faces, each region is one block\n")
-            : fmt::format("not good: {}\n", counted(report.violations.size(), "violation"));
+            : fmt::format("not good: {}\n", counted(count_of(report), "violation"));
     return verdict + volumes_text(report) + dihedral_text(report.shape) +
            radius_edge_text(report.shape);
 }
 
 std::string violations_text(const TetrahedraReport& report) {
     std::string text;
-    const auto& all = report.violations;
-    for (std::size_t i = 0; i < std::min(all.size(), most_defects); ++i)
-        text += "terrane: " + all[i] + "\n";
-    if (all.size() > most_defects)
-        text += fmt::format("terrane: and {} more\n", all.size() - most_defects);
+    for (const TetrahedraViolation& violation : report.violations)
+        text += "terrane: " + message(violation) + "\n";
     return text;
 }
 
 Json report_json(const TetrahedraReport& report) {
     const Comparison c = compared(report);
     const TetrahedraShape& shape = report.shape;
-    Json json{{"violations", report.violations},
+    Json violations = Json::array();
+    for (const TetrahedraViolation& violation : report.violations)
+        violations.push_back(message(violation));
+    Json json{{"violations", violations},
               {"exact_volumes", c.equal},
               {"volume_difference", c.most_difference}};
     json["dihedral"] = spread_json(shape.dihedral);

@@ -14,7 +14,7 @@ namespace terrane::cli {
 /// Reports the verdict, the volumes and both histograms, whose empty classes are left out.
 std::string report_text(const TetrahedraReport& report);
 
-/// Lists the first violations, one per line, and the number of the others.
+/// Lists the violations, a line per kind.
 std::string violations_text(const TetrahedraReport& report);
 
 /// Returns violations, exact_volumes, volume_difference, dihedral and radius_edge

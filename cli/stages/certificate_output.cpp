@@ -14,12 +14,11 @@ namespace terrane::cli {
 
 namespace {
 
-Status write(const std::string& path, const std::string& text, const FileOptions& files,
-             Session& session) {
+Status write(const std::string& path, const std::string& text, std::FILE* told, Session& session) {
     session.begin("write", Phase::writing);
     auto status = write_file(path, text);
     session.end_stage();
-    if (status) print(summary_stream(files), "wrote " + path + "\n");
+    if (status) print(told, "wrote " + path + "\n");
     return status;
 }
 
@@ -35,6 +34,44 @@ Result<std::vector<InputRecord>> record_inputs(const std::string& certificate,
             record_input(path, certified_name(path, certificate), inputs.surfaces_of_file[i]);
         if (!record) return record.error();
         records.push_back(std::move(record.value()));
+    }
+    return records;
+}
+
+/// The name of the format of an output in a certificate.
+std::string name_of(Format format, bool ascii) {
+    switch (format) {
+    case Format::gocad:
+        return "ts";
+    case Format::stl:
+        return ascii ? "stl-ascii" : "stl";
+    default:
+        break;
+    }
+    for (const char* name : {"obj", "off", "ply", "vtp", "msh", "msh22", "inp", "mesh", "poly"})
+        if (format_named(name) == format) return name;
+    return "smesh";
+}
+
+/// The contents of an output as it was written. A standard stream can't be read again: what went
+/// there is made once more.
+Result<std::string> contents_of(const Output& output, const Mesh& mesh, bool ascii) {
+    if (output.path != "-") return read_file(output.path);
+    WriteOptions options;
+    options.ascii = ascii;
+    return format_mesh(mesh, output.format, options);
+}
+
+Result<std::vector<OutputRecord>> record_outputs(const std::string& certificate,
+                                                 const ProofFiles& files, const Mesh& mesh) {
+    std::vector<OutputRecord> records;
+    for (const Output& output : files.outputs) {
+        const auto contents = contents_of(output, mesh, files.ascii);
+        if (!contents) return contents.error();
+        records.push_back(record_output(
+            contents.value(),
+            output.path == "-" ? output.path : certified_name(output.path, certificate),
+            name_of(output.format, files.ascii), mesh));
     }
     return records;
 }
@@ -62,26 +99,29 @@ Status plan_proof(const ProofOptions& options, const FileOptions& files) {
     return Done{};
 }
 
-Result<std::string> certificate_text(const std::string& path, const std::vector<std::string>& files,
+Result<std::string> certificate_text(const std::string& path, const ProofFiles& files,
                                      const Inputs& inputs, const Arranged& arranged,
                                      const Session& session) {
-    const auto records = record_inputs(path, files, inputs);
+    const auto records = record_inputs(path, files.inputs, inputs);
     if (!records) return records.error();
-    return to_certificate({records.value(), arranged.surfaces, arranged.exact, &arranged.rounded},
-                          session.run());
+    const auto outputs = record_outputs(path, files, arranged.rounded.mesh);
+    if (!outputs) return outputs.error();
+    return to_certificate(
+        {records.value(), arranged.surfaces, arranged.exact, &arranged.rounded, outputs.value()},
+        session.run());
 }
 
-Status write_proof(const ProofOptions& options, const FileOptions& files, const Inputs& inputs,
+Status write_proof(const ProofOptions& options, const ProofFiles& files, const Inputs& inputs,
                    const Arranged& arranged, Session& session) {
     if (!options.certificate.empty()) {
-        const auto text =
-            certificate_text(options.certificate, files.inputs, inputs, arranged, session);
+        const auto text = certificate_text(options.certificate, files, inputs, arranged, session);
         if (!text) return text.error();
-        if (auto status = write(options.certificate, text.value(), files, session); !status)
+        if (auto status = write(options.certificate, text.value(), files.told, session); !status)
             return status;
     }
     if (options.exact.empty()) return Done{};
-    return write(options.exact, to_text(to_exact(arranged.exact, session.run())), files, session);
+    return write(options.exact, to_text(to_exact(arranged.exact, session.run())), files.told,
+                 session);
 }
 
 } // namespace terrane::cli

@@ -3,7 +3,9 @@
 // Certificates and exact coordinates, which others can check.
 #pragma once
 
+#include <cstdio>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -22,14 +24,23 @@ void add_proof(CLI::App& command, ProofOptions& options);
 /// Checks the file names before any work is done. Errors: bad_option, cannot_open.
 Status plan_proof(const ProofOptions& options, const FileOptions& files);
 
+/// The files that a certificate is about.
+struct ProofFiles {
+    std::vector<std::string> inputs;
+    std::vector<Output> outputs; ///< those that were written
+    bool ascii = false;          ///< STL was written as text
+    std::FILE* told = stdout;    ///< where people are told what is written
+};
+
 /// Makes the certificate of a result whose inputs are exactly these files, to be written to `path`.
-/// Errors: cannot_open.
-Result<std::string> certificate_text(const std::string& path, const std::vector<std::string>& files,
+/// Errors: cannot_open, where a file cannot be read again.
+Result<std::string> certificate_text(const std::string& path, const ProofFiles& files,
                                      const Inputs& inputs, const Arranged& arranged,
                                      const Session& session);
 
-/// Writes both files. Rounded coordinates need not be conforming, as the exact result holds anyway.
-Status write_proof(const ProofOptions& options, const FileOptions& files, const Inputs& inputs,
+/// Writes both files, and says so on `files.told`. Rounded coordinates need not be conforming, as the
+/// exact result holds anyway.
+Status write_proof(const ProofOptions& options, const ProofFiles& files, const Inputs& inputs,
                    const Arranged& arranged, Session& session);
 
 } // namespace terrane::cli

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <terrane/cli/reports/pair_report.hpp>
 #include <terrane/cli/session/console.hpp>
 
 namespace terrane::cli {
@@ -33,6 +34,8 @@ Result<Layered> layer_inputs(const Inputs& inputs, const std::vector<Layer>& ord
     session.end_stage();
     if (!layered) return layered.error();
     add_statistics(statistics, inputs, layered.value().reports, session.times());
+    if (const auto& pairs = layered.value().rounded.report.pairs)
+        statistics["rounding"]["pairs"] = json_of(*pairs);
     return layered;
 }
 
@@ -58,7 +61,7 @@ std::string text_of(const Inputs& inputs, std::span<const LayerReport> reports,
     auto text = counted(reports.size(), "layer") + ", from the top down:\n";
     for (const LayerReport& r : reports) text += line_of(inputs.labels[r.surface], r);
     if (rounding.clean) text += "verified: the doubles are a conforming mesh, by exact check\n";
-    return text;
+    return text + text_of(rounding.pairs);
 }
 
 std::string contacts_text(const RoundingReport& report) {

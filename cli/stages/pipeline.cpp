@@ -10,6 +10,7 @@
 #include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
+#include <terrane/cli/reports/pair_report.hpp>
 #include <terrane/cli/reports/seal_report.hpp>
 #include <terrane/cli/session/console.hpp>
 
@@ -88,7 +89,7 @@ std::string rounding_text(const RoundingReport& r) {
     text += r.clean ? "verified: the doubles are a conforming mesh, by exact check\n"
                     : fmt::format("NOT verified: {} of triangles still meet improperly\n",
                                   counted(r.contacts.size(), "pair"));
-    return text;
+    return text + text_of(r.pairs);
 }
 
 Point3 narrowed(const Point3& p) {
@@ -118,6 +119,7 @@ void add_settings(CLI::App& command, ArrangeSettings& settings) {
                     "0: only to the nearest double (default: 8)")
         ->check(CLI::Range(0U, most_rounds).description(""))
         ->type_name("N");
+    add_check(command, settings.check);
     command
         .add_option(
             "--seal", settings.seal,
@@ -158,12 +160,13 @@ Result<Arranged> arrange_and_round(Inputs& inputs, const ArrangeSettings& settin
         boundary = std::move(made).value();
     }
     session.begin("arrange", Phase::computing);
-    auto arranged = arrange_within(std::move(inputs.surfaces), std::move(boundary),
-                                   {.arrange = {.search = settings.search},
-                                    .rounding = {.max_rounds = settings.rounds},
-                                    .seal = settings.seal,
-                                    .extend = settings.volume.extend},
-                                   session.run());
+    auto arranged = arrange_within(
+        std::move(inputs.surfaces), std::move(boundary),
+        {.arrange = {.search = settings.search},
+         .rounding = {.max_rounds = settings.rounds, .check = {settings.check, true}},
+         .seal = settings.seal,
+         .extend = settings.volume.extend},
+        session.run());
     session.end_stage();
     if (!arranged) return arranged;
     inputs.labels = unique_labels(infos_of(arranged->surfaces));

@@ -20,6 +20,7 @@ namespace terrane::cli {
 struct ArrangeSettings {
     Search search = Search::automatic;
     unsigned rounds = RoundingOptions{}.max_rounds;
+    PairCheck check = PairCheck::bounds;
     VolumeOptions volume; ///< volume of interest
     double seal = 0;      ///< distance within which gaps are sealed; 0: not at all
 };

@@ -43,8 +43,8 @@ int main(int argc, char** argv) {
     const auto tetrahedra = terrane::tetrahedralize(mesh, options, {});
     if (!tetrahedra) return fail(tetrahedra.error());
     const auto report = terrane::check_tetrahedra(*tetrahedra, mesh, *volumes);
-    for (const std::string& violation : report.violations)
-        std::fprintf(stderr, "%s\n", violation.c_str());
+    for (const terrane::TetrahedraViolation& violation : report.violations)
+        std::fprintf(stderr, "%s\n", terrane::message(violation).c_str());
     if (!report.violations.empty()) return 1;
 
     const auto written = terrane::write_tetrahedra(*tetrahedra, argv[1]);

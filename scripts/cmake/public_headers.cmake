@@ -24,6 +24,7 @@ set(terrane_headers
     algorithms/arrangement/input_triangles.hpp
     algorithms/check/check.hpp
     algorithms/check/conforming.hpp
+    algorithms/check/pair_check.hpp
     algorithms/regions/regions.hpp
     algorithms/rounding/rounding.hpp
     algorithms/volumes/region_points.hpp

@@ -595,6 +595,15 @@ def needles():
     return {"needles": joined(*thin), "plane": square(2, 8.0, 1 / 3)}
 
 @case
+def needle_tip():
+    """a needle one unit in the last place wide: its tip is cut off and has no area when rounded"""
+    high = 1 + 2.0**-52
+    sheet = joined(tri((0, 1, 0), (0.5, 0, 0), (1, 1, 0)), tri((0, 1, 0), (0.5, high, 0), (0.5, 2, 0)),
+                   tri((0.5, high, 0), (1, 1, 0), (0.5, 2, 0)))
+    return {"needle": tri((0, 1, 0), (1, 1, 0), (0.5, high, 0)), "sheet": sheet,
+            "wall": tri((0.1, 0.5, -1), (0.1, 1.5, -1), (0.1, 1, 1))}
+
+@case
 def slivers():
     """strips of triangles that are a million times longer than wide"""
     strip = lambda f: grid(10, 1, f, 0, 10, 0, 1e-6)

@@ -70,7 +70,7 @@ std::vector<fs::path> files_of(const fs::path& folder) {
 void require_valid(const Inputs& inputs, const Arrangement& exact, const RoundedMesh& rounded) {
     const auto text = to_certificate({inputs.records, inputs.surfaces, exact, &rounded});
     const auto certificate = taken(parse_certificate(text, "certificate"));
-    const auto violations = verify_certificate(inputs.files, certificate);
+    const auto violations = verify_certificate(inputs.files, certificate).violations;
     if (violations.empty()) return;
     throw Failure{"refuted: " + name_of(violations[0].rule) + ": " + violations[0].sentence};
 }

@@ -192,7 +192,11 @@ TEST_CASE("cli: build: a certificate that verify takes", "[cli]") {
     const auto r = c.build(json);
     INFO(r.err);
     REQUIRE(r.status == 0);
-    CHECK(c.folder.run("verify out/certificate.json").status == 0);
+    const auto verified = c.folder.run("verify out/certificate.json");
+    CHECK(verified.status == 2); // the verifier has no reader for MSH
+    CHECK(contains(verified.out, "surfaces.vtp: holds these triangles, bit for bit"));
+    CHECK(contains(verified.out, "surfaces_22.msh: NOT verified"));
+    CHECK(c.folder.run("verify out/certificate.json --output out/surfaces.vtp").status == 0);
     c.folder.input("fault.obj", std::string(fault) + "v 0 0 0\n"); // differs from what was read
     CHECK(c.folder.run("verify out/certificate.json").status == 1);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // Tests each command from outside.
+#include <cstdint>
 #include <sstream>
 
 #include <catch2/catch.hpp>
@@ -74,6 +75,35 @@ TEST_CASE("cli: the same bytes for any number of threads and any search", "[cli]
             CHECK(arrange("--search " + method) == expected);
         }
     }
+}
+
+TEST_CASE("cli: the summary counts what decided each pair; --check full tests all", "[cli]") {
+    const Folder folder;
+    const auto counts_of = [&](const std::string& options, bool full) {
+        const auto r = folder.run("arrange " + real_model + " -o out.obj --stats s.json" + options);
+        REQUIRE(r.status == 0);
+        const auto json = Json::parse(folder.read("s.json"));
+        const auto& pairs = json["rounding"]["pairs"];
+        const auto count = [&](const char* key) { return pairs.at(key).get<std::uint64_t>(); };
+        const std::uint64_t n = json["output"]["triangles"];
+        const std::uint64_t cleared = count("in_patches") + count("separated");
+        CHECK(count("tested") + cleared + count("unmoved") + count("apart") == n * (n - 1) / 2);
+        CHECK(contains(r.out, "pairs of triangles: " + std::to_string(count("tested")) +
+                                  " tested by exact predicates; " + std::to_string(cleared) +
+                                  " cleared by proven bounds ("));
+        CHECK((cleared + count("unmoved") == 0) == full);
+        return count("apart");
+    };
+    const auto apart = counts_of("", false);
+    const auto mesh = folder.read("out.obj");
+    CHECK(counts_of(" --check full", true) == apart);
+    CHECK(folder.read("out.obj") == mesh);
+    const auto improved = folder.run("improve out.obj -o better.obj --check full --stats s.json");
+    CHECK(improved.status == 0);
+    CHECK(Json::parse(folder.read("s.json"))["improve"]["pairs"]["in_patches"] == 0);
+    const auto wrong = folder.run("arrange " + real_model + " -o no.obj --check most");
+    CHECK(wrong.status == 2);
+    CHECK(contains(wrong.err, "--check"));
 }
 
 TEST_CASE("cli: doubles that are not conforming are refused, by name", "[cli]") {

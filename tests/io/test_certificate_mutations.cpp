@@ -238,7 +238,9 @@ TEST_CASE("certificate: what is no certificate is refused with its place") {
     };
     const std::vector<Case> cases{
         {[](Json& c) { c["format"] = "else"; }, "c.json, format: this is no terrane-certificate"},
-        {[](Json& c) { c["version"] = 2; }, "c.json, version: this version is not known"},
+        {[](Json& c) { c["version"] = 1; }, "c.json, version: version 2 is needed"},
+        {[](Json& c) { c["kind"] = "else"; },
+         "c.json, kind: this kind of certificate is not known"},
         {[](Json& c) { c.erase("digest"); }, "c.json: \"digest\" is missing"},
         {[](Json& c) { c["exact"]["more"] = 1; }, "c.json, exact: an unknown key"},
         {[](Json& c) {
@@ -246,9 +248,9 @@ TEST_CASE("certificate: what is no certificate is refused with its place") {
          },
          "c.json, exact.triangles[2]: an array of 3 is needed"},
         {[](Json& c) { c["exact"]["triangles"][2][1] = -1; },
-         "c.json, exact.triangles[2][1]: a whole number, not negative, is needed"},
+         "c.json, line 1, column 231: a whole number, not negative, is needed"},
         {[](Json& c) { c["exact"]["triangles"][2][1] = 1.5; },
-         "c.json, exact.triangles[2][1]: a whole number, not negative, is needed"},
+         "c.json, line 1, column 231: a whole number, not negative, is needed"},
         {[](Json& c) { c["exact"]["triangles"][2][1] = 5'000'000'000; },
          "c.json, exact.triangles[2][1]: the number is too large"},
         {[](Json& c) { c["exact"]["vertices"][6][0] = "pl"; },
@@ -258,9 +260,11 @@ TEST_CASE("certificate: what is no certificate is refused with its place") {
         {[](Json& c) { c["exact"]["vertices"][6].erase(1); },
          "c.json, exact.vertices[6]: an array of 6 is needed"},
         {[](Json& c) { c["rounded"]["vertices"][0][2] = "nan"; },
-         "c.json, rounded.vertices[0][2]: a finite number in quotes is needed"},
+         "c.json, rounded.vertices[0][2]: a finite number in quotes, in its shortest form, is "
+         "needed"},
         {[](Json& c) { c["rounded"]["vertices"][0][2] = "0x1"; },
-         "c.json, rounded.vertices[0][2]: a finite number in quotes is needed"},
+         "c.json, rounded.vertices[0][2]: a finite number in quotes, in its shortest form, is "
+         "needed"},
         {[](Json& c) { c["rounded"]["vertices"][0][2] = 1; },
          "c.json, rounded.vertices[0][2]: a string is needed"},
         {[](Json& c) { c["rounded"]["clean"] = 1; },

@@ -57,7 +57,7 @@ inline std::string verdict(const std::vector<InputFile>& files, const std::strin
     const auto certificate = parse_certificate(text, "c.json");
     if (!certificate) return certificate.error().message();
     std::set<std::pair<Rule, std::string>> rules;
-    for (const Violation& v : verify_certificate(files, certificate.value()))
+    for (const Violation& v : verify_certificate(files, certificate.value()).violations)
         rules.insert({v.rule, name_of(v.rule)});
     std::string result;
     for (const auto& [rule, name] : rules) result += (result.empty() ? "" : " ") + name;

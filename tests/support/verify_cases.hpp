@@ -96,7 +96,7 @@ inline Case crossing() {
     add_triangle(c.claim, {0, 1, 6}, {0});
     add_triangle(c.claim, {1, 7, 6}, {0});
     add_triangle(c.claim, {1, 2, 7}, {0});
-    add_triangle(c.claim, {2, 6, 7}, {0}); // the other way round: orientation is free
+    add_triangle(c.claim, {2, 6, 7}, {0});
     add_triangle(c.claim, {2, 0, 6}, {0});
     add_triangle(c.claim, {5, 6, 7}, {1});
     add_triangle(c.claim, {3, 4, 7}, {1});
@@ -129,8 +129,8 @@ inline Case overlap() {
     add_triangle(c.claim, {1, 6, 3}, {0});
     add_triangle(c.claim, {0, 3, 2}, {0});
     add_triangle(c.claim, {3, 7, 2}, {0});
-    add_triangle(c.claim, {6, 4, 5}, {1});
-    add_triangle(c.claim, {6, 5, 7}, {1});
+    add_triangle(c.claim, {6, 5, 4}, {1}); // input 1 faces the other side
+    add_triangle(c.claim, {6, 7, 5}, {1});
     c.claim.intersection_edges = {{3, 6}, {3, 7}, {6, 7}};
     return c;
 }

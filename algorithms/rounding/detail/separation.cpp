@@ -97,7 +97,8 @@ private:
 
 /// Whether a^2 >= 64 d l. Returns false if anything has underflowed.
 bool is_well_conditioned(const Sizes& s, double d) {
-    return s.altitude > smallest_area && s.altitude * s.altitude >= 64 * d * s.longest;
+    return s.altitude > smallest_area &&
+           s.altitude * s.altitude >= condition_factor * d * s.longest;
 }
 
 /// Adds the parts of a face that may meet another part of it improperly.
@@ -115,7 +116,7 @@ void Prover::add_restless(const Face& f, std::vector<std::uint32_t>& parts) cons
 /// Returns the d of statements (3) and (4) for parts of f and the functionals of g, with room for
 /// errors in both directions.
 double Prover::margin(const Face& f, const Face& g) const {
-    return 4 * (move_ + (f.extent + g.extent) * g.functional_error);
+    return margin_factor * (move_ + (f.extent + g.extent) * g.functional_error);
 }
 
 Prover::Pair Prover::pair_of(std::uint32_t f_slot, std::uint32_t g_slot) const {
@@ -172,7 +173,7 @@ bool Prover::is_clear_as_a_whole(std::uint32_t f_slot, std::uint32_t g_slot,
     const Face &f = faces_.faces[f_slot], &g = faces_.faces[g_slot];
     const Point3 across = cross(f.normal, g.normal);
     const double sine = length(across);
-    if (!(sine > 1024 * (f.functional_error + g.functional_error))) return false;
+    if (!(sine > least_sine_factor * (f.functional_error + g.functional_error))) return false;
     const Point3 line{across.x / sine, across.y / sine, across.z / sine};
     const Cut on_f = cut(f_slot, g_slot, f.corners[0], line);
     const Cut on_g = cut(g_slot, f_slot, f.corners[0], line);
@@ -193,7 +194,7 @@ double least_rise(const Sizes& there, double longest, double d) {
     const double l = std::max(there.longest, longest);
     if (!is_well_conditioned({there.altitude, l}, d)) return infinity;
     const double ratio = l / there.altitude;
-    return 128 * d * ratio * ratio;
+    return rise_factor * d * ratio * ratio;
 }
 
 /// A part that passes the end of a line on which two faces cross has corners above and below.

@@ -27,7 +27,8 @@ void refine(Face& f) {
     const auto n = polynomial::cross(difference(at(1), at(0)), difference(at(2), at(0)));
     const Point3 normal{n.x.value(), n.y.value(), n.z.value()};
     const double size = length(normal), factor = 1 / size;
-    const double error = 4 * (n.x.error() + n.y.error() + n.z.error()) * factor + 64 * unit;
+    const double error =
+        4 * (n.x.error() + n.y.error() + n.z.error()) * factor + direction_factor * unit;
     if (!(size > smallest_area && error < f.functional_error)) return;
     f.normal = {normal.x * factor, normal.y * factor, normal.z * factor};
     f.functional_error = error;
@@ -46,8 +47,8 @@ Face measure(const std::array<Point3, 3>& corners) {
     const double squared = std::max({dot(u, u), dot(v, v), dot(w, w)});
     f.extent = std::sqrt(squared);
     const bool usable = size > smallest_area && f.extent < longest_length;
-    f.functional_error =
-        usable ? 64 * unit * squared * factor : std::numeric_limits<double>::infinity();
+    f.functional_error = usable ? direction_factor * unit * squared * factor
+                                : std::numeric_limits<double>::infinity();
     if (usable && squared > thin * size) refine(f);
     return f;
 }
@@ -175,7 +176,8 @@ void Faces::measure_parts(const Face& face, double move) {
         const double l = std::sqrt(std::max({dot(u, u), dot(v, v), dot(w, w)}));
         const bool usable = l > shortest_length && l < longest_length;
         const double a = usable ? length(cross(u, v)) / l : 0;
-        const Sizes own{a * (1 - 0x1p-40) - 64 * unit * l - 4 * move, l * (1 + 0x1p-40) + 2 * move};
+        const Sizes own{a * (1 - size_share) - altitude_factor * unit * l - 4 * move,
+                        l * (1 + size_share) + 2 * move};
         for (const std::uint32_t corner : c) sizes[corner].add(own);
     }
 }

@@ -55,6 +55,17 @@ std::vector<std::uint32_t> RoundingState::dirty_triangles(const Run& run) const 
         }));
 }
 
+void RoundingState::search_dirty() {
+    was_searched.resize(points.size(), false);
+    for (std::size_t v = 0; v < points.size(); ++v)
+        if (is_dirty[v]) was_searched[v] = true;
+}
+
+bool RoundingState::is_tested(const Triangle& t) const {
+    return std::any_of(t.begin(), t.end(),
+                       [&](std::uint32_t v) { return v < was_searched.size() && was_searched[v]; });
+}
+
 void RoundingState::only_dirty(std::span<const CandidatePair> improper) {
     is_dirty.assign(points.size(), false);
     for (const CandidatePair& p : improper)

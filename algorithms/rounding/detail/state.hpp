@@ -27,8 +27,10 @@ class CollapsedTriangles;
 ///     points and therefore coincide again. So no move opens a slit between parts.
 struct RoundingState {
     std::vector<Point3> points;
-    std::vector<double> move;   ///< per point: upper bound of the distance from its exact point
-    std::vector<bool> is_dirty; ///< per point: see (1)
+    std::vector<double> move;       ///< per point: upper bound of the distance from its exact point
+    std::vector<bool> is_dirty;     ///< per point: see (1)
+    std::vector<bool> was_searched; ///< per point: whether it was dirty in a search that tests each
+                                    ///< pair of overlapping boxes; points that are missing were not
     std::vector<Triangle> triangles;
     IndexLists<std::uint32_t> parents_of; ///< per triangle, sorted
     std::size_t input_vertices = 0;       ///< the first points are input vertices
@@ -40,6 +42,11 @@ struct RoundingState {
 
     /// Returns the triangles with a dirty corner, ascending.
     [[nodiscard]] std::vector<std::uint32_t> dirty_triangles(const Run& run) const;
+
+    /// Notes that all pairs with a dirty corner are being tested.
+    void search_dirty();
+    /// Tells whether all pairs with a triangle have been tested since it took its place.
+    [[nodiscard]] bool is_tested(const Triangle& t) const;
 
     /// Marks the corners of these triangles as dirty and all other points as not dirty.
     /// Precondition: these are all pairs that meet improperly.

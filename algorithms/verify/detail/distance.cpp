@@ -1,7 +1,14 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/algorithms/verify/detail/distance.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
 
 namespace terrane::verifier {
 
@@ -19,48 +26,183 @@ mpz_class dot(const Vector3& a, const Vector3& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-bool within(const Vector4& a, const Vector4& b, const mpz_class& bound) {
-    mpz_class squared = 0;
+Squared squared_distance(const Vector4& a, const Vector4& b) {
+    Squared result;
     for (std::size_t i = 0; i < 3; ++i) {
         const mpz_class d = a[i] * b[3] - b[i] * a[3];
-        squared += d * d;
+        result.above += d * d;
     }
-    const mpz_class limit = bound * a[3] * b[3];
-    return squared <= limit * limit;
+    const mpz_class denominator = a[3] * b[3];
+    result.below = denominator * denominator;
+    return result;
+}
+
+Squared squared_distance(const Vector4& point, const Vector4& start, const Vector4& end) {
+    const Vector3 along = difference(end, start);
+    const Vector3 from_start = difference(point, start); // times w, like all that follow
+    const mpz_class place = dot(from_start, along);
+    if (sgn(place) <= 0) return squared_distance(point, start);
+    const mpz_class length = dot(along, along);
+    if (place >= point[3] * length) return squared_distance(point, end);
+    const Vector3 area = cross(from_start, along);
+    return {dot(area, area), mpz_class(point[3] * point[3] * length)};
+}
+
+Squared squared_distance(const Vector4& point, const std::array<const Vector4*, 3>& triangle) {
+    const Vector3 normal =
+        cross(difference(*triangle[1], *triangle[0]), difference(*triangle[2], *triangle[0]));
+    const mpz_class size = dot(normal, normal);
+    std::optional<Squared> least; // to the sides beyond which the point projects along the normal
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vector4& start = *triangle[i];
+        const Vector4& end = *triangle[(i + 1) % 3];
+        if (sgn(size) != 0 &&
+            sgn(dot(normal, cross(difference(end, start), difference(point, start)))) >= 0)
+            continue;
+        Squared distance = squared_distance(point, start, end);
+        if (!least || distance < *least) least = std::move(distance);
+    }
+    if (least) return *least;
+    const mpz_class height = dot(normal, difference(point, *triangle[0]));
+    return {mpz_class(height * height), mpz_class(point[3] * point[3] * size)};
+}
+
+bool within(const Squared& distance, const mpz_class& bound) {
+    return distance.above <= bound * bound * distance.below;
+}
+
+Squared squared_height(const std::array<const Vector4*, 3>& triangle) {
+    const Vector3 normal =
+        cross(difference(*triangle[1], *triangle[0]), difference(*triangle[2], *triangle[0]));
+    mpz_class longest = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vector3 side = difference(*triangle[(i + 1) % 3], *triangle[i]);
+        if (mpz_class length = dot(side, side); length > longest) longest = std::move(length);
+    }
+    return {dot(normal, normal), std::move(longest)};
+}
+
+double root_above(const Squared& distance, const mpz_class& scale) {
+    if (sgn(distance.above) == 0) return 0;
+    const mpz_class below = distance.below * scale * scale;
+    const auto bits = [](const mpz_class& n) {
+        return static_cast<long>(mpz_sizeinbase(n.get_mpz_t(), 2));
+    };
+    // A root of 64 or 65 bits, times 2^-shift.
+    const long shift = (130 - (bits(distance.above) - bits(below))) / 2;
+    const auto power = static_cast<mp_bitcnt_t>(2 * std::abs(shift));
+    const mpz_class above = shift > 0 ? mpz_class(distance.above << power) : distance.above;
+    const mpz_class divisor = shift < 0 ? mpz_class(below << power) : below;
+    mpz_class quotient, root, rest;
+    mpz_cdiv_q(quotient.get_mpz_t(), above.get_mpz_t(), divisor.get_mpz_t());
+    mpz_sqrtrem(root.get_mpz_t(), rest.get_mpz_t(), quotient.get_mpz_t());
+    if (sgn(rest) != 0) root += 1;
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const double truncated = std::ldexp(root.get_d(), static_cast<int>(-shift));
+    return std::nextafter(truncated, infinity);
+}
+
+bool within(const Vector4& a, const Vector4& b, const mpz_class& bound) {
+    return within(squared_distance(a, b), bound);
 }
 
 bool within_of_segment(const Vector4& point, const Vector4& start, const Vector4& end,
                        const mpz_class& bound) {
-    const Vector3 along = difference(end, start);
-    const Vector3 from_start = difference(point, start); // times w, like all compared terms
-    const mpz_class limit = bound * point[3];
-    const mpz_class place = dot(from_start, along);
-    if (sgn(place) <= 0) return dot(from_start, from_start) <= limit * limit;
-    if (place >= point[3] * dot(along, along)) {
-        const Vector3 from_end = difference(point, end);
-        return dot(from_end, from_end) <= limit * limit;
-    }
-    const Vector3 area = cross(from_start, along);
-    return dot(area, area) <= limit * limit * dot(along, along);
+    return within(squared_distance(point, start, end), bound);
 }
 
 bool within(const Vector4& point, const std::array<const Vector4*, 3>& triangle,
             const mpz_class& bound) {
-    const Vector3 normal =
-        cross(difference(*triangle[1], *triangle[0]), difference(*triangle[2], *triangle[0]));
-    const mpz_class height = dot(normal, difference(point, *triangle[0]));
-    const mpz_class limit = bound * point[3];
-    if (height * height > limit * limit * dot(normal, normal)) return false;
-    bool above = true; // whether the point projects into the triangle along its normal
-    for (std::size_t i = 0; i < 3; ++i) {
-        const Vector4& start = *triangle[i];
-        const Vector4& end = *triangle[(i + 1) % 3];
-        if (sgn(dot(normal, cross(difference(end, start), difference(point, start)))) >= 0)
-            continue;
-        above = false; // outside of this side: the nearest point is on one of these sides
-        if (within_of_segment(point, start, end, bound)) return true;
+    return within(squared_distance(point, triangle), bound);
+}
+
+// --- A segment near triangles -----------------------------------------------------------------
+
+namespace {
+
+/// A point of the segment: the fraction above / length of the way along it.
+struct Stop {
+    mpz_class above;
+    std::uint32_t corner; ///< the point that projects there; none for the ends
+};
+
+constexpr std::uint32_t no_corner = UINT32_MAX;
+
+class NearSegment {
+public:
+    NearSegment(const std::array<const Vector4*, 2>& segment, std::span<const Vector4> points,
+                std::span<const Triangle> triangles, const mpz_class& bound) :
+        start_(*segment[0]),
+        end_(*segment[1]), along_(difference(end_, start_)), length_(dot(along_, along_)),
+        points_(points), triangles_(triangles), bound_(bound) {}
+
+    [[nodiscard]] bool holds() const {
+        const std::vector<Stop> stops = find_stops();
+        for (std::size_t i = 1; i < stops.size(); ++i)
+            if (!piece_is_near(stops[i - 1], stops[i])) return false;
+        return true;
     }
-    return above;
+
+private:
+    /// Returns the ends of the segment and the places of corners near it, in order.
+    [[nodiscard]] std::vector<Stop> find_stops() const {
+        std::vector<std::uint32_t> corners;
+        for (const Triangle& t : triangles_) corners.insert(corners.end(), t.begin(), t.end());
+        std::sort(corners.begin(), corners.end());
+        corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+        std::vector<Stop> stops{{0, no_corner}, {length_, no_corner}};
+        for (const std::uint32_t corner : corners) {
+            mpz_class place = dot(difference(points_[corner], start_), along_);
+            if (sgn(place) <= 0 || place >= length_) continue;
+            if (!within_of_segment(points_[corner], start_, end_, bound_)) continue;
+            stops.push_back({std::move(place), corner});
+        }
+        std::ranges::sort(stops, [](const Stop& a, const Stop& b) {
+            if (const int order = cmp(a.above, b.above); order != 0) return order < 0;
+            return a.corner < b.corner;
+        });
+        return stops;
+    }
+
+    [[nodiscard]] Vector4 point_at(const Stop& stop) const {
+        Vector4 point;
+        for (std::size_t i = 0; i < 3; ++i) point[i] = start_[i] * length_ + along_[i] * stop.above;
+        point[3] = length_;
+        return point;
+    }
+
+    [[nodiscard]] bool piece_is_near(const Stop& from, const Stop& to) const {
+        if (from.above == to.above) return true;
+        const Vector4 first = point_at(from), last = point_at(to);
+        const auto near = [&](const Triangle& t) {
+            const std::array<const Vector4*, 3> corners{&points_[t[0]], &points_[t[1]],
+                                                        &points_[t[2]]};
+            return within(first, corners, bound_) && within(last, corners, bound_);
+        };
+        const auto at_stop = [&](const Triangle& t) {
+            return std::ranges::any_of(
+                t, [&](std::uint32_t v) { return v == from.corner || v == to.corner; });
+        };
+        for (const bool beside : {true, false}) // mostly a triangle at one of the stops will do
+            for (const Triangle& t : triangles_)
+                if (at_stop(t) == beside && near(t)) return true;
+        return false;
+    }
+
+    const Vector4& start_;
+    const Vector4& end_;
+    Vector3 along_;
+    mpz_class length_;
+    std::span<const Vector4> points_;
+    std::span<const Triangle> triangles_;
+    const mpz_class& bound_;
+};
+
+} // namespace
+
+bool segment_is_near(const std::array<const Vector4*, 2>& segment, std::span<const Vector4> points,
+                     std::span<const Triangle> triangles, const mpz_class& bound) {
+    return NearSegment(segment, points, triangles, bound).holds();
 }
 
 } // namespace terrane::verifier

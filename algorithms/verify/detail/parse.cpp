@@ -4,21 +4,21 @@
 // counts as certified that was not judged.
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <initializer_list>
 #include <new>
 #include <utility>
 
-#include <nlohmann/json.hpp>
-
+#include <terrane/algorithms/verify/detail/decimal.hpp>
+#include <terrane/algorithms/verify/detail/json.hpp>
 #include <terrane/algorithms/verify/verify_certificate.hpp>
 
 namespace terrane {
 
 namespace {
 
-using Json = nlohmann::json;
+using verifier::BadJson;
+using verifier::Json;
+using verifier::JsonKind;
 
 /// Thrown and caught in this file only.
 struct Malformed {
@@ -31,38 +31,44 @@ class Node {
 public:
     explicit Node(const Json& json) : json_(json) {}
 
-    /// Precondition: has(key).
+    /// Precondition: the value is an object with this key.
     [[nodiscard]] Node operator[](std::string_view key) const {
-        return {json_.find(key).value(), this, key, 0};
+        return {json_, json_.find(value_, key).value(), this, key, 0};
     }
-    [[nodiscard]] Node operator[](std::size_t i) const { return {json_[i], this, {}, i}; }
-    [[nodiscard]] bool has(std::string_view key) const { return json_.contains(key); }
-    [[nodiscard]] bool is_null() const { return json_.is_null(); }
+    [[nodiscard]] bool is_null() const { return kind() == JsonKind::null; }
 
-    /// Checks that the value is an object with all required keys, and no others but optional ones.
-    void expect_keys(std::initializer_list<std::string_view> required,
-                     std::initializer_list<std::string_view> optional = {}) const {
-        if (!json_.is_object()) fail("an object is needed");
-        for (const std::string_view key : required)
-            if (!has(key)) fail("\"" + std::string(key) + "\" is missing");
-        for (const auto& item : json_.items())
-            if (std::ranges::find(required, item.key()) == required.end() &&
-                std::ranges::find(optional, item.key()) == optional.end())
-                fail("an unknown key");
+    /// Checks that the value is an object with this key.
+    void expect_key(std::string_view key) const {
+        if (kind() != JsonKind::object) fail("an object is needed");
+        if (!json_.find(value_, key)) fail("\"" + std::string(key) + "\" is missing");
+    }
+    /// Checks that the value is an object with these keys, and no others.
+    void expect_keys(std::initializer_list<std::string_view> keys) const {
+        for (const std::string_view key : keys) expect_key(key);
+        if (json_[value_].count != keys.size()) fail("an unknown key");
     }
 
     /// Returns the size of an array.
     [[nodiscard]] std::size_t size() const {
-        if (!json_.is_array()) fail("an array is needed");
-        return json_.size();
+        if (kind() != JsonKind::array) fail("an array is needed");
+        return json_[value_].count;
     }
     void expect_size(std::size_t n) const {
         if (size() != n) fail("an array of " + std::to_string(n) + " is needed");
     }
 
+    /// Calls visit(item, i) for each item of an array, in order.
+    template <class Visit>
+    void for_each(const Visit& visit) const {
+        const std::size_t count = size();
+        std::uint32_t at = value_ + 1;
+        for (std::size_t i = 0; i < count; ++i, at = json_[at].after)
+            visit(Node(json_, at, this, {}, i), i);
+    }
+
     [[nodiscard]] std::uint64_t count() const {
-        if (!json_.is_number_unsigned()) fail("a whole number, not negative, is needed");
-        return json_.get<std::uint64_t>();
+        if (kind() != JsonKind::integer) fail("a whole number, not negative, is needed");
+        return json_[value_].content;
     }
     [[nodiscard]] std::uint32_t index() const {
         const std::uint64_t n = count();
@@ -70,21 +76,18 @@ public:
         return static_cast<std::uint32_t>(n);
     }
     [[nodiscard]] bool flag() const {
-        if (!json_.is_boolean()) fail("true or false is needed");
-        return json_.get<bool>();
+        if (kind() != JsonKind::boolean) fail("true or false is needed");
+        return json_[value_].content == 1;
     }
-    [[nodiscard]] const std::string& string() const {
-        if (!json_.is_string()) fail("a string is needed");
-        return json_.get_ref<const std::string&>();
+    [[nodiscard]] std::string_view string() const {
+        if (kind() != JsonKind::string) fail("a string is needed");
+        return json_.string(json_[value_]);
     }
-    /// Returns a double that is given as decimal text.
+    /// Returns a double that is given as a string, the shortest decimal that reads back as it.
     [[nodiscard]] double number() const {
-        const std::string& text = string();
-        double value = 0;
-        const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-        if (code != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
-            fail("a finite number in quotes is needed");
-        return value;
+        const auto value = verifier::shortest_decimal<double>(string());
+        if (!value) fail("a finite number in quotes, in its shortest form, is needed");
+        return *value;
     }
 
     [[noreturn]] void fail(std::string sentence) const {
@@ -92,9 +95,12 @@ public:
     }
 
 private:
-    Node(const Json& json, const Node* up, std::string_view key, std::size_t i) :
-        json_(json), up_(up), key_(key), i_(i) {}
+    Node(const Json& json, std::uint32_t value, const Node* up, std::string_view key,
+         std::size_t i) :
+        json_(json),
+        value_(value), up_(up), key_(key), i_(i) {}
 
+    [[nodiscard]] JsonKind kind() const { return json_[value_].kind; }
     [[nodiscard]] std::string place() const {
         if (up_ == nullptr) return "";
         const std::string before = up_->place();
@@ -103,26 +109,26 @@ private:
     }
 
     const Json& json_;
+    std::uint32_t value_ = 0;  ///< its index
     const Node* up_ = nullptr; ///< nullptr: the value is the whole text
     std::string_view key_;     ///< of an object's member
     std::size_t i_ = 0;        ///< of an array's
 };
 
-/// Returns read(item) for each item of an array.
-template <class Read>
-auto each(const Node& array, const Read& read) {
-    const std::size_t n = array.size();
-    std::vector<decltype(read(array[0]))> values;
-    values.reserve(n);
-    for (std::size_t i = 0; i < n; ++i) values.push_back(read(array[i]));
-    return values;
+/// Returns make(item) for each item of an array.
+template <class Make>
+auto each(const Node& array, const Make& make) {
+    std::vector<decltype(make(array))> result;
+    result.reserve(array.size());
+    array.for_each([&](const Node& item, std::size_t) { result.push_back(make(item)); });
+    return result;
 }
 
 template <std::size_t n>
 std::array<std::uint32_t, n> indices(const Node& array) {
     array.expect_size(n);
     std::array<std::uint32_t, n> values{};
-    for (std::size_t i = 0; i < n; ++i) values[i] = array[i].index();
+    array.for_each([&](const Node& item, std::size_t i) { values[i] = item.index(); });
     return values;
 }
 
@@ -132,7 +138,11 @@ std::uint32_t index(const Node& node) {
 
 IndexLists<std::uint32_t> lists(const Node& array) {
     IndexLists<std::uint32_t> result;
-    for (std::size_t i = 0, n = array.size(); i < n; ++i) result.push_back(each(array[i], index));
+    array.for_each([&](const Node& list, std::size_t) {
+        list.for_each(
+            [&](const Node& item, std::size_t) { result.values.push_back(item.index()); });
+        result.close();
+    });
     return result;
 }
 
@@ -143,36 +153,71 @@ Role role(const Node& node) {
     return static_cast<Role>(found - names.begin());
 }
 
+std::string name(const Node& node) {
+    return std::string(node.string());
+}
+
+std::string sha256(const Node& node) {
+    const std::string_view text = node.string();
+    if (text.size() != 64 || text.find_first_not_of("0123456789abcdef") != std::string_view::npos)
+        node.fail("64 lower-case hexadecimal digits are needed");
+    return std::string(text);
+}
+
 CertifiedInput input(const Node& node) {
     node.expect_keys({"name", "sha256", "bytes", "surfaces"});
     const auto surface = [](const Node& s) {
         s.expect_keys({"name", "role", "vertices", "triangles"});
-        return CertifiedSurface{s["name"].string(), role(s["role"]), s["vertices"].count(),
+        return CertifiedSurface{name(s["name"]), role(s["role"]), s["vertices"].count(),
                                 s["triangles"].count()};
     };
-    return {node["name"].string(), node["sha256"].string(), node["bytes"].count(),
+    return {name(node["name"]), sha256(node["sha256"]), node["bytes"].count(),
             each(node["surfaces"], surface)};
+}
+
+CertifiedOutput output(const Node& node) {
+    node.expect_keys({"name", "format", "sha256", "bytes", "surfaces"});
+    const auto surface = [](const Node& s) {
+        s.expect_keys({"name", "role"});
+        return SurfaceInfo{name(s["name"]), role(s["role"])};
+    };
+    return {name(node["name"]), name(node["format"]), sha256(node["sha256"]), node["bytes"].count(),
+            each(node["surfaces"], surface)};
+}
+
+/// The names of the constructions, and the number of indices of each.
+constexpr std::array<std::pair<std::string_view, std::size_t>, 4> kinds{
+    {{"v", 1}, {"lp", 5}, {"ppp", 9}, {"ll", 4}}};
+
+Construction::Kind construction_kind(const Node& node) {
+    const auto kind =
+        std::ranges::find(kinds, node.string(), [](const auto& k) { return k.first; });
+    if (kind == kinds.end()) node.fail("no construction of this name");
+    return static_cast<Construction::Kind>(kind - kinds.begin());
+}
+
+Axis axis(const Node& node) {
+    const std::string_view name = node.string();
+    if (name != "x" && name != "y" && name != "z") node.fail("no axis of this name");
+    return static_cast<Axis>(name[0] - 'x');
 }
 
 /// Reads ["v", i], ["lp", 5 indices], ["ppp", 9 indices] or ["ll", 4 indices, "x" | "y" | "z"].
 Construction construction(const Node& node) {
     if (node.size() == 0) node.fail("a construction is needed");
-    using Kind = Construction::Kind;
-    constexpr std::array<std::pair<std::string_view, std::size_t>, 4> kinds{
-        {{"v", 1}, {"lp", 5}, {"ppp", 9}, {"ll", 4}}};
-    const auto kind =
-        std::ranges::find(kinds, node[0].string(), [](const auto& k) { return k.first; });
-    if (kind == kinds.end()) node[0].fail("no construction of this name");
     Construction how;
-    how.kind = static_cast<Kind>(kind - kinds.begin());
-    const bool has_axis = how.kind == Kind::line_line;
-    node.expect_size(1 + kind->second + (has_axis ? 1 : 0));
-    for (std::size_t i = 0; i < kind->second; ++i) how.v[i] = node[i + 1].index();
-    if (has_axis) {
-        const std::string& axis = node[5].string();
-        if (axis != "x" && axis != "y" && axis != "z") node[5].fail("no axis of this name");
-        how.axis = static_cast<Axis>(axis[0] - 'x');
-    }
+    std::size_t used = 0; // indices
+    node.for_each([&](const Node& item, std::size_t i) {
+        if (i == 0) {
+            how.kind = construction_kind(item);
+            used = kinds[static_cast<std::size_t>(how.kind)].second;
+            node.expect_size(1 + used + (how.kind == Construction::Kind::line_line ? 1 : 0));
+        } else if (i <= used) {
+            how.v[i - 1] = item.index();
+        } else {
+            how.axis = axis(item);
+        }
+    });
     return how;
 }
 
@@ -189,46 +234,46 @@ ArrangementClaim exact(const Node& node) {
 
 Point3 point(const Node& node) {
     node.expect_size(3);
-    return {node[0].number(), node[1].number(), node[2].number()};
+    std::array<double, 3> values{};
+    node.for_each([&](const Node& item, std::size_t i) { values[i] = item.number(); });
+    return {values[0], values[1], values[2]};
 }
 
 RoundedClaim rounded(const Node& node) {
-    node.expect_keys({"vertices", "triangles", "parents", "intersection_edges", "clean", "rounds",
-                      "max_move", "deviation", "vanished"},
-                     {"regions"});
+    node.expect_keys({"vertices", "triangles", "parents", "intersection_edges", "regions", "clean",
+                      "max_move", "deviation", "vanished"});
     RoundedClaim claim;
     claim.vertices = each(node["vertices"], point);
     claim.triangles = each(node["triangles"], indices<3>);
     claim.parents_of = lists(node["parents"]);
     claim.intersection_edges = each(node["intersection_edges"], indices<2>);
-    if (node.has("regions")) claim.regions_of = lists(node["regions"]);
+    claim.regions_of = lists(node["regions"]);
     claim.clean = node["clean"].flag();
-    claim.rounds = node["rounds"].index();
-    claim.max_move = node["max_move"].number();
+    if (const Node move = node["max_move"]; !move.is_null()) claim.max_move = move.number();
     claim.deviation = node["deviation"].number();
     claim.vanished = each(node["vanished"], index);
     return claim;
 }
 
-Certificate certificate(const Node& node) {
-    node.expect_keys({"format", "version", "inputs", "exact", "rounded", "digest"});
-    if (node["format"].string() != "terrane-certificate")
-        node["format"].fail("this is no terrane-certificate");
-    if (node["version"].count() != 1) node["version"].fail("this version is not known");
-    Certificate result;
-    result.inputs = each(node["inputs"], input);
-    result.exact = exact(node["exact"]);
-    if (const Node claim = node["rounded"]; !claim.is_null()) result.rounded = rounded(claim);
-    result.digest = node["digest"].string();
-    return result;
+void expect_string(const Node& node, std::string_view text, const std::string& otherwise) {
+    if (node.string() != text) node.fail(otherwise);
 }
 
-/// Returns "line 3, column 7" for the number of bytes read.
-std::string place_in(std::string_view text, std::size_t bytes) {
-    const std::string_view before = text.substr(0, bytes > 0 ? bytes - 1 : 0);
-    const auto line = std::ranges::count(before, '\n') + 1;
-    const std::size_t column = before.size() - (before.rfind('\n') + 1) + 1;
-    return "line " + std::to_string(line) + ", column " + std::to_string(column);
+Certificate certificate(const Node& node) {
+    node.expect_key("format");
+    expect_string(node["format"], "terrane-certificate", "this is no terrane-certificate");
+    node.expect_key("version"); // first, since other versions have other keys
+    if (node["version"].count() != 2) node["version"].fail("version 2 is needed");
+    node.expect_keys(
+        {"format", "version", "kind", "inputs", "outputs", "exact", "rounded", "digest"});
+    expect_string(node["kind"], "arrangement", "this kind of certificate is not known");
+    Certificate result;
+    result.inputs = each(node["inputs"], input);
+    result.outputs = each(node["outputs"], output);
+    result.exact = exact(node["exact"]);
+    if (const Node claim = node["rounded"]; !claim.is_null()) result.rounded = rounded(claim);
+    result.digest = name(node["digest"]);
+    return result;
 }
 
 } // namespace
@@ -236,16 +281,14 @@ std::string place_in(std::string_view text, std::size_t bytes) {
 Result<Certificate> parse_certificate(std::string_view text, std::string_view source) {
     const std::string file(source);
     try {
-        const Json json = Json::parse(text);
+        const Json json(text);
         return certificate(Node(json));
-    } catch (const Json::parse_error& broken) {
-        return Error{ErrorCode::bad_syntax, "this is no JSON",
-                     file + ", " + place_in(text, broken.byte)};
+    } catch (const BadJson& broken) {
+        return Error{ErrorCode::bad_syntax, broken.sentence,
+                     file + ", " + verifier::place_in(text, broken.offset)};
     } catch (const Malformed& broken) {
         const std::string place = broken.place.empty() ? "" : ", " + broken.place;
         return Error{ErrorCode::bad_syntax, broken.sentence, file + place};
-    } catch (const Json::exception&) { // such as a number beyond the largest double
-        return Error{ErrorCode::bad_syntax, "this JSON can't be read", file};
     } catch (const std::bad_alloc&) {
         return Error{ErrorCode::out_of_memory, "there is not enough memory", file};
     }

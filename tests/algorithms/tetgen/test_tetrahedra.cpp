@@ -13,6 +13,7 @@
 #include <catch2/catch.hpp>
 
 #include <terrane/algorithms/tetgen/detail/process.hpp>
+#include <terrane/algorithms/tetrahedra/check_tetrahedra.hpp>
 #include <terrane/io/files.hpp>
 
 #include "support/paths.hpp"
@@ -335,18 +336,31 @@ TEST_CASE("tetrahedra: progress goes from 0 to 1", "[tetrahedra]") {
     CHECK(std::is_sorted(shares.begin(), shares.end()));
 }
 
-TEST_CASE("tetrahedra: vertices of the mesh stay as they are, in what once failed too") {
+TEST_CASE("tetrahedra: what once failed is filled, but for what TetGen cannot do") {
+    // TetGen 1.5.0 crashes on these, or never ends, in every way in which it is asked.
+    const std::set<std::string> beyond_tetgen{"007-slit-after-collapse.obj",
+                                              "009-tetgen-never-ends.obj"};
     std::size_t filled = 0;
     for (const auto& entry : std::filesystem::directory_iterator(test_data() + "/regression")) {
-        INFO(entry.path().filename().string());
+        const std::string name = entry.path().filename().string();
+        INFO(name);
         const auto surfaces = read_surfaces(entry.path());
         REQUIRE(surfaces);
         const Mesh mesh = rounded(arranged(surfaces.value())).mesh;
         const auto made = tetrahedralize(mesh, {.time_limit = 2}, {});
-        if (!made) continue; // too thin for TetGen
+        if (beyond_tetgen.contains(name)) {
+            REQUIRE_FALSE(made);
+            CHECK(made.error().sentence.find("TetGen") == 0);
+            continue;
+        }
+        INFO((made ? std::string() : made.error().message()));
+        REQUIRE(made);
         ++filled;
         CHECK(
             std::equal(mesh.vertices.begin(), mesh.vertices.end(), made.value().vertices.begin()));
+        const auto volumes = find_volumes(mesh);
+        REQUIRE(volumes);
+        CHECK(check_tetrahedra(made.value(), mesh, volumes.value()).violations.empty());
     }
-    CHECK(filled > 0);
+    CHECK(filled >= 8);
 }

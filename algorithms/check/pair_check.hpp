@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// How a mesh is shown to be conforming: what decides each pair of its triangles.
+//
+// Laws of counts (a test carries each number):
+// (1) The five counts add up to n (n - 1) / 2 for n triangles.
+// (2) Without `apart` they add up to the pairs of triangles whose boxes overlap.
+// (3) With PairCheck::full, in_patches, separated and unmoved are 0.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string_view>
+
+#include <terrane/algorithms/core/run.hpp>
+#include <terrane/algorithms/mesh/surface.hpp>
+#include <terrane/algorithms/search/search.hpp>
+
+namespace terrane {
+
+/// Which pairs of triangles are tested by exact predicates.
+enum class PairCheck : std::uint8_t {
+    bounds, ///< those that no proven bound clears
+    full,   ///< all whose boxes overlap
+};
+
+/// "bounds" or "full".
+std::string_view name_of(PairCheck method);
+
+/// Options of all that proves a mesh conforming. The verdict depends on none of them.
+struct PairCheckOptions {
+    PairCheck method = PairCheck::bounds; ///< which pairs are tested
+    bool count = false; ///< count what decided each pair; costs one more box search
+};
+
+/// What decided a pair of triangles whose boxes overlap.
+enum class DecidedBy : std::uint8_t {
+    test,       ///< exact predicates on the two triangles
+    patch,      ///< both are in one injective patch: docs/explanation/injective-patches.md
+    separation, ///< a bound on their distance: docs/explanation/separation.md
+    exact_mesh, ///< the exact arrangement, since neither has moved
+};
+
+/// How many pairs of triangles of a mesh were decided in which way.
+struct PairCounts {
+    std::uint64_t tested = 0;     ///< by exact predicates on the two triangles
+    std::uint64_t in_patches = 0; ///< by injective patches
+    std::uint64_t separated = 0;  ///< by separation
+    std::uint64_t unmoved = 0;    ///< by the exact arrangement
+    std::uint64_t apart = 0;      ///< their boxes do not overlap
+
+    friend bool operator==(const PairCounts&, const PairCounts&) = default;
+};
+
+/// Counts all pairs of triangles of a mesh; decided_by is asked for those whose boxes overlap, from
+/// several threads. Cost: one box search, and no memory for the pairs.
+PairCounts count_pairs(std::span<const Point3> points, std::span<const Triangle> triangles,
+                       const std::function<DecidedBy(const CandidatePair&)>& decided_by,
+                       const Run& run = {});
+
+} // namespace terrane

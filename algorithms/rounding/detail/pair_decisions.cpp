@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/rounding/detail/pair_decisions.hpp>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include <terrane/kernel/assertion.hpp>
+
+namespace terrane::rounding::detail {
+namespace {
+
+constexpr std::uint32_t tested = UINT32_MAX; ///< in place of the index of a triangle
+
+/// Per triangle of the state: the same triangle of the arrangement, or `tested` by (1).
+std::vector<std::uint32_t> origins_of(const RoundingState& state,
+                                      std::span<const Triangle> original) {
+    std::vector<std::uint32_t> origins(state.triangles.size(), tested);
+    std::map<Triangle, std::uint32_t> moved_on; // those whose index is no longer the same
+    for (std::uint32_t t = 0; t < state.triangles.size(); ++t) {
+        const Triangle& corners = state.triangles[t];
+        if (state.is_tested(corners)) continue;
+        if (t < original.size() && original[t] == corners)
+            origins[t] = t;
+        else
+            moved_on.emplace(corners, t);
+    }
+    for (std::uint32_t o = 0; o < original.size() && !moved_on.empty(); ++o) {
+        const auto at = moved_on.find(original[o]);
+        if (at == moved_on.end()) continue;
+        origins[at->second] = o;
+        moved_on.erase(at);
+    }
+    TERRANE_ASSERT(moved_on.empty()); // by (2)
+    return origins;
+}
+
+} // namespace
+
+FirstSearch::FirstSearch(std::vector<CandidatePair> tested_pairs,
+                         std::span<const std::uint32_t> parts, std::span<const std::uint32_t> dirty,
+                         std::vector<std::uint32_t> patches_of) :
+    pairs(std::move(tested_pairs)),
+    is_part(patches_of.size(), false), is_dirty(patches_of.size(), false),
+    patches(std::move(patches_of)) {
+    for (const std::uint32_t t : parts) is_part[t] = true;
+    for (const std::uint32_t t : dirty) is_dirty[t] = true;
+}
+
+DecidedBy FirstSearch::decided_by(const CandidatePair& pair) const {
+    if (is_dirty.empty()) return DecidedBy::exact_mesh;
+    const bool in_one_patch =
+        patches[pair.first] != no_group && patches[pair.first] == patches[pair.second];
+    if ((!in_one_patch && (is_part[pair.first] || is_part[pair.second])) ||
+        std::binary_search(pairs.begin(), pairs.end(), pair))
+        return DecidedBy::test;
+    if (!is_dirty[pair.first] && !is_dirty[pair.second]) return DecidedBy::exact_mesh;
+    return in_one_patch ? DecidedBy::patch : DecidedBy::separation;
+}
+
+PairCounts count_decisions(const RoundingState& state, std::span<const Triangle> original,
+                           const FirstSearch& first, PairCheck method, const Run& run) {
+    if (method == PairCheck::full)
+        return count_pairs(
+            state.points, state.triangles, [](const CandidatePair&) { return DecidedBy::test; },
+            run);
+    const auto origins = origins_of(state, original);
+    const auto decided_by = [&](const CandidatePair& p) {
+        const std::uint32_t a = origins[p.first], b = origins[p.second];
+        if (a == tested || b == tested) return DecidedBy::test;
+        return first.decided_by({std::min(a, b), std::max(a, b)});
+    };
+    return count_pairs(state.points, state.triangles, decided_by, run);
+}
+
+} // namespace terrane::rounding::detail

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// What decided each pair of triangles of a rounded mesh: a test, or what its first search, right
+// after rounding to nearest doubles, left to proof.
+//
+// (1) A triangle of which a corner was dirty in a search that tests every pair was tested against
+//     all triangles whose boxes overlap its own: each change makes corners dirty, and each search
+//     tests what has a dirty corner.
+// (2) A triangle without such a corner is one of the arrangement, with the same corners. Two of
+//     these were decided by the first search.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <terrane/algorithms/check/pair_check.hpp>
+#include <terrane/algorithms/core/run.hpp>
+#include <terrane/algorithms/rounding/detail/state.hpp>
+
+namespace terrane::rounding::detail {
+
+/// How the first search decided pairs of triangles of the arrangement. Empty lists: it had nothing
+/// to decide, since no corner had moved.
+struct FirstSearch {
+    FirstSearch() = default;
+    /// The lists are of triangles; `tested` is sorted.
+    FirstSearch(std::vector<CandidatePair> tested, std::span<const std::uint32_t> parts,
+                std::span<const std::uint32_t> dirty, std::vector<std::uint32_t> patches_of);
+
+    std::vector<CandidatePair> pairs;   ///< tested; sorted
+    std::vector<bool> is_part;          ///< per triangle: tested against all but those of its patch
+    std::vector<bool> is_dirty;         ///< per triangle: a corner has moved
+    std::vector<std::uint32_t> patches; ///< per triangle: its patch, if that still holds; no_group
+
+    [[nodiscard]] DecidedBy decided_by(const CandidatePair& pair) const;
+};
+
+/// Counts the pairs of the triangles of a state. `original`: the triangles of the arrangement.
+PairCounts count_decisions(const RoundingState& state, std::span<const Triangle> original,
+                           const FirstSearch& first, PairCheck method, const Run& run);
+
+} // namespace terrane::rounding::detail

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// check_distances of rounded_parts.hpp.
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include <terrane/algorithms/verify/detail/coverage.hpp>
+#include <terrane/algorithms/verify/detail/distance.hpp>
+#include <terrane/algorithms/verify/detail/rounded_parts.hpp>
+
+namespace terrane::verifier {
+
+namespace {
+
+using Triangles = std::vector<Triangle>;
+
+// --- (1) The triangles of the exact part ------------------------------------------------------
+
+Squared largest_move(const RoundedParts& parts, Violations& found) {
+    Squared largest;
+    for (std::uint32_t v = 0; v < parts.points.size(); ++v) {
+        const auto exact = construct(parts.exact.vertices[v], parts.input_points);
+        if (!exact || *exact == parts.points[v]) continue;
+        Squared move = squared_distance(*exact, parts.points[v]);
+        if (!within(move, parts.max_move))
+            found.push_back({Rule::R14_moves,
+                             {v},
+                             "vertex " + text(v) +
+                                 " is farther from its exact point than the stated largest move"});
+        if (!within(move, parts.deviation))
+            found.push_back({Rule::R13_deviation,
+                             {v},
+                             "vertex " + text(v) +
+                                 " is farther from its exact point than the stated deviation"});
+        if (largest < move) largest = std::move(move);
+    }
+    return largest;
+}
+
+// --- (2) From the triangles to their parents --------------------------------------------------
+
+/// Returns all pairs {parent, corner of one of its children}, sorted and unique.
+std::vector<Edge> parents_and_corners(const RoundedClaim& rounded) {
+    std::vector<Edge> pairs;
+    for (std::size_t t = 0; t < rounded.triangles.size(); ++t)
+        for (const std::uint32_t parent : rounded.parents_of[t])
+            for (const std::uint32_t corner : rounded.triangles[t])
+                pairs.push_back({parent, corner});
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    return pairs;
+}
+
+Squared farthest_from_parents(const RoundedParts& parts, Violations& found) {
+    Squared farthest;
+    for (const auto& [parent, vertex] : parents_and_corners(parts.rounded)) {
+        Squared distance = squared_distance(parts.points[vertex], parts.input_corners(parent));
+        if (!within(distance, parts.deviation))
+            found.push_back({Rule::R13_deviation,
+                             {vertex, parent},
+                             "vertex " + text(vertex) + " is farther from input triangle " +
+                                 text(parent) + " than the stated deviation"});
+        if (farthest < distance) farthest = std::move(distance);
+    }
+    return farthest;
+}
+
+// --- What is near an input triangle -------------------------------------------------------------
+
+/// The exact triangles at each exact vertex.
+IndexLists<std::uint32_t> triangles_at_vertices(const ArrangementClaim& exact) {
+    std::vector<Edge> pairs; // {vertex, triangle}
+    for (std::uint32_t t = 0; t < exact.triangles.size(); ++t)
+        for (const std::uint32_t corner : exact.triangles[t]) pairs.push_back({corner, t});
+    std::sort(pairs.begin(), pairs.end());
+    IndexLists<std::uint32_t> result;
+    for (std::size_t v = 0, i = 0; v < exact.vertices.size(); ++v) {
+        for (; i < pairs.size() && pairs[i][0] == v; ++i) result.values.push_back(pairs[i][1]);
+        result.close();
+    }
+    return result;
+}
+
+/// Finds what is left near an input triangle of which a part has vanished.
+class Neighbours {
+public:
+    explicit Neighbours(const RoundedParts& parts) :
+        parts_(parts), at_vertex_(triangles_at_vertices(parts.exact)),
+        exact_children_(children_of(parts.exact.parents_of, parts.inputs.triangles.size())) {}
+
+    /// Returns the triangles that name an input triangle that the given one meets, or itself.
+    [[nodiscard]] Triangles of(std::uint32_t input) const {
+        Numbers inputs;
+        for (const std::uint32_t part : exact_children_[input])
+            for (const std::uint32_t vertex : parts_.exact.triangles[part])
+                for (const std::uint32_t t : at_vertex_[vertex])
+                    for (const std::uint32_t parent : parts_.exact.parents_of[t])
+                        inputs.push_back(parent);
+        sort_unique(inputs);
+        Numbers triangles;
+        for (const std::uint32_t neighbour : inputs)
+            for (const std::uint32_t t : parts_.children[neighbour]) triangles.push_back(t);
+        sort_unique(triangles);
+        Triangles result;
+        for (const std::uint32_t t : triangles) result.push_back(parts_.rounded.triangles[t]);
+        return result;
+    }
+
+private:
+    static void sort_unique(Numbers& numbers) {
+        std::sort(numbers.begin(), numbers.end());
+        numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+    }
+
+    const RoundedParts& parts_;
+    IndexLists<std::uint32_t> at_vertex_, exact_children_;
+};
+
+// --- (3) From an input triangle to the triangles that name it ---------------------------------
+
+bool sides_are_near(const RoundedParts& parts, std::uint32_t input, const Triangles& triangles) {
+    const auto corners = parts.input_corners(input);
+    for (std::size_t i = 0; i < 3; ++i)
+        if (!segment_is_near({corners[i], corners[(i + 1) % 3]}, parts.points, triangles,
+                             parts.quarter))
+            return false;
+    return true;
+}
+
+bool is_unchanged(const RoundedParts& parts, std::uint32_t input) {
+    const auto children = parts.children[input];
+    if (children.size() != 1) return false;
+    const auto value = [](const auto& corners) {
+        std::array<Vector4, 3> points{*corners[0], *corners[1], *corners[2]};
+        std::sort(points.begin(), points.end());
+        return points;
+    };
+    return value(parts.corners(children[0])) == value(parts.input_corners(input));
+}
+
+/// Judges an input triangle that has children. Returns whether a part of it has vanished, so that
+/// only what it meets is near its sides.
+bool check_covered(const RoundedParts& parts, std::uint32_t input, const Neighbours& neighbours,
+                   Violations& found) {
+    Triangles triangles;
+    for (const std::uint32_t child : parts.children[input])
+        triangles.push_back(parts.rounded.triangles[child]);
+    const Coverage coverage(parts.input_corners(input), parts.points, parts.quarter);
+    if (!coverage.holds(triangles)) {
+        found.push_back({Rule::R18_coverage,
+                         {input},
+                         "what is left of input triangle " + text(input) + " has a hole"});
+        return false;
+    }
+    if (sides_are_near(parts, input, triangles)) return false;
+    if (sides_are_near(parts, input, neighbours.of(input))) return true;
+    found.push_back(
+        {Rule::R18_coverage,
+         {input},
+         "what is left of input triangle " + text(input) + " does not reach its border"});
+    return false;
+}
+
+// --- (4) Vanished input triangles -------------------------------------------------------------
+
+void check_vanished(const RoundedParts& parts, std::uint32_t input, const Neighbours& neighbours,
+                    Violations& found) {
+    const bool thin =
+        within(squared_height(parts.input_corners(input)), mpz_class(2 * parts.quarter));
+    if (thin && sides_are_near(parts, input, neighbours.of(input))) return;
+    found.push_back({Rule::R12_rounded_parents,
+                     {input},
+                     "nothing is left of input triangle " + text(input) +
+                         (thin ? ", nor near it of what it meets"
+                               : ", which is not as thin as the stated deviation")});
+}
+
+} // namespace
+
+Distances check_distances(const RoundedParts& parts, Violations& found) {
+    if (parts.same_triangles) return {root_above(largest_move(parts, found), parts.scale), 0};
+    Squared farthest = farthest_from_parents(parts, found);
+    const Neighbours neighbours(parts);
+    Distances result;
+    bool all_unchanged = true;
+    for (std::uint32_t input = 0; input < parts.inputs.triangles.size(); ++input) {
+        if (parts.set_aside.first_of[input] != input ||
+            std::ranges::binary_search(parts.set_aside.degenerate, input) ||
+            is_unchanged(parts, input))
+            continue;
+        all_unchanged = false;
+        if (parts.children[input].empty())
+            check_vanished(parts, input, neighbours, found);
+        else if (check_covered(parts, input, neighbours, found))
+            ++result.partly_vanished;
+    }
+    const Squared proven{mpz_class(25 * parts.quarter * parts.quarter), 4}; // (5/2 c)^2
+    if (!all_unchanged && farthest < proven) farthest = proven;
+    result.deviation = root_above(farthest, parts.scale);
+    return result;
+}
+
+} // namespace terrane::verifier

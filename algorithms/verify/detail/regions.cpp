@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// check_regions of rounded_parts.hpp.
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <utility>
+
+#include <terrane/algorithms/verify/detail/indices.hpp>
+#include <terrane/algorithms/verify/detail/rounded_parts.hpp>
+
+namespace terrane::verifier {
+
+namespace {
+
+/// Disjoint sets; the lowest element of a set represents it.
+class JoinedSets {
+public:
+    explicit JoinedSets(std::size_t count) : up_(count) { std::iota(up_.begin(), up_.end(), 0U); }
+
+    std::uint32_t find(std::uint32_t x) {
+        while (up_[x] != x) x = up_[x] = up_[up_[x]];
+        return x;
+    }
+    void join(std::uint32_t x, std::uint32_t y) {
+        x = find(x);
+        y = find(y);
+        up_[std::max(x, y)] = std::min(x, y);
+    }
+
+private:
+    Numbers up_;
+};
+
+/// Returns the surfaces of the parents of each triangle, sorted and unique.
+IndexLists<std::uint32_t> surfaces_of_parents(const Inputs& inputs, const RoundedClaim& rounded) {
+    IndexLists<std::uint32_t> surfaces;
+    for (std::size_t t = 0; t < rounded.triangles.size(); ++t) {
+        Numbers all;
+        for (const std::uint32_t parent : rounded.parents_of[t])
+            all.push_back(inputs.surface_of[parent]);
+        std::sort(all.begin(), all.end());
+        all.erase(std::unique(all.begin(), all.end()), all.end());
+        surfaces.push_back(all);
+    }
+    return surfaces;
+}
+
+/// Returns the two triangles at each edge that is not an intersection edge.
+std::vector<std::array<std::uint32_t, 2>> joined_triangles(const RoundedClaim& rounded) {
+    std::vector<std::pair<Edge, std::uint32_t>> sides;
+    for (std::uint32_t t = 0; t < rounded.triangles.size(); ++t)
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto& corners = rounded.triangles[t];
+            const auto [low, high] = std::minmax(corners[i], corners[(i + 1) % 3]);
+            sides.push_back({{low, high}, t});
+        }
+    std::sort(sides.begin(), sides.end());
+    std::vector<std::array<std::uint32_t, 2>> pairs;
+    for (std::size_t i = 1; i < sides.size(); ++i)
+        if (sides[i - 1].first == sides[i].first &&
+            !std::ranges::binary_search(rounded.intersection_edges, sides[i].first))
+            pairs.push_back({sides[i - 1].second, sides[i].second});
+    return pairs;
+}
+
+/// Joins the entries of two triangles in `surfaces` for each surface that they have in common.
+void join_common(const IndexLists<std::uint32_t>& surfaces, std::uint32_t s, std::uint32_t t,
+                 JoinedSets& sets) {
+    for (std::uint32_t i = surfaces.offsets[s]; i < surfaces.offsets[s + 1]; ++i)
+        for (std::uint32_t j = surfaces.offsets[t]; j < surfaces.offsets[t + 1]; ++j)
+            if (surfaces.values[i] == surfaces.values[j]) sets.join(i, j);
+}
+
+} // namespace
+
+void check_regions(const RoundedParts& parts, Violations& found) {
+    const RoundedClaim& rounded = parts.rounded;
+    const auto surfaces = surfaces_of_parents(parts.inputs, rounded);
+    if (!well_formed(rounded.regions_of, rounded.triangles.size()) ||
+        rounded.regions_of.offsets != surfaces.offsets) {
+        found.push_back(
+            {Rule::R16_regions, {}, "there is not one region per triangle and surface"});
+        return;
+    }
+    const Numbers& stated = rounded.regions_of.values;
+    JoinedSets sets(stated.size());
+    for (const auto& [s, t] : joined_triangles(rounded)) join_common(surfaces, s, t, sets);
+    std::vector<std::array<std::uint32_t, 3>> regions; // {stated, true, triangle}
+    for (std::uint32_t t = 0; t < surfaces.size(); ++t)
+        for (std::uint32_t i = surfaces.offsets[t]; i < surfaces.offsets[t + 1]; ++i)
+            regions.push_back({stated[i], sets.find(i), t});
+    for (const std::size_t key :
+         {0U, 1U}) { // equal stated regions have equal true ones, and vice versa
+        std::ranges::sort(regions, {}, [key](const auto& r) {
+            return std::array{r[key], r[1 - key], r[2]};
+        });
+        for (std::size_t i = 1; i < regions.size(); ++i)
+            if (regions[i][key] == regions[i - 1][key] &&
+                regions[i][1 - key] != regions[i - 1][1 - key])
+                found.push_back({Rule::R16_regions,
+                                 {regions[i - 1][2], regions[i][2]},
+                                 "triangles " + text(Edge{regions[i - 1][2], regions[i][2]}) +
+                                     (key == 0 ? " are not in one region" : " are in one region")});
+    }
+}
+
+} // namespace terrane::verifier

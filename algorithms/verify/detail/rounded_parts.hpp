@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// The mesh of doubles of a certificate, in exact numbers, with what the rules about it need.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include <terrane/algorithms/core/index_lists.hpp>
+#include <terrane/algorithms/verify/detail/inputs.hpp>
+#include <terrane/algorithms/verify/detail/rational.hpp>
+#include <terrane/algorithms/verify/verify_certificate.hpp>
+
+namespace terrane::verifier {
+
+/// All indices of the claims are in range (R1, R10). The points, max_move and deviation are
+/// integers: the numbers of the certificate times `scale`.
+struct RoundedParts {
+    const Inputs& inputs;
+    const ArrangementClaim& exact;
+    const RoundedClaim& rounded;
+    SetAside set_aside;
+    IndexLists<std::uint32_t> children; ///< per input triangle: the triangles of the mesh that name
+                                        ///< it
+    std::vector<Vector4> input_points, points;
+    mpz_class max_move, deviation;
+    mpz_class quarter; ///< of the deviation, rounded down
+    mpz_class scale = 1;
+    bool same_triangles = false; ///< the mesh has the vertices, triangles and parents of the exact
+                                 ///< part, each vertex at another place at most
+
+    [[nodiscard]] std::array<const Vector4*, 3> input_corners(std::uint32_t triangle) const {
+        const auto& [a, b, c] = inputs.triangles[triangle];
+        return {&input_points[a], &input_points[b], &input_points[c]};
+    }
+    [[nodiscard]] std::array<const Vector4*, 3> corners(std::uint32_t triangle) const {
+        const auto& [a, b, c] = rounded.triangles[triangle];
+        return {&points[a], &points[b], &points[c]};
+    }
+};
+
+RoundedParts make_rounded_parts(const Inputs& inputs, const ArrangementClaim& exact,
+                                const RoundedClaim& rounded);
+
+/// Returns the largest deviation that is accepted where none is given; VerifyOptions defines it.
+double default_max_deviation(const Inputs& inputs);
+
+/// What check_distances() computes.
+struct Distances {
+    double deviation = 0;            ///< upper bound, both ways; unit of the input
+    std::size_t partly_vanished = 0; ///< input triangles of which a thin part is not left
+};
+
+/// Checks the distances between the mesh and the inputs, both ways (R12, R13, R14, R18), and
+/// measures them. Precondition: the stated deviation is not
+/// above the largest that is accepted.
+///
+/// (1) With the triangles of the exact part, each point of an exact triangle has an image in the
+///     triangle with the same number, which is not farther from it than the farthest corner. So the
+///     largest move of a vertex bounds both distances.
+/// (2) Otherwise: a triangle is not farther from a parent than its farthest corner, since the
+///     distance to a convex set is convex.
+/// (3) Let c be a quarter of the stated deviation. A point of an input triangle that is not covered
+///     along its normal is at most 3/2 c away from the triangle's border: at most c by R18, or the
+///     centroid is at most c away from the border, which it is if the radius of the inscribed
+///     circle is at most 3/2 c (this is at most half of the smallest height, the centroid's distance
+///     is a third of it). The sides are at most c away from the triangles that name the input
+///     triangle. So all of it is at most 5/2 c away from these. Where the tip of a needle has
+///     vanished, its sides are at most c away from triangles that name what the needle meets.
+/// (4) An input triangle that has vanished has a height of at most 2 c, so that each point is at
+///     most c away from the sides, and the sides are at most c away from triangles that name
+///     neighbours.
+Distances check_distances(const RoundedParts& parts, Violations& found);
+
+/// Reports the triangles that are turned over (R19). Where the triangles are those of the exact
+/// part, that part was judged. Otherwise a triangle faces the side that its first parent faces,
+/// unless its smallest height is at most the stated deviation: rounding can turn such a triangle.
+void check_rounded_orientation(const RoundedParts& parts, Violations& found);
+
+/// Checks that regions are the parts into which intersection edges divide the surfaces (R16).
+void check_regions(const RoundedParts& parts, Violations& found);
+
+} // namespace terrane::verifier

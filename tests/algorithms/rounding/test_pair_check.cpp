@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "support/rounded.hpp"
+#include "support/shapes.hpp"
+
+#include <terrane/algorithms/arrangement/exact_arrangement.hpp>
+#include <terrane/algorithms/check/conforming.hpp>
+#include <terrane/algorithms/check/pair_check.hpp>
+#include <terrane/algorithms/rounding/rounding.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+using namespace terrane;
+using namespace test_support;
+
+namespace {
+
+constexpr RoundingOptions counting{.check = {PairCheck::bounds, true}};
+constexpr RoundingOptions full{.check = {PairCheck::full, true}};
+
+/// Pairs of triangles whose boxes overlap, one by one.
+std::uint64_t overlapping_pairs(const Mesh& m) {
+    std::vector<Box> boxes;
+    for (const Triangle& t : m.triangles) boxes.push_back(box_of(m.vertices, t));
+    std::uint64_t count = 0;
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+        for (std::size_t j = i + 1; j < boxes.size(); ++j) count += boxes[i].overlaps(boxes[j]);
+    return count;
+}
+
+std::uint64_t not_apart(const PairCounts& c) {
+    return c.tested + c.in_patches + c.separated + c.unmoved;
+}
+
+void check_laws(const Mesh& m, const PairCounts& counts) {
+    const std::uint64_t n = m.triangles.size();
+    CHECK(not_apart(counts) + counts.apart == n * (n - 1) / 2); // law (1)
+    CHECK(not_apart(counts) == overlapping_pairs(m));           // law (2)
+}
+
+/// A wavy sheet and planes across it at odd angles.
+std::vector<Surface> crossed_sheets(unsigned n) {
+    std::vector<Surface> model{unit_grid(n, n, [](double x, double y) {
+        return Point3{x, y, 0.07 * std::sin(5 * x) + 0.05 * std::cos(7 * y)};
+    })};
+    for (const double at : {0.31, 0.52, 0.83})
+        model.push_back(unit_grid(n / 2, n / 2, [at](double x, double y) {
+            return Point3{at + 0.1 * y + 0.03 * x, 0.1 + 0.77 * x, y - 0.45};
+        }));
+    return model;
+}
+
+/// Two sheets in nearly one plane: many pairs meet improperly once they are in doubles.
+std::vector<Surface> nearly_coplanar(unsigned n) {
+    const double h = 0.5 / n;
+    const auto turned = [](double x, double y) {
+        return Point3{0.9 * x - 0.3 * y + 0.1, 0.2 * x + 0.8 * y, 0.37 * x - 0.41 * y + 0.2};
+    };
+    return {unit_grid(n, n, turned),
+            unit_grid(n, n, [&](double x, double y) { return turned(x + h, y + h); })};
+}
+
+std::vector<Surface> random_soup(std::mt19937& random) {
+    std::uniform_real_distribution<double> at(0, 1);
+    const auto point = [&] { return Point3{at(random), at(random), at(random)}; };
+    std::vector<Surface> model(2);
+    for (Surface& s : model)
+        for (std::uint32_t k = 0; k < 8; ++k) {
+            for (int i = 0; i < 3; ++i) s.vertices.push_back(point());
+            s.triangles.push_back({3 * k, 3 * k + 1, 3 * k + 2});
+        }
+    return model;
+}
+
+/// Two surfaces of triangles that are nearly in one plane, at random.
+std::vector<Surface> nearly_coplanar_soup(std::mt19937& random) {
+    const double flat = std::ldexp(1, -30 - static_cast<int>(random() % 20));
+    std::uniform_real_distribution<double> at(0, 1), off(-flat, flat);
+    std::vector<Surface> model(2);
+    for (Surface& s : model)
+        for (std::uint32_t k = 0; k < 4; ++k) {
+            for (int i = 0; i < 3; ++i) {
+                const double x = at(random), y = at(random);
+                s.vertices.push_back({x, y, 0.3 * x + 0.2 * y + off(random)});
+            }
+            s.triangles.push_back({3 * k, 3 * k + 1, 3 * k + 2});
+        }
+    return model;
+}
+
+using Pairs = std::vector<std::array<std::uint32_t, 2>>;
+
+Pairs pairs_of(const RoundingReport& report) {
+    Pairs pairs;
+    for (const ImproperContact& c : report.contacts) pairs.push_back(c.triangles);
+    return pairs;
+}
+
+void same_verdict(const Arrangement& a, unsigned max_rounds) {
+    RoundingOptions quick = counting, slow = full;
+    quick.max_rounds = slow.max_rounds = max_rounds;
+    const auto r = rounded(a, quick), s = rounded(a, slow);
+    REQUIRE(r.report.clean == s.report.clean);
+    CHECK(pairs_of(r.report) == pairs_of(s.report));
+    CHECK(r.mesh->vertices == s.mesh->vertices);
+    CHECK(r.mesh->triangles == s.mesh->triangles);
+    REQUIRE(r.report.pairs);
+    REQUIRE(s.report.pairs);
+    check_laws(r.mesh, *r.report.pairs);
+    check_laws(s.mesh, *s.report.pairs);
+    CHECK(s.report.pairs->in_patches + s.report.pairs->separated + s.report.pairs->unmoved ==
+          0); // law (3)
+    CHECK(r.report.pairs->tested <= s.report.pairs->tested);
+    if (r.report.clean) CHECK(r.conforming->pairs() == r.report.pairs);
+}
+
+} // namespace
+
+TEST_CASE("pair check: a full check gives the same mesh and verdict as proven bounds") {
+    same_verdict(arranged(crossed_sheets(12)), 8);
+    for (const unsigned rounds : {0U, 8U})
+        for (const unsigned n : {3U, 8U, 16U}) same_verdict(arranged(nearly_coplanar(n)), rounds);
+    std::mt19937 random(7);
+    for (int k = 0; k < 20; ++k) same_verdict(arranged(random_soup(random)), k % 2 == 0 ? 8 : 0);
+}
+
+TEST_CASE("pair check: bounds clear most pairs of crossing sheets, in each of the ways") {
+    const auto a = arranged(crossed_sheets(24));
+    const auto r = rounded(a, counting);
+    REQUIRE(r.report.clean);
+    const PairCounts& counts = *r.report.pairs;
+    check_laws(r.mesh, counts);
+    CHECK(counts.in_patches > 0);
+    CHECK(counts.separated > 0);
+    CHECK(counts.unmoved > 0);
+    CHECK(counts.tested < not_apart(counts) / 10);
+    CHECK_FALSE(rounded(a).report.pairs); // not asked for
+}
+
+TEST_CASE("pair check: a full check finds what a broken shortcut hides") {
+    constexpr RoundingOptions no_rounds{.max_rounds = 0}, full_no_rounds{0, full.check};
+    std::mt19937 random(8);
+    int hidden = 0;
+    for (int k = 0; k < 60; ++k) {
+        auto a = arranged(nearly_coplanar_soup(random));
+        const auto sound = rounded(a, full_no_rounds);
+        CHECK(pairs_of(rounded(a, no_rounds).report) == pairs_of(sound.report));
+        own_state(a).neighbours.clear(); // planted: separation is told of no pair of faces
+        hidden += rounded(a, no_rounds).report.contacts.size() < sound.report.contacts.size();
+        CHECK(pairs_of(rounded(a, full_no_rounds).report) == pairs_of(sound.report));
+    }
+    CHECK(hidden > 0);
+}
+
+TEST_CASE("pair check: meshes are proven conforming, or not, by either method") {
+    const auto proven = rounded(arranged(crossed_sheets(12)));
+    REQUIRE(proven.report.clean);
+    Mesh mesh = proven.mesh;
+    std::vector<std::uint32_t> labels;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+        labels.push_back(mesh.surfaces_of[t][0]);
+    for (const PairCheck method : {PairCheck::bounds, PairCheck::full}) {
+        const auto proof = prove_conforming(mesh, labels, {method, true});
+        REQUIRE(proof);
+        REQUIRE(proof->pairs());
+        check_laws(mesh, *proof->pairs());
+        CHECK((proof->pairs()->in_patches == 0) == (method == PairCheck::full)); // law (3)
+        CHECK_FALSE(prove_conforming(mesh, labels)->pairs());
+    }
+    // A vertex in the middle of the sheet falls through the planes across it.
+    const auto moved =
+        std::find_if(mesh.vertices.begin(), mesh.vertices.end(), [](const Point3& p) {
+            return std::fabs(p.x - 0.45) < 0.05 && std::fabs(p.y - 0.5) < 0.05 &&
+                   std::fabs(p.z) < 0.2;
+        });
+    REQUIRE(moved != mesh.vertices.end());
+    moved->x += 0.4;
+    for (const PairCheck method : {PairCheck::bounds, PairCheck::full}) {
+        const auto refused = prove_conforming(mesh, labels, {method, true});
+        REQUIRE_FALSE(refused);
+        CHECK(refused.error().code == ErrorCode::improper_contact);
+    }
+}
