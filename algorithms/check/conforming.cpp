@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <terrane/algorithms/check/check.hpp>
+#include <terrane/algorithms/check/count_pairs.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/intersection/injective_patches.hpp>
 #include <terrane/algorithms/intersection/intersection.hpp>

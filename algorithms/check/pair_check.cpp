@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/algorithms/check/pair_check.hpp>
+#include <terrane/algorithms/check/count_pairs.hpp>
 
 #include <numeric>
 #include <vector>

@@ -9,13 +9,7 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
-#include <span>
 #include <string_view>
-
-#include <terrane/algorithms/core/run.hpp>
-#include <terrane/algorithms/mesh/surface.hpp>
-#include <terrane/algorithms/search/search.hpp>
 
 namespace terrane {
 
@@ -34,14 +28,6 @@ struct PairCheckOptions {
     bool count = false; ///< count what decided each pair; costs one more box search
 };
 
-/// What decided a pair of triangles whose boxes overlap.
-enum class DecidedBy : std::uint8_t {
-    test,       ///< exact predicates on the two triangles
-    patch,      ///< both are in one injective patch: docs/explanation/injective-patches.md
-    separation, ///< a bound on their distance: docs/explanation/separation.md
-    exact_mesh, ///< the exact arrangement, since neither has moved
-};
-
 /// How many pairs of triangles of a mesh were decided in which way.
 struct PairCounts {
     std::uint64_t tested = 0;     ///< by exact predicates on the two triangles
@@ -52,11 +38,5 @@ struct PairCounts {
 
     friend bool operator==(const PairCounts&, const PairCounts&) = default;
 };
-
-/// Counts all pairs of triangles of a mesh; decided_by is asked for those whose boxes overlap, from
-/// several threads. Cost: one box search, and no memory for the pairs.
-PairCounts count_pairs(std::span<const Point3> points, std::span<const Triangle> triangles,
-                       const std::function<DecidedBy(const CandidatePair&)>& decided_by,
-                       const Run& run = {});
 
 } // namespace terrane

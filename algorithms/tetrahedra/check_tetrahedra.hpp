@@ -46,9 +46,9 @@ std::string_view name_of(TetrahedraDefect defect);
 
 /// All defects of one kind.
 struct TetrahedraViolation {
-    TetrahedraDefect defect{};
-    std::size_t count = 0; ///< how many there are, >= 1
-    std::string first;     ///< a sentence about the first one, with its place
+    TetrahedraDefect defect{}; ///< what is wrong
+    std::size_t count = 0;     ///< how many there are, >= 1
+    std::string first;         ///< a sentence about the first one, with its place
 };
 
 /// The sentence about the first defect, and the number of the others.

@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-#include <terrane/algorithms/check/pair_check.hpp>
+#include <terrane/algorithms/check/count_pairs.hpp>
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/rounding/detail/state.hpp>
 
