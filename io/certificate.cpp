@@ -4,14 +4,11 @@
 #include <array>
 #include <utility>
 
-#include <nlohmann/json.hpp>
-
 #include <terrane/algorithms/arrangement/digest.hpp>
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/algorithms/core/sha256.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
-#include <terrane/io/text/names.hpp>
-#include <terrane/io/text/text.hpp>
+#include <terrane/io/detail/certificate_writer.hpp>
 
 namespace terrane {
 
@@ -20,59 +17,7 @@ using namespace detail;
 
 namespace {
 
-/// Writes JSON piece by piece; a tree of values would take ten times the memory.
-class Writer {
-public:
-    explicit Writer(std::string& out) : out_(out) {}
-
-    void quote(std::string_view text) {
-        using Handler = nlohmann::json::error_handler_t;
-        out_ += nlohmann::json(text).dump(-1, ' ', false, Handler::replace);
-    }
-    void raw(std::string_view text) { out_ += text; }
-    void number(std::uint64_t n) { append_number(out_, n); }
-    /// Writes a double as a string.
-    void quote(double value) {
-        out_ += '"';
-        append_number(out_, value);
-        out_ += '"';
-    }
-
-    /// Writes "[a,b,c]", each item by write(item).
-    template <class Items, class Write>
-    void array(const Items& items, const Write& write, std::string_view between = ",") {
-        out_ += '[';
-        bool first = true;
-        for (const auto& item : items) {
-            if (!std::exchange(first, false)) out_ += between;
-            write(item);
-        }
-        out_ += ']';
-    }
-    template <class Numbers>
-    void numbers(const Numbers& items) {
-        array(items, [this](std::uint32_t n) { number(n); });
-    }
-    /// Writes an array of arrays, each on a line of its own.
-    template <class Items>
-    void arrays(const Items& items) {
-        array(
-            items, [&](const auto& list) { numbers(list); }, ",\n");
-    }
-    void lists(const IndexLists<std::uint32_t>& lists) {
-        out_ += '[';
-        for (std::size_t i = 0; i < lists.size(); ++i) {
-            if (i > 0) out_ += ",\n";
-            numbers(lists[i]);
-        }
-        out_ += ']';
-    }
-
-private:
-    std::string& out_;
-};
-
-void write_construction(Writer& out, const Construction& how) {
+void write_construction(CertificateWriter& out, const Construction& how) {
     struct Kind {
         std::string_view name;
         std::size_t indices;
@@ -91,66 +36,7 @@ void write_construction(Writer& out, const Construction& how) {
     out.raw(has_axis ? axes[static_cast<std::size_t>(how.axis)] : "]");
 }
 
-void write_surface(Writer& out, const Surface& surface) {
-    out.raw("{\"name\":");
-    out.quote(surface.name);
-    out.raw(",\"role\":");
-    out.quote(role_names[static_cast<std::size_t>(surface.role)]);
-    out.raw(",\"vertices\":");
-    out.number(surface.vertices.size());
-    out.raw(",\"triangles\":");
-    out.number(surface.triangles.size());
-    out.raw("}");
-}
-
-void write_inputs(Writer& out, const Certified& certified) {
-    std::size_t first = 0;
-    out.array(
-        certified.files,
-        [&](const InputRecord& file) {
-            out.raw("{\"name\":");
-            out.quote(file.name);
-            out.raw(",\"sha256\":");
-            out.quote(file.sha256);
-            out.raw(",\"bytes\":");
-            out.number(file.bytes);
-            out.raw(",\"surfaces\":");
-            out.array(
-                certified.surfaces.subspan(first, file.surfaces),
-                [&](const Surface& s) { write_surface(out, s); }, ",\n");
-            out.raw("}");
-            first += file.surfaces;
-        },
-        ",\n");
-}
-
-void write_outputs(Writer& out, std::span<const OutputRecord> outputs) {
-    const auto surface = [&](const SurfaceInfo& s) {
-        out.raw("{\"name\":");
-        out.quote(s.name);
-        out.raw(",\"role\":");
-        out.quote(role_names[static_cast<std::size_t>(s.role)]);
-        out.raw("}");
-    };
-    out.array(
-        outputs,
-        [&](const OutputRecord& file) {
-            out.raw("{\"name\":");
-            out.quote(file.name);
-            out.raw(",\"format\":");
-            out.quote(file.format);
-            out.raw(",\"sha256\":");
-            out.quote(file.sha256);
-            out.raw(",\"bytes\":");
-            out.number(file.bytes);
-            out.raw(",\"surfaces\":");
-            out.array(file.surfaces, surface, ",\n");
-            out.raw("}");
-        },
-        ",\n");
-}
-
-void write_exact(Writer& out, const Arrangement& a) {
+void write_exact(CertificateWriter& out, const Arrangement& a) {
     out.raw("{\"vertices\":");
     out.array(
         a.vertices, [&](PointIndex p) { write_construction(out, a.state->points.construction(p)); },
@@ -177,7 +63,7 @@ bool has_exact_triangles(const Arrangement& a, const Mesh& mesh) {
 
 /// The verifier shows the stated bounds without knowing how the mesh was rounded. With other
 /// triangles than those of the arrangement its bound is up to 5/2 times the sum of all moves.
-void write_report(Writer& out, const RoundingReport& report, bool exact_triangles) {
+void write_report(CertificateWriter& out, const RoundingReport& report, bool exact_triangles) {
     constexpr double proof_slack = 4;
     out.raw(",\n\"clean\":");
     out.raw(report.clean ? "true" : "false");
@@ -192,15 +78,10 @@ void write_report(Writer& out, const RoundingReport& report, bool exact_triangle
     out.numbers(report.vanished);
 }
 
-void write_rounded(Writer& out, const Arrangement& exact, const RoundedMesh& rounded) {
+void write_rounded(CertificateWriter& out, const Arrangement& exact, const RoundedMesh& rounded) {
     const Mesh& mesh = rounded.mesh;
     out.raw("{\"vertices\":");
-    out.array(
-        mesh.vertices,
-        [&](const Point3& p) {
-            out.array(std::array{p.x, p.y, p.z}, [&](double c) { out.quote(c); });
-        },
-        ",\n");
+    write_points(out, mesh.vertices);
     out.raw(",\n\"triangles\":");
     out.arrays(mesh.triangles);
     out.raw(",\n\"parents\":");
@@ -214,6 +95,18 @@ void write_rounded(Writer& out, const Arrangement& exact, const RoundedMesh& rou
 }
 
 } // namespace
+
+void detail::write_arrangement(CertificateWriter& out, const Certified& certified, const Run& run) {
+    out.raw(",\n\"exact\":");
+    write_exact(out, certified.exact);
+    out.raw(",\n\"rounded\":");
+    if (certified.rounded == nullptr)
+        out.raw("null");
+    else
+        write_rounded(out, certified.exact, *certified.rounded);
+    out.raw(",\n\"digest\":");
+    out.quote(canonical_digest(certified.surfaces, certified.exact, run));
+}
 
 Result<InputRecord> record_input(const fs::path& path, std::string name, std::size_t surfaces) {
     const auto contents = read_file(path);
@@ -241,21 +134,9 @@ std::string certified_name(const fs::path& path, const fs::path& certificate) {
 std::string to_certificate(const Certified& certified, const Run& run) {
     std::string text;
     text.reserve(200 * certified.exact.triangles.size() + 4096);
-    Writer out(text);
-    out.raw("{\"format\":\"terrane-certificate\",\"version\":2,\"kind\":\"arrangement\",\n");
-    out.raw("\"inputs\":");
-    write_inputs(out, certified);
-    out.raw(",\n\"outputs\":");
-    write_outputs(out, certified.outputs);
-    out.raw(",\n\"exact\":");
-    write_exact(out, certified.exact);
-    out.raw(",\n\"rounded\":");
-    if (certified.rounded == nullptr)
-        out.raw("null");
-    else
-        write_rounded(out, certified.exact, *certified.rounded);
-    out.raw(",\n\"digest\":");
-    out.quote(canonical_digest(certified.surfaces, certified.exact, run));
+    CertificateWriter out(text);
+    write_head(out, "arrangement", {certified.files, certified.surfaces, certified.outputs});
+    write_arrangement(out, certified, run);
     out.raw("}\n");
     return text;
 }

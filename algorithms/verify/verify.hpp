@@ -31,7 +31,8 @@ struct ArrangementClaim {
                                                           ///< same three points}, sorted
 };
 
-/// The rules that the verifier judges by.
+/// The rules that the verifier judges by. R22 to R39 are for surfaces that were changed, R40 to R49
+/// for volumes, R50 to R59 for tetrahedra.
 enum class Rule : std::uint8_t {
     R1_indices,   ///< an index is out of range, a list unsorted or empty
     R2_vertices,  ///< a construction is undefined (parallel line and plane, ...)

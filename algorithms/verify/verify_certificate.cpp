@@ -2,10 +2,9 @@
 #include <terrane/algorithms/verify/verify_certificate.hpp>
 
 #include <algorithm>
-#include <iterator>
 
-#include <terrane/algorithms/verify/detail/digest.hpp>
 #include <terrane/algorithms/verify/detail/inputs.hpp>
+#include <terrane/algorithms/verify/detail/kinds.hpp>
 #include <terrane/algorithms/verify/detail/sha256.hpp>
 
 namespace terrane {
@@ -47,18 +46,6 @@ void check_inputs(std::span<const InputFile> files, const std::vector<CertifiedI
     }
 }
 
-bool breaks_first_rules(const Violations& found) {
-    return std::any_of(found.begin(), found.end(),
-                       [](const Violation& v) { return v.rule <= Rule::R2_vertices; });
-}
-
-void check_digest(std::span<const Surface> surfaces, const Certificate& certificate,
-                  Violations& found) {
-    const auto digest = verifier::digest_of(surfaces, certificate.exact);
-    if (digest == certificate.digest) return;
-    found.push_back({Rule::R17_digest, {}, "the digest is " + digest.value_or("undefined")});
-}
-
 } // namespace
 
 InputFile input_file(std::string_view contents, std::vector<Surface> surfaces) {
@@ -75,18 +62,9 @@ Verdict verify_certificate(std::span<const InputFile> files, const Certificate& 
     std::vector<Surface> surfaces;
     for (const InputFile& file : files)
         surfaces.insert(surfaces.end(), file.surfaces.begin(), file.surfaces.end());
-    found = verify_arrangement(surfaces, certificate.exact);
-    if (!breaks_first_rules(found)) {
-        if (certificate.rounded) {
-            auto rounded =
-                verify_rounded(surfaces, certificate.exact, *certificate.rounded, options);
-            std::move(rounded.violations.begin(), rounded.violations.end(),
-                      std::back_inserter(found));
-            verdict.measured = rounded.measured;
-        }
-        check_digest(surfaces, certificate, found);
-    }
-    if (!certificate.rounded && !certificate.outputs.empty())
+    const verifier::Kind& kind = verifier::find_kind(certificate.kind);
+    kind.judge(surfaces, certificate, options, verdict);
+    if (found.empty() && !certificate.outputs.empty() && !kind.written(certificate))
         found.push_back({Rule::R21_output, {}, "there are output files, but no mesh of doubles"});
     verifier::sort_by_rule(found);
     return verdict;

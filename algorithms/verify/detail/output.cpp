@@ -8,7 +8,7 @@
 #include <map>
 #include <utility>
 
-#include <terrane/algorithms/verify/detail/inputs.hpp>
+#include <terrane/algorithms/verify/detail/kinds.hpp>
 #include <terrane/algorithms/verify/detail/sha256.hpp>
 #include <terrane/algorithms/verify/verify_certificate.hpp>
 
@@ -18,7 +18,7 @@ namespace {
 
 using verifier::Difference;
 using verifier::ExpectedMesh;
-using verifier::Violations;
+using verifier::WrittenMesh;
 
 /// A format that the verifier reads.
 struct Reader {
@@ -33,30 +33,6 @@ constexpr std::array<Reader, 7> readers{{{"obj", verifier::compare_obj},
                                          {"stl-ascii", verifier::compare_stl_ascii},
                                          {"ts", verifier::compare_gocad},
                                          {"vtp", verifier::compare_vtp}}};
-
-/// Returns the surface of each input triangle.
-verifier::Numbers surfaces_of_inputs(const Certificate& certificate) {
-    verifier::Numbers surface_of;
-    std::uint32_t surface = 0;
-    for (const CertifiedInput& input : certificate.inputs)
-        for (const CertifiedSurface& s : input.surfaces)
-            surface_of.insert(surface_of.end(), s.triangles, surface++);
-    return surface_of;
-}
-
-ExpectedMesh expected_mesh(const Certificate& certificate, const CertifiedOutput& output) {
-    const RoundedClaim& mesh = certificate.rounded.value();
-    const auto surface_of = surfaces_of_inputs(certificate);
-    ExpectedMesh expected{mesh, output.surfaces, {}};
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        verifier::Numbers surfaces;
-        for (const std::uint32_t parent : mesh.parents_of[t])
-            surfaces.push_back(surface_of[parent]);
-        surfaces.erase(std::unique(surfaces.begin(), surfaces.end()), surfaces.end());
-        expected.surfaces_of.push_back(surfaces); // parents are sorted, and so are their surfaces
-    }
-    return expected;
-}
 
 std::vector<std::uint32_t> renamed_surfaces(const Certificate& certificate,
                                             const CertifiedOutput& output) {
@@ -85,7 +61,7 @@ Point3 narrowed(const Point3& p) {
 }
 
 /// Tells whether the mesh is conforming in float32, where vertices at the same place are one.
-bool is_conforming_narrowed(const RoundedClaim& mesh) {
+bool is_conforming_narrowed(const WrittenMesh& mesh) {
     std::map<Point3, std::uint32_t> number_of;
     std::vector<Point3> vertices;
     std::vector<std::uint32_t> merged;
@@ -103,7 +79,7 @@ bool is_conforming_narrowed(const RoundedClaim& mesh) {
 
 /// Returns a bound of how far narrowing moves a vertex. The differences are exact: a double less the
 /// nearest float32 has no more digits than the double.
-double narrowing_move(const RoundedClaim& mesh) {
+double narrowing_move(const WrittenMesh& mesh) {
     double most = 0;
     for (const Point3& p : mesh.vertices) {
         const Point3 q = narrowed(p);
@@ -115,10 +91,11 @@ double narrowing_move(const RoundedClaim& mesh) {
     return most;
 }
 
-std::string compare(std::string_view contents, const Certificate& certificate,
-                    const CertifiedOutput& output, const Reader& reader) {
+/// Describes a difference between a file and the mesh that it must hold; empty if there is none.
+std::string difference(std::string_view contents, const ExpectedMesh& expected,
+                       const Reader& reader) {
     try {
-        reader.compare(contents, expected_mesh(certificate, output));
+        reader.compare(contents, expected);
     } catch (const Difference& difference) {
         return difference.place + ": " + difference.sentence;
     }
@@ -148,12 +125,13 @@ OutputVerdict verify_output(std::string_view contents, const Certificate& certif
     if (output.bytes != contents.size() ||
         output.sha256 != verifier::in_hexadecimal(verifier::hash_of(contents)))
         refute("another SHA-256 or size than the certificate says");
-    if (!certificate.rounded || reader == readers.end()) return verdict;
-    if (const auto what = compare(contents, certificate, output, *reader); !what.empty())
+    const auto mesh = verifier::find_kind(certificate.kind).written(certificate);
+    if (!mesh || reader == readers.end()) return verdict;
+    if (const auto what = difference(contents, {*mesh, output.surfaces}, *reader); !what.empty())
         refute(what);
     if (verdict.check == OutputCheck::float32) {
-        verdict.float32_move = narrowing_move(*certificate.rounded);
-        if (certificate.rounded->clean && !is_conforming_narrowed(*certificate.rounded))
+        verdict.float32_move = narrowing_move(*mesh);
+        if (mesh->clean && !is_conforming_narrowed(*mesh))
             refute("the triangles are not conforming in float32");
     }
     return verdict;

@@ -11,17 +11,16 @@
 #include <string_view>
 #include <vector>
 
-#include <terrane/algorithms/core/index_lists.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
+#include <terrane/algorithms/verify/detail/kinds.hpp>
 #include <terrane/algorithms/verify/verify_certificate.hpp>
 
 namespace terrane::verifier {
 
 /// The mesh that an output file must hold.
 struct ExpectedMesh {
-    const RoundedClaim& mesh;
+    const WrittenMesh& mesh;
     std::span<const SurfaceInfo> surfaces; ///< what the file calls them; order of the input
-    IndexLists<std::uint32_t> surfaces_of; ///< per triangle: those of its parents, sorted, unique
 };
 
 /// Where a file differs from the mesh that it must hold. The readers throw it.

@@ -103,7 +103,7 @@ void compare_ply(std::string_view contents, const ExpectedMesh& expected) {
     for (std::size_t t = 0; t < expected.mesh.triangles.size(); ++t) {
         in.expect(std::uint8_t(3), "number of corners");
         for (const std::uint32_t corner : expected.mesh.triangles[t]) in.expect(corner, "corner");
-        const auto surfaces = expected.surfaces_of[t];
+        const auto surfaces = expected.mesh.surfaces_of[t];
         in.expect(surfaces[0], "surface");
         in.expect(static_cast<std::uint32_t>(surfaces.size()), "number of surfaces");
         for (const std::uint32_t surface : surfaces) in.expect(surface, "surface");

@@ -44,8 +44,9 @@ void expect_corners(LineScanner& in, const Triangle& triangle, std::uint64_t fir
 /// Returns the triangles of each surface, in order.
 std::vector<std::vector<std::uint32_t>> triangles_of_surfaces(const ExpectedMesh& expected) {
     std::vector<std::vector<std::uint32_t>> triangles(expected.surfaces.size());
-    for (std::uint32_t t = 0; t < expected.surfaces_of.size(); ++t)
-        for (const std::uint32_t surface : expected.surfaces_of[t]) triangles[surface].push_back(t);
+    for (std::uint32_t t = 0; t < expected.mesh.surfaces_of.size(); ++t)
+        for (const std::uint32_t surface : expected.mesh.surfaces_of[t])
+            triangles[surface].push_back(t);
     return triangles;
 }
 
@@ -68,7 +69,7 @@ void compare_obj(std::string_view contents, const ExpectedMesh& expected) {
     const auto names = plain_names(expected.surfaces);
     std::span<const std::uint32_t> group;
     for (std::size_t t = 0; t < expected.mesh.triangles.size(); ++t) {
-        const auto surfaces = expected.surfaces_of[t];
+        const auto surfaces = expected.mesh.surfaces_of[t];
         if (t == 0 || !std::ranges::equal(group, surfaces)) {
             std::string line = "g";
             for (const std::uint32_t surface : surfaces) line += " " + names[surface];
@@ -151,7 +152,7 @@ void expect_gocad_header(LineScanner& in, const SurfaceInfo& surface) {
 
 /// Reads the part of the mesh that belongs to one surface; it has the vertices of its triangles, in
 /// the order of the mesh.
-void expect_tface(LineScanner& in, const RoundedClaim& mesh,
+void expect_tface(LineScanner& in, const WrittenMesh& mesh,
                   const std::vector<std::uint32_t>& triangles) {
     std::map<std::uint32_t, std::uint64_t> number_of; // vertex: its number in the file
     for (const std::uint32_t t : triangles)

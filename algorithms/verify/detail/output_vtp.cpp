@@ -81,7 +81,7 @@ public:
     }
 
 private:
-    [[nodiscard]] const RoundedClaim& mesh() const { return expected_.mesh; }
+    [[nodiscard]] const WrittenMesh& mesh() const { return expected_.mesh; }
 
     void begin() {
         in_.expect("<?xml version=\"1.0\"?>");
@@ -103,7 +103,7 @@ private:
         }
         strings("surface_name", names);
         strings("surface_role", roles);
-        const auto& lists = expected_.surfaces_of;
+        const auto& lists = expected_.mesh.surfaces_of;
         if (lists.values.size() > lists.size()) { // some triangle belongs to several surfaces
             array<std::int64_t>("surfaces_offset", {lists.offsets.begin(), lists.offsets.end()});
             array<std::int64_t>("surfaces", {lists.values.begin(), lists.values.end()});
@@ -128,9 +128,9 @@ private:
     void cell_data() {
         in_.expect("<CellData Scalars=\"surface\">");
         std::vector<std::int32_t> counts;
-        for (std::size_t t = 0; t < expected_.surfaces_of.size(); ++t)
-            counts.push_back(static_cast<std::int32_t>(expected_.surfaces_of[t].size()));
-        array("surface", first_of(expected_.surfaces_of));
+        for (std::size_t t = 0; t < expected_.mesh.surfaces_of.size(); ++t)
+            counts.push_back(static_cast<std::int32_t>(expected_.mesh.surfaces_of[t].size()));
+        array("surface", first_of(expected_.mesh.surfaces_of));
         array("surface_count", counts);
         if (mesh().regions_of.size() != 0) array("region", first_of(mesh().regions_of));
         if (mesh().parents_of.size() != 0) array("parent", first_of(mesh().parents_of));

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/verify/detail/kinds.hpp>
+
+#include <algorithm>
+#include <array>
+
+#include <terrane/algorithms/verify/detail/inputs.hpp>
+
+namespace terrane::verifier {
+
+namespace {
+
+/// All kinds, in the order of CertificateKind.
+const auto& all_kinds() {
+    static const std::array kinds{&arrangement_kind()};
+    return kinds;
+}
+
+/// Returns the surface of each input triangle.
+Numbers surfaces_of_inputs(const Certificate& certificate) {
+    Numbers surface_of;
+    std::uint32_t surface = 0;
+    for (const CertifiedInput& input : certificate.inputs)
+        for (const CertifiedSurface& s : input.surfaces)
+            surface_of.insert(surface_of.end(), s.triangles, surface++);
+    return surface_of;
+}
+
+} // namespace
+
+const Kind* find_kind(std::string_view name) {
+    const auto found = std::ranges::find(all_kinds(), name, &Kind::name);
+    return found == all_kinds().end() ? nullptr : *found;
+}
+
+const Kind& find_kind(CertificateKind kind) {
+    return **std::ranges::find(all_kinds(), kind, &Kind::kind);
+}
+
+IndexLists<std::uint32_t> surfaces_of_parents(const Certificate& certificate,
+                                              const IndexLists<std::uint32_t>& parents_of) {
+    const auto surface_of = surfaces_of_inputs(certificate);
+    IndexLists<std::uint32_t> surfaces_of;
+    for (std::size_t t = 0; t < parents_of.size(); ++t) {
+        Numbers surfaces;
+        for (const std::uint32_t parent : parents_of[t]) surfaces.push_back(surface_of[parent]);
+        surfaces.erase(std::unique(surfaces.begin(), surfaces.end()), surfaces.end());
+        surfaces_of.push_back(surfaces); // parents are sorted, and so are their surfaces
+    }
+    return surfaces_of;
+}
+
+} // namespace terrane::verifier

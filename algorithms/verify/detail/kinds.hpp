@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// The kinds of certificates. Each kind has sections of its own beside "format", "version", "kind",
+// "inputs" and "outputs", and a file NAME_kind.cpp that reads and judges them.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include <terrane/algorithms/core/index_lists.hpp>
+#include <terrane/algorithms/mesh/mesh.hpp>
+#include <terrane/algorithms/mesh/surface.hpp>
+#include <terrane/algorithms/verify/detail/node.hpp>
+#include <terrane/algorithms/verify/verify_certificate.hpp>
+
+namespace terrane::verifier {
+
+/// The mesh of doubles that the output files of a certificate must hold.
+struct WrittenMesh {
+    const std::vector<Point3>& vertices;
+    const std::vector<Triangle>& triangles;
+    const IndexLists<std::uint32_t>& regions_of; ///< per triangle; empty: the files have none
+    const IndexLists<std::uint32_t>& parents_of; ///< per triangle; empty: the files have none
+    IndexLists<std::uint32_t> surfaces_of;       ///< per triangle: its surfaces, sorted, unique
+    bool clean = false;                          ///< conforming, as was verified
+};
+
+/// What distinguishes a kind of certificate from the others.
+struct Kind {
+    CertificateKind kind;
+    std::string_view name;                  ///< value of the key "kind"
+    std::span<const std::string_view> keys; ///< its keys beside those of all kinds
+    /// Reads the sections of the kind. The certificate has these keys. Throws Malformed.
+    void (*parse)(const Node& node, Certificate& certificate);
+    /// Adds violations and measures to the verdict. `surfaces` are those of all input files, which
+    /// are the ones of the certificate.
+    void (*judge)(std::span<const Surface> surfaces, const Certificate& certificate,
+                  const VerifyOptions& options, Verdict& verdict);
+    /// Returns the mesh of the output files; none if the certificate has no mesh of doubles.
+    /// Precondition: judge() found no violation.
+    std::optional<WrittenMesh> (*written)(const Certificate& certificate);
+};
+
+/// Returns the kind with this name; nullptr if there is none.
+const Kind* find_kind(std::string_view name);
+const Kind& find_kind(CertificateKind kind);
+
+// One function per kind, in NAME_kind.cpp; kinds.cpp lists them.
+const Kind& arrangement_kind();
+
+// --- For kinds that contain an arrangement ------------------------------------------------------
+
+/// Reads "exact", "rounded" and "digest".
+void parse_arrangement_sections(const Node& node, Certificate& certificate);
+/// Judges these sections (R1 to R8, R10 to R20).
+void judge_arrangement(std::span<const Surface> surfaces, const Certificate& certificate,
+                       const VerifyOptions& options, Verdict& verdict);
+std::optional<WrittenMesh> rounded_mesh(const Certificate& certificate);
+
+/// Returns the surfaces of each triangle, given the input triangles that are its parents.
+IndexLists<std::uint32_t> surfaces_of_parents(const Certificate& certificate,
+                                              const IndexLists<std::uint32_t>& parents_of);
+
+} // namespace terrane::verifier
