@@ -4,6 +4,7 @@
 #include "support/claim.hpp"
 #include "support/effort.hpp"
 #include "support/points.hpp"
+#include "support/read.hpp"
 #include "support/rounded.hpp"
 #include "support/shapes.hpp"
 #include "support/soup_laws.hpp"
@@ -58,6 +59,21 @@ void check_lists(const RoundedMesh& r) {
 }
 
 } // namespace
+
+TEST_CASE("rounding: a triangle that disappears when the input is snapped is listed") {
+    const auto surfaces = read_data("regression/003-snapped-away-not-listed.obj");
+    const auto exact = arrange(surfaces);
+    REQUIRE(exact);
+    const auto rounded = round_to_doubles(exact.value());
+    REQUIRE(rounded);
+    const RoundingReport& report = rounded.value().report;
+    CHECK(report.clean);
+    // Snapping the input took its area: no round of snapping the output made it collapse.
+    CHECK(report.collapsed_triangles == 0);
+    CHECK(report.moved_input_vertices > 0);
+    CHECK(exact.value().degenerate.empty());
+    CHECK(report.vanished == std::vector<std::uint32_t>{1});
+}
 
 TEST_CASE("rounding: what is exact in doubles stays as it is") {
     const auto a = arranged({surface({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{0, 1, 2}}),
