@@ -139,14 +139,32 @@ TEST_CASE("cli: an interrupt ends the program with status 2 and no file", "[cli]
 #ifndef TERRANE_SANITIZED
 TEST_CASE("cli: without memory it ends with status 3 and no file", "[cli]") {
     const Folder folder;
-    for (const std::string kib : {"25000", "35000", "45000"}) {
-        const auto r = folder.shell("ulimit -v " + kib +
-                                    " && $T arrange $D/arch-platform/faults.ts "
-                                    "$D/arch-platform/mnt.ts -o out.vtp --threads 1");
-        INFO(kib << ": " << r.err);
-        CHECK(((r.status == 3 && folder.left().empty() && contains(r.err, "memory")) ||
-               (r.status == 3 && contains(r.err, "resources")) || r.status == 0));
+    const auto run_within = [&](int kib, const std::string& arguments) {
+        return folder.shell("ulimit -v " + std::to_string(kib) + " && $T " + arguments);
+    };
+    const std::string arrange = "arrange $D/arch-platform/faults.ts $D/arch-platform/mnt.ts "
+                                "-o out.vtp --threads 1";
+    // The smallest numbers of megabytes in which the program starts, and in which it arranges.
+    const auto least = [&](int from, const std::string& arguments) {
+        for (int mib = from; mib < 1000; ++mib)
+            if (run_within(1024 * mib, arguments).status == 0) return mib;
+        return 1000;
+    };
+    const int starts = least(1, "--version"), ends = least(starts, arrange);
+    CAPTURE(starts, ends);
+    REQUIRE(ends < 1000);
+    REQUIRE(ends > starts + 8); // otherwise the test would be too easy
+    REQUIRE(folder.shell("rm out.vtp").status == 0);
+    std::set<std::string> messages;
+    for (int mib = starts + 1; mib < ends - 1; mib += 2) { // addresses vary from run to run
+        const auto r = run_within(1024 * mib, arrange);
+        INFO(mib << ": " << r.err);
+        CHECK(r.status == 3);
+        CHECK(folder.left().empty());
+        CHECK((contains(r.err, "memory") || contains(r.err, "resources")));
+        messages.insert(r.err);
     }
+    CHECK(messages.size() > 2); // it ran out in several places
 }
 
 TEST_CASE("cli: where TetGen gets no memory, the program says so", "[cli]") {

@@ -115,7 +115,7 @@ TEST_CASE("metamorphic: arranging what is arranged changes nothing") {
         INFO(model.name);
         const auto rounded = round_to_doubles(arranged(model.surfaces));
         REQUIRE(rounded);
-        if (!rounded.value().report.clean) continue;
+        REQUIRE(rounded.value().report.clean);
         const Mesh& mesh = rounded.value().mesh;
         const auto again = arranged(surfaces_of(mesh));
         const auto rounded_again = round_to_doubles(again);

@@ -195,7 +195,10 @@ TEST_CASE("improve: closed, one-sided and folded surfaces stay near their origin
         const Improved better = improved(mesh, options);
         const double bound = better.report.bound_of[0];
         CHECK(sampled_distance(surface_of_mesh(better.mesh, 0), s) <= bound);
-        CHECK(sampled_distance(s, surface_of_mesh(better.mesh, 0)) <= 2 * bound);
+        const auto back = bounds_back(mesh, better, options);
+        REQUIRE(back);
+        CHECK(back.value()[0] == bound);
+        CHECK(sampled_distance(s, surface_of_mesh(better.mesh, 0)) <= back.value()[0]);
         CHECK(better.report.after.q.mean > 0.85);
     }
 }

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include <csignal>
+#include <cstdlib>
 
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -16,6 +17,31 @@
 using namespace terrane;
 using namespace test_support;
 namespace fs = std::filesystem;
+
+namespace {
+
+/// Turns root, who may write anywhere, into the owner of `folder` who is not root, until the end of
+/// the scope. Any other user stays who it is.
+class OrdinaryUser {
+public:
+    explicit OrdinaryUser(const fs::path& folder) {
+        if (::geteuid() != 0) return;
+        REQUIRE(::chown(folder.c_str(), nobody, nobody) == 0);
+        REQUIRE(::setresuid(nobody, nobody, 0) == 0);
+        was_root_ = true;
+    }
+    OrdinaryUser(const OrdinaryUser&) = delete;
+    OrdinaryUser& operator=(const OrdinaryUser&) = delete;
+    ~OrdinaryUser() {
+        if (was_root_ && ::setresuid(0, 0, 0) != 0) std::abort();
+    }
+
+private:
+    static constexpr uid_t nobody = 65534;
+    bool was_root_ = false;
+};
+
+} // namespace
 
 TEST_CASE("files: what can't be written leaves nothing behind", "[io][files]") {
     TemporaryFolder folder;
@@ -35,7 +61,7 @@ TEST_CASE("files: what can't be written leaves nothing behind", "[io][files]") {
 }
 
 TEST_CASE("files: a full disk is noticed", "[io][files]") {
-    if (!fs::exists("/dev/full")) return;
+    REQUIRE(fs::exists("/dev/full"));
     const auto status = write_mesh(awkward_mesh(), "/dev/full", {.format = Format::obj});
     CHECK(message_of(status) == "/dev/full: writing failed: No space left on device");
     CHECK(code_of(status) == ErrorCode::write_failed);
@@ -74,8 +100,8 @@ TEST_CASE("files: replacing keeps permissions and follows links", "[io][files]")
 }
 
 TEST_CASE("files: protected folders and files stay as they are", "[io][files]") {
-    if (::geteuid() == 0) return; // root may write anywhere
     TemporaryFolder folder;
+    const OrdinaryUser user(folder.path());
     fs::permissions(folder.path(), fs::perms::owner_read | fs::perms::owner_exec);
     CHECK(code_of(write_file(folder / "a", "x")) == ErrorCode::cannot_open);
     fs::permissions(folder.path(), fs::perms::owner_all);
@@ -85,6 +111,15 @@ TEST_CASE("files: protected folders and files stay as they are", "[io][files]") 
     CHECK(read_file(folder / "b").value() == "old");
     fs::remove(folder / "b");
     CHECK(entries(folder.path()) == 0);
+}
+
+TEST_CASE("files: a file in the place of a folder is kept", "[io][files]") {
+    TemporaryFolder folder;
+    REQUIRE(write_file(folder / "a", "old"));
+    CHECK(code_of(write_file(folder / "a/b", "x")) == ErrorCode::cannot_open);
+    CHECK(code_of(write_file(folder.path(), "x")) == ErrorCode::cannot_open);
+    CHECK(read_file(folder / "a").value() == "old");
+    CHECK(entries(folder.path()) == 1);
 }
 
 TEST_CASE("files: any size is read whole", "[io][files]") {
