@@ -5,14 +5,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include <terrane/algorithms/core/no_index.hpp>
 #include <terrane/io/text/names.hpp>
 
 namespace terrane {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr std::uint32_t none = UINT32_MAX;
 
 Json position(const Point3& p) {
     return {p.x, p.y, p.z};
@@ -99,7 +98,7 @@ Json lines_json(const Structure& structure) {
     Json all = Json::array();
     for (const ModelLine& line : structure.lines) {
         Json json{{"kind", name_of(line.kind)}, {"vertices", line.vertices}};
-        json["corners"] = line.corners[0] == none ? Json(nullptr) : Json(line.corners);
+        json["corners"] = line.corners[0] == no_index ? Json(nullptr) : Json(line.corners);
         json["patches"] = line.patches;
         json["surfaces"] = line.surfaces;
         json["length"] = number(line.length);

@@ -5,12 +5,11 @@
 #include <iterator>
 #include <utility>
 
+#include <terrane/algorithms/core/no_index.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
 
 namespace terrane {
 namespace {
-
-constexpr std::uint32_t none = UINT32_MAX;
 
 bool is_inner(std::uint32_t label, std::uint32_t other) {
     return label == other && label != no_label;
@@ -29,7 +28,7 @@ std::vector<std::uint32_t> triangles_near_new(const Divided& divided, std::vecto
     std::vector<char> is_kept(count, 0);
     for_ranges(divided.unchanged_as.size(), run, [&](std::size_t first, std::size_t last) {
         for (std::size_t f = first; f < last; ++f)
-            if (divided.unchanged_as[f] != none) is_kept[divided.unchanged_as[f]] = 1;
+            if (divided.unchanged_as[f] != no_index) is_kept[divided.unchanged_as[f]] = 1;
     });
     for (std::size_t t = 0; t < count; ++t)
         if (is_kept[t] == 0)

@@ -7,14 +7,13 @@
 #include <numeric>
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
+#include <terrane/algorithms/core/no_index.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/mesh/edges.hpp>
 #include <terrane/algorithms/regions/regions_over.hpp>
 
 namespace terrane {
 namespace {
-
-constexpr std::uint32_t none = UINT32_MAX;
 
 double area_of(std::span<const Point3> v, const Triangle& t) {
     const Point3 &a = v[t[0]], &b = v[t[1]], &c = v[t[2]];
@@ -182,7 +181,7 @@ private:
                 here.insert(here.end(), regions.begin(), regions.end());
             }
             sort_unique(here);
-            std::array<std::uint32_t, 4> key{none, none, none, none};
+            std::array<std::uint32_t, 4> key{no_index, no_index, no_index, no_index};
             if (here.size() <= key.size()) {
                 std::copy(here.begin(), here.end(), key.begin());
                 auto& last = seen[(key[0] * 31 + key[1] * 7 + key[2] * 3 + key[3]) % seen.size()];

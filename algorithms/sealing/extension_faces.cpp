@@ -6,11 +6,10 @@
 
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/algorithms/core/disjoint_sets.hpp>
+#include <terrane/algorithms/core/no_index.hpp>
 
 namespace terrane {
 namespace {
-
-constexpr std::uint32_t none = UINT32_MAX;
 
 Edge common_edge(const Triangle& t, const Triangle& u) {
     Edge edge{};
@@ -30,7 +29,7 @@ public:
 
     std::vector<bool> operator()() {
         for (std::uint32_t t = 0; t < strip_of_.size(); ++t)
-            if (strip_of_[t] != none) keep_[t] = false;
+            if (strip_of_[t] != no_index) keep_[t] = false;
         list_edges();
         join();
         do grow();
@@ -45,7 +44,7 @@ private:
         std::vector<std::uint32_t> triangles;
     };
 
-    [[nodiscard]] bool is_strip(std::uint32_t t) const { return strip_of_[t] != none; }
+    [[nodiscard]] bool is_strip(std::uint32_t t) const { return strip_of_[t] != no_index; }
 
     void list_edges() {
         for (const auto& list : a_.state->adjacency.inner)
@@ -111,7 +110,7 @@ private:
         const UpwardRounding guard;
         bool any = false;
         for (const StripEdgeSides& e : edges_) {
-            std::uint32_t left = none;
+            std::uint32_t left = no_index;
             std::size_t count = 0;
             for (const std::uint32_t t : e.triangles) {
                 if (!keep_[t]) continue;
@@ -157,18 +156,18 @@ std::vector<std::uint32_t> strips_by_input(const Arrangement& a,
     for (const ExtensionTriangle& t : strips) ++count[t.surface];
     std::vector<std::uint32_t> next(count.size());
     for (std::size_t s = 0; s < count.size(); ++s) next[s] = first[s + 1] - count[s];
-    std::vector<std::uint32_t> by_input(a.state->corners.size(), none);
+    std::vector<std::uint32_t> by_input(a.state->corners.size(), no_index);
     for (std::uint32_t i = 0; i < strips.size(); ++i) by_input[next[strips[i].surface]++] = i;
     return by_input;
 }
 
 std::vector<std::uint32_t> strips_by_triangle(const Arrangement& a,
                                               std::span<const std::uint32_t> by_input) {
-    std::vector<std::uint32_t> of(a.triangles.size(), none);
+    std::vector<std::uint32_t> of(a.triangles.size(), no_index);
     for (std::uint32_t t = 0; t < of.size(); ++t) {
         const auto parents = a.parents_of[t];
         if (std::all_of(parents.begin(), parents.end(),
-                        [&](std::uint32_t p) { return by_input[p] != none; }))
+                        [&](std::uint32_t p) { return by_input[p] != no_index; }))
             of[t] = by_input[parents[0]];
     }
     return of;

@@ -16,6 +16,7 @@
 #include <terrane/algorithms/arrangement/restricted.hpp>
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
+#include <terrane/algorithms/core/no_index.hpp>
 #include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/mesh/triangle_tree.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
@@ -31,8 +32,6 @@ using namespace sealing::detail;
 namespace {
 
 using sealing::detail::constants;
-
-constexpr std::uint32_t none = UINT32_MAX;
 
 Point3 middle(const Point3& p, const Point3& q) {
     return {p.x + (q.x - p.x) / 2, p.y + (q.y - p.y) / 2, p.z + (q.z - p.z) / 2};
@@ -130,7 +129,7 @@ Judged judge(const Arrangement& a, std::span<const ExtensionTriangle> strips, do
     std::vector<bool> keep(a.triangles.size());
     std::vector<std::uint32_t> originals;
     for (std::uint32_t t = 0; t < keep.size(); ++t) {
-        keep[t] = of[t] == none;
+        keep[t] = of[t] == no_index;
         if (keep[t]) originals.push_back(t);
     }
     Judged judged;
@@ -198,7 +197,7 @@ private:
     [[nodiscard]] std::vector<Gap> gaps(const Distances& distances) const {
         const auto by_input = strips_by_input(kept_, strips_);
         std::vector<bool> is_strip;
-        for (const std::uint32_t strip : by_input) is_strip.push_back(strip != none);
+        for (const std::uint32_t strip : by_input) is_strip.push_back(strip != no_index);
         std::vector<Gap> found;
         for (const BorderEdge& edge : open_border_edges(kept_, is_strip))
             if (auto gap = distances.gap_at(edge)) found.push_back(std::move(*gap));
@@ -264,7 +263,7 @@ private:
         const auto of = strips_by_triangle(whole_, by_input);
         std::vector<bool> used(gaps_.size(), false);
         for (std::uint32_t t = 0; t < of.size(); ++t)
-            if (of[t] != none && judged_.keep[t])
+            if (of[t] != no_index && judged_.keep[t])
                 for (const std::uint32_t p : whole_.parents_of[t])
                     used[strips_[by_input[p]].piece] = true;
         return std::erase_if(strips_, [&](const ExtensionTriangle& t) { return !used[t.piece]; }) >
@@ -315,7 +314,7 @@ private:
         }
         const auto of = strips_by_triangle(whole_, strips_by_input(whole_, strips_));
         for (std::uint32_t t = 0; t < of.size(); ++t)
-            if (of[t] != none && judged_.keep[t])
+            if (of[t] != no_index && judged_.keep[t])
                 ++changes[sets.find(strips_[of[t]].piece)].triangles;
         for (const auto& [set, change] : changes) sealed_.changes.push_back(change);
     }

@@ -6,13 +6,12 @@
 #include <fmt/format.h>
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
+#include <terrane/algorithms/core/no_index.hpp>
 #include <terrane/algorithms/mesh/diffusion.hpp>
 #include <terrane/algorithms/mesh/face_sides.hpp>
 
 namespace terrane {
 namespace {
-
-constexpr std::uint32_t none = UINT32_MAX;
 
 class Split {
 public:
@@ -96,9 +95,9 @@ private:
                 if (on_split_[mesh_.tetrahedra[t][k]] && sets_.find(element(t, k)) == element(t, k))
                     heads.push_back({mesh_.tetrahedra[t][k], element(t, k)});
         std::sort(heads.begin(), heads.end());
-        if (mesh_.vertices.size() + heads.size() >= none)
+        if (mesh_.vertices.size() + heads.size() >= no_index)
             return Error{ErrorCode::unsupported, "too many nodes to split", ""};
-        node_of_.assign(4 * mesh_.tetrahedra.size(), none);
+        node_of_.assign(4 * mesh_.tetrahedra.size(), no_index);
         for (std::size_t i = 0; i < heads.size(); ++i) {
             const auto [vertex, head] = heads[i];
             const bool first = i == 0 || heads[i - 1][0] != vertex;

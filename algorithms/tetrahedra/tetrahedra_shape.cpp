@@ -44,6 +44,20 @@ private:
     std::size_t count_ = 0;
 };
 
+/// Scales a tetrahedron by a power of two to a size of about 1, so that no product overflows or underflows.
+std::array<Point3, 4> of_unit_size(std::array<Point3, 4> corners) {
+    double size = 0;
+    for (const Point3& corner : corners) {
+        const Vector3 v = from_to(corners[0], corner);
+        size = std::max({size, std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
+    }
+    if (size == 0) return corners;
+    const int shift = -std::ilogb(size);
+    for (Point3& p : corners)
+        p = {std::ldexp(p.x, shift), std::ldexp(p.y, shift), std::ldexp(p.z, shift)};
+    return corners;
+}
+
 std::size_t dihedral_bin(double degrees) {
     const auto bin = static_cast<std::size_t>(degrees / (180.0 / dihedral_bins));
     return std::min(bin, dihedral_bins - 1);
@@ -57,7 +71,8 @@ std::size_t radius_edge_bin(double ratio) {
 
 } // namespace
 
-std::array<double, 6> dihedral_angles(const std::array<Point3, 4>& corners) {
+std::array<double, 6> dihedral_angles(const std::array<Point3, 4>& input) {
+    const std::array<Point3, 4> corners = of_unit_size(input);
     std::array<double, 6> angles{};
     for (std::size_t i = 0; i < edges.size(); ++i) {
         const auto& [a, b, c, d] = edges[i];
@@ -70,7 +85,8 @@ std::array<double, 6> dihedral_angles(const std::array<Point3, 4>& corners) {
     return angles;
 }
 
-double radius_edge_ratio(const std::array<Point3, 4>& corners) {
+double radius_edge_ratio(const std::array<Point3, 4>& input) {
+    const std::array<Point3, 4> corners = of_unit_size(input);
     double shortest = std::numeric_limits<double>::infinity();
     for (const auto& edge : edges)
         shortest = std::min(shortest, length(from_to(corners[edge[0]], corners[edge[1]])));

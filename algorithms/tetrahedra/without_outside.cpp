@@ -7,12 +7,11 @@
 #include <utility>
 #include <vector>
 
+#include <terrane/algorithms/core/no_index.hpp>
 #include <terrane/algorithms/mesh/submesh.hpp>
 
 namespace terrane {
 namespace {
-
-constexpr std::uint32_t none = UINT32_MAX;
 
 Triangle sorted(Triangle t) {
     std::sort(t.begin(), t.end());
@@ -49,15 +48,15 @@ void drop_faces(TetrahedralMesh& m) {
     std::vector<std::uint32_t> face_triangle;
     IndexLists<std::uint32_t> surfaces_of;
     for (std::size_t f = 0; f < m.faces.size(); ++f) {
-        if (m.face_triangle[f] == none ||
+        if (m.face_triangle[f] == no_index ||
             !std::binary_search(left.begin(), left.end(), sorted(m.faces[f])))
             continue;
         faces.push_back(m.faces[f]);
         face_triangle.push_back(m.face_triangle[f]);
         surfaces_of.push_back(m.surfaces_of[f]);
     }
-    const bool had_box =
-        std::find(m.face_triangle.begin(), m.face_triangle.end(), none) != m.face_triangle.end();
+    const bool had_box = std::find(m.face_triangle.begin(), m.face_triangle.end(), no_index) !=
+                         m.face_triangle.end();
     if (had_box) m.surfaces.pop_back();
     m.faces = std::move(faces);
     m.face_triangle = std::move(face_triangle);

@@ -12,6 +12,7 @@
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
+#include <terrane/algorithms/core/no_index.hpp>
 #include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/sealing/border_extension.hpp>
@@ -25,7 +26,6 @@ using namespace volume_of_interest::detail;
 
 namespace {
 
-constexpr std::uint32_t none = UINT32_MAX;
 constexpr double past_targets = 1 + strip_constants.beyond_targets; ///< see StripEdge::targets
 
 Point3 along(const Point3& from, double by, const Point3& way) {
@@ -184,7 +184,7 @@ Result<std::vector<bool>> find_reached(std::vector<Surface> surfaces,
     for (std::uint32_t t = 0; t < a.value().triangles.size(); ++t) {
         if (where.value()[t] != Where::inside) continue;
         for (const std::uint32_t p : a.value().parents_of[t])
-            if (by_input[p] != none &&
+            if (by_input[p] != no_index &&
                 ends_here(guard, a.value(), TriangleId(t), InputTriangleId(p), strips[by_input[p]]))
                 reached[strips[by_input[p]].piece] = false;
     }

@@ -12,6 +12,7 @@
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/invariants.hpp>
+#include <terrane/algorithms/core/no_index.hpp>
 #include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/algorithms/mesh/work_hook.hpp>
@@ -24,8 +25,6 @@ namespace terrane {
 using namespace volumes::detail;
 
 namespace {
-
-constexpr std::uint32_t none = UINT32_MAX;
 
 /// Returns the rank of each vertex in the lexicographic order.
 std::vector<std::uint32_t> lexicographic_ranks(const TriangleComplex& sheets) {
@@ -75,7 +74,7 @@ private:
     /// The key that tells blocks with the same least vertex apart.
     struct Boundary {
         std::vector<std::uint32_t> vertices{}; ///< ranks, ascending
-        SideKey least{none, none, none, true};
+        SideKey least{no_index, no_index, no_index, true};
 
         friend bool operator<(const Boundary& a, const Boundary& b) {
             return std::tie(a.vertices, a.least) < std::tie(b.vertices, b.least);
@@ -89,11 +88,11 @@ private:
 
     void find_least_vertices() {
         const std::uint32_t outside = sides_.find(outside_);
-        least_.assign(outside_ + std::size_t{1}, none);
+        least_.assign(outside_ + std::size_t{1}, no_index);
         for (std::uint32_t s = 0; s < outside_; ++s) {
             const std::uint32_t set = sides_.find(s);
             if (set == outside) continue;
-            if (least_[set] == none) blocks_.push_back(set);
+            if (least_[set] == no_index) blocks_.push_back(set);
             const Triangle r = ranks_of(s / 2);
             least_[set] = std::min({least_[set], r[0], r[1], r[2]});
         }
@@ -103,7 +102,7 @@ private:
         std::vector<std::uint32_t> sharing(sheets_.vertices.size(),
                                            0); // number of blocks per least vertex
         for (const std::uint32_t b : blocks_) ++sharing[least_[b]];
-        slot_.assign(least_.size(), none);
+        slot_.assign(least_.size(), no_index);
         for (const std::uint32_t b : blocks_) {
             if (sharing[least_[b]] == 1) continue;
             slot_[b] = static_cast<std::uint32_t>(tied_.size());
@@ -111,7 +110,7 @@ private:
         }
         for (std::uint32_t s = 0; !tied_.empty() && s < outside_; ++s) {
             const std::uint32_t slot = slot_[sides_.find(s)];
-            if (slot == none) continue;
+            if (slot == no_index) continue;
             const Triangle r = ranks_of(s / 2);
             Boundary& b = tied_[slot];
             b.vertices.insert(b.vertices.end(), r.begin(), r.end());

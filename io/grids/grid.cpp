@@ -6,12 +6,11 @@
 #include <limits>
 #include <numbers>
 
+#include <terrane/algorithms/core/no_index.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
 
 namespace terrane {
 namespace {
-
-constexpr std::uint32_t none = UINT32_MAX;
 
 /// The cosine and sine of an angle; they are exact for multiples of 90 degrees.
 struct Turn {
@@ -54,7 +53,7 @@ public:
 
 private:
     Status add_vertices() {
-        vertex_of_.assign(grid_.values.size(), none);
+        vertex_of_.assign(grid_.values.size(), no_index);
         for (std::size_t k = 0; k < grid_.values.size(); ++k) {
             const double value = grid_.values[k];
             if (std::isnan(value)) continue;
@@ -73,7 +72,7 @@ private:
     }
 
     void add(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-        if (a == none || b == none || c == none) return;
+        if (a == no_index || b == no_index || c == no_index) return;
         surface_.triangles.push_back(mirrored_ ? Triangle{a, c, b} : Triangle{a, b, c});
     }
 
@@ -97,8 +96,8 @@ private:
     /// between its neighbours.
     [[nodiscard]] bool along_ac(std::uint32_t a, std::uint32_t b, std::uint32_t c,
                                 std::uint32_t d) const {
-        if (a == none || c == none) return false;
-        if (b == none || d == none) return true;
+        if (a == no_index || c == no_index) return false;
+        if (b == no_index || d == no_index) return true;
         const auto z = [&](std::uint32_t v) { return surface_.vertices[v].z; };
         return std::abs(z(a) - z(c)) <= std::abs(z(b) - z(d));
     }

@@ -108,11 +108,11 @@ void WorkMesh::apply(const Change& change, std::span<const std::uint32_t> hints,
         return;
     }
     if (change.placed != none) add_vertex(change.place, change.kind, change.size);
-    std::array<std::uint32_t, 64> few{};
-    std::vector<std::uint32_t> many;
-    const bool is_few = change.added.size() <= few.size();
-    if (!is_few) many.resize(change.added.size());
-    std::uint32_t* const sheets = is_few ? few.data() : many.data();
+    std::array<std::uint32_t, 64> on_stack{};
+    std::vector<std::uint32_t> on_heap;
+    const bool is_short = change.added.size() <= on_stack.size();
+    if (!is_short) on_heap.resize(change.added.size());
+    std::uint32_t* const sheets = is_short ? on_stack.data() : on_heap.data();
     for (std::size_t i = 0; i < change.added.size(); ++i) sheets[i] = sheet_of[change.from[i]];
     for (const std::uint32_t t : change.removed) {
         for (const std::uint32_t v : triangles[t]) take_from_star(v, t);

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
+#include <terrane/algorithms/core/no_index.hpp>
 #include <terrane/algorithms/mesh/triangle_tree.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/regions/regions_over.hpp>
@@ -17,7 +18,6 @@
 namespace terrane::sealing::detail {
 namespace {
 
-constexpr std::uint32_t none = UINT32_MAX;
 constexpr int samples = static_cast<int>(constants.overshoot_samples);
 
 class Finder {
@@ -51,13 +51,13 @@ private:
     /// Returns the region of a triangle that is in one surface only, otherwise none.
     [[nodiscard]] std::uint32_t region_of(std::uint32_t t) const {
         const auto of = regions_.regions_of[t];
-        return of.size() == 1 ? of[0] : none;
+        return of.size() == 1 ? of[0] : no_index;
     }
 
     void collect() {
         for (std::size_t e = 0; e < a_.state->adjacency.edges.size(); ++e) {
             const auto at = a_.state->adjacency.triangles_at[e];
-            if (at.size() != 1 || region_of(at[0]) == none) continue;
+            if (at.size() != 1 || region_of(at[0]) == no_index) continue;
             const auto& [v, w] = a_.state->adjacency.edges[e];
             candidates_[region_of(at[0])].border += length(minus(places_[v], places_[w]));
         }
@@ -65,7 +65,7 @@ private:
             for (const std::uint32_t r : regions_.regions_of[t]) {
                 const auto it = candidates_.find(r);
                 if (it == candidates_.end()) continue;
-                if (region_of(t) == none)
+                if (region_of(t) == no_index)
                     candidates_.erase(it); // partly in several surfaces
                 else
                     it->second.triangles.push_back(t);

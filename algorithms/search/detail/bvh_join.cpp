@@ -10,7 +10,7 @@ namespace terrane::search {
 namespace {
 
 using Pairs = std::vector<CandidatePair>;
-using Blocks = std::vector<Pairs>;
+using PairBlocks = std::vector<Pairs>;
 
 constexpr std::size_t most_trees = 8; ///< with more groups than this, one tree holds all boxes
 constexpr std::size_t leaves_per_block = 256;
@@ -26,7 +26,7 @@ struct Task {
 /// Joins the leaves of one tree with another and adds the pairs that keep(i, j) and the filter
 /// accept.
 template <class Keep>
-void join(const PackedTree& a, const PackedTree& b, const Task& task, Blocks& blocks,
+void join(const PackedTree& a, const PackedTree& b, const Task& task, PairBlocks& blocks,
           const Keep& keep) {
     const BoxSource& boxes = task.boxes;
     const PairFilter& filter = task.filter;
@@ -69,11 +69,11 @@ std::vector<Selection> by_group(const Selection& all, std::span<const std::uint3
     return parts;
 }
 
-Blocks join_groups(const std::vector<Selection>& parts, const Task& task) {
+PairBlocks join_groups(const std::vector<Selection>& parts, const Task& task) {
     const auto trees =
         for_blocks<PackedTree>(parts.size(), 1, task.run,
                                [&](std::size_t k, std::size_t) { return PackedTree(parts[k]); });
-    Blocks blocks;
+    PairBlocks blocks;
     const auto all = [](std::uint32_t, std::uint32_t) { return true; };
     for (std::size_t a = 0; a < trees.size(); ++a) {
         if (task.groups[parts[a].indices[0]] == no_group)
@@ -84,10 +84,10 @@ Blocks join_groups(const std::vector<Selection>& parts, const Task& task) {
     return blocks;
 }
 
-Blocks join_all(const Selection& selection, const Task& task) {
+PairBlocks join_all(const Selection& selection, const Task& task) {
     const auto groups = task.groups;
     const PackedTree tree(selection);
-    Blocks blocks;
+    PairBlocks blocks;
     if (groups.empty())
         join(tree, tree, task, blocks, [](std::uint32_t, std::uint32_t) { return true; });
     else
@@ -99,7 +99,7 @@ Blocks join_all(const Selection& selection, const Task& task) {
 
 } // namespace
 
-std::vector<CandidatePair> sorted(const Blocks& blocks, std::size_t count) {
+std::vector<CandidatePair> sorted(const PairBlocks& blocks, std::size_t count) {
     std::size_t total = 0;
     for (const Pairs& b : blocks) total += b.size();
     Pairs pairs;
@@ -151,7 +151,7 @@ std::vector<CandidatePair> active_pairs(const BoxSource& boxes,
         append(is_active ? chosen : others, selection, k, k + 1);
     }
     const auto parts = groups.empty() ? std::vector<Selection>{} : by_group(chosen, groups);
-    Blocks blocks = parts.empty() ? join_all(chosen, task) : join_groups(parts, task);
+    PairBlocks blocks = parts.empty() ? join_all(chosen, task) : join_groups(parts, task);
     const auto keep = [&](std::uint32_t i, std::uint32_t j) {
         return groups.empty() || groups[i] == no_group || groups[i] != groups[j];
     };

@@ -24,9 +24,9 @@ void cap(std::array<double, 3>& cells, double most) {
 } // namespace
 
 void CellGrid::choose_cells(std::span<const Box> boxes) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    std::array<double, 3> low{infinity, infinity, infinity};
-    std::array<double, 3> high{-infinity, -infinity, -infinity}, largest{};
+    constexpr double unbounded = std::numeric_limits<double>::infinity();
+    std::array<double, 3> low{unbounded, unbounded, unbounded};
+    std::array<double, 3> high{-unbounded, -unbounded, -unbounded}, largest{};
     for (const Box& b : boxes)
         for (unsigned k = 0; k < 3; ++k) {
             low[k] = std::min(low[k], b.low[k]);
@@ -37,7 +37,7 @@ void CellGrid::choose_cells(std::span<const Box> boxes) {
     const double most = std::max<double>(1, 2.0 * static_cast<double>(boxes.size()));
     for (unsigned k = 0; k < 3 && !boxes.empty(); ++k) {
         const double extent = high[k] - low[k];
-        if (extent < infinity && extent > 0)
+        if (extent < unbounded && extent > 0)
             cells[k] = largest[k] > 0 ? std::clamp(std::floor(extent / largest[k]), 1.0, most)
                                       : std::cbrt(most);
     }
@@ -46,7 +46,7 @@ void CellGrid::choose_cells(std::span<const Box> boxes) {
         counts_[k] = static_cast<std::uint32_t>(cells[k]);
         origin_[k] = low[k];
         const double extent = high[k] - low[k];
-        size_[k] = extent > 0 && extent < infinity ? extent / cells[k] : 1;
+        size_[k] = extent > 0 && extent < unbounded ? extent / cells[k] : 1;
         // The widening is half of the largest box, not of a cell. The terms in 2^-40 and 2^-50
         // cover the rounding of the centre, the smallest normal number that of halves of denormals.
         widening_[k] = largest[k] * 0.5 * (1 + 0x1p-40) +

@@ -12,14 +12,13 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/core/no_index.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/kernel/numbers.hpp>
 #include <terrane/kernel/predicates.hpp>
 
 namespace terrane::tetgen::detail {
 namespace {
-
-constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
 // --------------------------------
 
@@ -238,7 +237,7 @@ private:
         Triangle outward = face.key;
         if (!face.even) std::swap(outward[1], outward[2]);
         out_.faces.push_back(outward);
-        out_.face_triangle.push_back(none);
+        out_.face_triangle.push_back(no_index);
         out_.surfaces_of.push_back(std::array{static_cast<std::uint32_t>(mesh_.surfaces.size())});
         at_box_.push_back(face.tetrahedron);
     }
@@ -290,7 +289,7 @@ private:
     Status number_regions() {
         using Position = std::array<Point3, 4>;
         const std::size_t count = out_.tetrahedra.size();
-        std::vector<std::uint32_t> lowest(count, none);
+        std::vector<std::uint32_t> lowest(count, no_index);
         const auto position = [&](std::uint32_t t) {
             Position p;
             for (std::size_t k = 0; k < 4; ++k) p[k] = out_.vertices[out_.tetrahedra[t][k]];
@@ -302,8 +301,8 @@ private:
         for (std::uint32_t t = 0; t < count; ++t) {
             const std::uint32_t group = group_of_[t];
             const Position here = position(t);
-            if (lowest[group] == none) groups.push_back(group);
-            if (lowest[group] == none || here < lowest_position[group]) {
+            if (lowest[group] == no_index) groups.push_back(group);
+            if (lowest[group] == no_index || here < lowest_position[group]) {
                 lowest[group] = t;
                 lowest_position[group] = here;
             }
@@ -315,7 +314,7 @@ private:
             return std::pair(a != outside, lowest_position[a]) <
                    std::pair(b != outside, lowest_position[b]);
         });
-        std::vector<std::uint32_t> region(count, none);
+        std::vector<std::uint32_t> region(count, no_index);
         for (std::uint32_t r = 0; r < groups.size(); ++r) region[groups[r]] = r;
         for (const std::uint32_t group : group_of_) out_.region_of.push_back(region[group]);
         out_.region_count = static_cast<std::uint32_t>(groups.size());
@@ -331,8 +330,8 @@ private:
             for (; face != marked_.end() && face->facet == t; ++face)
                 for (std::uint32_t& corner : missing)
                     if (std::find(face->key.begin(), face->key.end(), corner) != face->key.end())
-                        corner = none;
-            if (missing != Triangle{none, none, none})
+                        corner = no_index;
+            if (missing != Triangle{no_index, no_index, no_index})
                 return Error{ErrorCode::internal, "TetGen lost a triangle",
                              fmt::format("triangle {}", t)};
         }

@@ -4,13 +4,12 @@
 #include <unordered_map>
 
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
+#include <terrane/algorithms/core/no_index.hpp>
 #include <terrane/algorithms/mesh/point_table.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 
 namespace terrane {
 namespace {
-
-constexpr std::uint32_t none = UINT32_MAX;
 
 /// Returns, for each vertex of the arrangement, the vertex of the mesh at its nearest doubles, or
 /// none.
@@ -22,7 +21,7 @@ std::vector<std::uint32_t> vertices_in_mesh(const Arrangement& a, const Mesh& me
     found.reserve(a.vertices.size());
     for (const PointIndex p : a.vertices) {
         const auto it = at.find(a.state->points.nearest(p));
-        found.push_back(it == at.end() ? none : it->second);
+        found.push_back(it == at.end() ? no_index : it->second);
     }
     return found;
 }
@@ -63,7 +62,7 @@ std::vector<std::array<std::uint32_t, 2>> common_sides(const Arrangement& a, con
     for (std::uint32_t t = 0; t < a.triangles.size(); ++t) {
         const auto [i, j, k] = a.triangles[t];
         const Triangle corners{vertex[i], vertex[j], vertex[k]};
-        if (std::find(corners.begin(), corners.end(), none) != corners.end()) continue;
+        if (std::find(corners.begin(), corners.end(), no_index) != corners.end()) continue;
         add(corners, t, true);
         add({corners[0], corners[2], corners[1]}, t, false);
     }
@@ -89,11 +88,11 @@ std::vector<std::uint32_t> match_volumes(const Arrangement& arrangement, const V
     std::sort(overlaps.begin(), overlaps.end(), [](const Overlap& a, const Overlap& b) {
         return std::tie(b.sides, a.here, a.there) < std::tie(a.sides, b.here, b.there);
     });
-    std::vector<std::uint32_t> match(rounded.measures.size(), none);
+    std::vector<std::uint32_t> match(rounded.measures.size(), no_index);
     std::vector<bool> taken(exact.measures.size(), false);
     match[0] = 0;
     for (const Overlap& o : overlaps) {
-        if (match[o.here] != none || taken[o.there]) continue;
+        if (match[o.here] != no_index || taken[o.there]) continue;
         match[o.here] = o.there;
         taken[o.there] = true;
     }
@@ -105,7 +104,7 @@ Volumes renumbered(const Volumes& volumes, std::span<const std::uint32_t> match,
     std::vector<std::uint32_t> number(match.begin(), match.end());
     auto next = static_cast<std::uint32_t>(exact);
     for (std::uint32_t& n : number)
-        if (n == none) n = next++;
+        if (n == no_index) n = next++;
     Volumes out = volumes;
     for (auto& sides : out.of_sides) sides = {number[sides[0]], number[sides[1]]};
     out.measures.assign(next, 0);

@@ -66,6 +66,18 @@ TEST_CASE("shape: turning, moving and scaling change nothing", "[tetrahedra]") {
     }
 }
 
+TEST_CASE("shape: the whole range of doubles, down to slivers a hair thick", "[tetrahedra]") {
+    const Corners sliver{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0x1p-50}, {0, 1, 0}}};
+    for (const Corners& corners : {regular, of_cube, sliver})
+        for (const int shift : {-900, -300, 300, 900}) {
+            Corners scaled = corners;
+            for (Point3& p : scaled)
+                p = {std::ldexp(p.x, shift), std::ldexp(p.y, shift), std::ldexp(p.z, shift)};
+            CHECK(dihedral_angles(scaled) == dihedral_angles(corners));
+            CHECK(radius_edge_ratio(scaled) == radius_edge_ratio(corners));
+        }
+}
+
 TEST_CASE("shape: histograms count each angle and each tetrahedron once", "[tetrahedra]") {
     const auto shape = shape_of(mesh_of({regular, of_cube, of_cube}));
     std::array<std::size_t, dihedral_bins> dihedral{};
