@@ -13,7 +13,7 @@ using namespace terrane;
 
 namespace {
 
-std::vector<Surface> pierced() {
+std::vector<Surface> pierced_sheet() {
     return {{"top reservoir", Role::horizon, {{0, 0, 0}, {7, 1, 0}, {1, 9, 0}}, {{0, 1, 2}}},
             {"F1", Role::fault, {{2, 1, -3}, {3, 7, -1}, {2.5, 3, 5}}, {{0, 1, 2}}}};
 }
@@ -33,7 +33,7 @@ Error error_of(const std::string& text) {
 } // namespace
 
 TEST_CASE("exact text: as documented") {
-    const auto text = to_text(exact_of(pierced()));
+    const auto text = to_text(exact_of(pierced_sheet()));
     CHECK(text.starts_with("terrane-exact 1\nsurfaces 2\nhorizon 1 top reservoir\nfault 1 F1\n"
                            "vertices 8\n0 0 0\n7 1 0\n1 9 0\n2 1 -3\n3 7 -1\n5/2 3 5\n"));
     CHECK(text.find("\ntriangles 8\n") != std::string::npos);
@@ -51,7 +51,7 @@ TEST_CASE("exact text: read as it was written, all models") {
 }
 
 TEST_CASE("exact text: the fractions are the points: the new ones lie in both planes") {
-    const auto exact = exact_of(pierced());
+    const auto exact = exact_of(pierced_sheet());
     REQUIRE(exact.vertices.size() == 8);
     for (std::size_t v = 6; v < 8; ++v) {
         const mpq_class x(exact.vertices[v][0]), y(exact.vertices[v][1]), z(exact.vertices[v][2]);
@@ -62,7 +62,7 @@ TEST_CASE("exact text: the fractions are the points: the new ones lie in both pl
 }
 
 TEST_CASE("exact text: through a file, and threads make no difference") {
-    const auto a = arrange(pierced());
+    const auto a = arrange(pierced_sheet());
     REQUIRE(a);
     CHECK(to_exact(a.value(), {.threads = 2}) == to_exact(a.value()));
     const test_support::TemporaryFolder folder;
@@ -74,7 +74,7 @@ TEST_CASE("exact text: through a file, and threads make no difference") {
 }
 
 TEST_CASE("exact text: what is wrong is refused with its line") {
-    const auto right = to_text(exact_of(pierced()));
+    const auto right = to_text(exact_of(pierced_sheet()));
     const auto with = [&](const std::string& from, const std::string& to) {
         std::string text = right;
         text.replace(text.find(from), from.size(), to);

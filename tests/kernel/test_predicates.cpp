@@ -19,7 +19,7 @@ using namespace test_support;
 
 __extension__ using Int128 = __int128;
 
-constexpr std::array axes{Axis::z, Axis::x, Axis::y};
+constexpr std::array all_axes{Axis::z, Axis::x, Axis::y};
 
 Point3 along(Axis axis, double u, double v, double height) {
     if (axis == Axis::x) return {height, u, v};
@@ -54,7 +54,7 @@ TEST_CASE("predicates law 2: an odd permutation flips the sign, an even one keep
                   orient3d(p[0], p[2], p[1], p[3]) == -s &&
                   orient3d(p[0], p[1], p[3], p[2]) == -s && orient3d(p[1], p[2], p[0], p[3]) == s &&
                   orient3d(p[1], p[0], p[3], p[2]) == s && orient3d(p[3], p[1], p[2], p[0]) == -s;
-        for (const Axis axis : axes) {
+        for (const Axis axis : all_axes) {
             const Sign t = orient2d(axis, p[0], p[1], p[2]);
             ok = ok && orient2d(axis, p[1], p[2], p[0]) == t &&
                  orient2d(axis, p[2], p[0], p[1]) == t && orient2d(axis, p[1], p[0], p[2]) == -t &&
@@ -75,7 +75,7 @@ TEST_CASE("predicates law 3: a repeated point gives Zero") {
                               {b, a, c, a},
                               {b, c, a, a}})
             ok = ok && orient3d(q[0], q[1], q[2], q[3]) == Sign::Zero;
-        for (const Axis axis : axes)
+        for (const Axis axis : all_axes)
             ok = ok && orient2d(axis, a, a, b) == Sign::Zero &&
                  orient2d(axis, a, b, a) == Sign::Zero && orient2d(axis, b, a, a) == Sign::Zero;
         REQUIRE(ok);
@@ -83,7 +83,7 @@ TEST_CASE("predicates law 3: a repeated point gives Zero") {
 }
 
 TEST_CASE("predicates law 4: orient2d is the sign of the normal along the axis") {
-    for (const Axis axis : axes) {
+    for (const Axis axis : all_axes) {
         const Point3 a = along(axis, 0, 0, 7), b = along(axis, 1, 0, -3), c = along(axis, 0, 1, 11);
         CHECK(orient2d(axis, a, b, c) == Sign::Positive);
         CHECK(orient2d(axis, a, c, b) == Sign::Negative);
@@ -98,7 +98,7 @@ TEST_CASE("predicates law 4: orient2d is the sign of the normal along the axis")
 }
 
 TEST_CASE("predicates law 5: in_circle") {
-    for (const Axis axis : axes) {
+    for (const Axis axis : all_axes) {
         const Point3 a = along(axis, 1, 0, 5), b = along(axis, 0, 1, 6), c = along(axis, -1, 0, 7);
         CHECK(in_circle(axis, a, b, c, along(axis, 0, 0, 9)) == Sign::Positive);
         CHECK(in_circle(axis, a, b, c, along(axis, 0, -1, 2)) == Sign::Zero);
@@ -107,7 +107,7 @@ TEST_CASE("predicates law 5: in_circle") {
     }
     for_point_sets(5, 400, [](const std::vector<Point3>& p) {
         bool ok = true;
-        for (const Axis axis : axes) {
+        for (const Axis axis : all_axes) {
             const Sign s = in_circle(axis, p[0], p[1], p[2], p[3]);
             ok = ok && in_circle(axis, p[1], p[2], p[0], p[3]) == s &&
                  in_circle(axis, p[1], p[0], p[2], p[3]) == -s &&
@@ -127,7 +127,8 @@ TEST_CASE("predicates law 6: collinear iff orient2d is Zero along all axes") {
     CHECK_FALSE(collinear({0, 0, 0}, {0, 0, 1}, {0, 5e-324, 2}));
     for_point_sets(6, 400, [](const std::vector<Point3>& p) {
         bool zero = true;
-        for (const Axis axis : axes) zero = zero && orient2d(axis, p[0], p[1], p[2]) == Sign::Zero;
+        for (const Axis axis : all_axes)
+            zero = zero && orient2d(axis, p[0], p[1], p[2]) == Sign::Zero;
         REQUIRE(collinear(p[0], p[1], p[2]) == zero);
     });
 }
@@ -144,7 +145,7 @@ TEST_CASE("orient2d and turn2d agree with exact integers along each axis") {
     for_point_sets(12, 9'000, [](const std::vector<Point3>& p) {
         const auto q = oracle::points(p);
         bool ok = true;
-        for (const Axis axis : axes)
+        for (const Axis axis : all_axes)
             ok = ok &&
                  orient2d(axis, p[0], p[1], p[2]) == oracle::orient2d(axis, q[0], q[1], q[2]) &&
                  turn2d(axis, p[0], p[1], p[2], p[3]) ==
@@ -159,7 +160,7 @@ TEST_CASE("in_circle agrees with exact integers along each axis") {
     for_point_sets(13, 9'000, [](const std::vector<Point3>& p) {
         const auto q = oracle::points(p);
         bool ok = true;
-        for (const Axis axis : axes)
+        for (const Axis axis : all_axes)
             ok = ok && in_circle(axis, p[0], p[1], p[2], p[3]) ==
                            oracle::in_circle(axis, q[0], q[1], q[2], q[3]);
         REQUIRE(ok);
@@ -272,7 +273,7 @@ TEST_CASE("predicates do not depend on the rounding mode, and keep it") {
             const Sign volume = orient3d(p[0], p[1], p[2], p[3]);
             bool kept = std::fegetround() == mode;
             bool ok = volume == oracle::orient3d(q[0], q[1], q[2], q[3]);
-            for (const Axis axis : axes) {
+            for (const Axis axis : all_axes) {
                 const Sign turn = orient2d(axis, p[0], p[1], p[2]);
                 const Sign circle = in_circle(axis, p[0], p[1], p[2], p[3]);
                 ok = ok && turn == oracle::orient2d(axis, q[0], q[1], q[2]) &&

@@ -18,7 +18,7 @@ using namespace impostor;
 
 namespace {
 
-Mesh square() {
+Mesh flat_square() {
     return {.surfaces = {{"sheet", Role::unknown}},
             .vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},
             .triangles = {{0, 1, 2}, {0, 2, 3}},
@@ -65,7 +65,7 @@ TEST_CASE("TetGen's helper: what is named but can't be run is an error, not pass
         CHECK(given.error().code == ErrorCode::cannot_open);
         CHECK(given.error().place == bad);
         CHECK(contains(given.error().sentence, "option helper"));
-        const auto made = tetrahedralize(square(), {.helper = bad}, {});
+        const auto made = tetrahedralize(flat_square(), {.helper = bad}, {});
         REQUIRE_FALSE(made);
         CHECK(made.error().message() == given.error().message());
         const Variable variable("TERRANE_TETGEN", bad);

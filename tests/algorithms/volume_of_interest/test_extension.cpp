@@ -18,13 +18,14 @@ using namespace test_support;
 
 namespace {
 
-struct Case {
+struct ExtensionCase {
     Extended extended;
     VolumeOfInterest cut;
     Volumes volumes;
 };
 
-Case extend(std::vector<Surface> surfaces, const std::vector<Surface>& boundary, double limit) {
+ExtensionCase extend(std::vector<Surface> surfaces, const std::vector<Surface>& boundary,
+                     double limit) {
     std::vector<std::uint32_t> faces(boundary.size());
     std::iota(faces.begin(), faces.end(), static_cast<std::uint32_t>(surfaces.size()));
     surfaces.insert(surfaces.end(), boundary.begin(), boundary.end());

@@ -16,12 +16,12 @@ using namespace test_support;
 
 namespace {
 
-struct Model {
+struct ModelOfCubes {
     Mesh mesh;
     Volumes volumes;
 };
 
-Model model_of(const std::vector<Surface>& surfaces) {
+ModelOfCubes model_of(const std::vector<Surface>& surfaces) {
     Mesh mesh = mesh_of(surfaces);
     auto volumes = find_volumes(mesh);
     REQUIRE(volumes);
@@ -39,7 +39,7 @@ std::size_t level_of(const Point3& p) {
 } // namespace
 
 TEST_CASE("region points: one in each of three nested boxes", "[volumes]") {
-    const Model m = model_of({cube(0, 8), cube(1, 4), cube(2, 3)});
+    const ModelOfCubes m = model_of({cube(0, 8), cube(1, 4), cube(2, 3)});
     const auto points = region_points(m.mesh, m.volumes);
     REQUIRE(points);
     REQUIRE(points.value().size() == 3);
@@ -50,7 +50,7 @@ TEST_CASE("region points: one in each of three nested boxes", "[volumes]") {
 }
 
 TEST_CASE("volume_around: agrees with boxes, none on a triangle", "[volumes]") {
-    const Model m = model_of({cube(0, 8), cube(1, 4), cube(2, 3)});
+    const ModelOfCubes m = model_of({cube(0, 8), cube(1, 4), cube(2, 3)});
     Random random(3);
     std::array<int, 4> met{};
     for (int i = 0; i < 500; ++i) {
@@ -68,13 +68,13 @@ TEST_CASE("volume_around: agrees with boxes, none on a triangle", "[volumes]") {
 }
 
 TEST_CASE("region points: dangling sheets part nothing, real models have all", "[volumes]") {
-    const Model sheet = model_of({cube(0, 8), level(4, 1, 1, 7, 7)});
+    const ModelOfCubes sheet = model_of({cube(0, 8), level(4, 1, 1, 7, 7)});
     const auto one = region_points(sheet.mesh, sheet.volumes);
     REQUIRE(one);
     CHECK(one.value().size() == 1);
     const auto surfaces = read_surfaces(test_data() + "/ringmesh/modelA2.ml");
     REQUIRE(surfaces);
-    const Model real = model_of(surfaces.value());
+    const ModelOfCubes real = model_of(surfaces.value());
     const auto points = region_points(real.mesh, real.volumes);
     REQUIRE(points);
     REQUIRE(points.value().size() == 12);
@@ -82,7 +82,7 @@ TEST_CASE("region points: dangling sheets part nothing, real models have all", "
 }
 
 TEST_CASE("region points: a stop request is heard", "[volumes]") {
-    const Model m = model_of({cube(0, 8)});
+    const ModelOfCubes m = model_of({cube(0, 8)});
     std::stop_source source;
     source.request_stop();
     Run run;

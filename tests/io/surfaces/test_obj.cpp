@@ -11,12 +11,12 @@ using namespace test_support;
 
 namespace {
 
-constexpr Reader parse{Format::obj, "a.obj"};
+constexpr Reader parse_obj{Format::obj, "a.obj"};
 
 constexpr std::string_view four = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
 std::vector<Surface> faces(std::string_view text) {
-    const auto result = parse(std::string(four) + std::string(text));
+    const auto result = parse_obj(std::string(four) + std::string(text));
     REQUIRE(message_of(result) == "no error");
     return result.value();
 }
@@ -39,7 +39,7 @@ TEST_CASE("OBJ: polygons become fans", "[io][obj]") {
 }
 
 TEST_CASE("OBJ: a face may come before its vertices", "[io][obj]") {
-    const auto result = parse("f 1 2 3\nv 0 0 0\nv 1 0 0 1.0\nv 0 1 0 0.5 0.5 0.5\n");
+    const auto result = parse_obj("f 1 2 3\nv 0 0 0\nv 1 0 0 1.0\nv 0 1 0 0.5 0.5 0.5\n");
     REQUIRE(result);
     CHECK(result.value()[0].vertices.size() == 3);
 }
@@ -84,7 +84,7 @@ TEST_CASE("OBJ: broken files", "[io][obj]") {
         {crowd, unsupported, "a.obj:1: a group line with more than 256 names"},
     };
     for (const auto& [text, code, message] : cases) {
-        const auto result = parse(text);
+        const auto result = parse_obj(text);
         CHECK(message_of(result) == message);
         if (!result) CHECK(result.error().code == code);
     }

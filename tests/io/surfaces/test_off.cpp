@@ -11,7 +11,7 @@ using namespace test_support;
 
 namespace {
 
-constexpr Reader parse{Format::off, "a.off"};
+constexpr Reader parse_off{Format::off, "a.off"};
 } // namespace
 
 TEST_CASE("OFF: all headers and further columns", "[io][off]") {
@@ -22,7 +22,7 @@ TEST_CASE("OFF: all headers and further columns", "[io][off]") {
           "# half way\r\n0 1 0 1 1 1\r\n3 0 1 2 0.5 0.5 0.5\r\n\r\n# end\r\n",
           "STCNOFF\n3 1 0\n0 0 0 0 0 1 9 9 9 9 0 0\n1 0 0 0 0 1 9 9 9 9 0 0\n"
           "0 1 0 0 0 1 9 9 9 9 0 0\n3 0 1 2\n"}) {
-        const auto result = parse(text);
+        const auto result = parse_off(text);
         REQUIRE(message_of(result) == "no error");
         const auto& surface = result.value().at(0);
         CHECK(surface.name == "a");
@@ -33,7 +33,7 @@ TEST_CASE("OFF: all headers and further columns", "[io][off]") {
 
 TEST_CASE("OFF: polygons become fans, unused vertices stay", "[io][off]") {
     const auto result =
-        parse("OFF\n6 1 0\n0 0 0\n1 0 0\n2 1 0\n1 2 0\n0 1 0\n9 9 9\n5 0 1 2 3 4\n");
+        parse_off("OFF\n6 1 0\n0 0 0\n1 0 0\n2 1 0\n1 2 0\n0 1 0\n9 9 9\n5 0 1 2 3 4\n");
     REQUIRE(result);
     CHECK(result.value()[0].triangles == std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}});
     CHECK(result.value()[0].vertices.size() == 6);
@@ -72,7 +72,7 @@ TEST_CASE("OFF: broken files", "[io][off]") {
          "a.off:5: there is more than the 1 faces stated"},
     };
     for (const auto& [text, code, message] : cases) {
-        const auto result = parse(text);
+        const auto result = parse_off(text);
         CHECK(message_of(result) == message);
         if (!result) CHECK(result.error().code == code);
     }
@@ -80,7 +80,7 @@ TEST_CASE("OFF: broken files", "[io][off]") {
 
 TEST_CASE("OFF: written and read back", "[io][off]") {
     const auto mesh = awkward_mesh();
-    const auto result = parse(to_off(mesh));
+    const auto result = parse_off(to_off(mesh));
     REQUIRE(message_of(result) == "no error");
     CHECK(same_bits(result.value()[0].vertices, mesh.vertices));
     CHECK(result.value()[0].triangles == mesh.triangles);

@@ -14,7 +14,7 @@ using namespace test_support;
 
 namespace {
 
-constexpr Reader parse{Format::ply, "a.ply"};
+constexpr Reader parse_ply{Format::ply, "a.ply"};
 
 /// Returns a header with one vertex element (x y z) and one face element.
 std::string header(std::string_view format, int vertices, int faces,
@@ -36,7 +36,7 @@ const std::vector<Point3> corners{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
 const std::vector<Triangle> fan{{0, 1, 2}, {0, 2, 3}};
 
 void check_square(std::string_view bytes) {
-    const auto result = parse(bytes);
+    const auto result = parse_ply(bytes);
     REQUIRE(message_of(result) == "no error");
     CHECK(result.value().at(0).name == "a");
     CHECK(result.value()[0].vertices == corners);
@@ -73,9 +73,9 @@ TEST_CASE("PLY: binary of both byte orders", "[io][ply]") {
     }
     check_square(little);
     check_square(big);
-    CHECK(message_of(parse(little + "x")) == "a.ply, byte " + std::to_string(little.size()) +
-                                                 ": there is more than the header announces");
-    CHECK(message_of(parse(std::string_view(little).substr(0, little.size() - 1))) ==
+    CHECK(message_of(parse_ply(little + "x")) == "a.ply, byte " + std::to_string(little.size()) +
+                                                     ": there is more than the header announces");
+    CHECK(message_of(parse_ply(std::string_view(little).substr(0, little.size() - 1))) ==
           "a.ply, byte " + std::to_string(little.size() - 2) + ": the file ends too early");
 }
 
@@ -132,7 +132,7 @@ TEST_CASE("PLY: broken files", "[io][ply]") {
          "a.ply:11: the face names vertex -1, which does not exist: there are 1, counted from 0"},
     };
     for (const auto& [text, code, message] : cases) {
-        const auto result = parse(text);
+        const auto result = parse_ply(text);
         CHECK(message_of(result) == message);
         if (!result) CHECK(result.error().code == code);
     }
@@ -140,7 +140,7 @@ TEST_CASE("PLY: broken files", "[io][ply]") {
 
 TEST_CASE("PLY: written and read back with its surfaces", "[io][ply]") {
     const auto mesh = awkward_mesh();
-    const auto result = parse(to_ply(mesh));
+    const auto result = parse_ply(to_ply(mesh));
     REQUIRE(message_of(result) == "no error");
     const auto expected = split(mesh);
     REQUIRE(result.value().size() == expected.size());
@@ -155,9 +155,9 @@ TEST_CASE("PLY: written and read back with its surfaces", "[io][ply]") {
 TEST_CASE("PLY: a name that must be changed is changed once", "[io][ply]") {
     auto mesh = awkward_mesh();
     mesh.surfaces[0].name = "\x01top\x02 reservoir\x03\x04";
-    const auto once = parse(to_ply(mesh));
+    const auto once = parse_ply(to_ply(mesh));
     REQUIRE(message_of(once) == "no error");
     CHECK(once.value()[0].name == "top  reservoir");
     mesh.surfaces[0].name = once.value()[0].name;
-    CHECK(parse(to_ply(mesh)).value()[0].name == once.value()[0].name);
+    CHECK(parse_ply(to_ply(mesh)).value()[0].name == once.value()[0].name);
 }

@@ -14,7 +14,7 @@ using namespace test_support;
 
 namespace {
 
-constexpr Reader parse{Format::stl, "a.stl"};
+constexpr Reader parse_stl{Format::stl, "a.stl"};
 
 /// Returns a binary STL file with the given header and three corners per triangle.
 std::string binary(std::string header, const std::vector<float>& coordinates) {
@@ -37,7 +37,7 @@ TEST_CASE("STL: equal corners are one vertex, also in a binary file that begins 
           "[io][stl]") {
     const std::vector<float> two{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, -0.0f, 1, 0, 0, 0.1f, 1, 1};
     for (const auto* header : {"", "solid trap"}) {
-        const auto result = parse(binary(header, two));
+        const auto result = parse_stl(binary(header, two));
         REQUIRE(message_of(result) == "no error");
         const auto& surface = result.value().at(0);
         CHECK(surface.name == "a");
@@ -51,7 +51,7 @@ TEST_CASE("STL: several ASCII solids, in any layout", "[io][stl]") {
                       "endsolid top\nsolid none\n" +
                       "endsolid none\r\nSOLID\nFACET NORMAL nan 0 0 OUTER LOOP VERTEX 0 0 +1 "
                       "vertex 1e-400 0 1 VERTEX 1 1 1 ENDLOOP ENDFACET\nENDSOLID\n";
-    const auto result = parse(text);
+    const auto result = parse_stl(text);
     REQUIRE(message_of(result) == "no error");
     REQUIRE(result.value().size() == 2);
     CHECK(result.value()[0].name == "top of reservoir");
@@ -90,11 +90,11 @@ TEST_CASE("STL: broken files", "[io][stl]") {
         {"solid\nendsolid\nvertex\n", bad_syntax, "a.stl:3: expected solid, found \"vertex\""},
     };
     for (const auto& [text, code, message] : cases) {
-        const auto result = parse(text);
+        const auto result = parse_stl(text);
         CHECK(message_of(result) == message);
         if (!result) CHECK(result.error().code == code);
     }
-    CHECK(message_of(parse(binary("", {}))) == "a.stl: there is no facet");
+    CHECK(message_of(parse_stl(binary("", {}))) == "a.stl: there is no facet");
 }
 
 TEST_CASE("STL: written and read back", "[io][stl]") {
@@ -102,7 +102,7 @@ TEST_CASE("STL: written and read back", "[io][stl]") {
     const auto bytes = to_stl(mesh);
     REQUIRE(bytes);
     CHECK(bytes.value().substr(0, 39) == "Terrane: coordinates rounded to float32");
-    const auto result = parse(bytes.value());
+    const auto result = parse_stl(bytes.value());
     REQUIRE(message_of(result) == "no error");
     const auto& surface = result.value().at(0);
     REQUIRE(surface.triangles.size() == mesh.triangles.size());
@@ -115,7 +115,7 @@ TEST_CASE("STL: written and read back", "[io][stl]") {
 TEST_CASE("STL: doubles are rounded to float32, or refused", "[io][stl]") {
     auto mesh = float_mesh();
     mesh.vertices[1].x = 4234567.123456789;
-    const auto rounded = parse(to_stl(mesh).value());
+    const auto rounded = parse_stl(to_stl(mesh).value());
     REQUIRE(rounded);
     CHECK(rounded.value()[0].vertices[1].x == 4234567.0);
     mesh.vertices[2].y = -1e300;
@@ -126,7 +126,7 @@ TEST_CASE("STL: doubles are rounded to float32, or refused", "[io][stl]") {
 
 TEST_CASE("STL: ASCII keeps surfaces and doubles", "[io][stl]") {
     const auto mesh = awkward_mesh();
-    const auto result = parse(to_stl_ascii(mesh));
+    const auto result = parse_stl(to_stl_ascii(mesh));
     REQUIRE(message_of(result) == "no error");
     REQUIRE(result.value().size() == 3);
     CHECK(result.value()[1].name == "main_\"A\"_fault");
