@@ -45,8 +45,19 @@ def compile_errors(command, directory, source, names):
     return f"{', '.join(names)}: does not compile\n{run.stderr}" if run.returncode else ""
 
 
+def commands_by_source(commands_file):
+    """Returns the entry that compiles each source; files that are compiled together share one."""
+    commands = {}
+    for entry in json.loads(pathlib.Path(commands_file).read_text()):
+        commands[entry["file"]] = entry
+        if "/Unity/" in entry["file"] and os.path.exists(entry["file"]):
+            for source in re.findall(r'^#include "(.*)"', pathlib.Path(entry["file"]).read_text(), re.M):
+                commands[source] = entry
+    return commands
+
+
 def main(commands_file):
-    commands = {entry["file"]: entry for entry in json.loads(pathlib.Path(commands_file).read_text())}
+    commands = commands_by_source(commands_file)
     errors = []
     texts, names = {}, collections.defaultdict(list)
     for plant in plants():
