@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <optional>
 #include <string>
 #include <utility>
 
@@ -18,6 +17,7 @@
 #include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/layers/detail/resolver.hpp>
 #include <terrane/algorithms/layers/detail/whole_triangles.hpp>
+#include <terrane/algorithms/layers/order_check.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
 
 namespace terrane {
@@ -30,7 +30,7 @@ Error bad(const char* what) {
     return {ErrorCode::bad_option, what, ""};
 }
 
-/// Finds the nearest harder layers above and below each layer.
+/// Lists the harder layers above and below each layer, the nearest first.
 Bounds bounds_of(std::span<const Layer> order) {
     const auto harder = [&](std::size_t a, std::size_t b) {
         return order[a].hardness > order[b].hardness ||
@@ -38,13 +38,12 @@ Bounds bounds_of(std::span<const Layer> order) {
     };
     Bounds bounds;
     for (std::size_t i = 0; i < order.size(); ++i) {
-        std::optional<std::size_t> above, below;
-        for (std::size_t j = i; j-- > 0 && !above;)
-            if (harder(j, i)) above = j;
-        for (std::size_t j = i + 1; j < order.size() && !below; ++j)
-            if (harder(j, i)) below = j;
-        bounds.above.push_back(above);
-        bounds.below.push_back(below);
+        auto& above = bounds.above.emplace_back();
+        auto& below = bounds.below.emplace_back();
+        for (std::size_t j = i; j-- > 0;)
+            if (harder(j, i)) above.push_back(j);
+        for (std::size_t j = i + 1; j < order.size(); ++j)
+            if (harder(j, i)) below.push_back(j);
     }
     return bounds;
 }
@@ -59,11 +58,12 @@ std::vector<Copy> copies_needed(const Bounds& bounds, bool thick) {
         open.pop_back();
         if (std::find(needed.begin(), needed.end(), c) != needed.end()) continue;
         needed.push_back(c);
-        const auto& above = bounds.above[c.layer];
-        const auto& below = bounds.below[c.layer];
-        if (above) open.push_back({*above, c.steps});
-        if (thick && above) open.push_back({*above, c.steps - 1});
-        if (below) open.push_back({*below, c.steps + (thick ? 1 : 0)});
+        for (const std::size_t above : bounds.above[c.layer]) {
+            open.push_back({above, c.steps});
+            if (thick) open.push_back({above, c.steps - 1});
+        }
+        for (const std::size_t below : bounds.below[c.layer])
+            open.push_back({below, c.steps + (thick ? 1 : 0)});
     }
     return needed;
 }
@@ -152,6 +152,16 @@ Status validate_order(std::span<const Surface> surfaces, std::span<const Layer> 
     return Done{};
 }
 
+/// Computes how wide the strips along steps are in which rounding may have moved the two sides of a
+/// step across each other: both sides move, first to the nearest doubles, then as reported.
+double width_of_steps(const RoundedMesh& rounded) {
+    double largest = 0;
+    for (const Point3& p : rounded.mesh->vertices)
+        largest = std::max({largest, std::fabs(p.x), std::fabs(p.y)});
+    const double spacing = std::nextafter(largest, HUGE_VAL) - largest;
+    return 2 * (rounded.report.max_move + spacing);
+}
+
 Result<Layered> stack_valid(std::span<const Surface> surfaces, std::span<const Layer> order,
                             const LayerOptions& options, const Run& run) {
     const auto progress = [&](double share) {
@@ -185,8 +195,12 @@ Result<Layered> stack_valid(std::span<const Surface> surfaces, std::span<const L
     if (!exact) return exact.error();
     auto rounded = round_to_doubles(exact.value(), {options.max_rounds, options.check}, run);
     if (!rounded) return rounded.error();
+    progress(0.9);
+    const double width = width_of_steps(*rounded);
+    auto flaws = find_out_of_order(*rounded->mesh, width, run);
+    if (!flaws) return flaws.error();
     progress(1);
-    return Layered{std::move(rounded).value(), resolver.reports()};
+    return Layered{std::move(*rounded), resolver.reports(), width, std::move(*flaws)};
 }
 
 } // namespace

@@ -9,22 +9,27 @@
 //       vertical surfaces on the free borders. Each of its triangles is as a whole above, below, on
 //       or beside each horizon, seen along z;
 //   (2) an exact test decides which, for each pair of triangles whose projections overlap;
-//   (3) from the hardest horizon to the softest: its triangles below the nearest harder one that it
-//       belongs above (above the nearest harder one that it belongs below) are dropped, and those
-//       of the harder one above (below) them are taken;
+//   (3) from the hardest horizon to the softest: at each place, the nearest harder one that exists
+//       there decides, among those that it belongs above (below). Its triangles below (above) that
+//       one are dropped, and those of the harder one above (below) them are taken;
 //   (4) with a minimum thickness D, a soft horizon keeps this distance from harder ones, which take
 //       part as copies moved up or down by D. Where two harder ones leave less room than D, the
 //       soft one coincides with the upper one;
-//   (5) the result is rounded to doubles and checked exactly (rounding.hpp).
-// Guarantees: wherever a harder horizon covers a result surface, that surface is the upper (lower)
-// of the two, so no two of them cross; where they coincide, they share triangles; the hardest
+//   (5) the result is rounded to doubles and checked exactly (rounding.hpp);
+//   (6) other code checks the doubles exactly for layers above others that are higher in the order,
+//       over each place (order_check.hpp).
+// Guarantees: no horizon of the result is anywhere above one that is higher in the order, however
+// many of them end in between; where they coincide, they share triangles; the hardest
 // horizon consists of its own triangles. Where a harder horizon ends above or below a soft one, the
-// soft one continues unchanged, with a step that is reported.
+// soft one continues as the next harder ones there allow, with a step that is reported. A step has
+// both heights over its line; in doubles that line is a strip about as wide as the spacing of the
+// doubles, and the order is not claimed there.
 // Not supported, and refused: horizons with vertical triangles, and horizons that are both above
 // and below another one along one vertical (overturned folds). Cost: the arrangement, and exact
 // tests for pairs of triangles that overlap along z. Source: the paper, 4.2.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -64,12 +69,27 @@ struct LayerReport {
                              ///< harder horizon ends
 };
 
+/// Two triangles of a mesh of layers over one place in the wrong order.
+struct OutOfOrder {
+    std::uint32_t upper = 0; ///< the layer that is higher in the order: index into it
+    std::uint32_t lower = 0; ///< the other layer
+    std::array<std::uint32_t, 2> triangles{}; ///< of upper, of lower
+    Point3 place{};   ///< on the first triangle where the second one is farthest above it, rounded
+    double depth = 0; ///< by how much, along z, rounded; > 0
+};
+
 /// A stack of layers.
 struct Layered {
     RoundedMesh rounded; ///< its surfaces are those of `order`, in that order. Triangles where
-                         ///< layers coincide belong to several. Must not be used if report.clean is
-                         ///< false
+                         ///< layers coincide belong to several. Must not be used unless is_stack
     std::vector<LayerReport> reports; ///< in the order of `order`
+    double step_width =
+        0; ///< over strips of this width along steps the order is not claimed; a few
+           ///< spacings of the doubles, unit of the surfaces
+    std::vector<OutOfOrder> out_of_order; ///< pairs that are out of order in doubles elsewhere
+
+    /// Tells whether the doubles are a conforming mesh of layers in their order, by exact checks.
+    [[nodiscard]] bool is_stack() const { return rounded.report.clean && out_of_order.empty(); }
 };
 
 /// Stacks horizons given from the top down, each at most once; other surfaces are ignored. Errors:

@@ -24,7 +24,7 @@ Error flaw_of(const Preprocessed& done) {
     if (!done.contacts.empty())
         return refused(fmt::format("the filling of hole {} meets other triangles improperly",
                                    done.contacts.front().hole));
-    return refused("the stack of layers is no conforming mesh of doubles");
+    return refused("the stack of layers is no conforming mesh of doubles in order");
 }
 
 /// Each mesh that is proven conforming says what decided its pairs of triangles.

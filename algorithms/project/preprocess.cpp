@@ -132,7 +132,9 @@ Status stack(const std::vector<Layer>& order, double min_thickness, std::vector<
     for (std::size_t i = 0; i < order.size(); ++i)
         surfaces[order[i].surface] = std::move(replaced[i]);
     done.layers = std::move(layered->reports);
+    if (layered->is_stack()) done.step_width = layered->step_width;
     done.stack = std::move(layered->rounded.report);
+    done.out_of_order = std::move(layered->out_of_order);
     return Done{};
 }
 
@@ -142,7 +144,7 @@ bool Preprocessed::good() const {
     const bool all_filled =
         !filled || std::all_of(filled->holes.begin(), filled->holes.end(),
                                [](const NumberedHole& hole) { return hole.refused.empty(); });
-    return all_filled && contacts.empty() && (!stack || stack->clean);
+    return all_filled && contacts.empty() && (!stack || stack->clean) && out_of_order.empty();
 }
 
 Result<Preprocessed> preprocess(const Project& project, std::vector<Surface>& surfaces,

@@ -22,9 +22,11 @@ struct Preprocessed {
     std::vector<NewContact> contacts{};    ///< of fillings with other triangles of their surface
     std::vector<LayerReport> layers{};     ///< where the project has "layers" and filling succeeded
     std::optional<RoundingReport> stack{}; ///< of the stack of layers
+    std::optional<double> step_width{};    ///< that of Layered, if the stack is sound
+    std::vector<OutOfOrder> out_of_order{}; ///< layers of the stack that are out of order
 
     /// Tells whether the surfaces can be used: no wanted hole stays open, no filling meets other
-    /// triangles, and the stack of layers is conforming.
+    /// triangles, and the stack of layers is conforming and in order.
     [[nodiscard]] bool good() const;
 };
 

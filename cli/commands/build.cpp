@@ -209,8 +209,8 @@ private:
             statistics_["seconds"]["fill"] = session_.times().latest("fill");
         }
         if (done.stack) {
-            said += text_of(inputs_, done.layers, *done.stack);
-            refused_ = contacts_text(*done.stack);
+            said += text_of(inputs_, done.layers, *done.stack, done.step_width);
+            refused_ = flaws_text(*done.stack, done.out_of_order);
             add_statistics(statistics_, inputs_, done.layers, session_.times());
         }
         journal_.say(said);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,9 +32,10 @@ constexpr auto layer_footer =
     R"(Where a soft horizon is on the wrong side of a harder one it is replaced by the harder one's
 own triangles: in files with groups these belong to both. --keep says on which side of the hard one
 the soft one stays: upper makes it the higher of the two at each place, lower the lower one.
-With --layer, horizons from the top down, each softer one gives way to the nearest harder ones above
-and below it; of equals the upper one counts as harder. Horizons that are not named are left out.
-The mesh is written only if its doubles are conforming, by an exact check; else the status is 1.
+With --layer, horizons from the top down, each softer one gives way at each place to the nearest
+harder ones that exist there, above and below it; of equals the upper one counts as harder. Horizons
+that are not named are left out. The mesh is written only if its doubles are conforming, and no
+horizon is anywhere above one that is higher in the order, by exact checks; else the status is 1.
 
 Examples:
   terrane layer --hard salt.ts --soft shale.ts --keep upper -o layers.vtp
@@ -124,14 +126,17 @@ Result<ExitStatus> layer_files(LayerCommand& command, Session& session) {
                      session, statistics);
     if (!layered) return layered.error();
     const RoundedMesh& rounded = layered.value().rounded;
-    print(summary_stream(files), text_of(inputs.value(), layered.value().reports, rounded.report));
-    print(stderr, contacts_text(rounded.report));
-    if (rounded.report.clean)
+    const bool is_stack = layered->is_stack();
+    print(summary_stream(files),
+          text_of(inputs.value(), layered->reports, rounded.report,
+                  is_stack ? std::optional(layered->step_width) : std::nullopt));
+    print(stderr, flaws_text(rounded.report, layered->out_of_order));
+    if (is_stack)
         if (const auto written = write_all(rounded.mesh, files, outputs.value(), session); !written)
             return written.error();
     const auto status = write_statistics(statistics, files.stats, total.lap());
     if (!status) return status.error();
-    return rounded.report.clean ? ExitStatus::done : ExitStatus::negative;
+    return is_stack ? ExitStatus::done : ExitStatus::negative;
 }
 
 } // namespace

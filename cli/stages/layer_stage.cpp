@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/cli/stages/layer_stage.hpp>
 
+#include <algorithm>
 #include <cstdint>
 #include <utility>
 
@@ -57,15 +58,27 @@ void add_statistics(Json& json, const Inputs& inputs, std::span<const LayerRepor
 }
 
 std::string text_of(const Inputs& inputs, std::span<const LayerReport> reports,
-                    const RoundingReport& rounding) {
+                    const RoundingReport& rounding, std::optional<double> step_width) {
     auto text = counted(reports.size(), "layer") + ", from the top down:\n";
     for (const LayerReport& r : reports) text += line_of(inputs.labels[r.surface], r);
-    if (rounding.clean) text += "verified: the doubles are a conforming mesh, by exact check\n";
+    const bool has_steps = std::any_of(reports.begin(), reports.end(),
+                                       [](const LayerReport& r) { return r.step_length > 0; });
+    if (step_width)
+        text += fmt::format(
+            "verified: the doubles are a conforming mesh, and no layer is above one "
+            "that is higher in the order{}, by exact checks\n",
+            has_steps ? fmt::format(" (except within {:.2g} of the lines of steps)", *step_width)
+                      : "");
     return text + text_of(rounding.pairs);
 }
 
-std::string contacts_text(const RoundingReport& report) {
-    if (report.clean) return {};
+std::string flaws_text(const RoundingReport& report, std::span<const OutOfOrder> out_of_order) {
+    if (report.clean && out_of_order.empty()) return {};
+    if (report.clean)
+        return fmt::format("terrane: {} of triangles of layers are out of order in doubles, the "
+                           "first at {}, by {:.3g}; nothing written\n",
+                           counted(out_of_order.size(), "pair"), text_of(out_of_order[0].place),
+                           out_of_order[0].depth);
     return fmt::format("terrane: {} of triangles meet improperly in doubles, the first at {}; "
                        "nothing written\n",
                        counted(report.contacts.size(), "pair"),

@@ -3,6 +3,7 @@
 // The stage that puts horizons in order: shared by `layer` and `build`.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,13 +19,14 @@ namespace terrane::cli {
 Result<Layered> layer_inputs(const Inputs& inputs, const std::vector<Layer>& order,
                              const LayerOptions& options, Session& session, Json& statistics);
 
-/// Reports what was replaced, and whether the rounded mesh is conforming.
+/// Reports what was replaced and, where that is so, that the stack is conforming and in order.
+/// `step_width` is that of Layered.
 std::string text_of(const Inputs& inputs, std::span<const LayerReport> reports,
-                    const RoundingReport& rounding);
+                    const RoundingReport& rounding, std::optional<double> step_width);
 
-/// Reports the number of pairs in improper contact and the first place; empty if the rounded mesh
-/// is conforming.
-std::string contacts_text(const RoundingReport& rounding);
+/// Reports the number of pairs in improper contact, else the number of those out of order, and the
+/// first place; empty if the stack is conforming and in order.
+std::string flaws_text(const RoundingReport& rounding, std::span<const OutOfOrder> out_of_order);
 
 /// Adds the key layers, one entry per layer, with the time and the constants of the rounding.
 void add_statistics(Json& json, const Inputs& inputs, std::span<const LayerReport> reports,

@@ -117,20 +117,44 @@ Result<LayerResolver::Replacement> LayerResolver::classify(const std::vector<Rel
     return change;
 }
 
-/// Step (3): replaces the parts of `soft` on the wrong side of `hard` by `hard`.
-Result<Set> LayerResolver::replace(const Set& soft, const Set& hard, Side kept,
-                                   LayerReport* report) {
+/// Step (3): replaces the parts of `soft` on the wrong side of the harder layers, which are moved up
+/// by `steps`, by these. At each place the first of them that exists there decides.
+Result<Set> LayerResolver::replace(const Set& soft, std::span<const std::size_t> harder, int steps,
+                                   Side kept, LayerReport* report) {
+    Set result, rest = soft;
+    for (const std::size_t layer : harder) {
+        if (rest.empty()) break;
+        const auto hard = resolve({layer, steps});
+        if (!hard) return hard.error();
+        auto covered = replace_by_one(rest, hard.value(), kept, report);
+        if (!covered) return covered.error();
+        result.insert(result.end(), covered->replaced.begin(), covered->replaced.end());
+        rest = std::move(covered->rest);
+    }
+    result.insert(result.end(), rest.begin(), rest.end());
+    sort_unique(result);
+    return result;
+}
+
+/// Replaces the parts of `soft` on the wrong side of `hard`. A triangle of the one is as a whole
+/// where the other exists, or as a whole where it does not: walls divide both.
+Result<LayerResolver::Covered> LayerResolver::replace_by_one(const Set& soft, const Set& hard,
+                                                             Side kept, LayerReport* report) {
     const auto related = relate(soft, hard);
     if (!related) return related.error();
     const auto change =
         classify(related.value(), kept == Side::above ? Sign::Negative : Sign::Positive);
     if (!change) return change.error();
     const auto& [dropped, taken] = change.value();
-    Set result;
-    std::set_difference(soft.begin(), soft.end(), dropped.begin(), dropped.end(),
-                        std::back_inserter(result));
-    result.insert(result.end(), taken.begin(), taken.end());
-    sort_unique(result);
+    Set covered;
+    for (const Relation& r : related.value()) covered.push_back(r.first);
+    sort_unique(covered);
+    Covered result;
+    std::set_difference(soft.begin(), soft.end(), covered.begin(), covered.end(),
+                        std::back_inserter(result.rest));
+    std::set_difference(covered.begin(), covered.end(), dropped.begin(), dropped.end(),
+                        std::back_inserter(result.replaced));
+    result.replaced.insert(result.replaced.end(), taken.begin(), taken.end());
     if (report != nullptr) add_to_report(change.value(), soft, related.value(), *report);
     return result;
 }
@@ -210,12 +234,8 @@ Result<Set> LayerResolver::resolve(const Copy& copy) {
         if (std::binary_search(surfaces.begin(), surfaces.end(), which)) own.push_back(t);
     }
     LayerReport* report = copy.steps == 0 ? &reports_[copy.layer] : nullptr;
-    const auto apply = [&](const std::optional<std::size_t>& layer, int steps,
-                           Side kept) -> Status {
-        if (!layer) return Done{};
-        const auto hard = resolve({*layer, steps});
-        if (!hard) return hard.error();
-        auto next = replace(own, hard.value(), kept, report);
+    const auto apply = [&](std::span<const std::size_t> harder, int steps, Side kept) -> Status {
+        auto next = replace(own, harder, steps, kept, report);
         if (!next) return next.error();
         own = std::move(next).value();
         return Done{};

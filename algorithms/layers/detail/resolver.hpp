@@ -6,7 +6,6 @@
 #include <compare>
 #include <cstdint>
 #include <map>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -30,9 +29,9 @@ struct Copy {
     friend auto operator<=>(const Copy&, const Copy&) = default;
 };
 
-/// The nearest harder layers above and below each layer, in the order from the top down.
+/// The harder layers above and below each layer in the order, the nearest first.
 struct Bounds {
-    std::vector<std::optional<std::size_t>> above, below;
+    std::vector<std::vector<std::size_t>> above, below;
 };
 
 /// The layers and their arrangement. Referenced objects must outlive the resolver.
@@ -70,11 +69,19 @@ private:
         Set dropped; ///< triangles of the softer layer
         Set taken;   ///< triangles of the harder layer
     };
+    /// A layer where a harder one exists, after the replacement, and where that one does not exist.
+    struct Covered {
+        Set replaced;
+        Set rest;
+    };
 
     Result<std::vector<Relation>> relate(const Set& soft, const Set& hard) const;
     [[nodiscard]] Result<Replacement> classify(const std::vector<Relation>& relations,
                                                Sign wrong) const;
-    Result<Set> replace(const Set& soft, const Set& hard, Side kept, LayerReport* report);
+    Result<Set> replace(const Set& soft, std::span<const std::size_t> harder, int steps, Side kept,
+                        LayerReport* report);
+    Result<Covered> replace_by_one(const Set& soft, const Set& hard, Side kept,
+                                   LayerReport* report);
     void add_to_report(const Replacement& change, const Set& soft,
                        const std::vector<Relation>& relations, LayerReport& report) const;
     void add_steps(const Replacement& change, const Set& soft, LayerReport& report) const;

@@ -73,12 +73,12 @@ std::vector<std::optional<double>> expected_heights(const std::vector<Surface>& 
         z[i] = height_of(surfaces[order[i].surface], x, y);
         std::optional<double> above, below;
         for (std::size_t j = i; j-- > 0;)
-            if (done[j]) {
+            if (done[j] && z[j]) {
                 above = z[j];
                 break;
             }
         for (std::size_t j = i + 1; j < order.size(); ++j)
-            if (done[j]) {
+            if (done[j] && z[j]) {
                 below = z[j];
                 break;
             }
@@ -116,7 +116,7 @@ Mesh check_stack(const std::vector<Surface>& surfaces, const std::vector<Layer>&
     const auto stacked = stack_layers(surfaces, order, options);
     if (!stacked) FAIL(stacked.error().message());
     const Mesh& mesh = stacked.value().rounded.mesh;
-    REQUIRE(stacked.value().rounded.report.clean);
+    REQUIRE(stacked.value().is_stack());
     // The exact test on surfaces: no two of them cross.
     std::vector<Surface> results(order.size());
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
@@ -273,6 +273,28 @@ TEST_CASE("stacks: layers that do not cross do not change, and stacking twice ch
     REQUIRE(twice);
     CHECK(twice.value().reports[0].dropped == 0);
     CHECK(twice.value().rounded.mesh->triangles.size() == mesh.triangles.size());
+}
+
+TEST_CASE("stacks: where the nearest harder layer has ended, the next one counts", "[layers]") {
+    const auto flat = [](double x0, double x1, double level) {
+        return sheet(graph([=](double, double) { return level; }), x0, 0, x1, 10, 4, 4);
+    };
+    // The middle layer ends at x = 5; the base rises above the top at x = 7.5.
+    const std::array surfaces{
+        flat(0, 10, 1), flat(0, 5, 0.5),
+        sheet(graph([](double x, double) { return x / 5 - 0.5; }), 0, 0, 10, 10, 5, 5)};
+    const auto stacked = stack_layers(
+        surfaces,
+        std::array{Layer{SurfaceId(0), 3}, Layer{SurfaceId(1), 2}, Layer{SurfaceId(2), 1}});
+    REQUIRE(stacked);
+    CHECK(stacked->is_stack());
+    CHECK(stacked->step_width < 1e-14);
+    CHECK(stacked->reports[2].parts == 1);
+    CHECK(stacked->reports[2].taken_area == Approx(25));
+    CHECK(stacked->reports[2].largest_move == Approx(0.5));
+    const Mesh& mesh = stacked->rounded.mesh;
+    CHECK(height_of_layer(mesh, 2, 9.3, 4.1)->z == 1);
+    CHECK(height_of_layer(mesh, 2, 6.1, 4.1)->z == Approx(6.1 / 5 - 0.5));
 }
 
 TEST_CASE("stacks: a soft layer has a step where the hard one ends, and its length is reported",
