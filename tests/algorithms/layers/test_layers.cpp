@@ -283,9 +283,9 @@ TEST_CASE("stacks: where the nearest harder layer has ended, the next one counts
     const std::array surfaces{
         flat(0, 10, 1), flat(0, 5, 0.5),
         sheet(graph([](double x, double) { return x / 5 - 0.5; }), 0, 0, 10, 10, 5, 5)};
-    const auto stacked = stack_layers(
-        surfaces,
-        std::array{Layer{SurfaceId(0), 3}, Layer{SurfaceId(1), 2}, Layer{SurfaceId(2), 1}});
+    const auto stacked =
+        stack_layers(surfaces, std::array{Layer{SurfaceId(0), 3}, Layer{SurfaceId(1), 2},
+                                          Layer{SurfaceId(2), 1}});
     REQUIRE(stacked);
     CHECK(stacked->is_stack());
     CHECK(stacked->step_width < 1e-14);
