@@ -11,6 +11,7 @@
 #include <stop_token>
 
 #include <catch2/catch.hpp>
+#include <gmpxx.h>
 
 #include "support/effort.hpp"
 #include "support/shapes.hpp"
