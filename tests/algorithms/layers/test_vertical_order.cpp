@@ -11,6 +11,7 @@
 #include <catch2/catch.hpp>
 #include <gmpxx.h>
 
+#include "oracles/clipped.hpp"
 #include "support/effort.hpp"
 
 using namespace terrane;
@@ -18,53 +19,13 @@ using namespace terrane::layers::detail;
 
 namespace {
 
-struct Exact2 {
-    mpq_class x, y;
-};
-
-mpq_class turn(const Exact2& a, const Exact2& b, const Exact2& c) {
-    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
-
-using Corners = std::array<Point3, 3>;
-
-Exact2 flat(const Point3& p) {
-    return {p.x, p.y};
-}
-
-/// Intersects the two projections by clipping the first by the edges of the second.
-std::vector<Exact2> common(const Corners& s, const Corners& t) {
-    std::vector<Exact2> polygon{flat(s[0]), flat(s[1]), flat(s[2])};
-    for (unsigned i = 0; i < 3 && !polygon.empty(); ++i) {
-        const Exact2 a = flat(t[i]), b = flat(t[(i + 1) % 3]);
-        std::vector<Exact2> kept;
-        for (std::size_t k = 0; k < polygon.size(); ++k) {
-            const Exact2 &p = polygon[k], &q = polygon[(k + 1) % polygon.size()];
-            const mpq_class u = turn(a, b, p), v = turn(a, b, q);
-            if (u >= 0) kept.push_back(p);
-            if (u * v < 0) {
-                const mpq_class share = u / (u - v);
-                kept.push_back({p.x + share * (q.x - p.x), p.y + share * (q.y - p.y)});
-            }
-        }
-        polygon = kept;
-    }
-    return polygon;
-}
-
-mpq_class area(const std::vector<Exact2>& polygon) {
-    mpq_class sum;
-    for (std::size_t k = 2; k < polygon.size(); ++k)
-        sum += turn(polygon[0], polygon[k - 1], polygon[k]);
-    return sum;
-}
-
-mpq_class height(const Corners& t, const Exact2& p) {
-    const Exact2 a = flat(t[0]), b = flat(t[1]), c = flat(t[2]);
-    return (turn(b, c, p) * mpq_class(t[0].z) + turn(c, a, p) * mpq_class(t[1].z) +
-            turn(a, b, p) * mpq_class(t[2].z)) /
-           turn(a, b, c);
-}
+using oracles::area;
+using oracles::common;
+using oracles::Corners;
+using oracles::Exact2;
+using oracles::flat;
+using oracles::height;
+using oracles::turn;
 
 } // namespace
 
