@@ -208,8 +208,8 @@ Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
 
     // (b) candidate pairs
     step.next("search");
-    const auto candidates =
-        candidate_pairs({soup.points, soup.triangles}, patches.of, options.search, run);
+    const Search used = method_used(options.search, soup.triangles.size());
+    const auto candidates = candidate_pairs({soup.points, soup.triangles}, patches.of, used, run);
     TERRANE_ASSERT_PARANOID(is_sorted_unique(candidates));
     step.stop();
     report(0.3);
@@ -220,6 +220,7 @@ Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
         retriangulate(std::move(soup.points), soup.triangles, candidates, run);
     if (run.stop.stop_requested()) return interrupted();
     a.statistics = statistics_of(candidates.size(), division);
+    a.statistics.search = used;
 
     // (f) one mesh
     step.next("assemble");

@@ -39,6 +39,7 @@ struct ArrangeOptions {
 
 /// Counts of the steps. A part of an arrangement keeps those of the whole.
 struct ArrangeStatistics {
+    Search search = Search::automatic;  ///< method that found the candidates; automatic if none did
     std::size_t candidates = 0;         ///< pairs of triangles whose boxes overlap
     std::size_t improper_contacts = 0;  ///< pairs of input triangles that meet improperly
     std::size_t divided = 0;            ///< input triangles that were triangulated

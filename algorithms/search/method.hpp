@@ -16,7 +16,10 @@ enum class Search : std::uint8_t {
     grid,        ///< structured search, paper 2.1
     ab,          ///< alternating binary tree, boxes inserted in the given order, paper 2.2; it
                  ///< degenerates to a list in the worst case
-    ab_balanced, ///< alternating binary tree balanced by quantiles, paper 2.2 and Table 1
+    ab_balanced, ///< alternating binary tree, boxes inserted in the order of the quantiles of
+                 ///< Table 1, paper 2.2; on surfaces about twice as deep as the next
+    ab_median,   ///< alternating binary tree that divides each subtree at the median of its own
+                 ///< boxes, the other reading of Table 1; no tree is shallower
     mixed,       ///< reduction to cells that several groups share, then a balanced tree, paper 2.3
     bvh,         ///< reduction to shared cells, then flat bounding volume hierarchies joined leaf
                  ///< by leaf: fast for any mixture of sizes, the only method that uses threads
@@ -25,8 +28,8 @@ enum class Search : std::uint8_t {
 
 // The following functions are defined in search.cpp.
 
-/// Returns the name of a method: "auto", "grid", "ab", "ab-balanced", "mixed", "hierarchy" (bvh) or
-/// "brute".
+/// Returns the name of a method: "auto", "grid", "ab", "ab-balanced", "ab-median", "mixed",
+/// "hierarchy" (bvh) or "brute".
 std::string_view name_of(Search method);
 
 /// Returns the method with a name; std::nullopt if there is none.

@@ -102,11 +102,46 @@ public:
 
     template <class Report>
     void query(const Box& q, const Report& report) {
+        walk(q, [&](const Node& node) {
+            if (node.box.overlaps(q)) report(node.index);
+        });
+    }
+
+    /// Returns the number of boxes that a query tests.
+    [[nodiscard]] std::size_t looked_at(const Box& q) {
+        std::size_t count = 0;
+        walk(q, [&](const Node&) { ++count; });
+        return count;
+    }
+
+    /// Returns the number of levels.
+    [[nodiscard]] std::size_t depth() const;
+
+protected:
+    /// Makes the tree of all boxes anew: each subtree is divided at the median of its own boxes by
+    /// the key of its level. Boxes with the same key are divided by their indices, so they may be on
+    /// both sides of a node; queries allow for that.
+    void divide_at_medians(std::span<const Box> boxes);
+
+private:
+    struct Node {
+        Box box;
+        std::uint32_t index;
+        std::uint32_t left = 0, right = 0; ///< nodes; 0, the root, for none
+        std::uint32_t level = 0;           ///< depth mod 6
+    };
+
+    std::uint32_t add_subtree(std::span<const Box> boxes, std::span<std::uint32_t> part,
+                              unsigned level);
+
+    /// Visits the nodes whose boxes a query must test.
+    template <class Visit>
+    void walk(const Box& q, const Visit& visit) {
         if (!nodes_.empty()) stack_.push_back(0);
         while (!stack_.empty()) {
             const Node& node = nodes_[stack_.back()];
             stack_.pop_back();
-            if (node.box.overlaps(q)) report(node.index);
+            visit(node);
             const unsigned axis = node.level % 3;
             const bool splits_low = node.level < 3;
             const double key = splits_low ? node.box.low[axis] : node.box.high[axis];
@@ -118,18 +153,7 @@ public:
         }
     }
 
-    /// Returns the number of levels.
-    [[nodiscard]] std::size_t depth() const;
-
-private:
-    struct Node {
-        Box box;
-        std::uint32_t index;
-        std::uint32_t left = 0, right = 0; ///< nodes; 0, the root, for none
-        std::uint32_t level = 0;           ///< depth mod 6
-    };
-
-    std::vector<Node> nodes_;          ///< in the order of insertion; a child follows its parent
+    std::vector<Node> nodes_;          ///< a child follows its parent
     std::vector<std::uint32_t> stack_; ///< nodes that the current query has yet to visit
 };
 
@@ -137,11 +161,20 @@ private:
 /// the boxes sorted by v[i mod 6]; for a box that is taken already, the next one that is not.
 std::vector<std::uint32_t> table_1_order(std::span<const Box> boxes);
 
-/// The balanced tree of paper 2.2. On surfaces it is about twice as deep as the shallowest tree. If
-/// many boxes share all their keys, it degenerates to a list, too.
+/// The balanced tree of paper 2.2, where Table 1 is taken for an order of insertion. On surfaces it is
+/// about twice as deep as the shallowest tree. If many boxes share all their keys, it degenerates to
+/// a list, too.
 class BalancedAbTree : public AbTree {
 public:
     explicit BalancedAbTree(std::span<const Box> boxes) : AbTree(boxes, table_1_order(boxes)) {}
+};
+
+/// The balanced tree of paper 2.2, where the quantiles of Table 1 are those of each subtree: a node
+/// is the median of the boxes below it by the key of its level. No tree is shallower, whatever the
+/// boxes. Cost: O(n log n).
+class MedianAbTree : public AbTree {
+public:
+    explicit MedianAbTree(std::span<const Box> boxes) { divide_at_medians(boxes); }
 };
 
 /// Performs the reduction of paper 2.3: in one grid over all boxes it returns those with a box of

@@ -13,11 +13,14 @@ namespace {
 
 using Pairs = std::vector<CandidatePair>;
 
-constexpr std::array names{
-    std::pair{Search::automatic, "auto"}, std::pair{Search::grid, "grid"},
-    std::pair{Search::ab, "ab"},          std::pair{Search::ab_balanced, "ab-balanced"},
-    std::pair{Search::mixed, "mixed"},    std::pair{Search::bvh, "hierarchy"},
-    std::pair{Search::brute, "brute"}};
+constexpr std::array names{std::pair{Search::automatic, "auto"},
+                           std::pair{Search::grid, "grid"},
+                           std::pair{Search::ab, "ab"},
+                           std::pair{Search::ab_balanced, "ab-balanced"},
+                           std::pair{Search::ab_median, "ab-median"},
+                           std::pair{Search::mixed, "mixed"},
+                           std::pair{Search::bvh, "hierarchy"},
+                           std::pair{Search::brute, "brute"}};
 
 /// Queries all boxes with each box in turn.
 template <class Method>
@@ -108,10 +111,14 @@ Search choose(std::size_t boxes) {
     return boxes <= 24 ? Search::brute : Search::bvh;
 }
 
+Search method_used(Search method, std::size_t boxes) {
+    return method == Search::automatic ? choose(boxes) : method;
+}
+
 std::vector<CandidatePair> candidate_pairs(const BoxSource& source,
                                            std::span<const std::uint32_t> groups, Search method,
                                            const Run& run) {
-    if (method == Search::automatic) method = choose(source.size());
+    method = method_used(method, source.size());
     if (method == Search::bvh) return search::bvh_pairs(source, groups, run);
     const std::vector<Box> boxes = source.listed();
     switch (method) {
@@ -121,6 +128,8 @@ std::vector<CandidatePair> candidate_pairs(const BoxSource& source,
         return all_pairs<search::AbTree>(boxes, groups);
     case Search::ab_balanced:
         return all_pairs<search::BalancedAbTree>(boxes, groups);
+    case Search::ab_median:
+        return all_pairs<search::MedianAbTree>(boxes, groups);
     case Search::mixed:
         return mixed_pairs(boxes, groups);
     default:

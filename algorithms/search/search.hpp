@@ -98,4 +98,7 @@ std::vector<CandidatePair> candidate_pairs_of(const BoxSource& boxes,
 /// choice therefore considers neither the spread of sizes nor the common volume.
 Search choose(std::size_t boxes);
 
+/// Returns the method that candidate_pairs uses: choose(boxes) for automatic, else `method`.
+Search method_used(Search method, std::size_t boxes);
+
 } // namespace terrane

@@ -178,8 +178,7 @@ private:
             return preprocessed(built.preprocessed);
         case BuildStage::arrange:
             inputs_.labels = built.labels;
-            add_statistics(statistics_, built.arranged, Search::automatic, inputs_,
-                           session_.times());
+            add_statistics(statistics_, built.arranged, inputs_, session_.times());
             journal_.say(summary(inputs_, built.arranged));
             if (!built.arranged.rounded.conforming)
                 refused_ = offending_pairs(inputs_, built.arranged) +

@@ -31,11 +31,11 @@ Json statistics_of(const Inputs& inputs, const StageTimes& times) {
     return json;
 }
 
-void add_statistics(Json& json, const Arrangement& a, Search asked) {
+void add_statistics(Json& json, const Arrangement& a) {
     const ArrangeStatistics& s = a.statistics;
     json["input"]["degenerate"] = a.degenerate.size();
     json["input"]["duplicates"] = a.inputs.duplicates.size();
-    json["search"] = {{"method", name_of(asked)},
+    json["search"] = {{"method", name_of(s.search)},
                       {"candidates", s.candidates},
                       {"tests", s.candidates},
                       {"improper_contacts", s.improper_contacts}};

@@ -22,7 +22,7 @@ using Json = nlohmann::ordered_json;
 /// reading. add_statistics adds the keys of the stages that were run.
 Json statistics_of(const Inputs& inputs, const StageTimes& times);
 /// Adds the keys search, arrangement and predicates.
-void add_statistics(Json& json, const Arrangement& arrangement, Search asked);
+void add_statistics(Json& json, const Arrangement& arrangement);
 /// Adds the keys output and rounding, with the times and the constants of rounding.
 void add_statistics(Json& json, const RoundedMesh& rounded, const StageTimes& times);
 /// Adds the times of the steps of an arrangement; `stage` is its path, "arrange" or "seal/arrange".

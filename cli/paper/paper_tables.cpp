@@ -2,6 +2,7 @@
 #include <terrane/cli/paper/paper_tables.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 #include <functional>
 #include <numeric>
@@ -107,6 +108,32 @@ void measure_d(const RedAndBlue& all, PaperRow& row) {
     row.mean_looked_at = mean(looked_at, looking);
 }
 
+template <class Tree>
+TreeShape shape_of(const RedAndBlue& all) {
+    Tree tree(std::span(all.boxes).first(all.red));
+    std::size_t looked_at = 0;
+    for (std::size_t b = all.red; b < all.boxes.size(); ++b)
+        looked_at += tree.looked_at(all.boxes[b]);
+    const auto blue = static_cast<double>(all.boxes.size() - all.red);
+    return {tree.depth(), static_cast<double>(looked_at) / blue};
+}
+
+/// Measures the trees of the methods that were timed.
+void measure_trees(const RedAndBlue& all, PaperRow& row) {
+    row.least_depth = static_cast<std::size_t>(std::bit_width(all.red));
+    for (std::size_t m = 0; m < paper_methods.size(); ++m) {
+        if (row.seconds[m] < 0) continue;
+        if (paper_methods[m] == Search::ab) row.trees[0] = shape_of<search::AbTree>(all);
+        if (paper_methods[m] == Search::ab_balanced)
+            row.trees[1] = shape_of<search::BalancedAbTree>(all);
+        if (paper_methods[m] == Search::ab_median)
+            row.trees[2] = shape_of<search::MedianAbTree>(all);
+    }
+    row.mixed_share =
+        static_cast<double>(search::boxes_in_mixed_cells(all.boxes, all.groups).size()) /
+        static_cast<double>(all.boxes.size());
+}
+
 /// Times region detection alone, on the mesh of doubles.
 double measure_regions(const Mesh& mesh, unsigned repeats) {
     return median_seconds(repeats, [&] {
@@ -143,26 +170,31 @@ struct Model {
     double paper_regions;
 };
 
+/// Returns the paper's times by method. It has one balanced tree.
+MethodTimes times_of(double structured, double unbalanced, double balanced, double mixed) {
+    return {structured, unbalanced, balanced, balanced, mixed, not_measured};
+}
+
 std::vector<Model> models_of(int number, bool large) {
     using namespace models;
     constexpr double none = not_measured;
     if (number == 4)
-        return {{"84 000, pair 1", nonuniform_1, {593, none, 27, 14, none}, none},
-                {"65 000, pair 2", nonuniform_2, {624, none, 30, 18, none}, none}};
+        return {{"84 000, pair 1", nonuniform_1, times_of(593, none, 27, 14), none},
+                {"65 000, pair 2", nonuniform_2, times_of(624, none, 30, 18), none}};
     const bool first = number == 2;
     const auto pair = first ? pair_1 : pair_2;
     const auto made = [pair](const Resolution& r) { return [pair, r] { return pair(r); }; };
     std::vector<Model> all;
     if (first) {
-        all = {{r7k.name, made(r7k), {2, 3, 2, 2, none}, 1},
-               {r68k.name, made(r68k), {8, 121, 45, 13, none}, 2},
-               {r680k.name, made(r680k), {30, 35148, 10114, 67, none}, 19}};
+        all = {{r7k.name, made(r7k), times_of(2, 3, 2, 2), 1},
+               {r68k.name, made(r68k), times_of(8, 121, 45, 13), 2},
+               {r680k.name, made(r680k), times_of(30, 35148, 10114, 67), 19}};
     } else {
-        all = {{r7k.name, made(r7k), {2, 5, 3, 2, none}, 1},
-               {r68k.name, made(r68k), {20, 142, 49, 50, none}, 3},
-               {r680k.name, made(r680k), {62, 22753, 791, 172, none}, 23}};
+        all = {{r7k.name, made(r7k), times_of(2, 5, 3, 2), 1},
+               {r68k.name, made(r68k), times_of(20, 142, 49, 50), 3},
+               {r680k.name, made(r680k), times_of(62, 22753, 791, 172), 23}};
     }
-    if (large) all.push_back({r6800k.name, made(r6800k), {none, none, none, none, none}, none});
+    if (large) all.push_back({r6800k.name, made(r6800k), times_of(none, none, none, none), none});
     return all;
 }
 
@@ -185,6 +217,7 @@ Result<PaperTable> measure_table(int number, const PaperSettings& settings, cons
             for (std::size_t m = 0; m < paper_methods.size(); ++m)
                 row.seconds[m] = measure_search(paper_methods[m], all, settings, row);
             measure_d(all, row);
+            measure_trees(all, row);
         }
         const auto arranged = measure_arrange(surfaces, settings, run, row);
         if (!arranged) return arranged.error();

@@ -14,9 +14,13 @@
 
 namespace terrane::cli {
 
-/// The columns: the paper's four methods, then the default of this library.
-constexpr std::array paper_methods{Search::grid, Search::ab, Search::ab_balanced, Search::mixed,
-                                   Search::bvh};
+/// The columns: the paper's four methods, where Table 1 is read in two ways, then the default of this
+/// library.
+constexpr std::array paper_methods{Search::grid,      Search::ab,    Search::ab_balanced,
+                                   Search::ab_median, Search::mixed, Search::bvh};
+
+/// The alternating trees among them.
+constexpr std::array paper_trees{Search::ab, Search::ab_balanced, Search::ab_median};
 
 /// Seconds per method; negative where there is no time.
 using MethodTimes = std::array<double, paper_methods.size()>;
@@ -24,6 +28,12 @@ constexpr double not_measured = -1;
 
 /// What the arrangement spends its time on.
 constexpr std::array arrange_steps{"prepare", "search", "intersect", "triangulate", "stitch"};
+
+/// What an alternating tree of the red boxes looks like; zeros if it was not measured.
+struct TreeShape {
+    std::size_t depth = 0;     ///< levels
+    double mean_looked_at = 0; ///< mean number of boxes that the query for a T tests
+};
 
 struct PaperSettings {
     bool large = false;               ///< also the model of 6 800 000 triangles
@@ -43,7 +53,10 @@ struct PaperRow {
     std::size_t pairs = 0; ///< candidate pairs of a red and a blue box
     double mean_d = 0;     ///< mean number of triangles in the non-empty D_T
     std::size_t largest_d = 0;
-    double mean_looked_at = 0; ///< mean number of triangles in the cells visited for a T
+    double mean_looked_at = 0;   ///< mean number of triangles in the cells visited for a T
+    std::size_t least_depth = 0; ///< levels of the shallowest binary tree of the red triangles
+    std::array<TreeShape, paper_trees.size()> trees{};
+    double mixed_share = 0; ///< part of all triangles that the reduction of the mixed search leaves
     std::array<double, arrange_steps.size()> arrange{}; ///< seconds of each step
     double seconds_regions = 0, seconds_round = 0;
     bool clean = false; ///< the rounded mesh was proven conforming

@@ -103,14 +103,15 @@ void add_settings(CLI::App& command, ArrangeSettings& settings) {
     static const std::map<std::string, Search> methods = [] {
         std::map<std::string, Search> all;
         for (const auto m : {Search::automatic, Search::grid, Search::ab, Search::ab_balanced,
-                             Search::mixed, Search::bvh, Search::brute})
+                             Search::ab_median, Search::mixed, Search::bvh, Search::brute})
             all.emplace(name_of(m), m);
         return all;
     }();
     command
         .add_option("--search", settings.search,
                     "How triangles that may meet are found; the result is the same: "
-                    "auto, grid, ab, ab-balanced, mixed, hierarchy, brute (default: auto)")
+                    "auto, grid, ab, ab-balanced, ab-median, mixed, hierarchy, brute (default: "
+                    "auto)")
         ->transform(CLI::Transformer(methods, CLI::ignore_case).description(""))
         ->type_name("METHOD");
     command
@@ -129,7 +130,7 @@ void add_settings(CLI::App& command, ArrangeSettings& settings) {
     add_volume_options(command, settings.volume);
 }
 
-void add_statistics(Json& statistics, const Arranged& arranged, Search asked, const Inputs& inputs,
+void add_statistics(Json& statistics, const Arranged& arranged, const Inputs& inputs,
                     const StageTimes& times) {
     if (arranged.extended) {
         add_statistics(statistics, *arranged.extended);
@@ -141,7 +142,7 @@ void add_statistics(Json& statistics, const Arranged& arranged, Search asked, co
         statistics["seconds"]["seal"] = times.latest("seal");
         add_statistics(statistics, *arranged.sealed, inputs);
     }
-    add_statistics(statistics, arranged.exact, asked);
+    add_statistics(statistics, arranged.exact);
     add_arrangement_times(statistics, arranged.sealed ? "seal/arrange" : "arrange", times);
     if (arranged.cut) {
         add_statistics(statistics, *arranged.cut, inputs);
@@ -170,7 +171,7 @@ Result<Arranged> arrange_and_round(Inputs& inputs, const ArrangeSettings& settin
     session.end_stage();
     if (!arranged) return arranged;
     inputs.labels = unique_labels(infos_of(arranged->surfaces));
-    add_statistics(statistics, *arranged, settings.search, inputs, session.times());
+    add_statistics(statistics, *arranged, inputs, session.times());
     return arranged;
 }
 

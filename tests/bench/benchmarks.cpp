@@ -135,8 +135,8 @@ void triangulate_one(benchmark::State& state) {
 }
 
 void register_searches() {
-    for (const Search method :
-         {Search::automatic, Search::grid, Search::ab_balanced, Search::mixed, Search::bvh}) {
+    for (const Search method : {Search::automatic, Search::grid, Search::ab_balanced,
+                                Search::ab_median, Search::mixed, Search::bvh}) {
         const std::string name(name_of(method));
         benchmark::RegisterBenchmark(("search_two/" + name).c_str(), search_two, method)
             ->DenseRange(0, names.size() - 1)

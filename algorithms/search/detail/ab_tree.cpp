@@ -66,6 +66,33 @@ void AbTree::insert(const Box& box, std::uint32_t index) {
     nodes_.push_back({box, index, 0, 0, level});
 }
 
+void AbTree::divide_at_medians(std::span<const Box> boxes) {
+    nodes_.clear();
+    nodes_.reserve(boxes.size());
+    std::vector<std::uint32_t> all(boxes.size());
+    std::iota(all.begin(), all.end(), 0u);
+    add_subtree(boxes, all, 0);
+}
+
+/// Adds the tree of a part of the boxes. Returns its root, or 0 if there are none.
+std::uint32_t AbTree::add_subtree(std::span<const Box> boxes, std::span<std::uint32_t> part,
+                                  unsigned level) {
+    if (part.empty()) return 0;
+    const std::size_t middle = part.size() / 2;
+    std::nth_element(part.begin(), part.begin() + static_cast<std::ptrdiff_t>(middle), part.end(),
+                     [&](std::uint32_t a, std::uint32_t b) {
+                         const double ka = key(boxes[a], level), kb = key(boxes[b], level);
+                         return ka != kb ? ka < kb : a < b;
+                     });
+    const auto here = static_cast<std::uint32_t>(nodes_.size());
+    nodes_.push_back({boxes[part[middle]], part[middle], 0, 0, level});
+    const std::uint32_t left = add_subtree(boxes, part.first(middle), (level + 1) % 6);
+    const std::uint32_t right = add_subtree(boxes, part.subspan(middle + 1), (level + 1) % 6);
+    nodes_[here].left = left;
+    nodes_[here].right = right;
+    return here;
+}
+
 std::size_t AbTree::depth() const {
     std::vector<std::uint32_t> depth(nodes_.size(), 1);
     std::uint32_t deepest = 0;

@@ -245,8 +245,12 @@ TEST_CASE("names of searches") {
     CHECK(name_of(Search::grid) == "grid");
     CHECK(name_of(Search::ab) == "ab");
     CHECK(name_of(Search::ab_balanced) == "ab-balanced");
+    CHECK(name_of(Search::ab_median) == "ab-median");
     CHECK(name_of(Search::mixed) == "mixed");
     CHECK(name_of(Search::bvh) == "hierarchy");
     CHECK(name_of(Search::brute) == "brute");
     CHECK(!search_named("best"));
+    CHECK(method_used(Search::automatic, 10) == Search::brute);
+    CHECK(method_used(Search::automatic, 1000) == Search::bvh);
+    CHECK(method_used(Search::mixed, 10) == Search::mixed);
 }
