@@ -38,6 +38,7 @@
 #include <terrane/algorithms/reconstruction/kriging/fill_kriging.hpp>
 #include <terrane/algorithms/reconstruction/kriging/variogram.hpp>
 #include <terrane/algorithms/reconstruction/rbf/rbf.hpp>
+#include <terrane/algorithms/regions/quadrilaterals.hpp>
 #include <terrane/algorithms/regions/regions.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
 #include <terrane/algorithms/sealing/sealing.hpp>

@@ -25,6 +25,7 @@ set(terrane_headers
     algorithms/check/check.hpp
     algorithms/check/conforming.hpp
     algorithms/check/pair_check.hpp
+    algorithms/regions/quadrilaterals.hpp
     algorithms/regions/regions.hpp
     algorithms/rounding/rounding.hpp
     algorithms/volumes/region_points.hpp
