@@ -307,7 +307,7 @@ void Rounding::report_moves() {
             state_.points[v] != arrangement_.state->points.input(arrangement_.vertices[v]))
             ++r.moved_input_vertices;
     }
-    r.merged_vertices = state_.merged;
+    r.merged_vertices = state_.merged();
     r.collapsed_triangles = state_.collapsed;
 }
 
@@ -392,6 +392,7 @@ void add_to_report(const SnappedInput& snapped, const Arrangement& a, const Roun
     report.deviation =
         std::max((report.deviation + snapped.largest_move()) * (1 + 0x1p-52), report.max_move);
     report.moved_input_vertices += snapped.moved();
+    report.merged_vertices += snapped.merged();
     report.vanished = vanished(a, rounded.mesh->parents_of);
 }
 

@@ -55,6 +55,11 @@ std::vector<Surface> SnappedInput::surfaces(int digits) {
         for (std::uint32_t v = in.first_vertex[s]; v < in.first_vertex[s + 1]; ++v)
             surface.vertices.push_back(snapped(inputs[v], grid, cells));
     }
+    std::unordered_set<Point3, PointHash> before, after;
+    before.insert(inputs.begin(), inputs.end());
+    for (const Surface& surface : out)
+        after.insert(surface.vertices.begin(), surface.vertices.end());
+    merged_ = before.size() - after.size();
     // Corners are numbered through all surfaces and may name a vertex of an earlier surface with
     // the same coordinates. Each triangle gets corners in its own surface.
     for (std::size_t s = 0; s + 1 < in.first.size(); ++s)

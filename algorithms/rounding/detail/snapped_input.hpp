@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -54,6 +55,8 @@ public:
     [[nodiscard]] double largest_move() const { return largest_; }
     /// Returns the number of vertices that the last call of surfaces() moved.
     [[nodiscard]] std::size_t moved() const { return moved_; }
+    /// Returns by how many distinct points the last call of surfaces() reduced the vertices.
+    [[nodiscard]] std::size_t merged() const { return merged_; }
 
 private:
     Point3 snapped(const Point3& p, const SnapGrid& grid,
@@ -64,7 +67,7 @@ private:
     const Arrangement& arrangement_;
     std::vector<bool> chosen_; ///< per input vertex
     double largest_ = 0;
-    std::size_t moved_ = 0;
+    std::size_t moved_ = 0, merged_ = 0;
 };
 
 } // namespace terrane::rounding::detail

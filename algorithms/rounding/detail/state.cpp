@@ -152,6 +152,8 @@ bool RoundingState::merge_points(const Run& run) {
         const std::uint32_t first = table.enter(points, v);
         if (first == v) continue;
         is_dirty[first] = true;
+        is_merged.resize(points.size(), false);
+        is_merged[v] = true;
         if (name.empty()) {
             name.resize(points.size());
             std::iota(name.begin(), name.end(), 0u);
@@ -266,9 +268,12 @@ void RoundingState::replace_triangles(std::vector<Triangle> fresh,
     parents_of = std::move(parents);
 }
 
+std::size_t RoundingState::merged() const {
+    return static_cast<std::size_t>(std::count(is_merged.begin(), is_merged.end(), true));
+}
+
 void RoundingState::drop_unused_points() {
     const VertexRenumbering numbers(used_vertices(points.size(), triangles));
-    merged += points.size() - numbers.kept();
     numbers.compact(points);
     numbers.rename(triangles);
 }

@@ -34,9 +34,10 @@ struct RoundingState {
     std::vector<Triangle> triangles;
     IndexLists<std::uint32_t> parents_of; ///< per triangle, sorted
     std::size_t input_vertices = 0;       ///< the first points are input vertices
-    std::size_t merged = 0;               ///< number of points that drop_unused_points() dropped
-    std::size_t collapsed = 0;            ///< number of triangles that lost their area
-    double deviation = 0;                 ///< sum of the largest moves of all ended rounds
+    std::vector<bool> is_merged; ///< per point: whether another one took its place, as it became
+                                 ///< equal; points that are missing were not merged
+    std::size_t collapsed = 0;   ///< number of triangles that lost their area
+    double deviation = 0;        ///< sum of the largest moves of all ended rounds
     std::vector<std::uint32_t>
         found_dirty; ///< dirty_triangles(), if the last tidy() changed nothing
 
@@ -68,8 +69,11 @@ struct RoundingState {
     /// it.
     void replace_triangles(std::vector<Triangle> fresh, const IndexLists<std::uint32_t>& faces_of);
 
-    /// Drops the points that no triangle uses, such as merged ones, and adds their number to
-    /// merged. `move` and `is_dirty` are no longer valid afterwards.
+    /// Returns the number of points that were merged with another one.
+    [[nodiscard]] std::size_t merged() const;
+
+    /// Drops the points that no triangle uses, such as merged ones. All other lists of points are no
+    /// longer valid afterwards.
     void drop_unused_points();
 
     /// Adds the largest move since the last call to the deviation.

@@ -18,6 +18,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <string>
 
 namespace {
 
@@ -73,6 +74,17 @@ TEST_CASE("rounding: a triangle that disappears when the input is snapped is lis
     CHECK(report.moved_input_vertices > 0);
     CHECK(exact.value().degenerate.empty());
     CHECK(report.vanished == std::vector<std::uint32_t>{1});
+}
+
+TEST_CASE("rounding: merged vertices are counted, where the input is snapped as well") {
+    for (const char* name : {"004-snapped-onto-each-other", "005-interval-without-end"}) {
+        INFO(name);
+        const auto exact = arrange(read_data(std::string("regression/") + name + ".obj"));
+        REQUIRE(exact);
+        const auto rounded = round_to_doubles(exact.value());
+        REQUIRE(rounded);
+        CHECK(rounded.value().report.merged_vertices == 1);
+    }
 }
 
 TEST_CASE("rounding: what is exact in doubles stays as it is") {

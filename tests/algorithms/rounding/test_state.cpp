@@ -47,6 +47,20 @@ TEST_CASE("rounding: triangles that became a line leave no corner inside their n
     CHECK_FALSE(state.tidy({}));
 }
 
+TEST_CASE("rounding: points that became equal are counted once, however often they are looked at") {
+    auto state = state_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 0}, {2, 2, 0}, {9, 9, 9}},
+                          {{0, 1, 2}, {2, 3, 4}});
+    CHECK(state.merged() == 0);
+    CHECK(state.tidy({}));
+    CHECK(state.merged() == 1); // 3 with 1; nothing uses the last point, but it is alone
+    state.is_dirty.assign(state.points.size(), true);
+    state.tidy({});
+    CHECK(state.merged() == 1);
+    CHECK(state.triangles == std::vector<Triangle>{{0, 1, 2}, {2, 1, 4}});
+    state.drop_unused_points();
+    CHECK(state.points.size() == 4);
+}
+
 TEST_CASE("rounding: what is equal once it is divided is one triangle with both parents") {
     auto state =
         state_of({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {1, 1, 0}}, {{0, 2, 3}, {3, 1, 0}, {0, 1, 2}});
