@@ -84,6 +84,37 @@ std::map<std::array<std::uint32_t, 2>, int> edge_counts(const std::vector<Triang
     return counts;
 }
 
+/// Tells whether a point lies in a triangle or on its border, seen along z.
+bool is_covered(std::span<const Point3> p, const std::vector<Triangle>& triangles,
+                const Point3& q) {
+    return std::any_of(triangles.begin(), triangles.end(), [&](const Triangle& t) {
+        for (unsigned i = 0; i < 3; ++i)
+            if (orient2d(Axis::z, p[t[i]], p[t[(i + 1) % 3]], q) == Sign::Negative) return false;
+        return true;
+    });
+}
+
+/// Counts the triangles that are not counterclockwise, and the pairs at an edge of which one has the
+/// opposite corner of the other strictly inside its circle. Edges of polygons have one triangle. If
+/// there are none, the triangulation is the constrained Delaunay one.
+std::size_t delaunay_flaws(std::span<const Point3> p, const std::vector<Triangle>& triangles) {
+    std::size_t flaws = 0;
+    std::map<std::array<std::uint32_t, 2>, std::array<std::uint32_t, 3>> side_of; // directed
+    for (const Triangle& t : triangles) {
+        if (orient2d(Axis::z, p[t[0]], p[t[1]], p[t[2]]) != Sign::Positive) ++flaws;
+        for (unsigned i = 0; i < 3; ++i) side_of[{t[i], t[(i + 1) % 3]}] = t;
+    }
+    for (const auto& [edge, t] : side_of) {
+        const auto other = side_of.find({edge[1], edge[0]});
+        if (other == side_of.end()) continue;
+        for (const std::uint32_t v : other->second)
+            if (v != edge[0] && v != edge[1] &&
+                in_circle(Axis::z, p[t[0]], p[t[1]], p[t[2]], p[v]) == Sign::Positive)
+                ++flaws;
+    }
+    return flaws;
+}
+
 } // namespace
 
 TEST_CASE("delaunay: fills the convex hull, and no circle holds a point", "[planar]") {
@@ -93,6 +124,7 @@ TEST_CASE("delaunay: fills the convex hull, and no circle holds a point", "[plan
         const auto triangles = delaunay(points);
         REQUIRE(triangles);
         CHECK(doubled_area(points, triangles.value()) == doubled_hull_area(points));
+        CHECK(delaunay_flaws(points, triangles.value()) == 0);
         for (const Triangle& t : triangles.value()) {
             CHECK(orient2d(Axis::z, points[t[0]], points[t[1]], points[t[2]]) == Sign::Positive);
             for (const Point3& p : points)
@@ -100,6 +132,13 @@ TEST_CASE("delaunay: fills the convex hull, and no circle holds a point", "[plan
                       Sign::Positive);
         }
     }
+}
+
+TEST_CASE("delaunay: the test sees an edge that is swapped", "[planar]") {
+    const std::vector<Point3> kite{{0, 0, 0}, {4, 1, 0}, {8, 0, 0}, {4, -1, 0}};
+    CHECK(delaunay_flaws(kite, {{0, 3, 1}, {3, 2, 1}}) == 0);
+    CHECK(delaunay_flaws(kite, {{0, 3, 2}, {0, 2, 1}}) == 2); // from either side
+    CHECK(delaunay_flaws(kite, {{0, 1, 3}, {3, 2, 1}}) == 1); // turned over
 }
 
 TEST_CASE("delaunay: the same triangles whatever the order of the points", "[planar]") {
@@ -161,10 +200,33 @@ TEST_CASE("triangulate_inside: a star with an island, filled but for the island"
                 const auto found = counts.find({std::min(a, b), std::max(a, b)});
                 CHECK((found != counts.end() && found->second == 1));
             }
-        // The triangles use at least as many vertices as the polygons have corners.
+        // A point that is no vertex is outside: it lies in no triangle.
         std::set<std::uint32_t> used;
         for (const Triangle& t : triangles) used.insert(t.begin(), t.end());
-        CHECK(used.size() >= 52);
+        CHECK(used.size() > 52);
+        for (std::uint32_t p = 0; p < points.size(); ++p)
+            if (!used.contains(p)) CHECK_FALSE(is_covered(points, triangles, points[p]));
+        CHECK(delaunay_flaws(points, triangles) == 0);
+    }
+}
+
+TEST_CASE("triangulate_inside: cocircular and collinear points leave a Delaunay triangulation",
+          "[planar]") {
+    Random random(7);
+    for (int n = 0; n < cases(60); ++n) {
+        std::vector<Point3> points{{-9, -9, 0}, {9, -9, 0}, {9, 9, 0}, {-9, 9, 0},
+                                   {-3, -1, 0}, {2, -3, 0}, {4, 2, 0}};
+        const std::vector<Polygon> polygons{numbered(0, 4), numbered(4, 3)};
+        std::set<std::array<double, 2>> places;
+        for (const Point3& p : points) places.insert({p.x, p.y});
+        for (const Point3& p : lattice_points(random, 60, 8))
+            if (places.insert({p.x, p.y}).second) points.push_back(p);
+        const auto triangles = triangulate_inside(points, polygons);
+        REQUIRE(triangles);
+        CHECK(doubled_area(points, triangles.value()) ==
+              doubled_polygon_area(points, polygons[0]) -
+                  doubled_polygon_area(points, polygons[1]));
+        CHECK(delaunay_flaws(points, triangles.value()) == 0);
     }
 }
 
