@@ -66,7 +66,10 @@ Result<ExitStatus> arrange_files(const ArrangeCommand& command, Session& session
         const auto written = write_outputs(mesh, clean, files, outputs.value(), session);
         if (!written) return written.error();
     }
-    if (!keep) print(stderr, "terrane: nothing written (see --keep-unverified)\n");
+    const bool proves = !command.proof.certificate.empty() || !command.proof.exact.empty();
+    if (!keep)
+        print(stderr, std::string("terrane: ") + (proves ? "the mesh is not" : "nothing") +
+                          " written (see --keep-unverified)\n");
     const ProofFiles certified{files.inputs, keep ? outputs.value() : std::vector<Output>(),
                                files.ascii, summary_stream(files)};
     const auto proved =

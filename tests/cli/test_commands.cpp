@@ -51,11 +51,20 @@ TEST_CASE("cli: statistics have the promised keys", "[cli]") {
     CHECK(json["input"]["surfaces"] == 33);
     CHECK(json["input"]["triangles"] == 22712);
     CHECK(json["search"]["improper_contacts"] == 3382);
+    CHECK(json["search"]["method"] == "hierarchy"); // what auto stands for
     CHECK(json["rounding"]["verified"] == true);
     CHECK(json["seconds"]["total"].get<double>() > 0);
     CHECK(json["constants"]["round"]["coarse_digits_1"] == 16);
     CHECK_FALSE(json["constants"].contains("improve")); // a stage that was not run
     CHECK(json["peak_rss_mb"].get<double>() > 1);
+
+    const auto in = folder.input("model.obj", crossing);
+    const auto method = [&](const std::string& options) {
+        REQUIRE(folder.run("arrange " + in + " -o out.obj --stats s.json" + options).status == 0);
+        return Json::parse(folder.read("s.json"))["search"]["method"].get<std::string>();
+    };
+    CHECK(method("") == "brute"); // for so few triangles
+    CHECK(method(" --search ab-median") == "ab-median");
 }
 
 TEST_CASE("cli: the same bytes for any number of threads and any search", "[cli]") {
@@ -70,7 +79,7 @@ TEST_CASE("cli: the same bytes for any number of threads and any search", "[cli]
         CHECK(arrange("--threads 2") == expected);
         CHECK(arrange("") == expected);
         for (const std::string method :
-             {"grid", "ab", "ab-balanced", "mixed", "hierarchy", "brute"}) {
+             {"grid", "ab", "ab-balanced", "ab-median", "mixed", "hierarchy", "brute"}) {
             INFO(method);
             CHECK(arrange("--search " + method) == expected);
         }
@@ -117,6 +126,12 @@ TEST_CASE("cli: doubles that are not conforming are refused, by name", "[cli]") 
     CHECK(contains(refused.err, "nothing written"));
     CHECK(folder.left() == std::set<std::string>{"s.json"});
     CHECK(Json::parse(folder.read("s.json"))["rounding"]["verified"] == false);
+
+    const auto proved = folder.run("arrange " + in + " -o out.off --rounds 0 --certificate c.json");
+    CHECK(proved.status == 1);
+    CHECK(contains(proved.err, "the mesh is not written"));
+    CHECK_FALSE(contains(proved.err, "nothing written")); // as the certificate is
+    CHECK(folder.left() == std::set<std::string>{"c.json", "s.json"});
 
     const auto kept = folder.run("arrange " + in + " -o out.off --rounds 0 --keep-unverified");
     CHECK(kept.status == 1);
