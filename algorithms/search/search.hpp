@@ -91,6 +91,16 @@ std::vector<CandidatePair> candidate_pairs_of(const BoxSource& boxes,
                                               std::span<const std::uint32_t> groups = {},
                                               const PairFilter& filter = {}, const Run& run = {});
 
+/// The classes of a PairClassifier are less than this.
+constexpr std::size_t pair_classes = 4;
+
+/// Returns the class of a pair. Called from several threads, each under an UpwardRounding.
+using PairClassifier = std::function<std::size_t(const CandidatePair&)>;
+
+/// Counts all pairs of overlapping boxes by class. Pairs take no memory.
+std::array<std::uint64_t, pair_classes>
+count_candidate_pairs(const BoxSource& boxes, const PairClassifier& class_of, const Run& run = {});
+
 /// Returns the method that `automatic` stands for: brute for very few boxes, bvh for others.
 /// `terrane bench paper` compares the methods on the paper's models. The grid is faster than bvh by
 /// a fifth to a third for two uniform surfaces of up to 70 000 triangles that meet everywhere. It

@@ -10,6 +10,11 @@
 namespace terrane::rounding::detail {
 namespace {
 
+// The flags of a triangle.
+constexpr std::uint8_t is_part = 1;        ///< tested against all but those of its patch
+constexpr std::uint8_t is_dirty = 2;       ///< a corner has moved
+constexpr std::uint8_t in_tested_pair = 4; ///< one of the tested pairs has it
+
 constexpr std::uint32_t tested = UINT32_MAX; ///< in place of the index of a triangle
 
 /// Per triangle of the state: the same triangle of the arrangement, or `tested` by (1).
@@ -41,20 +46,24 @@ FirstSearch::FirstSearch(std::vector<CandidatePair> tested_pairs,
                          std::span<const std::uint32_t> parts, std::span<const std::uint32_t> dirty,
                          std::vector<std::uint32_t> patches_of) :
     pairs(std::move(tested_pairs)),
-    is_part(patches_of.size(), false), is_dirty(patches_of.size(), false),
-    patches(std::move(patches_of)) {
-    for (const std::uint32_t t : parts) is_part[t] = true;
-    for (const std::uint32_t t : dirty) is_dirty[t] = true;
+    flags(patches_of.size(), 0), patches(std::move(patches_of)) {
+    for (const std::uint32_t t : parts) flags[t] |= is_part;
+    for (const std::uint32_t t : dirty) flags[t] |= is_dirty;
+    for (const CandidatePair& pair : pairs)
+        for (const std::uint32_t t : {pair.first, pair.second}) flags[t] |= in_tested_pair;
 }
 
 DecidedBy FirstSearch::decided_by(const CandidatePair& pair) const {
-    if (is_dirty.empty()) return DecidedBy::exact_mesh;
+    if (flags.empty()) return DecidedBy::exact_mesh;
+    const unsigned either = flags[pair.first] | flags[pair.second];
+    if (either == 0) return DecidedBy::exact_mesh; // most pairs
+    const unsigned both = flags[pair.first] & flags[pair.second];
     const bool in_one_patch =
         patches[pair.first] != no_group && patches[pair.first] == patches[pair.second];
-    if ((!in_one_patch && (is_part[pair.first] || is_part[pair.second])) ||
-        std::binary_search(pairs.begin(), pairs.end(), pair))
+    if ((!in_one_patch && (either & is_part) != 0) ||
+        ((both & in_tested_pair) != 0 && std::binary_search(pairs.begin(), pairs.end(), pair)))
         return DecidedBy::test;
-    if (!is_dirty[pair.first] && !is_dirty[pair.second]) return DecidedBy::exact_mesh;
+    if ((either & is_dirty) == 0) return DecidedBy::exact_mesh;
     return in_one_patch ? DecidedBy::patch : DecidedBy::separation;
 }
 

@@ -29,8 +29,7 @@ struct FirstSearch {
                 std::span<const std::uint32_t> dirty, std::vector<std::uint32_t> patches_of);
 
     std::vector<CandidatePair> pairs;   ///< tested; sorted
-    std::vector<bool> is_part;          ///< per triangle: tested against all but those of its patch
-    std::vector<bool> is_dirty;         ///< per triangle: a corner has moved
+    std::vector<std::uint8_t> flags;    ///< per triangle: see pair_decisions.cpp
     std::vector<std::uint32_t> patches; ///< per triangle: its patch, if that still holds; no_group
 
     [[nodiscard]] DecidedBy decided_by(const CandidatePair& pair) const;

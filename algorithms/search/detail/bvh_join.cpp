@@ -159,4 +159,25 @@ std::vector<CandidatePair> active_pairs(const BoxSource& boxes,
     return sorted(blocks, boxes.size());
 }
 
+std::array<std::uint64_t, pair_classes> bvh_counts(const BoxSource& boxes,
+                                                   const PairClassifier& class_of, const Run& run) {
+    using Counts = std::array<std::uint64_t, pair_classes>;
+    const PackedTree tree(select_all(boxes));
+    const auto of_blocks = for_blocks<Counts>(
+        tree.leaf_count(), leaves_per_block, run, [&](std::size_t leaf, std::size_t end) {
+            Counts counts{};
+            for (; leaf < end; ++leaf)
+                tree.join(static_cast<std::uint32_t>(leaf), tree,
+                          [&](std::uint32_t i, std::uint32_t j, bool inside) {
+                              if (inside || boxes[i].overlaps(boxes[j]))
+                                  ++counts.at(class_of({std::min(i, j), std::max(i, j)}));
+                          });
+            return counts;
+        });
+    Counts sum{};
+    for (const Counts& counts : of_blocks)
+        for (std::size_t k = 0; k < sum.size(); ++k) sum.at(k) += counts.at(k);
+    return sum;
+}
+
 } // namespace terrane::search

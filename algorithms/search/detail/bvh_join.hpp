@@ -3,6 +3,7 @@
 // Implements Search::bvh: reduces the boxes to those that may meet, then joins trees leaf by leaf.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -24,6 +25,10 @@ std::vector<CandidatePair> active_pairs(const BoxSource& boxes,
                                         std::span<const std::uint32_t> active,
                                         std::span<const std::uint32_t> groups,
                                         const PairFilter& filter, const Run& run);
+
+/// Implements count_candidate_pairs.
+std::array<std::uint64_t, pair_classes> bvh_counts(const BoxSource& boxes,
+                                                   const PairClassifier& class_of, const Run& run);
 
 /// Merges and sorts pairs of indices below `count`.
 std::vector<CandidatePair> sorted(const std::vector<std::vector<CandidatePair>>& blocks,
