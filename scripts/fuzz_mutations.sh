@@ -61,7 +61,7 @@ longest=0
 rows=$scratch/rows.md
 : >"$rows"
 printf '| planted bug | target | found after | as |\n|---|---|---|---|\n'
-while IFS='~' read -r name target file change breaks; do
+while IFS='~' read -r -u 3 name target file change breaks; do
     [[ -n $name && $name != '#'* ]] || continue
     [[ $chosen == "  " || $chosen == *" $name "* ]] || continue
     cp -p "$file" "$scratch/$file.kept"
@@ -82,7 +82,7 @@ while IFS='~' read -r name target file change breaks; do
     printf '| `%s`: %s | `%s` | %s |\n' "$name" "$breaks" "$target" "${found:+$found s}" >>"$rows"
     [[ -n $found ]] || missed=$((missed + 1))
     longest=$(awk -v a="$longest" -v b="${found:-0}" 'BEGIN { print (b > a ? b : a) }')
-done <fuzz/plants.txt
+done 3<fuzz/plants.txt
 [[ $missed -eq 0 ]] || { echo "fuzz_mutations: $missed not found" >&2; exit 1; }
 
 [[ -n $record ]] || exit 0

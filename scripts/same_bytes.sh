@@ -8,41 +8,40 @@
 # CASES (a regular expression) selects cases by name. The differences are listed; the status is 1 if
 # there are any.
 set -euo pipefail
+programs=()
+for program in "$@"; do programs+=("$(realpath "$program")"); done
 cd "$(dirname "$0")/.."
 
-# Each case has a name and a command; $D is tests/data, $E docs/data, $P a project, and $O the folder
-# for results.
+# Each case has a name and a command, which runs in a scratch folder: data is tests/data, docs is docs/data,
+# out is for results. Messages and certificates name these paths.
 cases=(
-    'arrange_cube arrange $D/ringmesh/split_cube.ml -o $O/a.obj -o $O/a.vtp -o $O/a.ts -o $O/a.ply -o $O/a.msh --exact $O/exact.json --certificate $O/c.json'
-    'arrange_cubes arrange $D/arrangements/three_cubes.stl -o $O/a.obj -o $O/a.vtp -o $O/a.stl -o $O/a.off'
-    'arrange_cray arrange $D/manifold/Cray_left.obj $D/manifold/Cray_right.obj -o $O/a.obj -o $O/a.vtp'
-    'arrange_faults arrange $D/implicit-benchmark/Fault.ts $D/opengeode-geosciencesio/surf2d_multi.ts -o $O/a.obj -o $O/a.vtp'
-    'box arrange $E/top.ts $E/base.ts $E/fault.ts -o $O/a.vtp --box 0,0,-1700,2000,1500,-700'
-    'rotated_box arrange $E/top.ts $E/base.ts $E/fault.ts -o $O/a.vtp --rotated-box 1000,750,-1200,1500,1100,900,20,10,5'
-    'polygon arrange $E/top.ts $E/base.ts $E/fault.ts -o $O/a.vtp --polygon $E/licence.txt --between -1700,-700'
-    'within arrange $E/top.ts $E/base.ts $E/fault.ts -o $O/a.vtp --within $E/body.ts'
-    'check check $D/ringmesh/split_cube.ml $E/fault.ts $E/top.ts --json'
-    'volume volume $D/ringmesh/modelA1.ml -o $O/model'
-    'extend volume $E/top.ts $E/base.ts $E/fault.ts -o $O/model --box -140,-140,-1700,2140,1640,-700 --extend 60 --seal 20'
-    'seal volume $E/top.ts $E/base.ts $E/fault.ts -o $O/model --box 0,0,-1700,2000,1500,-700 --seal 20'
-    'improve improve $E/top.ts $E/base.ts $E/fault.ts -o $O/a.vtp -o $O/a.obj --box 0,0,-1700,2000,1500,-700 --seal 20 --edge-length 200 --histogram $O/q.svg'
-    'kriging fill --depth $E/seabed.asc -o $O/a.vtp -o $O/a.obj --map $O/map.svg --points $O/new.csv'
-    'rbf fill $E/fold.ts -o $O/a.vtp -o $O/a.ts --method rbf'
-    'kriging_gaussian fill --depth $E/seabed.asc -o $O/a.vtp --model gaussian --isotropic --rings 3'
-    'rbf_smoothed fill --depth $E/seabed.asc -o $O/a.obj --method rbf --smoothing auto'
-    'layer layer --hard $E/salt.ts --soft $E/shale.ts --keep upper -o $O/a.vtp -o $O/a.obj'
-    'stack layer $E/salt.ts $E/shale.ts --layer shale=1 --layer salt=2 --min-thickness 5 -o $O/a.vtp'
-    'tetrahedra tetrahedralize $D/ringmesh/split_cube.ml -o $O/a.vtu -o $O/a.msh --quality 2'
-    'convert convert $E/top.ts $O/a.ply'
-    'points convert $E/seabed.asc $O/a.ts'
-    'build build $P -o $O/model'
+    'arrange_cube arrange data/ringmesh/split_cube.ml -o out/a.obj -o out/a.vtp -o out/a.ts -o out/a.ply -o out/a.msh --exact out/exact.json --certificate out/c.json'
+    'arrange_cubes arrange data/arrangements/three_cubes.stl -o out/a.obj -o out/a.vtp -o out/a.stl -o out/a.off'
+    'arrange_cray arrange data/manifold/Cray_left.obj data/manifold/Cray_right.obj -o out/a.obj -o out/a.vtp'
+    'arrange_faults arrange data/implicit-benchmark/Fault.ts data/opengeode-geosciencesio/surf2d_multi.ts -o out/a.obj -o out/a.vtp'
+    'box arrange docs/top.ts docs/base.ts docs/fault.ts -o out/a.vtp --box 0,0,-1700,2000,1500,-700'
+    'rotated_box arrange docs/top.ts docs/base.ts docs/fault.ts -o out/a.vtp --rotated-box 1000,750,-1200,1500,1100,900,20,10,5'
+    'polygon arrange docs/top.ts docs/base.ts docs/fault.ts -o out/a.vtp --polygon docs/licence.txt --between -1700,-700'
+    'within arrange docs/top.ts docs/base.ts docs/fault.ts -o out/a.vtp --within docs/body.ts'
+    'check check data/ringmesh/split_cube.ml docs/fault.ts docs/top.ts --json'
+    'volume volume data/ringmesh/modelA1.ml -o out/model'
+    'extend volume docs/top.ts docs/base.ts docs/fault.ts -o out/model --box -140,-140,-1700,2140,1640,-700 --extend 60 --seal 20'
+    'seal volume docs/top.ts docs/base.ts docs/fault.ts -o out/model --box 0,0,-1700,2000,1500,-700 --seal 20'
+    'improve improve docs/top.ts docs/base.ts docs/fault.ts -o out/a.vtp -o out/a.obj --box 0,0,-1700,2000,1500,-700 --seal 20 --edge-length 200 --histogram out/q.svg'
+    'kriging fill --depth docs/seabed.asc -o out/a.vtp -o out/a.obj --map out/map.svg --points out/new.csv'
+    'rbf fill docs/fold.ts -o out/a.vtp -o out/a.ts --method rbf'
+    'kriging_gaussian fill --depth docs/seabed.asc -o out/a.vtp --model gaussian --isotropic --rings 3'
+    'rbf_smoothed fill --depth docs/seabed.asc -o out/a.obj --method rbf --smoothing auto'
+    'layer layer --hard docs/salt.ts --soft docs/shale.ts --keep upper -o out/a.vtp -o out/a.obj'
+    'stack layer docs/salt.ts docs/shale.ts --layer shale=1 --layer salt=2 --min-thickness 5 -o out/a.vtp'
+    'tetrahedra tetrahedralize data/ringmesh/split_cube.ml -o out/a.vtu -o out/a.msh --quality 2'
+    'convert convert docs/top.ts out/a.ply'
+    'points convert docs/seabed.asc out/a.ts'
+    'build build project.json -o out/model'
 )
 
-if [[ $# -gt 0 ]]; then
-    programs=("$@")
-else
+if [[ $# -eq 0 ]]; then
     presets=(release asan) # compares a debug build of clang with an optimised one of gcc
-    programs=()
     for preset in "${presets[@]}"; do
         cmake --preset "$preset" >/dev/null
         cmake --build --preset "$preset" --target cli/terrane
@@ -54,7 +53,6 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 chosen=${CASES:-.}
 
-# All paths are relative to the scratch folder, since messages and certificates name them.
 ln -s "$PWD/tests/data" "$work/data"
 ln -s "$PWD/docs/data" "$work/docs"
 cat >"$work/project.json" <<'END'
@@ -76,16 +74,17 @@ END
 # run_cases DIR PROGRAM THREADS: runs all cases; DIR/NAME gets what they print and write. Status 1
 # (findings, or rounding failed) is a result as well.
 run_cases() {
-    local case name status
+    local case name status words
     for case in "${cases[@]}"; do
         name=${case%% *}
         [[ $name =~ $chosen ]] || continue
         rm -rf "$work/out" && mkdir "$work/out"
         status=0
+        read -ra words <<<"${case#* }"
+        [[ ${words[0]} == convert ]] || words+=(--threads "$3")
         (
             cd "$work"
-            D=data E=docs P=project.json O=out
-            eval "\"$2\" ${case#* }$(threads_option "$case" "$3")" >out/stdout 2>out/stderr
+            "$2" "${words[@]}" >out/stdout 2>out/stderr
         ) || status=$?
         if [[ $status -gt 1 ]]; then
             echo "same_bytes: $name: exit status $status ($2)" >&2
@@ -109,9 +108,6 @@ for key in ("seconds", "peak_rss_mb"):
 json.dump(statistics, open(sys.argv[1], "w"), indent=1)
 END
 }
-
-# threads_option CASE THREADS: prints the option, except for convert, which has none.
-threads_option() { [[ $1 == *' convert '* ]] || echo " --threads $2"; }
 
 differences=0
 run_cases "$work/expected" "${programs[0]}" 1
