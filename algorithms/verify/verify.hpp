@@ -61,6 +61,23 @@ enum class Rule : std::uint8_t {
                          ///< intersection segments end or cross
     R21_output,          ///< an output file is not the one that the certificate describes, or does
                          ///< not hold the mesh of doubles
+    // Blocks: see docs/reference/certificate.md.
+    R30_block_lists = 29, ///< a list about blocks is unsorted, too long or too short
+    R31_shells,           ///< the shells are not those of the mesh
+    R32_nesting,          ///< another shell bounds a block from the outside
+    R33_block_numbers,    ///< a shell bounds another block, or there are more or fewer blocks
+    R34_volumes,          ///< a block has another volume
+    // Tetrahedra: see docs/explanation/tetrahedra.md.
+    R40_tetrahedra_lists = 39, ///< as R1, in the lists about tetrahedra
+    R41_positive,              ///< a tetrahedron is flat or inverted
+    R42_faces,                 ///< a face has two tetrahedra on a side, or none where one must be
+    R43_box,                   ///< the tetrahedra do not fill their box
+    R44_nodes,                 ///< two nodes are one point, or no node is at a vertex of the mesh
+    R45_cover,                 ///< the faces on a triangle do not cover it
+    R46_blocks,                ///< a tetrahedron is in another block
+    R47_block_volumes,         ///< a block and its tetrahedra differ in volume by more than nodes
+                               ///< near its triangles allow
+    R48_cuts,                  ///< nodes are not split as twin faces say
 };
 
 /// Returns "R5" for rule R5, and so on.
@@ -80,6 +97,10 @@ struct Violation {
                                          ///< R16: triangles, or none for the whole; R17: none
                                          ///< R18: an input triangle; R19: {triangle, parent}
                                          ///< R20: a vertex; R21: an output
+                                         ///< R31, R32: a shell; R33, R34: a block or a shell
+                                         ///< R40, R41: tetrahedra; R42, R46: a tetrahedron or a
+                                         ///< face; R44: nodes, or a vertex; R45: a triangle
+                                         ///< R47: a block; R48: a face or a node
     std::string sentence;                ///< what is wrong
 };
 

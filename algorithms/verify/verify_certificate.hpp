@@ -21,6 +21,7 @@
 //     for bit; with the numbers rounded to float32 where this is what the file holds.
 #pragma once
 
+#include <any>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -32,6 +33,7 @@
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
+#include <terrane/algorithms/verify/block_claims.hpp>
 #include <terrane/algorithms/verify/verify.hpp>
 
 namespace terrane {
@@ -82,6 +84,8 @@ struct RoundedClaim {
 /// What a certificate is about.
 enum class CertificateKind : std::uint8_t {
     arrangement, ///< the arrangement of the surfaces as they are in the input files
+    volumes,     ///< this, and the blocks of the mesh of doubles
+    tetrahedra,  ///< all that, and tetrahedra in the blocks
 };
 
 /// A certificate, parsed.
@@ -91,6 +95,8 @@ struct Certificate {
     std::vector<CertifiedOutput> outputs;                ///< the files with the mesh of doubles
     ArrangementClaim exact;                              ///< the arrangement in exact numbers
     std::optional<RoundedClaim> rounded;                 ///< the mesh of doubles, if there is one
+    std::optional<BlocksClaim> blocks;                   ///< for volumes and tetrahedra
+    std::optional<TetrahedraClaim> tetrahedra;           ///< for tetrahedra
     std::string digest; ///< "sha256:" and 64 hexadecimal digits; see digest.hpp
 };
 
@@ -127,10 +133,19 @@ struct Measured {
     std::size_t partly_vanished = 0; ///< number of those of which only a thin part is not left
 };
 
+/// The verifier's own measure of blocks and tetrahedra.
+struct MeasuredBlocks {
+    std::size_t blocks = 0;       ///< number of blocks of the mesh of doubles
+    std::size_t tetrahedra = 0;   ///< number of tetrahedra
+    std::size_t divided = 0;      ///< number of triangles that are more than one face of tetrahedra
+    double volume_difference = 0; ///< the largest between a block and its tetrahedra
+};
+
 /// What the verifier found.
 struct Verdict {
     std::vector<Violation> violations; ///< sorted by rule and elements; none: the claims are true
     std::optional<Measured> measured;  ///< of the mesh of doubles; none if it was not judged
+    std::optional<MeasuredBlocks> blocks; ///< none if they were not judged
 };
 
 /// Judges a certificate without its output files. After a violation of R9 no other rule is judged;
@@ -146,7 +161,8 @@ Verdict verify_rounded(std::span<const Surface> inputs, const ArrangementClaim& 
 
 /// What an output file was compared with.
 enum class OutputCheck : std::uint8_t {
-    doubles,  ///< with all coordinates and triangles
+    doubles,  ///< with all coordinates and triangles (or tetrahedra)
+    numbers,  ///< with the numbers of blocks, interfaces and patches; not with all that it holds
     float32,  ///< with all coordinates, rounded to float32, and all triangles
     hash_only ///< with its SHA-256 only: the verifier has no reader for the format
 };
@@ -167,5 +183,18 @@ struct OutputVerdict {
 /// float32 that of verify_conforming.
 OutputVerdict verify_output(std::string_view contents, const Certificate& certificate,
                             std::size_t output);
+
+/// Does the same for several files. What follows from the certificate for all of them is computed
+/// once.
+class OutputVerifier {
+public:
+    /// The certificate must outlive the object.
+    explicit OutputVerifier(const Certificate& certificate) : certificate_(certificate) {}
+    OutputVerdict operator()(std::string_view contents, std::size_t output);
+
+private:
+    const Certificate& certificate_;
+    std::any computed_; ///< of a type that the kind of certificate has
+};
 
 } // namespace terrane

@@ -70,5 +70,6 @@ set(terrane_headers
     io/project_inputs.hpp
     io/structure_json.hpp)
 set(verify_headers
+    algorithms/verify/block_claims.hpp
     algorithms/verify/verify.hpp
     algorithms/verify/verify_certificate.hpp)

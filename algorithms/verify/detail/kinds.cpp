@@ -12,7 +12,7 @@ namespace {
 
 /// All kinds, in the order of CertificateKind.
 const auto& all_kinds() {
-    static const std::array kinds{&arrangement_kind()};
+    static const std::array kinds{&arrangement_kind(), &volumes_kind(), &tetrahedra_kind()};
     return kinds;
 }
 

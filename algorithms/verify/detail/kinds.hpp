@@ -4,8 +4,10 @@
 // "inputs" and "outputs", and a file NAME_kind.cpp that reads and judges them.
 #pragma once
 
+#include <any>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include <terrane/algorithms/core/index_lists.hpp>
@@ -40,6 +42,12 @@ struct Kind {
     /// Returns the mesh of the output files; none if the certificate has no mesh of doubles.
     /// Precondition: judge() found no violation.
     std::optional<WrittenMesh> (*written)(const Certificate& certificate);
+    /// Compares the contents of an output with what it must hold: fills in `check` and `renamed`,
+    /// and returns what is wrong, or nothing. nullptr: all outputs hold the mesh. Size and hash are
+    /// compared before. `computed` keeps what several outputs need.
+    std::string (*compare)(std::string_view contents, const Certificate& certificate,
+                           const CertifiedOutput& output, std::any& computed,
+                           OutputVerdict& verdict) = nullptr;
 };
 
 /// Returns the kind with this name; nullptr if there is none.
@@ -48,6 +56,8 @@ const Kind& find_kind(CertificateKind kind);
 
 // One function per kind, in NAME_kind.cpp; kinds.cpp lists them.
 const Kind& arrangement_kind();
+const Kind& volumes_kind();
+const Kind& tetrahedra_kind();
 
 // --- For kinds that contain an arrangement ------------------------------------------------------
 

@@ -14,11 +14,9 @@
 
 namespace terrane {
 
-namespace {
+namespace verifier {
 
-using verifier::Difference;
-using verifier::ExpectedMesh;
-using verifier::WrittenMesh;
+namespace {
 
 /// A format that the verifier reads.
 struct Reader {
@@ -26,13 +24,29 @@ struct Reader {
     void (*compare)(std::string_view contents, const ExpectedMesh& expected);
 };
 
-constexpr std::array<Reader, 7> readers{{{"obj", verifier::compare_obj},
-                                         {"off", verifier::compare_off},
-                                         {"ply", verifier::compare_ply},
-                                         {"stl", verifier::compare_stl},
-                                         {"stl-ascii", verifier::compare_stl_ascii},
-                                         {"ts", verifier::compare_gocad},
-                                         {"vtp", verifier::compare_vtp}}};
+constexpr std::array<Reader, 7> readers{{{"obj", compare_obj},
+                                         {"off", compare_off},
+                                         {"ply", compare_ply},
+                                         {"stl", compare_stl},
+                                         {"stl-ascii", compare_stl_ascii},
+                                         {"ts", compare_gocad},
+                                         {"vtp", compare_vtp}}};
+
+} // namespace
+
+bool has_reader(std::string_view format) {
+    return std::ranges::find(readers, format, &Reader::format) != readers.end();
+}
+
+std::string difference(std::string_view contents, std::string_view format,
+                       const ExpectedMesh& expected) {
+    try {
+        std::ranges::find(readers, format, &Reader::format)->compare(contents, expected);
+    } catch (const Difference& difference) {
+        return difference.place + ": " + difference.sentence;
+    }
+    return "";
+}
 
 std::vector<std::uint32_t> renamed_surfaces(const Certificate& certificate,
                                             const CertifiedOutput& output) {
@@ -52,6 +66,12 @@ std::size_t surface_count(const Certificate& certificate) {
     for (const CertifiedInput& input : certificate.inputs) count += input.surfaces.size();
     return count;
 }
+
+} // namespace verifier
+
+namespace {
+
+using verifier::WrittenMesh;
 
 // --- float32 ----------------------------------------------------------------------------------
 
@@ -91,49 +111,51 @@ double narrowing_move(const WrittenMesh& mesh) {
     return most;
 }
 
-/// Describes a difference between a file and the mesh that it must hold; empty if there is none.
-std::string difference(std::string_view contents, const ExpectedMesh& expected,
-                       const Reader& reader) {
-    try {
-        reader.compare(contents, expected);
-    } catch (const Difference& difference) {
-        return difference.place + ": " + difference.sentence;
-    }
-    return "";
+/// Compares a file with the mesh of the certificate; returns what is wrong, or nothing.
+std::string compare_mesh(std::string_view contents, const Certificate& certificate,
+                         const CertifiedOutput& output, OutputVerdict& verdict) {
+    const bool readable = verifier::has_reader(output.format);
+    if (!readable)
+        verdict.check = OutputCheck::hash_only;
+    else if (output.format == "stl")
+        verdict.check = OutputCheck::float32;
+    if (output.surfaces.size() != verifier::surface_count(certificate))
+        return "another number of surfaces than in the inputs";
+    verdict.renamed = verifier::renamed_surfaces(certificate, output);
+    const auto mesh = verifier::find_kind(certificate.kind).written(certificate);
+    if (!mesh || !readable) return "";
+    auto what = verifier::difference(contents, output.format, {*mesh, output.surfaces});
+    if (!what.empty() || verdict.check != OutputCheck::float32) return what;
+    verdict.float32_move = narrowing_move(*mesh);
+    return mesh->clean && !is_conforming_narrowed(*mesh)
+               ? "the triangles are not conforming in float32"
+               : "";
 }
 
 } // namespace
 
 OutputVerdict verify_output(std::string_view contents, const Certificate& certificate,
                             std::size_t number) {
-    const CertifiedOutput& output = certificate.outputs[number];
+    return OutputVerifier(certificate)(contents, number);
+}
+
+OutputVerdict OutputVerifier::operator()(std::string_view contents, std::size_t number) {
+    const CertifiedOutput& output = certificate_.outputs[number];
     OutputVerdict verdict;
     const auto refute = [&](const std::string& what) {
-        verdict.violations.push_back(
-            {Rule::R21_output, {static_cast<std::uint32_t>(number)}, output.name + ": " + what});
+        if (!what.empty())
+            verdict.violations.push_back({Rule::R21_output,
+                                          {static_cast<std::uint32_t>(number)},
+                                          output.name + ": " + what});
     };
-    const auto reader = std::ranges::find(readers, output.format, &Reader::format);
-    if (reader == readers.end())
-        verdict.check = OutputCheck::hash_only;
-    else if (output.format == "stl")
-        verdict.check = OutputCheck::float32;
-    if (output.surfaces.size() != surface_count(certificate)) {
-        refute("another number of surfaces than in the inputs");
-        return verdict;
-    }
-    verdict.renamed = renamed_surfaces(certificate, output);
     if (output.bytes != contents.size() ||
         output.sha256 != verifier::in_hexadecimal(verifier::hash_of(contents)))
         refute("another SHA-256 or size than the certificate says");
-    const auto mesh = verifier::find_kind(certificate.kind).written(certificate);
-    if (!mesh || reader == readers.end()) return verdict;
-    if (const auto what = difference(contents, {*mesh, output.surfaces}, *reader); !what.empty())
-        refute(what);
-    if (verdict.check == OutputCheck::float32) {
-        verdict.float32_move = narrowing_move(*mesh);
-        if (mesh->clean && !is_conforming_narrowed(*mesh))
-            refute("the triangles are not conforming in float32");
-    }
+    const verifier::Kind& kind = verifier::find_kind(certificate_.kind);
+    if (kind.compare != nullptr)
+        refute(kind.compare(contents, certificate_, output, computed_, verdict));
+    else
+        refute(compare_mesh(contents, certificate_, output, verdict));
     return verdict;
 }
 

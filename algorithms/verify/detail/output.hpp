@@ -17,10 +17,17 @@
 
 namespace terrane::verifier {
 
+/// A number per triangle, by its name in VTP.
+struct CellNumbers {
+    std::string name;
+    std::vector<std::int32_t> values;
+};
+
 /// The mesh that an output file must hold.
 struct ExpectedMesh {
     const WrittenMesh& mesh;
     std::span<const SurfaceInfo> surfaces; ///< what the file calls them; order of the input
+    std::vector<CellNumbers> cells{};      ///< further numbers; VTP only
 };
 
 /// Where a file differs from the mesh that it must hold. The readers throw it.
@@ -28,6 +35,17 @@ struct Difference {
     std::string place; ///< "line 12", "byte 4711"
     std::string sentence;
 };
+
+/// Compares a file in this format with a mesh; returns where they differ, or nothing. Precondition:
+/// has_reader(format).
+std::string difference(std::string_view contents, std::string_view format,
+                       const ExpectedMesh& expected);
+bool has_reader(std::string_view format);
+
+/// Returns the surfaces with another name or role than in the inputs.
+std::vector<std::uint32_t> renamed_surfaces(const Certificate& certificate,
+                                            const CertifiedOutput& output);
+std::size_t surface_count(const Certificate& certificate);
 
 void compare_obj(std::string_view contents, const ExpectedMesh& expected);
 void compare_off(std::string_view contents, const ExpectedMesh& expected);

@@ -3,34 +3,15 @@
 // check_regions of rounded_parts.hpp.
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <utility>
 
 #include <terrane/algorithms/verify/detail/indices.hpp>
+#include <terrane/algorithms/verify/detail/joined_sets.hpp>
 #include <terrane/algorithms/verify/detail/rounded_parts.hpp>
 
 namespace terrane::verifier {
 
 namespace {
-
-/// Disjoint sets; the lowest element of a set represents it.
-class JoinedSets {
-public:
-    explicit JoinedSets(std::size_t count) : up_(count) { std::iota(up_.begin(), up_.end(), 0U); }
-
-    std::uint32_t find(std::uint32_t x) {
-        while (up_[x] != x) x = up_[x] = up_[up_[x]];
-        return x;
-    }
-    void join(std::uint32_t x, std::uint32_t y) {
-        x = find(x);
-        y = find(y);
-        up_[std::max(x, y)] = std::min(x, y);
-    }
-
-private:
-    Numbers up_;
-};
 
 /// Returns the surfaces of the parents of each triangle, sorted and unique.
 IndexLists<std::uint32_t> surfaces_of_parents(const Inputs& inputs, const RoundedClaim& rounded) {

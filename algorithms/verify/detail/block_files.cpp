@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/verify/detail/block_files.hpp>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include <terrane/algorithms/verify/detail/joined_sets.hpp>
+
+namespace terrane::verifier {
+
+namespace {
+
+using Key = std::pair<BlockSides, Numbers>; ///< blocks, the lower first, and surfaces
+
+Key interface_key(const WrittenMesh& mesh, const std::vector<BlockSides>& sides, std::uint32_t t) {
+    const auto [front, back] = sides[t];
+    const auto surfaces = mesh.surfaces_of[t];
+    return {{std::min(front, back), std::max(front, back)}, {surfaces.begin(), surfaces.end()}};
+}
+
+/// Returns the rank of each vertex in the lexicographic order of the points.
+Numbers ranks_of(const std::vector<Point3>& vertices) {
+    Numbers order(vertices.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return vertices[a] < vertices[b]; });
+    Numbers rank(order.size());
+    for (std::uint32_t r = 0; r < order.size(); ++r) rank[order[r]] = r;
+    return rank;
+}
+
+/// Returns the ranks of the vertices of triangles, ascending.
+Numbers ranks_in(const WrittenMesh& mesh, const Numbers& rank, const Numbers& triangles) {
+    Numbers all;
+    for (const std::uint32_t t : triangles)
+        for (const std::uint32_t v : mesh.triangles[t]) all.push_back(rank[v]);
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    return all;
+}
+
+/// Groups the triangles by patches, in the order of their first triangles.
+std::vector<Numbers> connected(const WrittenMesh& mesh, const Numbers& interface_of) {
+    std::map<Edge, Numbers> at_edge;
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto& corners = mesh.triangles[t];
+            const auto [low, high] = std::minmax(corners[i], corners[(i + 1) % 3]);
+            at_edge[{low, high}].push_back(t);
+        }
+    JoinedSets sets(mesh.triangles.size());
+    for (const auto& [edge, around] : at_edge)
+        if (around.size() == 2 && interface_of[around[0]] == interface_of[around[1]])
+            sets.join(around[0], around[1]);
+    std::map<std::uint32_t, Numbers> groups;
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) groups[sets.find(t)].push_back(t);
+    std::vector<Numbers> all;
+    for (auto& [first, triangles] : groups) all.push_back(std::move(triangles));
+    return all;
+}
+
+/// Takes triangles out of the mesh; turns those over for which turned(t) holds.
+template <class Turned>
+PartMesh cut(const WrittenMesh& mesh, Numbers triangles, const Turned& turned) {
+    PartMesh part;
+    std::vector<bool> used(mesh.vertices.size());
+    for (const std::uint32_t t : triangles)
+        for (const std::uint32_t v : mesh.triangles[t]) used[v] = true;
+    Numbers number(used.size());
+    for (std::uint32_t v = 0; v < used.size(); ++v)
+        if (used[v]) {
+            number[v] = static_cast<std::uint32_t>(part.vertices.size());
+            part.vertices.push_back(mesh.vertices[v]);
+        }
+    for (const std::uint32_t t : triangles) {
+        auto [a, b, c] = mesh.triangles[t];
+        if (turned(t)) std::swap(b, c);
+        part.triangles.push_back({number[a], number[b], number[c]});
+        part.surfaces_of.push_back(mesh.surfaces_of[t]);
+        part.regions_of.push_back(mesh.regions_of[t]);
+        part.parents_of.push_back(mesh.parents_of[t]);
+    }
+    part.numbers = std::move(triangles);
+    return part;
+}
+
+} // namespace
+
+BlockParts find_parts(const WrittenMesh& mesh, const std::vector<BlockSides>& sides) {
+    const Numbers rank = ranks_of(mesh.vertices);
+    const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
+    std::map<Key, Numbers> groups;
+    for (std::uint32_t t = 0; t < count; ++t) groups[interface_key(mesh, sides, t)].push_back(t);
+    std::vector<std::tuple<BlockSides, Numbers, std::uint32_t, const Numbers*>> order;
+    for (const auto& [key, triangles] : groups)
+        order.emplace_back(key.first, ranks_in(mesh, rank, triangles), triangles[0], &triangles);
+    std::sort(order.begin(), order.end());
+    BlockParts parts;
+    parts.interface_of.resize(count);
+    parts.patch_of.resize(count);
+    for (const auto& [blocks, ranks, first, triangles] : order) {
+        for (const std::uint32_t t : *triangles)
+            parts.interface_of[t] = static_cast<std::uint32_t>(parts.interfaces.size());
+        const auto surfaces = mesh.surfaces_of[first];
+        parts.interfaces.push_back({blocks, {surfaces.begin(), surfaces.end()}, *triangles, {}});
+    }
+    std::vector<std::tuple<Numbers, std::uint32_t, Numbers>> patches;
+    for (Numbers& triangles : connected(mesh, parts.interface_of)) {
+        Numbers ranks = ranks_in(mesh, rank, triangles);
+        patches.emplace_back(std::move(ranks), triangles[0], std::move(triangles));
+    }
+    std::sort(patches.begin(), patches.end());
+    for (auto& [ranks, first, triangles] : patches) {
+        const auto number = static_cast<std::uint32_t>(parts.patches.size());
+        for (const std::uint32_t t : triangles) parts.patch_of[t] = number;
+        parts.interfaces[parts.interface_of[first]].patches.push_back(number);
+        parts.patches.push_back({parts.interface_of[first], std::move(triangles)});
+    }
+    return parts;
+}
+
+PartMesh block_mesh(const WrittenMesh& mesh, const std::vector<BlockSides>& sides,
+                    std::uint32_t block) {
+    Numbers triangles;
+    for (std::uint32_t t = 0; t < sides.size(); ++t)
+        if ((sides[t][0] == block) != (sides[t][1] == block)) triangles.push_back(t);
+    return cut(mesh, std::move(triangles), [&](std::uint32_t t) { return sides[t][0] == block; });
+}
+
+PartMesh interface_mesh(const WrittenMesh& mesh, const std::vector<BlockSides>& sides,
+                        const Interface& interface) {
+    return cut(mesh, interface.triangles,
+               [&](std::uint32_t t) { return sides[t][0] < sides[t][1]; });
+}
+
+} // namespace terrane::verifier

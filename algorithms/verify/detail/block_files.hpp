@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// What the files of a folder with blocks must hold, as it follows from a mesh and its blocks:
+// result.vtp, blocks/block_N, interfaces/interface_N and the lists of model.json.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <terrane/algorithms/verify/detail/kinds.hpp>
+#include <terrane/algorithms/verify/detail/output.hpp>
+#include <terrane/algorithms/verify/detail/tetrahedra.hpp>
+
+namespace terrane::verifier {
+
+/// Triangles between the same two blocks that belong to the same surfaces.
+struct Interface {
+    BlockSides blocks{}; ///< the lower first
+    Numbers surfaces;    ///< ascending
+    Numbers triangles;   ///< ascending
+    Numbers patches;     ///< ascending
+};
+
+/// Triangles of an interface that are connected by edges at which no others meet.
+struct Patch {
+    std::uint32_t interface = 0;
+    Numbers triangles; ///< ascending
+};
+
+/// The interfaces, ordered by their blocks, then by the lists of their vertices in lexicographic
+/// order, then by their first triangles; and the patches, ordered likewise without blocks.
+struct BlockParts {
+    std::vector<Interface> interfaces;
+    std::vector<Patch> patches;
+    Numbers interface_of; ///< per triangle
+    Numbers patch_of;     ///< per triangle
+};
+
+BlockParts find_parts(const WrittenMesh& mesh, const std::vector<BlockSides>& sides);
+
+/// A part of the mesh as a file holds it.
+struct PartMesh {
+    std::vector<Point3> vertices; ///< those of its triangles, in the order of the mesh
+    std::vector<Triangle> triangles;
+    IndexLists<std::uint32_t> regions_of, parents_of, surfaces_of;
+    Numbers numbers; ///< per triangle: its number in the mesh
+};
+
+/// Returns the triangles around a block, wound outward; none that has the block on both sides.
+PartMesh block_mesh(const WrittenMesh& mesh, const std::vector<BlockSides>& sides,
+                    std::uint32_t block);
+
+/// Returns the triangles of an interface, so wound that the block with the higher number is in front.
+PartMesh interface_mesh(const WrittenMesh& mesh, const std::vector<BlockSides>& sides,
+                        const Interface& interface);
+
+/// What the lists of model.json are compared with.
+struct ModelLists {
+    const BlockParts& parts;
+    std::span<const SurfaceInfo> surfaces;
+    const std::vector<BlockSides>& sides;
+    std::vector<double> volumes; ///< per block: nearest to the exact volume of the mesh
+    std::string part_format;     ///< "vtp" or "obj"
+};
+
+/// Compares the numbers of blocks, interfaces and patches in model.json; lengths, areas, lines,
+/// corners and the volumes of the exact blocks are not compared. Throws Difference.
+void compare_model_json(std::string_view contents, const ModelLists& lists);
+
+} // namespace terrane::verifier

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/verify/detail/block_outputs.hpp>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include <terrane/algorithms/verify/detail/block_files.hpp>
+#include <terrane/algorithms/verify/detail/blocks.hpp>
+#include <terrane/algorithms/verify/detail/tetrahedra_files.hpp>
+
+namespace terrane::verifier {
+
+namespace {
+
+// --- Blocks -------------------------------------------------------------------------------------
+
+std::vector<BlockSides> sides_of(const BlocksClaim& claim, std::size_t triangles) {
+    std::vector<BlockSides> sides(triangles);
+    for (std::size_t s = 0; s < claim.shells.size(); ++s)
+        for (const std::uint32_t side : claim.shells[s])
+            sides[side / 2][side % 2] = claim.block_of_shell[s];
+    return sides;
+}
+
+/// What all files of a folder with blocks need.
+struct Folder {
+    WrittenMesh mesh;
+    std::vector<BlockSides> sides;
+    BlockParts parts;
+};
+
+const Folder& folder_of(const Certificate& certificate, std::any& computed) {
+    using Kept = std::shared_ptr<const Folder>;
+    if (!computed.has_value()) {
+        Folder folder{rounded_mesh(certificate).value(), {}, {}};
+        folder.sides = sides_of(certificate.blocks.value(), folder.mesh.triangles.size());
+        folder.parts = find_parts(folder.mesh, folder.sides);
+        computed = Kept(std::make_shared<Folder>(std::move(folder)));
+    }
+    return *std::any_cast<const Kept&>(computed);
+}
+
+std::vector<std::int32_t> as_cells(const Numbers& numbers) {
+    return {numbers.begin(), numbers.end()};
+}
+
+/// Returns the values of some triangles.
+std::vector<std::int32_t> cells_of(const Numbers& numbers, const Numbers& triangles) {
+    std::vector<std::int32_t> cells;
+    for (const std::uint32_t t : triangles) cells.push_back(static_cast<std::int32_t>(numbers[t]));
+    return cells;
+}
+
+/// Returns N of "...start_N.format"; none if the name is another one.
+std::optional<std::uint32_t> number_in(std::string_view name, std::string_view start,
+                                       std::string_view format) {
+    const std::string end = "." + std::string(format);
+    const std::size_t at = name.rfind(start);
+    if (at == std::string_view::npos || !name.ends_with(end)) return std::nullopt;
+    if (at > 0 && name[at - 1] != '/') return std::nullopt;
+    name.remove_prefix(at + start.size());
+    name.remove_suffix(end.size());
+    std::uint32_t number = 0;
+    const auto [after, code] = std::from_chars(name.data(), name.data() + name.size(), number);
+    if (code != std::errc() || std::to_string(number) != name) return std::nullopt;
+    return number;
+}
+
+bool is_called(std::string_view name, std::string_view file) {
+    return name == file || name.ends_with("/" + std::string(file));
+}
+
+std::string compare_part(std::string_view contents, const Folder& folder,
+                         const CertifiedOutput& output, const PartMesh& part) {
+    const WrittenMesh mesh{part.vertices,   part.triangles,   part.regions_of,
+                           part.parents_of, part.surfaces_of, true};
+    ExpectedMesh expected{mesh, output.surfaces, {}};
+    if (output.format == "vtp")
+        expected.cells = {{"triangle", as_cells(part.numbers)},
+                          {"interface", cells_of(folder.parts.interface_of, part.numbers)},
+                          {"patch", cells_of(folder.parts.patch_of, part.numbers)}};
+    return difference(contents, output.format, expected);
+}
+
+std::string compare_result(std::string_view contents, const Folder& folder,
+                           const CertifiedOutput& output) {
+    std::vector<std::int32_t> front, back;
+    for (const BlockSides& sides : folder.sides) {
+        front.push_back(static_cast<std::int32_t>(sides[0]));
+        back.push_back(static_cast<std::int32_t>(sides[1]));
+    }
+    return difference(contents, output.format,
+                      {folder.mesh,
+                       output.surfaces,
+                       {{"volume_front", std::move(front)},
+                        {"volume_back", std::move(back)},
+                        {"interface", as_cells(folder.parts.interface_of)},
+                        {"patch", as_cells(folder.parts.patch_of)}}});
+}
+
+/// Returns the format of the parts among the outputs of a certificate.
+std::string part_format(const Certificate& certificate) {
+    for (const CertifiedOutput& output : certificate.outputs)
+        if (number_in(output.name, "interfaces/interface_", output.format)) return output.format;
+    return "vtp";
+}
+
+std::string compare_model(std::string_view contents, const Certificate& certificate,
+                          const Folder& folder, const CertifiedOutput& output,
+                          OutputVerdict& verdict) {
+    verdict.check = OutputCheck::numbers;
+    ModelLists lists{folder.parts, output.surfaces, folder.sides, {}, part_format(certificate)};
+    for (const std::string& volume : certificate.blocks->volumes)
+        lists.volumes.push_back(nearest_double(mpq_class(volume)));
+    try {
+        compare_model_json(contents, lists);
+    } catch (const Difference& difference) {
+        return difference.place + ": " + difference.sentence;
+    }
+    return "";
+}
+
+// --- Tetrahedra ---------------------------------------------------------------------------------
+
+using TetrahedraReader = void (*)(std::string_view, const ExpectedTetrahedra&);
+
+constexpr std::array<std::pair<std::string_view, TetrahedraReader>, 3> tetrahedra_readers{
+    {{"vtu", compare_vtu}, {"msh", compare_msh}, {"msh22", compare_msh22}}};
+
+ExpectedTetrahedra expected_tetrahedra(const Certificate& certificate,
+                                       const CertifiedOutput& output) {
+    const TetrahedraClaim& claim = certificate.tetrahedra.value();
+    const auto of_triangles =
+        surfaces_of_parents(certificate, certificate.rounded.value().parents_of);
+    const Numbers box{static_cast<std::uint32_t>(surface_count(certificate))};
+    ExpectedTetrahedra expected{claim, output.surfaces, {}};
+    for (const std::uint32_t t : claim.triangle_of)
+        if (t == no_number)
+            expected.surfaces_of.push_back(box);
+        else
+            expected.surfaces_of.push_back(of_triangles[t]);
+    return expected;
+}
+
+} // namespace
+
+std::string compare_block_file(std::string_view contents, const Certificate& certificate,
+                               const CertifiedOutput& output, std::any& computed,
+                               OutputVerdict& verdict) {
+    if (output.surfaces.size() != surface_count(certificate))
+        return "another number of surfaces than in the inputs";
+    verdict.renamed = renamed_surfaces(certificate, output);
+    const Folder& folder = folder_of(certificate, computed);
+    if (is_called(output.name, "model.json") && output.format == "json")
+        return compare_model(contents, certificate, folder, output, verdict);
+    if (is_called(output.name, "result.vtp") && output.format == "vtp")
+        return compare_result(contents, folder, output);
+    if (output.format == "vtp" || output.format == "obj") {
+        if (const auto b = number_in(output.name, "blocks/block_", output.format);
+            b && *b > 0 && *b < certificate.blocks->volumes.size())
+            return compare_part(contents, folder, output,
+                                block_mesh(folder.mesh, folder.sides, *b));
+        if (const auto i = number_in(output.name, "interfaces/interface_", output.format);
+            i && *i < folder.parts.interfaces.size())
+            return compare_part(
+                contents, folder, output,
+                interface_mesh(folder.mesh, folder.sides, folder.parts.interfaces[*i]));
+    }
+    return "no file of a folder with blocks has this name and format";
+}
+
+std::string compare_tetrahedra_file(std::string_view contents, const Certificate& certificate,
+                                    const CertifiedOutput& output, std::any& /*computed*/,
+                                    OutputVerdict& verdict) {
+    const bool box = certificate.tetrahedra.value().box;
+    if (output.surfaces.size() != surface_count(certificate) + (box ? 1 : 0))
+        return "another number of surfaces than in the inputs, with the box";
+    if (box && output.surfaces.back() != SurfaceInfo{"box", Role::boundary})
+        return "the last surface is not the box";
+    verdict.renamed = renamed_surfaces(certificate, output);
+    const auto reader = std::ranges::find(tetrahedra_readers, output.format,
+                                          [](const auto& entry) { return entry.first; });
+    if (reader == tetrahedra_readers.end()) {
+        verdict.check = OutputCheck::hash_only;
+        return "";
+    }
+    try {
+        reader->second(contents, expected_tetrahedra(certificate, output));
+    } catch (const Difference& difference) {
+        return difference.place + ": " + difference.sentence;
+    }
+    return "";
+}
+
+} // namespace terrane::verifier

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Compares output files of the kinds "volumes" and "tetrahedra" (R21). See Kind::compare.
+#pragma once
+
+#include <any>
+#include <string>
+#include <string_view>
+
+#include <terrane/algorithms/verify/verify_certificate.hpp>
+
+namespace terrane::verifier {
+
+/// The name of an output says what it must hold: DIR/model.json, DIR/result.vtp,
+/// DIR/blocks/block_N.vtp, DIR/interfaces/interface_N.vtp; parts may be in OBJ.
+std::string compare_block_file(std::string_view contents, const Certificate& certificate,
+                               const CertifiedOutput& output, std::any& computed,
+                               OutputVerdict& verdict);
+
+/// All outputs hold all tetrahedra.
+std::string compare_tetrahedra_file(std::string_view contents, const Certificate& certificate,
+                                    const CertifiedOutput& output, std::any& computed,
+                                    OutputVerdict& verdict);
+
+} // namespace terrane::verifier
