@@ -58,7 +58,7 @@ std::optional<Subject> make_subject(std::string_view obj) {
     const std::vector<InputRecord> inputs{
         {"input.obj", s.files[0].sha256, s.files[0].bytes, s.surfaces.size()}};
     const std::vector<OutputRecord> outputs{
-        record_output(s.output, "out.obj", "obj", rounded->mesh)};
+        record_output(s.output, "out.obj", "obj", rounded->mesh->surfaces)};
     const auto text = to_certificate({inputs, s.surfaces, *exact, &*rounded, outputs});
     auto parsed = parse_certificate(text, "certificate");
     if (!parsed) fuzz::fail("a certificate that can't be parsed: " + parsed.error().message());

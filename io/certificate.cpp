@@ -116,9 +116,9 @@ Result<InputRecord> record_input(const fs::path& path, std::string name, std::si
 }
 
 OutputRecord record_output(std::string_view contents, std::string name, std::string format,
-                           const Mesh& mesh) {
+                           const std::vector<SurfaceInfo>& surfaces) {
     return {std::move(name), std::move(format), hexadecimal(sha256(contents)), contents.size(),
-            mesh.surfaces};
+            surfaces};
 }
 
 std::string certified_name(const fs::path& path, const fs::path& certificate) {

@@ -83,9 +83,9 @@ struct OutputRecord {
     std::vector<SurfaceInfo> surfaces; ///< order of the input
 };
 
-/// Hashes the contents of an output file with this mesh.
+/// Hashes the contents of an output file, which calls the surfaces so.
 OutputRecord record_output(std::string_view contents, std::string name, std::string format,
-                           const Mesh& mesh);
+                           const std::vector<SurfaceInfo>& surfaces);
 
 /// Returns the name of a file in a certificate: its path relative to the folder of the
 /// certificate.

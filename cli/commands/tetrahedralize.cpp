@@ -17,6 +17,7 @@
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/options/roles.hpp>
 #include <terrane/cli/reports/tetrahedra_report.hpp>
+#include <terrane/cli/stages/block_certificate.hpp>
 #include <terrane/cli/stages/pipeline.hpp>
 
 namespace terrane::cli {
@@ -31,6 +32,7 @@ struct TetrahedralizeCommand {
     std::vector<std::string> size_of, size_in; ///< NAME=L
     std::vector<std::string> split;
     bool blocks_only = false;
+    std::string certificate; ///< file; empty: none
 };
 
 constexpr auto tetrahedralize_footer =
@@ -54,8 +56,11 @@ without crossing what is split: a surface that ends inside keeps one node at its
 sector where surfaces cross has its own. VTU then has the arrays twin and cut_side, MSH groups for
 both sides and $Periodic, INP pairs as unsorted node sets, MEDIT references and comments.
 
+--certificate FILE writes all that it takes to check the tetrahedra from the input files alone.
+
 Examples:
   terrane tetrahedralize model.ml -o model.vtu
+  terrane tetrahedralize model.ml -o model.vtu --certificate model.json
   terrane tetrahedralize model.ml -o model.vtu --size-of F1=50 --size-in 3=100 --edge-length 400
   terrane tetrahedralize model.ml -o model.msh --split fault --blocks-only
   terrane tetrahedralize faults.ts topography.ts -o model.msh --edge-length 200
@@ -105,12 +110,9 @@ Result<TetrahedraRequest> wishes_of(const TetrahedralizeCommand& command) {
     return wishes;
 }
 
-Result<FilledBlocks> fill(const Arranged& arranged, const TetrahedraRequest& wishes,
-                          Session& session, Json& statistics) {
-    session.begin("volumes", Phase::computing);
-    const auto model = make_model(arranged.exact, *arranged.rounded.conforming, session.run());
-    if (!model) return model.error();
-    auto filled = fill_blocks(*model, wishes, session.run());
+Result<FilledBlocks> fill(const Model& model, const TetrahedraRequest& wishes, Session& session,
+                          Json& statistics) {
+    auto filled = fill_blocks(model, wishes, session.run());
     session.end_stage();
     if (filled) add_statistics(statistics, *filled, session.times());
     return filled;
@@ -135,15 +137,19 @@ Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Se
     if (!wishes) return wishes.error();
     const auto outputs = plan_outputs(files, OutputKind::tetrahedra);
     if (!outputs) return outputs.error();
+    if (const auto planned = plan_certificate(command.certificate, files, command.settings);
+        !planned)
+        return planned.error();
     if (const auto sound = check_volume_options(command.settings.volume); !sound)
         return sound.error();
     if (const auto helper = find_tetgen_helper(); !helper) return helper.error();
     auto inputs = read_inputs(files, session);
     if (!inputs) return inputs.error();
+    const auto roles = roles_of(inputs.value());
     if (const auto set = set_roles(command.roles, inputs.value()); !set) return set.error();
     Json statistics = statistics_of(inputs.value(), session.times());
 
-    const auto arranged = arrange_and_round(inputs.value(), command.settings, session, statistics);
+    auto arranged = arrange_and_round(inputs.value(), command.settings, session, statistics);
     if (!arranged) return arranged.error();
     print(summary_stream(files), summary(inputs.value(), arranged.value()));
     if (!arranged.value().rounded.report.clean) {
@@ -154,7 +160,11 @@ Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Se
         return ExitStatus::negative;
     }
 
-    const auto filled = fill(arranged.value(), wishes.value(), session, statistics);
+    session.begin("volumes", Phase::computing);
+    const auto model =
+        make_model(arranged.value().exact, *arranged.value().rounded.conforming, session.run());
+    if (!model) return model.error();
+    const auto filled = fill(model.value(), wishes.value(), session, statistics);
     if (!filled) return filled.error();
     print(summary_stream(files), filled_text(filled.value()));
     const TetrahedraReport& report = filled.value().report;
@@ -163,6 +173,12 @@ Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Se
     if (good) {
         const auto written = write_all(filled.value(), outputs.value(), files, session);
         if (!written) return written.error();
+        if (!command.certificate.empty()) {
+            const auto proved = write_certificate(
+                {command.certificate, files, inputs.value(), roles, arranged.value()},
+                model.value(), filled.value().tetrahedra, outputs.value(), session);
+            if (!proved) return proved.error();
+        }
     } else {
         print(stderr, violations_text(report) + "terrane: nothing written\n");
     }
@@ -223,6 +239,7 @@ Command tetrahedralize_command(CLI::App& program) {
     add_msh(*app, command->files);
     add_roles(*app, command->roles);
     add_tetrahedra_options(*app, *command);
+    add_certificate(*app, command->certificate);
     add_settings(*app, command->settings);
     add_threads(*app, command->files);
     add_stats(*app, command->files);

@@ -116,12 +116,11 @@ struct JudgedOutput {
     }
 };
 
-JudgedOutput judge_output(const Certificate& certificate, std::size_t number,
-                          const std::string& path) {
+JudgedOutput judge_output(OutputVerifier& verifier, std::size_t number, const std::string& path) {
     JudgedOutput judged{number, path, {}, {}};
     const auto contents = read_file(path);
     if (contents)
-        judged.verdict = verify_output(contents.value(), certificate, number);
+        judged.verdict = verifier(contents.value(), number);
     else
         judged.missing = contents.error().sentence;
     return judged;
@@ -151,14 +150,15 @@ Result<std::vector<JudgedOutput>> judge_outputs(const VerifyCommand& command,
     std::vector<JudgedOutput> judged;
     if (!command.outputs.empty() && outputs.empty())
         return Error{ErrorCode::bad_option, "the certificate names no output file", "--output"};
+    OutputVerifier verifier(certificate);
     for (const std::string& path : command.outputs)
-        judged.push_back(judge_output(certificate, output_like(certificate, path), path));
+        judged.push_back(judge_output(verifier, output_like(certificate, path), path));
     if (command.outputs.empty())
         for (std::size_t i = 0; i < outputs.size(); ++i) {
             const auto path = (folder_of(command) / outputs[i].name).string();
             judged.push_back(outputs[i].name == "-"
                                  ? JudgedOutput{i, "standard output", "give it with --output", {}}
-                                 : judge_output(certificate, i, path));
+                                 : judge_output(verifier, i, path));
         }
     return judged;
 }
@@ -185,7 +185,7 @@ struct Judgement {
 
 // --- Text and JSON ----------------------------------------------------------------------------
 
-std::string output_text(const JudgedOutput& output) {
+std::string output_text(const JudgedOutput& output, const std::string& what) {
     const auto renamed = output.verdict.renamed.size();
     const std::string names =
         renamed > 0 ? fmt::format("; names or roles of {} are not those of the inputs",
@@ -195,7 +195,11 @@ std::string output_text(const JudgedOutput& output) {
         return fmt::format("{}: NOT verified: {}\n", output.path, output.missing);
     switch (output.verdict.check) {
     case OutputCheck::doubles:
-        return fmt::format("{}: holds these triangles, bit for bit{}\n", output.path, names);
+        return fmt::format("{}: holds these {}, bit for bit{}\n", output.path, what, names);
+    case OutputCheck::numbers:
+        return fmt::format("{}: holds these blocks, interfaces and patches; the rest of it is not "
+                           "verified{}\n",
+                           output.path, names);
     case OutputCheck::float32:
         return fmt::format("{}: holds these triangles rounded to float32, at most {:.3g} away{}\n",
                            output.path, output.verdict.float32_move, names);
@@ -224,12 +228,30 @@ std::string doubles_text(const Judgement& judged) {
     return text;
 }
 
+std::string blocks_text(const Judgement& judged) {
+    if (!judged.verdict.blocks) return "";
+    const MeasuredBlocks& measured = *judged.verdict.blocks;
+    auto text = counted(measured.blocks, "block") + " with their exact volumes";
+    if (measured.tetrahedra > 0)
+        text += fmt::format("; {} that fill them, {}",
+                            measured.tetrahedra == 1
+                                ? std::string("1 tetrahedron")
+                                : fmt::format("{} tetrahedra", measured.tetrahedra),
+                            measured.volume_difference > 0
+                                ? fmt::format("with volumes that differ by {:.3g} at most",
+                                              measured.volume_difference)
+                                : "with the same volumes");
+    return text + "\n";
+}
+
 std::string verdict_text(const Judgement& judged, const std::string& name) {
     const auto violations = judged.violations();
     if (violations.empty()) {
         auto text = fmt::format("{}: valid: {} exact triangles; {}\n", name,
                                 judged.certificate.exact.triangles.size(), doubles_text(judged));
-        for (const JudgedOutput& output : judged.outputs) text += output_text(output);
+        const std::string cells = judged.certificate.tetrahedra ? "tetrahedra" : "triangles";
+        text += blocks_text(judged);
+        for (const JudgedOutput& output : judged.outputs) text += output_text(output, cells);
         if (judged.outputs.empty())
             text += "NOT verified about any file: the certificate names no output file\n";
         return text + judged.certificate.digest + "\n";
@@ -248,6 +270,8 @@ std::string_view output_state(const JudgedOutput& output) {
     switch (output.verdict.check) {
     case OutputCheck::doubles:
         return "verified";
+    case OutputCheck::numbers:
+        return "numbers verified";
     case OutputCheck::float32:
         return "verified as float32";
     case OutputCheck::hash_only:
@@ -267,6 +291,12 @@ std::string verdict_json(const Judgement& judged) {
         json["max_deviation"] = measured->max_deviation;
         json["vanished"] = measured->vanished;
         json["partly_vanished"] = measured->partly_vanished;
+    }
+    if (const auto& blocks = judged.verdict.blocks) {
+        json["blocks"] = blocks->blocks;
+        json["tetrahedra"] = blocks->tetrahedra;
+        json["divided"] = blocks->divided;
+        json["volume_difference"] = blocks->volume_difference;
     }
     for (const JudgedOutput& output : judged.outputs)
         json["outputs"].push_back({{"name", judged.certificate.outputs[output.number].name},

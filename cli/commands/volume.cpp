@@ -4,6 +4,7 @@
 #include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/options/roles.hpp>
+#include <terrane/cli/stages/block_certificate.hpp>
 #include <terrane/cli/stages/blocks.hpp>
 #include <terrane/io/atomic/atomic_folder.hpp>
 
@@ -16,6 +17,7 @@ struct VolumeCommand {
     std::string folder;
     std::vector<std::string> roles; ///< NAME=ROLE
     std::string part_format = "vtp";
+    std::string certificate; ///< file; empty: none
 };
 
 constexpr auto volume_footer =
@@ -38,8 +40,11 @@ With a volume of interest (--box, --rotated-box, --polygon, --within) all surfac
 boundary, exactly, the inside is kept, and the boundary closes it: its faces are surfaces of their
 own, "boundary top", "boundary side 1", ... --extend D extends horizons that end inside.
 
+--certificate FILE writes all that it takes to check the files in DIR from the input files alone.
+
 Examples:
   terrane volume model.ml -o model
+  terrane volume model.ml -o model --certificate model-certificate.json
   terrane volume model.ml -o model --seal 0.01
   terrane volume horizons.ts faults.ts -o model --box 0,0,-3000,10000,10000,500
   terrane volume *.ts -o model --polygon licence.txt --between -4000,0
@@ -65,14 +70,18 @@ Result<ExitStatus> find_blocks(const VolumeCommand& command, Session& session) {
     if (const auto planned = plan_outputs(files, OutputKind::surfaces); !planned)
         return planned.error();
     if (const auto good = check_new_folder(command.folder); !good) return good.error();
+    if (const auto planned = plan_certificate(command.certificate, files, command.settings);
+        !planned)
+        return planned.error();
     if (const auto sound = check_volume_options(command.settings.volume); !sound)
         return sound.error();
     auto inputs = read_inputs(files, session);
     if (!inputs) return inputs.error();
+    const auto roles = roles_of(inputs.value());
     if (const auto set = set_roles(command.roles, inputs.value()); !set) return set.error();
     Json statistics = statistics_of(inputs.value(), session.times());
 
-    const auto arranged = arrange_and_round(inputs.value(), command.settings, session, statistics);
+    auto arranged = arrange_and_round(inputs.value(), command.settings, session, statistics);
     if (!arranged) return arranged.error();
     print(summary_stream(files), summary(inputs.value(), arranged.value()));
     const bool clean = arranged.value().rounded.report.clean;
@@ -87,6 +96,12 @@ Result<ExitStatus> find_blocks(const VolumeCommand& command, Session& session) {
         const auto written = write_folder(command, arranged.value(), model.value(), session);
         if (!written) return written.error();
         print(summary_stream(files), "wrote " + command.folder + "\n");
+        if (!command.certificate.empty()) {
+            const auto proved = write_certificate(
+                {command.certificate, files, inputs.value(), roles, arranged.value()},
+                model.value(), command.folder, command.part_format, session);
+            if (!proved) return proved.error();
+        }
         statistics["seconds"]["write"] = writing.lap();
     }
     const auto status = write_statistics(statistics, files.stats, total.lap());
@@ -107,6 +122,7 @@ Command volume_command(CLI::App& program) {
     app->add_option("--parts", command->part_format, "Format of blocks and interfaces: vtp, obj")
         ->check(CLI::IsMember({"vtp", "obj"}).description(""))
         ->type_name("FORMAT");
+    add_certificate(*app, command->certificate);
     add_settings(*app, command->settings);
     add_threads(*app, command->files);
     add_stats(*app, command->files);

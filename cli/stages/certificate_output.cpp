@@ -22,37 +22,6 @@ Status write(const std::string& path, const std::string& text, std::FILE* told, 
     return status;
 }
 
-/// Hashes the input files in their present state. If one was changed after it was read, the
-/// verifier finds that the certificate does not fit it.
-Result<std::vector<InputRecord>> record_inputs(const std::string& certificate,
-                                               const std::vector<std::string>& files,
-                                               const Inputs& inputs) {
-    std::vector<InputRecord> records;
-    for (std::size_t i = 0; i < files.size(); ++i) {
-        const std::string& path = files[i];
-        auto record =
-            record_input(path, certified_name(path, certificate), inputs.surfaces_of_file[i]);
-        if (!record) return record.error();
-        records.push_back(std::move(record.value()));
-    }
-    return records;
-}
-
-/// The name of the format of an output in a certificate.
-std::string name_of(Format format, bool ascii) {
-    switch (format) {
-    case Format::gocad:
-        return "ts";
-    case Format::stl:
-        return ascii ? "stl-ascii" : "stl";
-    default:
-        break;
-    }
-    for (const char* name : {"obj", "off", "ply", "vtp", "msh", "msh22", "inp", "mesh", "poly"})
-        if (format_named(name) == format) return name;
-    return "smesh";
-}
-
 /// The contents of an output as it was written. A standard stream can't be read again: what went
 /// there is made once more.
 Result<std::string> contents_of(const Output& output, const Mesh& mesh, bool ascii) {
@@ -71,12 +40,41 @@ Result<std::vector<OutputRecord>> record_outputs(const std::string& certificate,
         records.push_back(record_output(
             contents.value(),
             output.path == "-" ? output.path : certified_name(output.path, certificate),
-            name_of(output.format, files.ascii), mesh));
+            certified_format(output.format, files.ascii), mesh.surfaces));
     }
     return records;
 }
 
 } // namespace
+
+Result<std::vector<InputRecord>> record_inputs(const std::string& certificate,
+                                               const std::vector<std::string>& files,
+                                               const Inputs& inputs) {
+    std::vector<InputRecord> records;
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        const std::string& path = files[i];
+        auto record =
+            record_input(path, certified_name(path, certificate), inputs.surfaces_of_file[i]);
+        if (!record) return record.error();
+        records.push_back(std::move(record.value()));
+    }
+    return records;
+}
+
+std::string certified_format(Format format, bool ascii) {
+    switch (format) {
+    case Format::gocad:
+        return "ts";
+    case Format::stl:
+        return ascii ? "stl-ascii" : "stl";
+    default:
+        break;
+    }
+    for (const char* name :
+         {"obj", "off", "ply", "vtp", "vtu", "msh", "msh22", "inp", "mesh", "poly"})
+        if (format_named(name) == format) return name;
+    return "smesh";
+}
 
 void add_proof(CLI::App& command, ProofOptions& options) {
     command

@@ -12,6 +12,7 @@
 #include <terrane/cli/options/files.hpp>
 #include <terrane/cli/session/session.hpp>
 #include <terrane/cli/stages/pipeline.hpp>
+#include <terrane/io/certificate.hpp>
 
 namespace terrane::cli {
 
@@ -23,6 +24,15 @@ void add_proof(CLI::App& command, ProofOptions& options);
 
 /// Checks the file names before any work is done. Errors: bad_option, cannot_open.
 Status plan_proof(const ProofOptions& options, const FileOptions& files);
+
+/// Hashes the input files in their present state. If one was changed after it was read, the
+/// verifier finds that the certificate does not fit it. Errors: cannot_open.
+Result<std::vector<InputRecord>> record_inputs(const std::string& certificate,
+                                               const std::vector<std::string>& files,
+                                               const Inputs& inputs);
+
+/// Returns the name of the format of an output in a certificate; `ascii` is for STL.
+std::string certified_format(Format format, bool ascii);
 
 /// The files that a certificate is about.
 struct ProofFiles {

@@ -56,7 +56,7 @@ inline Subject subject(const std::vector<File>& files,
         auto text = format_mesh(rounded->mesh, format_named(name).value(), options);
         REQUIRE(text);
         outputs.push_back(record_output(text.value(), "out." + name, options.ascii ? format : name,
-                                        rounded->mesh));
+                                        rounded->mesh->surfaces));
         s.contents.push_back(std::move(text).value());
     }
     s.certificate = Json::parse(

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/cli/stages/block_certificate.hpp>
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <terrane/cli/session/console.hpp>
+#include <terrane/cli/stages/certificate_output.hpp>
+#include <terrane/io/atomic/atomic_file.hpp>
+#include <terrane/io/block_certificate.hpp>
+
+namespace terrane::cli {
+namespace {
+
+/// An output file, as the certificate is to name it.
+struct WrittenFile {
+    std::filesystem::path path;
+    std::string format;
+};
+
+std::vector<WrittenFile> files_in(const std::filesystem::path& folder, const Model& model,
+                                  const std::string& part_format) {
+    std::vector<WrittenFile> files{{folder / "model.json", "json"}, {folder / "result.vtp", "vtp"}};
+    const Structure& s = model.structure;
+    for (std::size_t b = 1; b < s.blocks.size(); ++b)
+        if (!s.blocks[b].interfaces.empty())
+            files.push_back(
+                {folder / fmt::format("blocks/block_{}.{}", b, part_format), part_format});
+    for (std::size_t i = 0; i < s.interfaces.size(); ++i)
+        files.push_back(
+            {folder / fmt::format("interfaces/interface_{}.{}", i, part_format), part_format});
+    return files;
+}
+
+Result<std::vector<OutputRecord>> record(const std::string& certificate,
+                                         const std::vector<WrittenFile>& files,
+                                         const std::vector<SurfaceInfo>& surfaces) {
+    std::vector<OutputRecord> records;
+    for (const WrittenFile& file : files) {
+        const auto contents = read_file(file.path);
+        if (!contents) return contents.error();
+        records.push_back(record_output(contents.value(), certified_name(file.path, certificate),
+                                        file.format, surfaces));
+    }
+    return records;
+}
+
+/// Makes the text by make(certified) and writes it.
+template <class Make>
+Status write(const BlockProof& proof, const std::vector<WrittenFile>& files,
+             const std::vector<SurfaceInfo>& surfaces, const Make& make, Session& session) {
+    session.begin("write", Phase::writing);
+    const auto inputs = record_inputs(proof.path, proof.files.inputs, proof.inputs);
+    if (!inputs) return inputs.error();
+    const auto outputs = record(proof.path, files, surfaces);
+    if (!outputs) return outputs.error();
+    for (std::size_t s = 0; s < proof.roles.size(); ++s)
+        proof.arranged.surfaces[s].role = proof.roles[s];
+    const Arranged& arranged = proof.arranged;
+    auto written =
+        write_file(proof.path, make(Certified{inputs.value(), arranged.surfaces, arranged.exact,
+                                              &arranged.rounded, outputs.value()}));
+    session.end_stage();
+    if (written) print(summary_stream(proof.files), "wrote " + proof.path + "\n");
+    return written;
+}
+
+} // namespace
+
+void add_certificate(CLI::App& command, std::string& path) {
+    command
+        .add_option("--certificate", path,
+                    "Write all that it takes to check the result (terrane verify)")
+        ->type_name("FILE");
+}
+
+Status plan_certificate(const std::string& path, const FileOptions& files,
+                        const ArrangeSettings& settings) {
+    if (path.empty()) return Done{};
+    if (path == "-" || std::ranges::count(files.outputs, "-") > 0)
+        return Error{ErrorCode::bad_option, "a certificate is about files, and is one",
+                     "--certificate"};
+    if (std::ranges::count(files.inputs, "-") > 0)
+        return Error{ErrorCode::bad_option, "a certificate is about files, not standard input",
+                     "--certificate"};
+    if (settings.volume.wanted() || settings.seal > 0)
+        return Error{ErrorCode::bad_option,
+                     "a certificate is about the surfaces as they are, not cut or sealed",
+                     "--certificate"};
+    return check_folder(path);
+}
+
+std::vector<Role> roles_of(const Inputs& inputs) {
+    std::vector<Role> roles;
+    for (const Surface& s : inputs.surfaces) roles.push_back(s.role);
+    return roles;
+}
+
+Status write_certificate(const BlockProof& proof, const Model& model,
+                         const std::filesystem::path& folder, const std::string& part_format,
+                         Session& session) {
+    return write(
+        proof, files_in(folder, model, part_format), model.mesh->surfaces,
+        [&](const Certified& certified) {
+            return to_certificate(certified, {model.volumes, model.block_count()}, session.run());
+        },
+        session);
+}
+
+Status write_certificate(const BlockProof& proof, const Model& model,
+                         const TetrahedralMesh& tetrahedra, const std::vector<Output>& outputs,
+                         Session& session) {
+    std::vector<WrittenFile> files;
+    for (const Output& output : outputs)
+        files.push_back({output.path, certified_format(output.format, false)});
+    return write(
+        proof, files, tetrahedra.surfaces,
+        [&](const Certified& certified) {
+            return to_certificate(certified, {model.volumes, model.block_count()}, tetrahedra,
+                                  session.run());
+        },
+        session);
+}
+
+} // namespace terrane::cli

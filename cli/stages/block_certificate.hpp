@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Certificates of blocks and of tetrahedra, for `volume` and `tetrahedralize`.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include <terrane/algorithms/model/model.hpp>
+#include <terrane/cli/stages/pipeline.hpp>
+
+namespace terrane::cli {
+
+/// Adds the option --certificate.
+void add_certificate(CLI::App& command, std::string& path);
+
+/// Checks before any work is done that a certificate can be made, if one is wanted. Errors:
+/// bad_option, cannot_open.
+Status plan_certificate(const std::string& path, const FileOptions& files,
+                        const ArrangeSettings& settings);
+
+/// What a certificate says besides the blocks.
+struct BlockProof {
+    std::string path; ///< of the certificate
+    const FileOptions& files;
+    const Inputs& inputs;
+    std::vector<Role> roles; ///< of the surfaces as they are in the files
+    Arranged& arranged;      ///< its surfaces get these roles
+};
+
+/// Returns the roles of the surfaces.
+std::vector<Role> roles_of(const Inputs& inputs);
+
+/// Writes the certificate of a model whose files are in a folder, with parts in this format.
+/// Errors: cannot_open, write_failed.
+Status write_certificate(const BlockProof& proof, const Model& model,
+                         const std::filesystem::path& folder, const std::string& part_format,
+                         Session& session);
+
+/// Writes the certificate of tetrahedra that were written to these files.
+Status write_certificate(const BlockProof& proof, const Model& model,
+                         const TetrahedralMesh& tetrahedra, const std::vector<Output>& outputs,
+                         Session& session);
+
+} // namespace terrane::cli
