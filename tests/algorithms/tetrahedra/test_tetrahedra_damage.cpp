@@ -2,76 +2,14 @@
 //
 // The check against damage: sound meshes with added nodes are accepted, and each kind of damage is
 // refused by the name of its defect, on a cube, a geological model, and faults in a box.
+#include "support/divided_models.hpp"
 #include "support/tetrahedra_damage.hpp"
 
 #include <algorithm>
 
-#include "support/read.hpp"
-#include "support/solids.hpp"
-#include <terrane/algorithms/tetrahedra/split_nodes.hpp>
-#include <terrane/algorithms/tetrahedra/without_outside.hpp>
-
 using namespace test_support;
 
 namespace {
-
-/// A filled model with added nodes on edges, on triangles and in tetrahedra.
-Filled divided(const std::vector<Surface>& surfaces) {
-    Filled f = fill(surfaces);
-    divide(f, 5);
-    CHECK(f.on_edges.size() == 5);
-    CHECK(f.on_faces.size() == 5);
-    CHECK(f.inside.size() == 5);
-    return f;
-}
-
-Filled tilted_cube() {
-    Surface tilted = box({0, 0, 0}, {4, 4, 4}, "cube");
-    for (Point3& p : tilted.vertices) // no side is parallel to an axis
-        p = {p.x + .3 * p.y + .1, p.y - .2 * p.z + 7, p.z + .7 * p.x - .1 * p.y};
-    return divided({tilted});
-}
-
-Filled geological_model() {
-    return divided(read_data("ringmesh/modelA1.ml"));
-}
-
-/// The first faults of a region, cut by a level, in a box of two blocks.
-Filled faults() {
-    auto surfaces = read_data("arch-platform/faults.ts");
-    surfaces.resize(6);
-    surfaces.push_back(box({1.6, 42.3, -.2}, {2.9, 42.8, .1}, "region"));
-    surfaces.push_back(level(-.01, 1.5, 42.2, 3, 42.9));
-    return divided(surfaces);
-}
-
-using TetrahedralMeshes = std::vector<std::pair<const char*, TetrahedralMesh>>;
-
-/// The tetrahedra as they were made, without the outside, and with the nodes on all surfaces split.
-TetrahedralMeshes forms_of(const Filled& f) {
-    const TetrahedralMesh blocks = without_outside(f.tetrahedra);
-    std::vector<std::uint32_t> all(f.mesh.surfaces.size());
-    for (std::uint32_t s = 0; s < all.size(); ++s) all[s] = s;
-    auto split = split_nodes(f.tetrahedra, all), split_blocks = split_nodes(blocks, all);
-    REQUIRE(split);
-    REQUIRE(split_blocks);
-    return {{"whole", f.tetrahedra},
-            {"blocks", blocks},
-            {"whole, split", std::move(split).value()},
-            {"blocks, split", std::move(split_blocks).value()}};
-}
-
-/// The model without the outside.
-Filled blocks_of(const Filled& f) {
-    Filled blocks = f;
-    blocks.tetrahedra = without_outside(f.tetrahedra);
-    const auto& left = blocks.tetrahedra.vertices;
-    for (auto* nodes : {&blocks.on_faces, &blocks.on_edges, &blocks.inside})
-        for (std::uint32_t& node : *nodes)
-            node = static_cast<std::uint32_t>(
-                std::find(left.begin(), left.end(), f.tetrahedra.vertices[node]) - left.begin());
-    return blocks;
-}
 
 void check_accepted(const Filled& f) {
     for (const auto& [form, tetrahedra] : forms_of(f)) {
@@ -106,9 +44,7 @@ void check_model(const Filled& f) {
         check_refused(form, damage_to_attributes());
     }
     Filled cut = f;
-    std::vector<std::uint32_t> all(f.mesh.surfaces.size());
-    for (std::uint32_t s = 0; s < all.size(); ++s) all[s] = s;
-    cut.tetrahedra = split_nodes(f.tetrahedra, all).value();
+    cut.tetrahedra = split_everywhere(f, f.tetrahedra);
     check_refused(cut, damage_to_cuts());
 }
 

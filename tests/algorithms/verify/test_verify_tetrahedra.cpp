@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// The verifier's rules about tetrahedra: each kind of damage is refused, and sound ones are accepted.
+#include "support/divided_models.hpp"
+#include "support/tetrahedra_damage.hpp"
+
+#include <map>
+#include <set>
+
+#include <gmpxx.h>
+
+#include <terrane/algorithms/verify/detail/tetrahedra.hpp>
+
+namespace tetrahedra_rules_test {
+
+using namespace test_support;
+
+namespace {
+
+TetrahedraClaim claim_of(const TetrahedralMesh& m, bool box) {
+    return {box, m.vertices, m.tetrahedra, m.region_of, m.faces, m.face_triangle, m.twins};
+}
+
+/// What the verifier knows of a mesh when it judges tetrahedra.
+struct Known {
+    explicit Known(const Filled& f) : sides(f.volumes.of_sides) {
+        for (const std::string& volume : exact_volumes(f.mesh, f.volumes))
+            volumes.emplace_back(volume);
+    }
+    std::vector<verifier::BlockSides> sides;
+    std::vector<mpq_class> volumes;
+};
+
+bool has_box(const Filled& f) {
+    return f.tetrahedra.surfaces.size() > f.mesh.surfaces.size();
+}
+
+std::set<Rule> broken(const Filled& f, const Known& known, bool box) {
+    verifier::Violations found;
+    verifier::check_tetrahedra(claim_of(f.tetrahedra, box),
+                               {f.mesh.vertices, f.mesh.triangles, known.sides, known.volumes},
+                               found);
+    std::set<Rule> rules;
+    for (const Violation& v : found) rules.insert(v.rule);
+    return rules;
+}
+
+/// The rule that a kind of damage breaks; none if it is about names, which a claim does not have.
+std::optional<Rule> rule_of(TetrahedraDefect defect) {
+    using D = TetrahedraDefect;
+    const std::map<D, Rule> rules{{D::unusable_lists, Rule::R40_tetrahedra_lists},
+                                  {D::doubled_node, Rule::R44_nodes},
+                                  {D::wrong_twins, Rule::R48_cuts},
+                                  {D::no_volume, Rule::R41_positive},
+                                  {D::open_face, Rule::R42_faces},
+                                  {D::crowded_face, Rule::R42_faces},
+                                  {D::box_not_filled, Rule::R43_box},
+                                  {D::missing_vertex, Rule::R44_nodes},
+                                  {D::stray_face, Rule::R42_faces},
+                                  {D::uncovered_triangle, Rule::R45_cover},
+                                  {D::broken_outline, Rule::R45_cover},
+                                  {D::torn_edge, Rule::R45_cover},
+                                  {D::node_off_edge, Rule::R45_cover},
+                                  {D::node_off_plane, Rule::R45_cover},
+                                  {D::folded_faces, Rule::R45_cover},
+                                  {D::wrong_block, Rule::R46_blocks},
+                                  {D::wrong_volume, Rule::R47_block_volumes}};
+    const auto rule = rules.find(defect);
+    if (rule == rules.end()) return std::nullopt;
+    return rule->second;
+}
+
+std::string names_of(const std::set<Rule>& rules) {
+    std::string text;
+    for (const Rule rule : rules) text += name_of(rule) + " ";
+    return text;
+}
+
+std::size_t check_refused(const Filled& sound, const std::vector<Damage>& damage) {
+    const Known known(sound);
+    std::size_t count = 0;
+    for (const Damage& kind : damage) {
+        const auto rule = rule_of(kind.expected);
+        if (!rule || (kind.needs_outside && !has_box(sound))) continue;
+        INFO(kind.name);
+        Filled f = sound;
+        kind.inflict(f);
+        if (f.volumes.of_sides != sound.volumes.of_sides) continue; // the verifier has its own
+        const auto found = broken(f, known, has_box(sound));
+        INFO(names_of(found));
+        // Nothing is judged where nothing is left; and the outside has faces, but no tetrahedra.
+        const bool otherwise = found.contains(
+            f.tetrahedra.tetrahedra.empty() ? Rule::R40_tetrahedra_lists : Rule::R42_faces);
+        CHECK((found.contains(*rule) ||
+               (otherwise && (f.tetrahedra.tetrahedra.empty() || !has_box(sound)))));
+        ++count;
+    }
+    return count;
+}
+
+void check_model(const Filled& f) {
+    for (const auto& [form, tetrahedra] : forms_of(f)) {
+        INFO(form);
+        Filled other = f;
+        other.tetrahedra = tetrahedra;
+        CHECK(names_of(broken(other, Known(f), has_box(other))) == "");
+    }
+    std::size_t count = 0;
+    for (const Filled& form : {f, blocks_of(f)}) {
+        count += check_refused(form, damage_to_nodes());
+        count += check_refused(form, damage_to_tetrahedra());
+        count += check_refused(form, damage_to_attributes());
+    }
+    Filled cut = f;
+    cut.tetrahedra = split_everywhere(f, f.tetrahedra);
+    count += check_refused(cut, damage_to_cuts());
+    CHECK(count > 60);
+}
+
+/// The longest edge at a node that was added on a triangle, times a share.
+double share_of_edge(const Filled& f, std::uint32_t node, double share) {
+    double longest = 0;
+    const auto& v = f.tetrahedra.vertices;
+    for (const Triangle& face : f.tetrahedra.faces)
+        if (has_all(face, std::array{node}))
+            for (const std::uint32_t other : face)
+                longest =
+                    std::max(longest, std::hypot(v[other].x - v[node].x, v[other].y - v[node].y,
+                                                 v[other].z - v[node].z));
+    return share * longest;
+}
+
+} // namespace
+
+TEST_CASE("verifier: each kind of damage to tetrahedra is refused, on a cube", "[tetrahedra]") {
+    check_model(tilted_cube());
+}
+
+TEST_CASE("verifier: each kind of damage to tetrahedra is refused, on a geological model",
+          "[tetrahedra]") {
+    check_model(geological_model());
+}
+
+TEST_CASE("verifier: each kind of damage to tetrahedra is refused, on faults", "[tetrahedra]") {
+    check_model(faults());
+}
+
+TEST_CASE("verifier: a node on a triangle that is off by a thousandth of an edge is refused",
+          "[tetrahedra]") {
+    const Filled sound = tilted_cube();
+    const Known known(sound);
+    for (const auto* nodes : {&sound.on_faces, &sound.on_edges})
+        for (const std::uint32_t node : *nodes)
+            for (const double share : {1e-3, -1e-3, 1e-6, 1e-12})
+                for (double Point3::*coordinate : {&Point3::x, &Point3::y, &Point3::z}) {
+                    Filled f = sound;
+                    f.tetrahedra.vertices[node].*coordinate += share_of_edge(f, node, share);
+                    CHECK(broken(f, known, true).contains(Rule::R45_cover));
+                }
+}
+
+TEST_CASE("verifier: the volume of a block that is wrong by one part in 10^15 is refused",
+          "[tetrahedra]") {
+    const Filled sound = fill({box({0, 0, 0}, {4, 4, 4}, "cube")});
+    Known known(sound);
+    CHECK(broken(sound, known, true).empty());
+    known.volumes[1] += known.volumes[1] / mpq_class("1000000000000000");
+    CHECK(broken(sound, known, true) == std::set<Rule>{Rule::R47_block_volumes});
+}
+
+TEST_CASE("verifier: what is within reach of a triangle depends on its coordinates only") {
+    const std::array<Point3, 3> t{Point3{0, 0, 1}, Point3{4, 0, 1}, Point3{0, 3, 1}};
+    // Spacings: 2^-50, 2^-51 and 2^-52; five are allowed, along z with twice the others. The reach is the
+    // length of (5 * 2^-50, 5 * 2^-51, 5 * (2^-52 + 2 * 2^-50 + 2 * 2^-51)).
+    const double e = 5 * 0x1p-52;
+    const double reach = std::hypot(4 * e, 2 * e, e + 8 * e + 4 * e);
+    const double volume = 2 * reach * 6;
+    const double bound = verifier::volume_within_reach(t).get_d();
+    CHECK(bound >= volume);
+    CHECK(bound <= volume * (1 + 1e-9));
+}
+
+} // namespace tetrahedra_rules_test

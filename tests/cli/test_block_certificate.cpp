@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Tests --certificate of `terrane volume` and `terrane tetrahedralize`, and `terrane verify` with it.
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "program.hpp"
+
+using namespace program_test;
+using Json = nlohmann::json;
+
+namespace {
+
+bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+/// Changes the first digit behind a place in a file.
+void change_digit(const Folder& folder, const std::string& file, const std::string& behind) {
+    REQUIRE(folder.shell("sed -i -E '0,/" + behind + "[0-9]/s/(" + behind + ")[0-8]/\\19/' " + file)
+                .status == 0);
+}
+
+} // namespace
+
+TEST_CASE("cli: volume: a certificate that verify takes", "[cli]") {
+    const Folder folder;
+    for (const std::string name : {"ringmesh/modelA1.ml", "arch-platform/faults.ts"}) {
+        INFO(name);
+        const auto made =
+            folder.run("volume $D/" + name + " -o model --parts obj --certificate blocks.json");
+        INFO(made.err);
+        REQUIRE(made.status == 0);
+        CHECK(contains(made.out, "wrote model\nwrote blocks.json\n"));
+        const auto verified = folder.run("verify blocks.json");
+        INFO(verified.out);
+        CHECK(verified.status == 0);
+        CHECK(contains(verified.out, " with their exact volumes\n"));
+        CHECK(contains(verified.out,
+                       "model/model.json: holds these blocks, interfaces and patches; the rest"));
+        CHECK(contains(verified.out,
+                       "model/interfaces/interface_0.obj: holds these triangles, bit for bit\n"));
+        const auto json = Json::parse(folder.run("verify --json blocks.json").out);
+        CHECK(json["blocks"] == Json::parse(folder.read("model/model.json"))["blocks"].size() - 1);
+        change_digit(folder, "model/interfaces/interface_0.obj", "v .*[.]");
+        CHECK(folder.run("verify blocks.json").status == 1);
+        REQUIRE(folder.shell("rm -r model blocks.json").status == 0);
+    }
+}
+
+TEST_CASE("cli: a certificate of blocks: what it cannot be about", "[cli]") {
+    const Folder folder;
+    const std::string in = "$D/ringmesh/modelA1.ml";
+    for (const std::string options :
+         {"--certificate -", "--certificate c --seal 1", "--certificate c --box 0,0,0,1,1,1",
+          "--certificate no/folder/c"}) {
+        INFO(options);
+        CHECK(folder.run("volume " + in + " -o model " + options).status == 2);
+        CHECK(folder.run("tetrahedralize " + in + " -o model.vtu " + options).status == 2);
+    }
+    CHECK(folder.run("volume --format ml - -o model --certificate c < " + in).status == 2);
+    CHECK(folder.run("tetrahedralize " + in + " --format vtu -o - --certificate c").status == 2);
+    CHECK(folder.left().empty());
+}
+
+TEST_CASE("cli: tetrahedralize: a certificate that verify takes", "[cli][tetrahedra]") {
+    const Folder folder;
+    const auto made =
+        folder.run("tetrahedralize $D/ringmesh/modelA1.ml -o m.vtu -o m.msh -o m.mesh "
+                   "--certificate tetrahedra.json");
+    INFO(made.err);
+    if (contains(made.err, "terrane-tetgen")) return; // TetGen was not built
+    REQUIRE(made.status == 0);
+    const auto verified = folder.run("verify tetrahedra.json");
+    INFO(verified.out);
+    CHECK(verified.status == 2); // there is no reader for MEDIT
+    CHECK(contains(verified.out, "m.vtu: holds these tetrahedra, bit for bit\n"));
+    CHECK(contains(verified.out, "m.msh: holds these tetrahedra, bit for bit\n"));
+    CHECK(folder.run("verify tetrahedra.json --output m.vtu --output m.msh").status == 0);
+    change_digit(folder, "m.msh", "^[0-9]+ [0-9]+ [0-9]+ [0-9]+ ");
+    CHECK(folder.run("verify tetrahedra.json --output m.vtu --output m.msh").status == 1);
+}
