@@ -92,8 +92,9 @@ bool only_this_hole(ErrorCode code) {
 } // namespace
 
 std::optional<VariogramModel> variogram_model_named(std::string_view name) {
-    for (const auto model : {VariogramModel::spherical, VariogramModel::exponential,
-                             VariogramModel::gaussian, VariogramModel::power})
+    for (const auto model :
+         {VariogramModel::spherical, VariogramModel::exponential, VariogramModel::gaussian,
+          VariogramModel::power, VariogramModel::matern})
         if (name_of(model) == name) return model;
     return std::nullopt;
 }

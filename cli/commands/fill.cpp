@@ -217,11 +217,11 @@ void add_method(CLI::App& app, FillCommand& command) {
                    "kriging, for z = f(x, y), or rbf, for any surface (default: kriging)")
         ->check(CLI::IsMember({"kriging", "rbf"}).description(""))
         ->type_name("METHOD");
-    app.add_option(
-           "--model", command.model,
-           "Of the variogram: auto, spherical, exponential, gaussian, power (default: auto, "
-           "what fits best)")
-        ->check(CLI::IsMember({"auto", "spherical", "exponential", "gaussian", "power"})
+    app.add_option("--model", command.model,
+                   "Of the variogram: auto, spherical, exponential, gaussian, matern, power "
+                   "(default: auto, "
+                   "what fits best)")
+        ->check(CLI::IsMember({"auto", "spherical", "exponential", "gaussian", "matern", "power"})
                     .description(""))
         ->type_name("MODEL");
     app.add_flag("--isotropic", command.settings.isotropic,

@@ -34,8 +34,8 @@ inline constexpr std::array<std::string_view, 4> outputs_level{"surfaces", "tetr
 
 inline constexpr std::array<std::string_view, 3> roles{"horizon", "fault", "boundary"};
 inline constexpr std::array<std::string_view, 2> fill_methods{"kriging", "rbf"};
-inline constexpr std::array<std::string_view, 5> variogram_models{
-    "auto", "spherical", "exponential", "gaussian", "power"};
+inline constexpr std::array<std::string_view, 6> variogram_models{
+    "auto", "spherical", "exponential", "gaussian", "matern", "power"};
 inline constexpr std::array<std::string_view, 12> surface_formats{
     "vtp", "obj", "ts", "ply", "off", "stl", "msh", "msh22", "inp", "mesh", "poly", "smesh"};
 inline constexpr std::array<std::string_view, 5> tetrahedra_formats{"vtu", "msh", "msh22", "inp",

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <numbers>
 #include <numeric>
 #include <utility>
 
@@ -14,6 +16,7 @@
 #include <terrane/algorithms/reconstruction/kriging/detail/choice.hpp>
 #include <terrane/algorithms/reconstruction/kriging/detail/constants.hpp>
 #include <terrane/algorithms/reconstruction/kriging/detail/data.hpp>
+#include <terrane/algorithms/reconstruction/kriging/detail/kriging.hpp>
 #include <terrane/kernel/predicates.hpp>
 
 namespace terrane {
@@ -47,16 +50,6 @@ double median_edge(const std::vector<Point3>& points, const Polygon& polygon) {
     const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
     std::nth_element(lengths.begin(), middle, lengths.end());
     return *middle;
-}
-
-/// Returns the largest distance of pairs that count for the variogram: half the extent of the data.
-double longest_pair(const std::vector<Point3>& points) {
-    Point3 low = points[0], high = low;
-    for (const Point3& p : points) {
-        low = {std::min(low.x, p.x), std::min(low.y, p.y), 0};
-        high = {std::max(high.x, p.x), std::max(high.y, p.y), 0};
-    }
-    return std::hypot(high.x - low.x, high.y - low.y) * constants.variogram_share;
 }
 
 /// Checks that each border edge has the surface on one side and the filling on the other.
@@ -126,14 +119,23 @@ Result<FlatFilling> mesh_of(const KrigingData& data, double mesh_size, const Run
     return flat;
 }
 
+/// The model, and what its standard deviations are worth.
+struct FittedModel {
+    Kriging kriging;
+    bool determined = true;
+    double rounding = 0; ///< least expected error
+};
+
 /// Sets the heights of interpolated vertices. Returns the expected error per vertex, 0 on the
 /// borders.
-std::vector<double> set_heights(FlatFilling& flat, const Kriging& kriging, const Run& run) {
-    const auto estimates = kriging.at(std::span(flat.points).subspan(flat.border), run);
+std::vector<double> set_heights(FlatFilling& flat, const FittedModel& model, const Run& run) {
+    const auto estimates = model.kriging.at(std::span(flat.points).subspan(flat.border), run);
     std::vector<double> expected_error(flat.points.size(), 0);
     for (std::size_t i = 0; i < estimates.size(); ++i) {
         flat.points[flat.border + i].z = estimates[i].value;
-        expected_error[flat.border + i] = estimates[i].standard_deviation;
+        expected_error[flat.border + i] =
+            model.determined ? std::hypot(estimates[i].standard_deviation, model.rounding)
+                             : std::numeric_limits<double>::quiet_NaN();
     }
     return expected_error;
 }
@@ -170,30 +172,44 @@ double area_of(const Surface& s) {
     return sum;
 }
 
-/// Keeps all data at the borders and, of the others, as many as make `Kriging::most_at_once`,
-/// evenly spaced. Keeps all data if that would leave too few.
+/// Keeps all data if all can be used at once. Otherwise keeps those at the borders and, of the
+/// others, as many as make `Kriging::most_at_once`, well spread.
 std::vector<Point3> thinned(const KrigingData& data, std::size_t border) {
     const auto& all = data.points;
-    if (all.size() <= Kriging::most_at_once || 2 * border > Kriging::most_at_once) return all;
+    if (all.size() <= Kriging::most_at_once || border > Kriging::most_at_once) return all;
     std::vector<Point3> kept(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(border));
-    const auto count = Kriging::most_at_once - border, others = all.size() - border;
-    for (std::size_t k = 0; k < count; ++k) kept.push_back(all[border + k * others / count]);
+    const auto others = std::span(all).subspan(border);
+    for (const auto i : well_spread(others, Kriging::most_at_once - border))
+        kept.push_back(others[i]);
     return kept;
 }
 
-Kriging model_of(const KrigingData& data, std::size_t border, const VariogramFitOptions& options,
-                 FillReport& report) {
-    const auto choice =
-        choose_model(data.points, data.edges, longest_pair(data.points), data.noise, options);
-    Kriging kriging(thinned(data, border), choice.variogram, choice.degree);
-    const auto single = kriging.validate(constants.most_validated);
+/// The height of what a double can tell of a plane through the data.
+double rounding_of(std::span<const Point3> points) {
+    double largest = 0;
+    for (const Point3& p : points) largest = std::max(largest, std::abs(p.z));
+    return largest * std::numeric_limits<double>::epsilon();
+}
+
+FittedModel model_of(const KrigingData& data, std::size_t border, const KrigingOptions& options,
+                     FillReport& report, const Run& run) {
+    const double area = std::abs(signed_area(data.points, data.borders[0]));
+    const DataAroundHole around{data.points, border, std::sqrt(area / std::numbers::pi)};
+    const auto choice = choose_model(around, options.variogram, run);
+    FittedModel model{Kriging(thinned(data, border), choice.variogram, choice.degree, run),
+                      choice.determined, rounding_of(data.points)};
     report.data = data.points.size();
-    report.validated_error = choice.blocks.error;
-    report.model = fmt::format(
-        "trend of degree {}, {}; patches of data left out are missed by {:.4g}, single ones by "
-        "{:.4g}",
-        choice.degree, description(choice.variogram), choice.blocks.error, single.error);
-    return kriging;
+    report.validated_error = choice.validation.blocks > 0
+                                 ? choice.validation.error
+                                 : std::numeric_limits<double>::quiet_NaN();
+    report.model =
+        fmt::format("trend of degree {}, {}; ", choice.degree, description(choice.variogram));
+    report.model += choice.validation.blocks > 0
+                        ? fmt::format("blocks as wide as the hole are missed by {:.4g}, {:.3g} "
+                                      "times what the model expects",
+                                      choice.validation.error, choice.validation.ratio)
+                        : "no blocks as wide as the hole can be left out";
+    return model;
 }
 
 } // namespace
@@ -220,17 +236,18 @@ Result<Filling> fill_by_kriging(const Surface& surface, const BorderLoop& loop,
     const auto border = flat.value().border;
     // 3. Estimate the heights.
     Filling filling;
-    const Kriging kriging = model_of(data, border, options.variogram, filling.report);
-    filling.expected_error = set_heights(flat.value(), kriging, run);
+    const auto model = model_of(data, border, options, filling.report, run);
+    if (run.stop.stop_requested()) return interrupted();
+    filling.expected_error = set_heights(flat.value(), model, run);
     for (unsigned halvings = 0; options.mesh_size == 0 && halvings < detail::most_halvings;
          ++halvings) {
         if (4 * (flat.value().points.size() - border) > constants.most_places ||
-            run.stop.stop_requested() || !is_too_flat(flat.value(), kriging, mesh_size, run))
+            run.stop.stop_requested() || !is_too_flat(flat.value(), model.kriging, mesh_size, run))
             break;
         mesh_size /= 2;
         flat = mesh_of(data, mesh_size, run);
         if (!flat) return flat.error();
-        filling.expected_error = set_heights(flat.value(), kriging, run);
+        filling.expected_error = set_heights(flat.value(), model, run);
     }
     if (run.stop.stop_requested()) return interrupted();
     filling.surface = {surface.name, surface.role, std::move(flat.value().points),

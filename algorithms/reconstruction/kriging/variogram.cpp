@@ -17,6 +17,9 @@ using kriging::detail::constants;
 constexpr std::array all_models{VariogramModel::spherical, VariogramModel::exponential,
                                 VariogramModel::gaussian, VariogramModel::power};
 
+/// Arguments at which the covariance of the matern models is 5 % of the sill.
+constexpr double matern_once = 4.743865, matern_twice = 5.918649;
+
 double radians(double degrees) {
     return degrees * std::numbers::pi / 180;
 }
@@ -30,6 +33,11 @@ double shape(VariogramModel model, double ratio, double exponent) {
         return -std::expm1(-3 * ratio);
     case VariogramModel::gaussian:
         return -std::expm1(-3 * ratio * ratio);
+    case VariogramModel::matern: {
+        const bool once = exponent < 2;
+        const double a = ratio * (once ? matern_once : matern_twice);
+        return 1 - (1 + a + (once ? 0 : a * a / 3)) * std::exp(-a);
+    }
     case VariogramModel::power:
         break;
     }
@@ -212,6 +220,8 @@ std::string_view name_of(VariogramModel model) {
         return "exponential";
     case VariogramModel::gaussian:
         return "gaussian";
+    case VariogramModel::matern:
+        return "matern";
     case VariogramModel::power:
         break;
     }
@@ -231,7 +241,8 @@ double Variogram::at(double distance) const {
 std::string description(const Variogram& v) {
     auto text = fmt::format("{} model, range {:.4g}, sill {:.4g}, nugget {:.4g}", name_of(v.model),
                             v.range, v.sill, v.nugget);
-    if (v.model == VariogramModel::power) text += fmt::format(", exponent {:.3g}", v.exponent);
+    if (v.model == VariogramModel::power || v.model == VariogramModel::matern)
+        text += fmt::format(", exponent {:.3g}", v.exponent);
     if (v.ratio < 1)
         text += fmt::format("; longest at {:.0f} degrees from x, {:.2g} of it across", v.angle,
                             v.ratio);

@@ -19,7 +19,7 @@
 namespace terrane {
 
 /// The shapes of variograms; the formulas are at Variogram.
-enum class VariogramModel : std::uint8_t { spherical, exponential, gaussian, power };
+enum class VariogramModel : std::uint8_t { spherical, exponential, gaussian, power, matern };
 
 /// Names the model: "spherical", ...
 std::string_view name_of(VariogramModel model);
@@ -29,6 +29,11 @@ std::string_view name_of(VariogramModel model);
 ///   exponential  nugget + sill (1 - exp(-3 h/r))
 ///   gaussian     nugget + sill (1 - exp(-3 (h/r)^2))
 ///   power        nugget + sill (h/r)^exponent, r a fixed length
+///   matern       nugget + sill (1 - (1 + a) exp(-a)), a = 4.744 h/r, for exponent 1.5, or
+///                nugget + sill (1 - (1 + a + a^2/3) exp(-a)), a = 5.919 h/r, for exponent 2.5
+/// All but spherical and power reach 95 % of the sill at the range. Surfaces have one derivative
+/// with matern and exponent 1.5, two with 2.5, none with spherical and exponential, all with
+/// gaussian.
 /// h is measured with geometric anisotropy: distances across the main direction are divided by the
 /// ratio.
 struct Variogram {
@@ -36,7 +41,7 @@ struct Variogram {
     double nugget = 0;                                ///< unit of z, squared; >= 0
     double sill = 0;     ///< without the nugget; unit of z, squared; >= 0
     double range = 1;    ///< unit of x and y, along the main direction; > 0
-    double exponent = 1; ///< power model: in (0, 2)
+    double exponent = 1; ///< power model: in (0, 2); matern: smoothness, 1.5 or 2.5
     double angle = 0;    ///< main direction: degrees from x, counterclockwise
     double ratio = 1;    ///< range across it / range, in (0, 1]
 

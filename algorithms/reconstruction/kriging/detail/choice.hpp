@@ -1,38 +1,53 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Chooses variogram and trend for given data.
+// Chooses a variogram for given data and calibrates it.
 #pragma once
 
-#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
+#include <vector>
 
-#include <terrane/algorithms/reconstruction/kriging/detail/kriging.hpp>
+#include <terrane/algorithms/core/run.hpp>
+#include <terrane/algorithms/reconstruction/kriging/variogram.hpp>
+#include <terrane/kernel/point.hpp>
 
 namespace terrane::kriging::detail {
 
-/// Validation of a model: patches of data are left out and estimated from the others.
+/// Validation of a model: blocks of data are left out and estimated from the others.
 struct BlockValidation {
-    std::size_t count = 0;
-    double error = 0;    ///< root mean square
-    double expected = 0; ///< root mean square of the standard deviations, nugget included
+    std::size_t blocks = 0; ///< that could be left out
+    double error = 0;       ///< root mean square
+    double ratio = 0;       ///< root mean square over blocks of error / standard deviation, nugget
+                            ///< included
 };
 
 struct ModelChoice {
-    Variogram variogram; ///< sill and nugget are scaled so that `error` was to be expected
-    unsigned degree = 1; ///< of the trend
-    BlockValidation blocks;
+    Variogram variogram;    ///< nugget and sill are calibrated by the validation
+    unsigned degree = 1;    ///< of the trend
+    bool determined = true; ///< whether there are enough data to tell an expected error
+    BlockValidation validation;
 };
 
-/// Fits each model to the residuals of trends of degree 1 and 2, isotropic, with a nugget of at
-/// most `noise` and without; a gaussian model without nugget also with two and four times the range
-/// and the same shape near h = 0. Chooses the one with the least validated error when patches, each
-/// a tenth of at most 150 data, are left out. A gaussian model must have less than half of the
-/// others' error, a model without nugget or with a trend of degree 2 less than four fifths of it,
-/// as these can be far off in holes wider than the patches. Finally tries anisotropy, which is kept
-/// if it reduces the error. `close` and `longest` are those of experimental_variogram().
-ModelChoice choose_model(std::span<const Point3> data,
-                         std::span<const std::array<std::uint32_t, 2>> close, double longest,
-                         double noise, const VariogramFitOptions& options);
+/// Data and the hole among them.
+struct DataAroundHole {
+    std::span<const Point3> data; ///< those on the border of the hole first
+    std::size_t border = 0;       ///< data on the border
+    double radius = 0;            ///< of a disk with the area of the hole
+};
+
+/// Chooses the variogram that is most likely (restricted likelihood), of the models exponential,
+/// matern and gaussian, or of options.model alone; the nugget among them is the noise of the data.
+/// A gaussian model must be more likely by a margin, as must anisotropy. Then blocks as wide as the
+/// hole are left out in turn: if they are missed by more than the model expects, nugget and sill
+/// grow by the square of that ratio. The model counts for 2 blocks in it. The trend has degree 1.
+/// Stops early if the run is stopped; the choice is of no use then.
+ModelChoice choose_model(const DataAroundHole& around, const VariogramFitOptions& options,
+                         const Run& run);
+
+/// Selects `count` points, each as far as possible from those before it in x and y; the first one
+/// is farthest from the mean. Of points as far as each other the one farthest from the mean height
+/// is taken, so that neither the order of the points decides nor the direction of the axes.
+std::vector<std::uint32_t> well_spread(std::span<const Point3> points, std::size_t count);
 
 } // namespace terrane::kriging::detail

@@ -3,10 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <unordered_map>
 
-#include <Eigen/Dense>
 #include <fmt/format.h>
 
 #include <terrane/algorithms/arrangement/soup.hpp>
@@ -109,56 +107,6 @@ private:
     std::vector<bool> reached_;
     std::vector<std::uint32_t> ring_, all_;
 };
-
-/// Estimates the squared noise of a point: its squared distance from the least-squares parabola
-/// through other points, corrected for their own noise. None if they do not determine a parabola.
-std::optional<double> squared_noise(const Point3& p, const std::vector<const Point3*>& others) {
-    using Terms = Eigen::Matrix<double, 6, 1>;
-    double scale = 0;
-    for (const Point3* q : others)
-        scale = std::max({scale, std::abs(q->x - p.x), std::abs(q->y - p.y)});
-    if (others.size() < constants.noise_neighbours || !(scale > 0)) return std::nullopt;
-    Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
-    Terms right = Terms::Zero();
-    for (const Point3* q : others) {
-        const double u = (q->x - p.x) / scale, v = (q->y - p.y) / scale;
-        Terms terms;
-        terms << 1, u, v, u * u, u * v, v * v;
-        normal += terms * terms.transpose();
-        right += terms * (q->z - p.z);
-    }
-    const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> solver(normal);
-    if (!(solver.rcond() > constants.noise_singular)) return std::nullopt;
-    const double off = solver.solve(right)[0];
-    const Terms first = Terms::Unit(0);
-    return off * off / (1 + solver.solve(first)[0]);
-}
-
-/// Averages the squared noise over points that have neighbours on all sides, in two rings.
-double noise_of(const std::vector<Point3>& points,
-                const std::vector<std::array<std::uint32_t, 2>>& edges, std::size_t border) {
-    std::vector<std::vector<std::uint32_t>> beside(points.size());
-    for (const auto& [a, b] : edges) {
-        beside[a].push_back(b);
-        beside[b].push_back(a);
-    }
-    double sum = 0;
-    std::size_t count = 0;
-    const auto step = std::max<std::size_t>(points.size() / constants.most_noise_points, 1);
-    for (std::size_t i = border; i < points.size(); i += step) {
-        std::vector<std::uint32_t> near;
-        for (const auto v : beside[i]) near.insert(near.end(), beside[v].begin(), beside[v].end());
-        sort_unique(near);
-        std::vector<const Point3*> others;
-        for (const auto v : near)
-            if (v != i) others.push_back(&points[v]);
-        if (const auto noise = squared_noise(points[i], others)) {
-            sum += *noise;
-            ++count;
-        }
-    }
-    return count > 0 ? sum / static_cast<double>(count) : HUGE_VAL;
-}
 
 /// Samples the borders at distances of at most half a mesh size.
 FlatCloud sampled(std::span<const Point3> points, std::span<const Polygon> borders, double size) {
@@ -333,15 +281,8 @@ Result<KrigingData> collect_data(const Surface& surface, std::span<const BorderL
         Polygon& polygon = data.borders.emplace_back();
         for (const auto v : loop->vertices) polygon.push_back(number_of(v));
     }
-    const auto border_count = data.points.size();
-    for (const auto t : near.triangles()) {
-        Triangle c = soup.triangles[t];
-        for (auto& v : c) v = number_of(v);
-        for (unsigned i = 0; i < 3; ++i)
-            data.edges.push_back({std::min(c[i], c[(i + 1) % 3]), std::max(c[i], c[(i + 1) % 3])});
-    }
-    sort_unique(data.edges);
-    data.noise = noise_of(data.points, data.edges, border_count);
+    for (const auto t : near.triangles())
+        for (const auto v : soup.triangles[t]) number_of(v);
 
     for (const BorderLoop* loop : loops)
         for (std::size_t i = 0; i < loop->vertices.size(); ++i) {

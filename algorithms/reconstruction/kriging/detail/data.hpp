@@ -3,7 +3,6 @@
 // Collects the data around a hole of a surface z = f(x, y), and the places of new points in it.
 #pragma once
 
-#include <array>
 #include <span>
 #include <vector>
 
@@ -15,14 +14,11 @@ namespace terrane::kriging::detail {
 
 /// Points of the surface near a hole.
 struct KrigingData {
-    std::vector<Point3> points;                      ///< distinct; border points first, in the
-                                                     ///< order of the loops
-    std::vector<Polygon> borders;                    ///< the loops, as indices into points
-    std::vector<std::array<std::uint32_t, 2>> edges; ///< of the triangles near the hole, lower
-                                                     ///< index first
-    std::vector<std::uint32_t> inner_of;             ///< per border edge, in the order of points:
-                                                     ///< the third corner of its triangle
-    double noise = 0; ///< mean square distance of heights from local parabolas
+    std::vector<Point3> points;          ///< distinct; border points first, in the
+                                         ///< order of the loops
+    std::vector<Polygon> borders;        ///< the loops, as indices into points
+    std::vector<std::uint32_t> inner_of; ///< per border edge, in the order of points:
+                                         ///< the third corner of its triangle
 };
 
 /// Collects the corners of `rings` rings of triangles around the loops, as far as they are a graph

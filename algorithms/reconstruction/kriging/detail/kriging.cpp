@@ -5,60 +5,19 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <unordered_set>
 
 #include <Eigen/Dense>
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <terrane/algorithms/core/parallel.hpp>
+#include <terrane/algorithms/reconstruction/kriging/detail/choice.hpp>
 #include <terrane/algorithms/reconstruction/kriging/detail/constants.hpp>
 #include <terrane/algorithms/reconstruction/kriging/detail/flat_cloud.hpp>
+#include <terrane/algorithms/reconstruction/kriging/detail/system.hpp>
 
 namespace terrane::kriging::detail {
 namespace {
-
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
-/// Least-squares polynomial in x and y, which are shifted and scaled to [-1, 1].
-class Trend {
-public:
-    Trend(std::span<const Point3> data, unsigned degree) : degree_(degree) {
-        for (const Point3& p : data) {
-            x0_ += p.x / static_cast<double>(data.size());
-            y0_ += p.y / static_cast<double>(data.size());
-        }
-        for (const Point3& p : data)
-            scale_ = std::max({scale_, std::abs(p.x - x0_), std::abs(p.y - y0_)});
-        if (!(scale_ > 0)) scale_ = 1;
-        MatrixXd terms(data.size(), terms_at(0, 0).size());
-        VectorXd z(data.size());
-        for (Eigen::Index i = 0; i < z.size(); ++i) {
-            const Point3& p = data[static_cast<std::size_t>(i)];
-            terms.row(i) = terms_at(p.x, p.y);
-            z[i] = p.z;
-        }
-        factors_ = terms.colPivHouseholderQr().solve(z);
-    }
-
-    [[nodiscard]] double at(double x, double y) const { return terms_at(x, y).dot(factors_); }
-
-private:
-    [[nodiscard]] VectorXd terms_at(double x, double y) const {
-        const double u = (x - x0_) / scale_, v = (y - y0_) / scale_;
-        VectorXd terms(degree_ == 0 ? 1 : degree_ == 1 ? 3 : 6);
-        terms[0] = 1;
-        if (degree_ >= 1) terms.segment<2>(1) << u, v;
-        if (degree_ >= 2) terms.segment<3>(3) << u * u, u * v, v * v;
-        return terms;
-    }
-
-    unsigned degree_;
-    double x0_ = 0, y0_ = 0, scale_ = 0;
-    VectorXd factors_;
-};
 
 /// A search tree over some of the data, with x and y transformed so that distances are those of the
 /// variogram.
@@ -94,94 +53,41 @@ private:
     FlatTree tree_;
 };
 
-/// The system of ordinary kriging for some data, in terms of covariances.
-class System {
+/// Subtracts the least-squares trend.
+class Trend {
 public:
-    System(std::span<const Point3> data, std::vector<std::uint32_t> numbers,
-           const Variogram& model) :
-        data_(data),
-        numbers_(std::move(numbers)), model_(model) {
-        const auto n = static_cast<Eigen::Index>(numbers_.size());
-        z_.resize(n);
-        double farthest = 0;
-        MatrixXd gamma(n, n);
-        for (Eigen::Index i = 0; i < n; ++i) {
-            z_[i] = datum(i).z;
-            gamma(i, i) = 0;
-            for (Eigen::Index j = 0; j < i; ++j) {
-                const double h = model_.distance(datum(i).x - datum(j).x, datum(i).y - datum(j).y);
-                gamma(i, j) = gamma(j, i) = smooth(h);
-                farthest = std::max(farthest, gamma(i, j));
-            }
-        }
-        // Weights do not depend on the constant; this one makes the matrix positive definite.
-        const bool bounded = model_.model != VariogramModel::power;
-        constant_ = bounded ? model_.sill : 2 * farthest;
-        const double scale = constant_ > 0 ? constant_ : 1;
-        for (double addition = constants.least_addition;; addition *= constants.addition_growth) {
-            MatrixXd covariance = (constant_ - gamma.array()).matrix();
-            covariance.diagonal().array() += model_.nugget + addition * scale;
-            factor_.compute(covariance);
-            if (factor_.info() == Eigen::Success || addition >= constants.most_addition) break;
-            if (!bounded) constant_ *= 2;
-        }
-        solved_ones_ = factor_.solve(VectorXd::Ones(n));
-        ones_ = solved_ones_.sum();
-        mean_ = solved_ones_.dot(z_) / ones_;
-        dual_ = factor_.solve((z_.array() - mean_).matrix());
+    Trend(std::span<const Point3> data, unsigned degree) : terms_(data, degree) {
+        const Eigen::MatrixXd matrix = terms_.matrix(data);
+        Eigen::VectorXd z(matrix.rows());
+        for (Eigen::Index i = 0; i < z.size(); ++i) z[i] = data[static_cast<std::size_t>(i)].z;
+        factors_ = matrix.householderQr().solve(z);
     }
-
-    [[nodiscard]] double value(double x, double y) const {
-        return mean_ + covariances(x, y).dot(dual_);
-    }
-
-    [[nodiscard]] double standard_deviation(double x, double y) const {
-        const VectorXd c = covariances(x, y);
-        const VectorXd half = factor_.matrixL().solve(c);
-        const double off = 1 - solved_ones_.dot(c);
-        const double variance = constant_ - half.squaredNorm() + off * off / ones_;
-        return std::sqrt(std::max(variance, 0.0));
-    }
+    [[nodiscard]] double at(double x, double y) const { return terms_.at(x, y).dot(factors_); }
 
 private:
-    [[nodiscard]] const Point3& datum(Eigen::Index i) const {
-        return data_[numbers_[static_cast<std::size_t>(i)]];
-    }
-    /// Evaluates the variogram without the nugget, which is noise of the data and not of the
-    /// surface.
-    [[nodiscard]] double smooth(double h) const { return h > 0 ? model_.at(h) - model_.nugget : 0; }
-
-    [[nodiscard]] VectorXd covariances(double x, double y) const {
-        VectorXd c(z_.size());
-        for (Eigen::Index i = 0; i < c.size(); ++i)
-            c[i] = constant_ - smooth(model_.distance(datum(i).x - x, datum(i).y - y));
-        return c;
-    }
-
-    std::span<const Point3> data_;
-    std::vector<std::uint32_t> numbers_;
-    Variogram model_;
-    double constant_ = 0, ones_ = 0, mean_ = 0;
-    VectorXd z_, solved_ones_, dual_;
-    Eigen::LLT<MatrixXd> factor_;
+    TrendTerms terms_;
+    Eigen::VectorXd factors_;
 };
+
+std::vector<Point3> sorted(std::span<const Point3> data) {
+    std::vector<Point3> result(data.begin(), data.end());
+    std::sort(result.begin(), result.end());
+    return result;
+}
 
 } // namespace
 
 struct Kriging::State {
-    State(std::span<const Point3> points, const Variogram& v, unsigned degree) :
-        trend(points, degree), variogram(v) {
-        data.assign(points.begin(), points.end());
+    State(std::span<const Point3> points, const Variogram& v, unsigned degree, const Run& run) :
+        data(sorted(points)), trend(data, degree), trend_degree(degree), variogram(v) {
         for (Point3& p : data) p.z -= trend.at(p.x, p.y);
         const double angle = v.angle * std::numbers::pi / 180;
         cosine = std::cos(angle);
         sine = std::sin(angle);
         build_levels();
-        if (data.size() <= most_at_once) {
-            std::vector<std::uint32_t> all(data.size());
-            std::iota(all.begin(), all.end(), 0U);
-            system = std::make_unique<System>(data, std::move(all), variogram);
-        }
+        if (data.size() > most_at_once) return;
+        auto all = std::make_unique<System>(data, variogram, degree, run);
+        if (all->ready()) system = std::move(all);
     }
 
     /// Transforms a place so that distances are those of the variogram.
@@ -237,86 +143,95 @@ struct Kriging::State {
         return levels[level]->nearest(p, count);
     }
 
+    /// Estimates a place from its neighbours, without the trend.
+    [[nodiscard]] Estimate locally(const Point3& p) const {
+        std::vector<Point3> some;
+        for (const auto i : near(p.x, p.y, neighbours)) some.push_back(data[i]);
+        const System local(some, variogram, 0);
+        if (!local.ready()) return {};
+        return {local.value(p.x, p.y), local.standard_deviations(std::span(&p, 1))[0]};
+    }
+
+    /// Estimates places.
+    [[nodiscard]] std::vector<Estimate> at(std::span<const Point3> places,
+                                           const System* deviations) const {
+        std::vector<Estimate> result;
+        const auto together =
+            deviations ? deviations->standard_deviations(places) : std::vector<double>{};
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            const Point3& p = places[i];
+            Estimate e;
+            if (system) e.value = system->value(p.x, p.y);
+            if (!system || deviations != system.get()) {
+                const Estimate local = locally(p);
+                if (!system) e.value = local.value;
+                e.standard_deviation = local.standard_deviation;
+            }
+            if (deviations)
+                e.standard_deviation = deviations == system.get()
+                                           ? together[i]
+                                           : std::min(together[i], e.standard_deviation);
+            e.value += trend.at(p.x, p.y);
+            result.push_back(e);
+        }
+        return result;
+    }
+
+    std::vector<Point3> data; ///< residuals, by ascending place
     Trend trend;
+    unsigned trend_degree;
     Variogram variogram;
-    std::vector<Point3> data; ///< residuals
     double cosine = 1, sine = 0;
     double spacing = 0; ///< of the data
     std::vector<std::unique_ptr<Level>> levels;
     std::unique_ptr<System> system; ///< of all data, if they are few enough
 };
 
-Kriging::Kriging(std::span<const Point3> data, const Variogram& variogram, unsigned degree) :
-    state_(std::make_unique<State>(data, variogram, degree)) {}
+Kriging::Kriging(std::span<const Point3> data, const Variogram& variogram, unsigned degree,
+                 const Run& run) :
+    state_(std::make_unique<State>(data, variogram, degree, run)) {}
 
 Kriging::Kriging(Kriging&&) noexcept = default;
 Kriging::~Kriging() = default;
 
-std::vector<Point3> residuals(std::span<const Point3> data, unsigned degree) {
-    const Trend trend(data, degree);
-    std::vector<Point3> result(data.begin(), data.end());
-    for (Point3& p : result) p.z -= trend.at(p.x, p.y);
-    return result;
-}
-
 Estimate Kriging::at(double x, double y) const {
-    const State& s = *state_;
-    const double trend = s.trend.at(x, y);
-    if (s.system) return {trend + s.system->value(x, y), s.system->standard_deviation(x, y)};
-    const System local(s.data, s.near(x, y, neighbours), s.variogram);
-    return {trend + local.value(x, y), local.standard_deviation(x, y)};
+    const Point3 p{x, y, 0};
+    return state_->at(std::span(&p, 1), state_->system.get()).front();
 }
 
 std::vector<Estimate> Kriging::at(std::span<const Point3> places, const Run& run) const {
     const State& s = *state_;
     const double n = static_cast<double>(s.data.size());
-    const bool quick =
-        s.system && n * n * static_cast<double>(places.size()) > constants.most_operations;
+    std::unique_ptr<System> thinned;
+    const System* deviations = s.system.get();
+    if (s.system && n * n * static_cast<double>(places.size()) > constants.most_operations &&
+        s.data.size() > constants.most_deviations) {
+        std::vector<Point3> some;
+        for (const auto i : well_spread(s.data, constants.most_deviations))
+            some.push_back(s.data[i]);
+        thinned = std::make_unique<System>(some, s.variogram, s.trend_degree, run);
+        if (thinned->ready()) deviations = thinned.get();
+    }
     std::vector<Estimate> result(places.size());
-    const auto one = [&](std::size_t i) {
-        const Point3& p = places[i];
-        if (!quick) return at(p.x, p.y);
-        const System local(s.data, s.near(p.x, p.y, neighbours), s.variogram);
-        return Estimate{s.trend.at(p.x, p.y) + s.system->value(p.x, p.y),
-                        local.standard_deviation(p.x, p.y)};
-    };
-    constexpr std::size_t block = 4096; // places between checks of the stop token
+    constexpr std::size_t grain = 64;
+    // Between checks of the stop token, less than a second passes.
+    const auto at_most = static_cast<std::size_t>(constants.operations_per_check / (n * n));
+    const std::size_t block = std::clamp<std::size_t>(at_most, grain, 64 * grain);
     for (std::size_t first = 0; first < places.size(); first += block) {
         if (run.stop.stop_requested()) break;
         if (run.progress)
             run.progress("kriging",
                          static_cast<double>(first) / static_cast<double>(places.size()));
         const auto count = std::min(block, places.size() - first);
-        const auto some = [&](const tbb::blocked_range<std::size_t>& range) {
-            for (auto i = range.begin(); i != range.end(); ++i) result[i] = one(i);
+        const auto some = [&](std::size_t part) {
+            const auto start = first + part * grain, end = std::min(start + grain, first + count);
+            const auto estimates = s.at(places.subspan(start, end - start), deviations);
+            std::copy(estimates.begin(), estimates.end(),
+                      result.begin() + static_cast<std::ptrdiff_t>(start));
         };
         with_threads(run,
-                     [&] { tbb::parallel_for(tbb::blocked_range(first, first + count), some); });
+                     [&] { tbb::parallel_for(std::size_t{0}, (count + grain - 1) / grain, some); });
     }
-    return result;
-}
-
-Kriging::Validation Kriging::validate(std::size_t most) const {
-    const State& s = *state_;
-    Validation result;
-    const auto count = std::min(most, s.data.size());
-    double errors = 0, expected = 0;
-    for (std::size_t k = 0; k < count; ++k) {
-        const auto i = static_cast<std::uint32_t>(k * s.data.size() / count);
-        const Point3& p = s.data[i];
-        auto others = s.levels[0]->nearest(s.place(p.x, p.y), neighbours + 1);
-        std::erase_if(others, [&](std::uint32_t j) { return j == i; });
-        if (others.empty()) continue;
-        const System local(s.data, others, s.variogram);
-        const double missed = local.value(p.x, p.y) - p.z,
-                     deviation = local.standard_deviation(p.x, p.y);
-        errors += missed * missed;
-        expected += deviation * deviation + s.variogram.nugget;
-        ++result.count;
-    }
-    const auto n = static_cast<double>(std::max<std::size_t>(result.count, 1));
-    result.error = std::sqrt(errors / n);
-    result.expected = std::sqrt(expected / n);
     return result;
 }
 

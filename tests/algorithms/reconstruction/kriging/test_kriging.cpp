@@ -124,10 +124,11 @@ TEST_CASE("kriging: neighbours give nearly the same estimates as all data at onc
     std::vector<Point3> few, many;
     for (int i = 0; i <= 25; ++i)
         for (int j = 0; j <= 25; ++j) few.push_back({4.0 * i, 4.0 * j, z(4.0 * i, 4.0 * j)});
-    for (int i = 0; i <= 50; ++i)
-        for (int j = 0; j <= 50; ++j)
-            if (std::hypot(i - 25, j - 25) > 5)
-                many.push_back({2.0 * i, 2.0 * j, z(2.0 * i, 2.0 * j)});
+    const double step = 100.0 / 60;
+    for (int i = 0; i <= 60; ++i)
+        for (int j = 0; j <= 60; ++j)
+            if (std::hypot(i - 30, j - 30) > 6)
+                many.push_back({step * i, step * j, z(step * i, step * j)});
     REQUIRE(few.size() <= Kriging::most_at_once);
     REQUIRE(many.size() > Kriging::most_at_once);
     const Variogram v{VariogramModel::gaussian, 0, 100, 60};
@@ -159,5 +160,4 @@ TEST_CASE("kriging: coincident data, nearly coincident data and a single datum a
     }
     const std::vector<Point3> one{{1, 2, 3}};
     CHECK(Kriging(one, v).at(50, 50).value == Approx(3));
-    CHECK(Kriging(one, v).validate(10).count == 0);
 }

@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/reconstruction/kriging/detail/system.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <Eigen/Eigenvalues>
+
+#include <terrane/algorithms/reconstruction/kriging/detail/constants.hpp>
+
+namespace terrane::kriging::detail {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+VectorXd heights_of(std::span<const Point3> data) {
+    VectorXd z(static_cast<Index>(data.size()));
+    for (Index i = 0; i < z.size(); ++i) z[i] = data[static_cast<std::size_t>(i)].z;
+    return z;
+}
+
+} // namespace
+
+TrendTerms::TrendTerms(std::span<const Point3> data, unsigned degree) {
+    const auto n = static_cast<double>(data.size());
+    for (const Point3& p : data) {
+        x0_ += p.x / n;
+        y0_ += p.y / n;
+    }
+    for (const Point3& p : data)
+        scale_ = std::max({scale_, std::abs(p.x - x0_), std::abs(p.y - y0_)});
+    if (!(scale_ > 0)) scale_ = 1;
+    for (size_ = degree == 0 ? 1 : degree == 1 ? 3 : 6; size_ > 1; size_ = size_ == 6 ? 3 : 1) {
+        if (size_ >= static_cast<Index>(data.size())) continue;
+        Eigen::ColPivHouseholderQR<MatrixXd> qr(matrix(data));
+        qr.setThreshold(constants.trend_singular);
+        if (qr.rank() == size_) break;
+    }
+}
+
+VectorXd TrendTerms::at(double x, double y) const {
+    const double u = (x - x0_) / scale_, v = (y - y0_) / scale_;
+    VectorXd terms(size_);
+    terms[0] = 1;
+    if (size_ >= 3) terms.segment<2>(1) << u, v;
+    if (size_ >= 6) terms.segment<3>(3) << u * u, u * v, v * v;
+    return terms;
+}
+
+MatrixXd TrendTerms::matrix(std::span<const Point3> data) const {
+    MatrixXd terms(static_cast<Index>(data.size()), size_);
+    for (Index i = 0; i < terms.rows(); ++i) {
+        const Point3& p = data[static_cast<std::size_t>(i)];
+        terms.row(i) = at(p.x, p.y);
+    }
+    return terms;
+}
+
+bool cholesky(MatrixXd& matrix, const Run& run) {
+    constexpr Index panel = 128;
+    const Index n = matrix.rows();
+    for (Index k = 0; k < n; k += panel) {
+        if (run.stop.stop_requested()) return false;
+        const Index width = std::min(panel, n - k), rest = n - k - width;
+        Eigen::Ref<MatrixXd> corner = matrix.block(k, k, width, width);
+        if (Eigen::internal::llt_inplace<double, Eigen::Lower>::blocked(corner) != -1) return false;
+        if (rest == 0) break;
+        Eigen::Ref<MatrixXd> below = matrix.block(k + width, k, rest, width);
+        corner.transpose().triangularView<Eigen::Upper>().solveInPlace<Eigen::OnTheRight>(below);
+        matrix.bottomRightCorner(rest, rest).selfadjointView<Eigen::Lower>().rankUpdate(below, -1);
+    }
+    return true;
+}
+
+System::System(std::span<const Point3> data, const Variogram& model, unsigned degree,
+               const Run& run) :
+    model_(model),
+    terms_(data, degree) {
+    const double angle = model.angle * std::numbers::pi / 180;
+    cosine_ = std::cos(angle);
+    sine_ = std::sin(angle);
+    for (const Point3& p : data) places_.push_back(place(p.x, p.y));
+    const MatrixXd terms = terms_.matrix(data);
+    qr_.compute(terms);
+    const auto n = static_cast<Index>(data.size()), m = terms_.size();
+    MatrixXd rotated = kernels();
+    rotated.applyOnTheLeft(qr_.householderQ().adjoint());
+    rotated.applyOnTheRight(qr_.householderQ());
+    top_ = rotated.topRows(m);
+    const double scale = n > m ? rotated.diagonal().tail(n - m).mean() : 0;
+    if (!factorise(rotated.bottomRightCorner(n - m, n - m), scale, run)) return;
+    VectorXd z = heights_of(data);
+    z.applyOnTheLeft(qr_.householderQ().adjoint());
+    weights_ = VectorXd::Zero(n);
+    VectorXd solved = z.tail(n - m);
+    factor_.triangularView<Eigen::Lower>().solveInPlace(solved);
+    factor_.transpose().triangularView<Eigen::Upper>().solveInPlace(solved);
+    weights_.tail(n - m) = solved;
+    const VectorXd rest = z.head(m) - top_.rightCols(n - m) * solved;
+    polynomial_ = qr_.matrixQR().topLeftCorner(m, m).triangularView<Eigen::Upper>().solve(rest);
+    weights_.applyOnTheLeft(qr_.householderQ());
+    ready_ = true;
+}
+
+bool System::factorise(const MatrixXd& contrasts, double scale, const Run& run) {
+    const double unit = scale > 0 ? scale : 1;
+    for (double addition = constants.least_addition; !run.stop.stop_requested();
+         addition *= constants.addition_growth) {
+        factor_ = contrasts;
+        factor_.diagonal().array() += addition * unit;
+        if (cholesky(factor_, run)) return true;
+        if (addition > constants.most_addition) break;
+    }
+    return false;
+}
+
+System::Place System::place(double x, double y) const {
+    const auto [x0, y0] = terms_.centre();
+    const double dx = x - x0, dy = y - y0;
+    return {cosine_ * dx + sine_ * dy, (cosine_ * dy - sine_ * dx) / model_.ratio};
+}
+
+/// Evaluates minus the variogram without the nugget, which is noise of the data and not of the
+/// surface. The constant that would make it a covariance does not matter to contrasts.
+double System::kernel(const Place& p, const Place& q) const {
+    const double dx = p[0] - q[0], dy = p[1] - q[1], h = std::sqrt(dx * dx + dy * dy);
+    return h > 0 ? model_.nugget - model_.at(h) : 0;
+}
+
+MatrixXd System::kernels() const {
+    const auto n = static_cast<Index>(places_.size());
+    MatrixXd all(n, n);
+    for (Index j = 0; j < n; ++j) {
+        const Place& q = places_[static_cast<std::size_t>(j)];
+        for (Index i = 0; i < j; ++i)
+            all(i, j) = all(j, i) = kernel(places_[static_cast<std::size_t>(i)], q);
+        all(j, j) = model_.nugget;
+    }
+    return all;
+}
+
+double System::value(double x, double y) const {
+    const Place p = place(x, y);
+    double sum = terms_.at(x, y).dot(polynomial_);
+    for (std::size_t i = 0; i < places_.size(); ++i)
+        sum += weights_[static_cast<Index>(i)] * kernel(places_[i], p);
+    return sum;
+}
+
+std::vector<double> System::standard_deviations(std::span<const Point3> places) const {
+    constexpr std::size_t most_columns = 64; // that the factor meets at once
+    const auto n = static_cast<Index>(places_.size()), m = terms_.size();
+    const MatrixXd upper = qr_.matrixQR().topLeftCorner(m, m);
+    std::vector<double> result;
+    for (std::size_t first = 0; first < places.size(); first += most_columns) {
+        const auto count = static_cast<Index>(std::min(most_columns, places.size() - first));
+        MatrixXd k(n, count), share(m, count);
+        for (Index c = 0; c < count; ++c) {
+            const Point3& p = places[first + static_cast<std::size_t>(c)];
+            const Place at = place(p.x, p.y);
+            for (Index i = 0; i < n; ++i)
+                k(i, c) = kernel(places_[static_cast<std::size_t>(i)], at);
+            share.col(c) = terms_.at(p.x, p.y);
+        }
+        // The weights are a share of the trend, which any unbiased estimate has, and contrasts.
+        upper.transpose().triangularView<Eigen::Lower>().solveInPlace(share);
+        k.applyOnTheLeft(qr_.householderQ().adjoint());
+        MatrixXd left = k.bottomRows(n - m) - top_.rightCols(n - m).transpose() * share;
+        factor_.triangularView<Eigen::Lower>().solveInPlace(left);
+        const MatrixXd own = top_.leftCols(m) * share;
+        for (Index c = 0; c < count; ++c) {
+            const double open = share.col(c).dot(own.col(c) - 2 * k.col(c).head(m)),
+                         known = left.col(c).squaredNorm();
+            // Less than the rounding of this difference would be no more than luck.
+            const double least = std::numeric_limits<double>::epsilon() * known;
+            result.push_back(std::sqrt(std::max(open - known, least)));
+        }
+    }
+    return result;
+}
+
+MatrixXd System::projection() const {
+    const auto n = static_cast<Index>(places_.size()), m = terms_.size();
+    MatrixXd half = MatrixXd::Zero(n - m, n);
+    half.rightCols(n - m).setIdentity();
+    factor_.triangularView<Eigen::Lower>().solveInPlace(half);
+    half.applyOnTheRight(qr_.householderQ().adjoint());
+    return half.transpose() * half;
+}
+
+Likelihood::Likelihood(std::span<const Point3> data, unsigned degree) :
+    data_(data.begin(), data.end()) {
+    const TrendTerms terms(data, degree);
+    terms_ = terms.size();
+    centre_ = terms.centre();
+    qr_.compute(terms.matrix(data));
+    VectorXd z = heights_of(data);
+    const double largest = z.size() > 0 ? z.cwiseAbs().maxCoeff() : 0;
+    z.array() -= z.size() > 0 ? z.mean() : 0;
+    z.applyOnTheLeft(qr_.householderQ().adjoint());
+    contrasts_ = z.tail(z.size() - terms_);
+    trend_only_ = contrasts_.size() == 0 ||
+                  !(contrasts_.cwiseAbs().maxCoeff() > constants.trend_rounding * largest);
+    Point3 low = data[0], high = data[0];
+    for (const Point3& p : data) {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), 0};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), 0};
+    }
+    extent_ = std::hypot(high.x - low.x, high.y - low.y);
+}
+
+namespace {
+
+/// A symmetric tridiagonal matrix and a vector in its coordinates.
+struct Tridiagonal {
+    VectorXd diagonal, beside, values;
+};
+
+/// Log-likelihood and sill for a nugget of `noise` sills.
+struct Profile {
+    double likelihood = -HUGE_VAL;
+    double sill = 0;
+};
+
+Profile profile(const Tridiagonal& t, double noise) {
+    const Index n = t.diagonal.size();
+    double pivot = 0, carried = 0, squares = 0, logarithms = 0, product = 1;
+    for (Index i = 0; i < n; ++i) {
+        const double ratio = i == 0 ? 0 : t.beside[i - 1] / pivot;
+        pivot = t.diagonal[i] + noise - (i == 0 ? 0 : ratio * t.beside[i - 1]);
+        if (!(pivot > 0)) return {};
+        carried = t.values[i] - ratio * carried;
+        squares += carried * carried / pivot;
+        product *= pivot;
+        if (product < 1e-200 || product > 1e200) { // a logarithm for many pivots at a time
+            logarithms += std::log(product);
+            product = 1;
+        }
+    }
+    logarithms += std::log(product);
+    const double sill = squares / static_cast<double>(n);
+    if (!(sill > 0)) return {};
+    return {-(static_cast<double>(n) * std::log(sill) + logarithms) / 2, sill};
+}
+
+} // namespace
+
+Likely Likelihood::at(const Variogram& shape, double most_nugget) const {
+    Variogram unit = shape;
+    unit.nugget = 0;
+    unit.sill = 1;
+    const auto n = static_cast<Index>(data_.size());
+    const double angle = shape.angle * std::numbers::pi / 180, c = std::cos(angle),
+                 s = std::sin(angle);
+    std::vector<std::array<double, 2>> places;
+    for (const Point3& p : data_) {
+        const double dx = p.x - centre_[0], dy = p.y - centre_[1];
+        places.push_back({c * dx + s * dy, (c * dy - s * dx) / shape.ratio});
+    }
+    MatrixXd kernel = MatrixXd::Zero(n, n);
+    for (std::size_t j = 0; j < places.size(); ++j)
+        for (std::size_t i = 0; i < j; ++i) {
+            const double dx = places[i][0] - places[j][0], dy = places[i][1] - places[j][1];
+            const double h = std::sqrt(dx * dx + dy * dy);
+            const double value = h > 0 ? -unit.at(h) : 0;
+            kernel(static_cast<Index>(i), static_cast<Index>(j)) = value;
+            kernel(static_cast<Index>(j), static_cast<Index>(i)) = value;
+        }
+    kernel.applyOnTheLeft(qr_.householderQ().adjoint());
+    kernel.applyOnTheRight(qr_.householderQ());
+    const Index m = n - terms_;
+    if (m < 2) return {};
+    const Eigen::Tridiagonalization<MatrixXd> form(kernel.bottomRightCorner(m, m));
+    Tridiagonal t{form.diagonal(), form.subDiagonal(), contrasts_};
+    t.values.applyOnTheLeft(form.matrixQ().adjoint());
+    const double scale = std::max(t.diagonal.mean(), std::numeric_limits<double>::min());
+    Likely best;
+    double best_at = 0;
+    const double low = std::log(constants.least_noise), high = std::log(constants.most_noise);
+    const auto attempt = [&](double exponent) {
+        const double noise = scale * std::exp(exponent);
+        const Profile found = profile(t, noise);
+        if (!(found.likelihood > best.likelihood)) return;
+        if (exponent > low && found.sill * noise > most_nugget) return;
+        best.likelihood = found.likelihood;
+        best.variogram = unit;
+        best.variogram.sill = found.sill;
+        best.variogram.nugget = found.sill * noise;
+        best_at = exponent;
+    };
+    double step = (high - low) / constants.noise_steps;
+    for (int k = 0; k <= constants.noise_steps; ++k) attempt(low + k * step);
+    for (int k = 0; k < constants.noise_halvings; ++k) {
+        step /= 2;
+        const double middle = best_at;
+        attempt(std::max(low, middle - step));
+        attempt(middle + step);
+    }
+    return best;
+}
+
+} // namespace terrane::kriging::detail

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// The system of universal kriging, and the restricted likelihood of a variogram.
+//
+// Both work with contrasts: combinations of the data that no polynomial of the trend changes
+// (Householder), so that they need no covariances but only the variogram, and long ranges do no
+// harm. Source: Chiles and Delfiner (2012), 3.4 and 4.6; Harville (1977) for the likelihood.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <Eigen/QR>
+
+#include <terrane/algorithms/core/run.hpp>
+#include <terrane/algorithms/reconstruction/kriging/variogram.hpp>
+#include <terrane/kernel/point.hpp>
+
+namespace terrane::kriging::detail {
+
+/// The terms of a polynomial in x and y, which are shifted and scaled to [-1, 1].
+class TrendTerms {
+public:
+    /// The degree, at most 2, is lowered until the data determine the polynomial.
+    TrendTerms(std::span<const Point3> data, unsigned degree);
+
+    [[nodiscard]] Eigen::Index size() const { return size_; }
+    [[nodiscard]] std::array<double, 2> centre() const { return {x0_, y0_}; }
+    [[nodiscard]] Eigen::VectorXd at(double x, double y) const;
+    /// One row per datum.
+    [[nodiscard]] Eigen::MatrixXd matrix(std::span<const Point3> data) const;
+
+private:
+    double x0_ = 0, y0_ = 0, scale_ = 0;
+    Eigen::Index size_ = 1;
+};
+
+/// The factorised system of universal kriging for all data at once.
+class System {
+public:
+    /// Stops early, and is not ready then, if the run is stopped.
+    System(std::span<const Point3> data, const Variogram& model, unsigned degree,
+           const Run& run = {});
+
+    [[nodiscard]] bool ready() const { return ready_; }
+    [[nodiscard]] double value(double x, double y) const;
+    /// Computes the square roots of the kriging variances, for blocks of places at once.
+    [[nodiscard]] std::vector<double> standard_deviations(std::span<const Point3> places) const;
+    /// The matrix P for which P z are the weights of the data: if data B are left out, they are
+    /// missed by inverse(P_BB) (P z)_B, with these variances and covariances: inverse(P_BB).
+    [[nodiscard]] Eigen::MatrixXd projection() const;
+    [[nodiscard]] const Eigen::VectorXd& weights() const { return weights_; }
+
+private:
+    using Place = std::array<double, 2>;
+
+    [[nodiscard]] Place place(double x, double y) const;
+    [[nodiscard]] double kernel(const Place& p, const Place& q) const;
+    [[nodiscard]] Eigen::MatrixXd kernels() const;
+    bool factorise(const Eigen::MatrixXd& contrasts, double scale, const Run& run);
+
+    Variogram model_;
+    double cosine_ = 1, sine_ = 0;
+    TrendTerms terms_;
+    std::vector<Place> places_; ///< of the data, turned and stretched so that distances are those
+                                ///< of the variogram
+    Eigen::HouseholderQR<Eigen::MatrixXd> qr_; ///< of the terms at the data
+    Eigen::MatrixXd top_;                      ///< kernels between trend and all rotated data
+    Eigen::MatrixXd factor_;                   ///< lower triangle, of the contrasts
+    Eigen::VectorXd weights_, polynomial_;
+    bool ready_ = false;
+};
+
+/// Replaces the lower triangle of a symmetric matrix by its Cholesky factor, in panels of 128
+/// columns; looks at the stop token before each. Returns whether the matrix is positive definite
+/// and the run was not stopped. Cost: n^3 / 3.
+bool cholesky(Eigen::MatrixXd& matrix, const Run& run);
+
+/// The variogram of one shape with the largest restricted likelihood.
+struct Likely {
+    double likelihood = -HUGE_VAL; ///< its logarithm, up to a constant of the data
+    Variogram variogram;           ///< with nugget and sill
+};
+
+/// Restricted likelihood of variograms for given data.
+class Likelihood {
+public:
+    Likelihood(std::span<const Point3> data, unsigned degree);
+
+    /// Finds nugget and sill of this shape (its model, range, exponent, angle and ratio) that are
+    /// most likely; the nugget is at most `most_nugget`. Cost: 4/3 n^3, by a tridiagonal form that
+    /// serves all ratios of nugget and sill.
+    [[nodiscard]] Likely at(const Variogram& shape, double most_nugget) const;
+
+    /// Tells whether the data are the trend up to rounding.
+    [[nodiscard]] bool trend_only() const { return trend_only_; }
+    /// Extent of the data: the diagonal of their bounding box.
+    [[nodiscard]] double extent() const { return extent_; }
+
+private:
+    std::vector<Point3> data_;
+    Eigen::HouseholderQR<Eigen::MatrixXd> qr_;
+    Eigen::Index terms_ = 0;
+    Eigen::VectorXd contrasts_;
+    std::array<double, 2> centre_{};
+    double extent_ = 0;
+    bool trend_only_ = false;
+};
+
+} // namespace terrane::kriging::detail
