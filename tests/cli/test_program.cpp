@@ -171,7 +171,7 @@ TEST_CASE("cli: where TetGen gets no memory, the program says so", "[cli]") {
     const Folder folder;
     const auto in = folder.input("model.obj", crossing);
     // A script in place of the helper limits the memory of the helper alone.
-    folder.input("helper", "#!/bin/sh\nulimit -v 150000\nexec \"${T%/*}/../libexec/terrane/"
+    folder.input("helper", "#!/bin/sh\nulimit -v 40000\nexec \"${T%/*}/../libexec/terrane/"
                            "terrane-tetgen\"\n");
     const auto r = folder.shell("chmod +x in/helper && export T && TERRANE_TETGEN=in/helper $T "
                                 "tetrahedralize " +
