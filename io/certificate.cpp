@@ -141,4 +141,26 @@ std::string to_certificate(const Certified& certified, const Run& run) {
     return text;
 }
 
+std::string to_improved_certificate(const Certified& before, const Mesh& improved,
+                                    std::span<const double> limits, const Run& run) {
+    std::string text;
+    CertificateWriter out(text);
+    write_head(out, "improved", {before.files, before.surfaces, before.outputs});
+    write_arrangement(out, before, run);
+    out.raw(",\n\"improved\":{\"vertices\":");
+    write_points(out, improved.vertices);
+    out.raw(",\n\"triangles\":");
+    out.arrays(improved.triangles);
+    out.raw(",\n\"surfaces\":");
+    out.lists(improved.surfaces_of);
+    out.raw(",\n\"regions\":");
+    out.lists(improved.regions_of);
+    out.raw(",\n\"intersection_edges\":");
+    out.arrays(improved.intersection_edges);
+    out.raw(",\n\"limits\":");
+    out.array(limits, [&](double limit) { out.quote(limit); });
+    out.raw("}}\n");
+    return text;
+}
+
 } // namespace terrane

@@ -4,7 +4,8 @@
 // text in UTF-8:
 //
 //   { "format": "terrane-certificate", "version": 2,
-//     "kind": "arrangement",         of the surfaces as they are in the files
+//     "kind": "arrangement",         of the surfaces as they are in the files; other kinds have
+//                                    more sections
 //     "inputs": [                    the files, in the order of reading
 //       { "name": "faults.ts",       relative to the folder of the certificate
 //         "sha256": "9f86d0...",     of the bytes of the file, 64 lower-case hexadecimal digits
@@ -104,5 +105,45 @@ struct Certified {
 /// Returns the text of a certificate. Cost: linear; a second for 200 000 triangles.
 /// Precondition: the sum of files[].surfaces is the number of surfaces.
 std::string to_certificate(const Certified& certified, const Run& run = {});
+
+/// A surface whose holes were filled.
+struct FilledRecord {
+    const Surface* filled = nullptr; ///< what was given, then what is new
+    std::size_t given_vertices = 0;  ///< its first ones
+    std::size_t given_triangles = 0; ///< its first ones
+};
+
+/// Returns the text of a certificate of the kind "filled". It has the keys "format" to "outputs" of
+/// a certificate of an arrangement, and
+///
+///   "filled": {
+///     "vertices": [["0.5", "-1e-3", "7"]],   of all surfaces; of each first the given ones
+///     "triangles": [[u, v, w]],              likewise
+///     "surfaces": [                          per surface: the number of its vertices and
+///       { "vertices": 4, "triangles": 2,     triangles; no filling reaches farther out of the
+///         "limit": "0.25" }] }               box around the border of its hole
+///
+/// `surfaces` are those of the files, and there is one record for each.
+std::string to_filled_certificate(std::span<const InputRecord> files,
+                                  std::span<const Surface> surfaces,
+                                  std::span<const OutputRecord> outputs,
+                                  std::span<const FilledRecord> filled);
+
+/// Returns the text of a certificate of the kind "improved" about a mesh that improve() made of
+/// before.rounded; `limits` has one bound per surface (ImproveReport::bound_of). It has the keys
+/// of a certificate of an arrangement, which is about the mesh before, and
+///
+///   "improved": {
+///     "vertices": [["0.5", "-1e-3", "7"]], "triangles": [[u, v, w]],
+///     "surfaces": [[s, ...]],      per triangle
+///     "regions": [[r, ...]],       per triangle: its region in each of its surfaces, numbered as
+///                                  in "rounded"
+///     "intersection_edges": [[u, v]],
+///     "limits": ["0.25"] }         per surface: no point of it is farther from the same region of
+///                                  the other mesh
+///
+/// `before.outputs` are the files that hold the improved mesh.
+std::string to_improved_certificate(const Certified& before, const Mesh& improved,
+                                    std::span<const double> limits, const Run& run = {});
 
 } // namespace terrane

@@ -61,12 +61,24 @@ enum class Rule : std::uint8_t {
                          ///< intersection segments end or cross
     R21_output,          ///< an output file is not the one that the certificate describes, or does
                          ///< not hold the mesh of doubles
+    R22_improved_indices, ///< in an improved mesh: as R1, or a number is not finite
+    R23_improved_conforming, ///< an improved mesh is not conforming
+    R24_sheets, ///< regions are not those of the mesh before, or are connected otherwise
+    R25_curves, ///< a curve or a corner is not that of the mesh before, or too far from it
+    R26_limits, ///< two surfaces are farther apart than the stated limit, or this is larger than
+                ///< the largest that is accepted
+    R27_sides,  ///< a region faces another side than before
+    R28_filled_indices, ///< in filled surfaces: as R1, or a number is not finite
+    R29_given,          ///< a filled surface has not all that was given, unchanged
     // Blocks: see docs/reference/certificate.md.
     R30_block_lists = 29, ///< a list about blocks is unsorted, too long or too short
     R31_shells,           ///< the shells are not those of the mesh
     R32_nesting,          ///< another shell bounds a block from the outside
     R33_block_numbers,    ///< a shell bounds another block, or there are more or fewer blocks
     R34_volumes,          ///< a block has another volume
+    R35_fillings, ///< new triangles do not close whole borders of a surface
+    R36_embedded, ///< a new triangle has no area, or meets another one of its surface
+                  ///< improperly
     // Tetrahedra: see docs/explanation/tetrahedra.md.
     R40_tetrahedra_lists = 39, ///< as R1, in the lists about tetrahedra
     R41_positive,              ///< a tetrahedron is flat or inverted
@@ -101,6 +113,10 @@ struct Violation {
                                          ///< R40, R41: tetrahedra; R42, R46: a tetrahedron or a
                                          ///< face; R44: nodes, or a vertex; R45: a triangle
                                          ///< R47: a block; R48: a face or a node
+                                         ///< R22, R23: as R1, R3 to R5; R24: {triangle} or none
+                                         ///< R25: the vertices of an edge, or none
+                                         ///< R26: {triangle} or {surface}; R27: {triangle}
+                                         ///< R28, R29, R35, R36: a triangle, a vertex or none
     std::string sentence;                ///< what is wrong
 };
 

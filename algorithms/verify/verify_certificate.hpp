@@ -17,7 +17,11 @@
 // (4) If the mesh has the triangles of the exact part, each vertex is within `max_move` of the
 //     exact vertex (R14).
 // (5) Its intersection edges, its regions and the digest are correct (R15 to R17).
-// (6) Each output file that was given holds this mesh (R21): all coordinates and all triangles, bit
+// (6) An improved mesh is conforming, has the regions, curves and corners of the mesh before, and is
+//     within the stated limits of it, both ways (R22 to R27).
+// (7) Filled surfaces have all that was given, and new triangles close whole borders without
+//     meeting others (R28, R29, R35, R36).
+// (8) Each output file that was given holds this mesh (R21): all coordinates and all triangles, bit
 //     for bit; with the numbers rounded to float32 where this is what the file holds.
 #pragma once
 
@@ -81,11 +85,40 @@ struct RoundedClaim {
     std::vector<std::uint32_t> vanished; ///< input triangles, sorted
 };
 
+/// The claims of a certificate about a mesh that was improved.
+struct ImprovedClaim {
+    std::vector<Point3> vertices;          ///< unit of the input
+    std::vector<Triangle> triangles;       ///< indices into vertices
+    IndexLists<std::uint32_t> surfaces_of; ///< per triangle: surfaces of the inputs, sorted, >= 1
+    IndexLists<std::uint32_t> regions_of;  ///< per triangle: its region in each of these surfaces,
+                                           ///< numbered as in the mesh before
+    std::vector<Edge> intersection_edges;  ///< sorted, unique
+    std::vector<double> limits; ///< per surface: no point of it is farther from the same region in
+                                ///< the other mesh, unit of the input
+};
+
+/// A surface whose holes were filled.
+struct FilledPart {
+    std::uint32_t vertices = 0;  ///< number of its vertices, given and new
+    std::uint32_t triangles = 0; ///< number of its triangles, given and new
+    double limit = 0; ///< no filling reaches farther out of the box around the border of its hole,
+                      ///< unit of the input
+};
+
+/// The claims of a certificate about surfaces whose holes were filled.
+struct FilledClaim {
+    std::vector<Point3> vertices;     ///< of all surfaces in order; of each first the given ones
+    std::vector<Triangle> triangles;  ///< likewise; indices into vertices
+    std::vector<FilledPart> surfaces; ///< order of the inputs
+};
+
 /// What a certificate is about.
 enum class CertificateKind : std::uint8_t {
     arrangement, ///< the arrangement of the surfaces as they are in the input files
     volumes,     ///< this, and the blocks of the mesh of doubles
     tetrahedra,  ///< all that, and tetrahedra in the blocks
+    improved,    ///< an arrangement whose triangles were improved
+    filled,      ///< the surfaces of the input files with triangles in their holes
 };
 
 /// A certificate, parsed.
@@ -97,6 +130,8 @@ struct Certificate {
     std::optional<RoundedClaim> rounded;                 ///< the mesh of doubles, if there is one
     std::optional<BlocksClaim> blocks;                   ///< for volumes and tetrahedra
     std::optional<TetrahedraClaim> tetrahedra;           ///< for tetrahedra
+    std::optional<ImprovedClaim> improved;               ///< of the kind improved
+    std::optional<FilledClaim> filled;                   ///< of the kind filled
     std::string digest; ///< "sha256:" and 64 hexadecimal digits; see digest.hpp
 };
 
@@ -123,6 +158,9 @@ struct VerifyOptions {
     /// (2) 2^-40 of their largest coordinate, which is 4096 units in its last place, and
     /// (3) 16 times the smallest positive double.
     std::optional<double> max_deviation{};
+    /// The largest limit of a change that is accepted, unit of the input. None: a twentieth of the
+    /// diagonal of the box around the triangles of the inputs.
+    std::optional<double> max_change{};
 };
 
 /// The verifier's own measure of the mesh of doubles.
@@ -141,11 +179,18 @@ struct MeasuredBlocks {
     double volume_difference = 0; ///< the largest between a block and its tetrahedra
 };
 
+/// How far surfaces were changed.
+struct Change {
+    double limit = 0;     ///< the largest that is stated, and verified; unit of the input
+    double max_limit = 0; ///< the largest that was accepted
+};
+
 /// What the verifier found.
 struct Verdict {
     std::vector<Violation> violations; ///< sorted by rule and elements; none: the claims are true
     std::optional<Measured> measured;  ///< of the mesh of doubles; none if it was not judged
     std::optional<MeasuredBlocks> blocks; ///< none if they were not judged
+    std::optional<Change> change;      ///< of surfaces that were changed; none if it was not judged
 };
 
 /// Judges a certificate without its output files. After a violation of R9 no other rule is judged;

@@ -13,6 +13,7 @@
 #include <terrane/cli/options/files.hpp>
 #include <terrane/cli/options/statistics.hpp>
 #include <terrane/cli/reports/fill_report.hpp>
+#include <terrane/cli/stages/certificate_output.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 
 namespace terrane::cli {
@@ -31,6 +32,7 @@ struct FillCommand {
     bool list = false;
     std::string map;    ///< empty: none
     std::string points; ///< empty: none
+    ProofOptions proof; ///< a certificate only
 };
 
 constexpr auto fill_footer =
@@ -50,7 +52,7 @@ Examples:
   terrane fill top.irap --list
   terrane fill --depth top.irap -o top.vtp --map top.svg
   terrane fill horizons.ts -o filled.ts --holes 1,3 --points invented.csv
-  terrane fill fold.obj -o filled.obj --method rbf)";
+  terrane fill fold.obj -o filled.obj --method rbf --certificate filled.json)";
 
 /// Tells for each hole whether it is to be filled. Errors: bad_option.
 Result<std::vector<bool>> chosen_holes(const FillCommand& command, const FillWork& work) {
@@ -78,7 +80,7 @@ Result<std::vector<bool>> chosen_holes(const FillCommand& command, const FillWor
 }
 
 Status write_all(const FillCommand& command, const std::vector<Output>& outputs,
-                 const FillWork& work, Session& session) {
+                 const Inputs& inputs, const FillWork& work, Session& session) {
     std::vector<Surface> surfaces;
     std::vector<std::int32_t> invented;
     std::vector<double> deviation;
@@ -102,7 +104,11 @@ Status write_all(const FillCommand& command, const std::vector<Output>& outputs,
         if (auto written = write_file(command.map, map_of(work)); !written) return written;
     if (!command.points.empty())
         if (auto written = write_file(command.points, csv_of(work)); !written) return written;
-    return Done{};
+    if (command.proof.certificate.empty()) return Done{};
+    const ProofFiles certified{command.files.inputs, outputs, command.files.ascii,
+                               summary_stream(command.files)};
+    return write_filled_certificate(command.proof.certificate, certified, inputs, work, mesh,
+                                    session);
 }
 
 Result<std::vector<Output>> plan(const FillCommand& command) {
@@ -113,6 +119,7 @@ Result<std::vector<Output>> plan(const FillCommand& command) {
     for (const auto& path : {command.map, command.points})
         if (!path.empty())
             if (const auto folder = check_folder(path); !folder) return folder.error();
+    if (const auto named = plan_proof(command.proof, command.files); !named) return named.error();
     return outputs;
 }
 
@@ -148,7 +155,8 @@ Result<bool> fill_and_write(const FillCommand& command, const std::vector<Output
                           contacts_text(work, contacts.value()));
         return false;
     }
-    if (const auto done = write_all(command, outputs, work, session); !done) return done.error();
+    if (const auto done = write_all(command, outputs, inputs, work, session); !done)
+        return done.error();
     return refused.empty();
 }
 
@@ -259,6 +267,7 @@ Command fill_command(CLI::App& program) {
         ->type_name("FILE.csv");
     app->add_flag("--ascii", options->files.ascii, "STL as text, with doubles, not float32");
     add_msh(*app, options->files);
+    add_certificate(*app, options->proof.certificate);
     add_threads(*app, options->files);
     add_stats(*app, options->files);
     app->footer(fill_footer);

@@ -11,6 +11,7 @@
 #include <terrane/algorithms/quality/improve_measured.hpp>
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/reports/improve_report.hpp>
+#include <terrane/cli/stages/certificate_output.hpp>
 #include <terrane/cli/stages/outputs.hpp>
 #include <terrane/cli/stages/pipeline.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
@@ -25,6 +26,7 @@ struct ImproveCommand {
     std::string edge_length = "auto";
     std::vector<std::string> edge_length_of; ///< NAME=L
     std::string histogram;                   ///< empty: none
+    ProofOptions proof;                      ///< a certificate only
 };
 
 constexpr auto improve_footer =
@@ -42,6 +44,7 @@ triangle.
 Examples:
   terrane improve horizons.ts faults.ts -o model.vtp --edge-length 200
   terrane improve model.ml -o model.vtp --max-deviation 5 --histogram model.svg
+  terrane improve horizons.ts -o model.vtp --edge-length 200 --certificate model.json
   terrane improve model.ml -o model.vtp --edge-length 400 --edge-length-of F1=150 --turn 15)";
 
 /// Parses a positive number that takes up the whole text; returns none for anything else.
@@ -90,14 +93,33 @@ Status set_lengths(const ImproveCommand& command, const Inputs& inputs, ImproveO
     return Done{};
 }
 
-Status write_all(const ImproveCommand& command, const ImprovedAndMeasured& measured,
-                 const std::vector<Output>& outputs, Session& session) {
+Status write_all(const ImproveCommand& command, const Inputs& inputs, const Arranged& arranged,
+                 const ImprovedAndMeasured& measured, const std::vector<Output>& outputs,
+                 Session& session) {
     if (!command.histogram.empty()) {
         const auto& report = measured.improved.report;
         if (auto drawn = write_file(command.histogram, histogram_of(report)); !drawn) return drawn;
         print(summary_stream(command.files), "wrote " + command.histogram + "\n");
     }
-    return write_outputs(measured.improved.mesh, true, command.files, outputs, session);
+    auto written = write_outputs(measured.improved.mesh, true, command.files, outputs, session);
+    if (!written || command.proof.certificate.empty()) return written;
+    const ProofFiles certified{command.files.inputs, outputs, command.files.ascii,
+                               summary_stream(command.files)};
+    return write_improved_certificate(command.proof.certificate, certified, inputs, arranged,
+                                      measured.improved, session);
+}
+
+/// Checks the options before any work is done.
+Status check_command(const ImproveCommand& command) {
+    if (!command.histogram.empty())
+        if (auto folder = check_folder(command.histogram); !folder) return folder;
+    if (auto sound = check_volume_options(command.settings.volume); !sound) return sound;
+    if (auto named = plan_proof(command.proof, command.files); !named) return named;
+    const bool whole = !command.settings.volume.wanted() && command.settings.seal == 0;
+    if (whole || command.proof.certificate.empty()) return Done{};
+    return Error{ErrorCode::bad_option,
+                 "a certificate is about the surfaces as they are, not cut or sealed",
+                 "--certificate"};
 }
 
 Result<ExitStatus> improve_files(const ImproveCommand& command, Session& session) {
@@ -105,10 +127,7 @@ Result<ExitStatus> improve_files(const ImproveCommand& command, Session& session
     const FileOptions& files = command.files;
     const auto outputs = plan_outputs(files, OutputKind::surfaces);
     if (!outputs) return outputs.error();
-    if (!command.histogram.empty())
-        if (const auto folder = check_folder(command.histogram); !folder) return folder.error();
-    if (const auto sound = check_volume_options(command.settings.volume); !sound)
-        return sound.error();
+    if (const auto sound = check_command(command); !sound) return sound.error();
     auto inputs = read_inputs(files, session);
     if (!inputs) return inputs.error();
     ImproveOptions options = command.options;
@@ -147,7 +166,8 @@ Result<ExitStatus> improve_files(const ImproveCommand& command, Session& session
                 "try another --max-deviation");
         Stopwatch writing;
         if (clean) {
-            const auto written = write_all(command, measured.value(), outputs.value(), session);
+            const auto written = write_all(command, inputs.value(), arranged.value(),
+                                           measured.value(), outputs.value(), session);
             if (!written) return written.error();
         } else {
             print(stderr, "terrane: nothing written\n");
@@ -210,6 +230,7 @@ Command improve_command(CLI::App& program) {
     add_settings(*app, command->settings);
     app->add_flag("--ascii", command->files.ascii, "STL as text, with doubles, not float32");
     add_msh(*app, command->files);
+    add_certificate(*app, command->proof.certificate);
     add_threads(*app, command->files);
     add_stats(*app, command->files);
     app->footer(improve_footer);

@@ -41,7 +41,8 @@ The output files that the certificate names are read and compared with it: every
 every triangle, bit for bit. Name a file that was moved with --output.
 
 The verifier computes how far the mesh is from the inputs. It accepts at most 2^-20 of the diagonal
-of the box around them or, if that is more, 2^-40 of their largest coordinate.
+of the box around them or, if that is more, 2^-40 of their largest coordinate. Where surfaces were
+changed, it accepts limits up to a twentieth of that diagonal.
 
 Exit status: 0 all is verified; 1 refuted (which rule, which elements); 2 a file cannot be read, or
 nothing is verified about an output file; 3 internal.
@@ -244,17 +245,42 @@ std::string blocks_text(const Judgement& judged) {
     return text + "\n";
 }
 
+/// Says how far the surfaces were changed, with a line end before it; nothing if they were not.
+std::string change_text(const Judgement& judged) {
+    const auto& change = judged.verdict.change;
+    const auto& improved = judged.certificate.improved;
+    if (!change || !improved) return "";
+    return fmt::format("\nimproved: {}, conforming; the same regions, curves and corners, at most "
+                       "{:.3g} away, both ways",
+                       counted(improved->triangles.size(), "triangle"), change->limit);
+}
+
+/// Says what a valid certificate states.
+std::string subject_text(const Judgement& judged) {
+    if (const auto& filled = judged.certificate.filled; filled && judged.verdict.change) {
+        std::size_t given = 0;
+        for (const CertifiedInput& input : judged.certificate.inputs)
+            for (const CertifiedSurface& s : input.surfaces) given += s.triangles;
+        return fmt::format("{} given and kept; {} new, which close borders and meet no others of "
+                           "their surface, at most {:.3g} out of the boxes around these borders",
+                           counted(given, "triangle"), filled->triangles.size() - given,
+                           judged.verdict.change->limit);
+    }
+    return fmt::format("{} exact triangles; {}{}", judged.certificate.exact.triangles.size(),
+                       doubles_text(judged), change_text(judged));
+}
+
 std::string verdict_text(const Judgement& judged, const std::string& name) {
     const auto violations = judged.violations();
     if (violations.empty()) {
-        auto text = fmt::format("{}: valid: {} exact triangles; {}\n", name,
-                                judged.certificate.exact.triangles.size(), doubles_text(judged));
+        auto text = fmt::format("{}: valid: {}\n", name, subject_text(judged));
         const std::string cells = judged.certificate.tetrahedra ? "tetrahedra" : "triangles";
         text += blocks_text(judged);
         for (const JudgedOutput& output : judged.outputs) text += output_text(output, cells);
         if (judged.outputs.empty())
             text += "NOT verified about any file: the certificate names no output file\n";
-        return text + judged.certificate.digest + "\n";
+        const auto& digest = judged.certificate.digest;
+        return digest.empty() ? text : text + digest + "\n";
     }
     auto text = fmt::format("{}: refuted: {}\n", name, counted(violations.size(), "violation"));
     for (std::size_t i = 0; i < violations.size() && i < most_violations; ++i)
@@ -284,7 +310,8 @@ std::string verdict_json(const Judgement& judged) {
     const auto violations = judged.violations();
     Json json{{"valid", violations.empty()}, {"digest", judged.certificate.digest},
               {"deviation", nullptr},        {"max_deviation", nullptr},
-              {"vanished", nullptr},         {"outputs", Json::array()},
+              {"vanished", nullptr},         {"change", nullptr},
+              {"max_change", nullptr},       {"outputs", Json::array()},
               {"violations", Json::array()}};
     if (const auto& measured = judged.verdict.measured) {
         json["deviation"] = measured->deviation;
@@ -297,6 +324,10 @@ std::string verdict_json(const Judgement& judged) {
         json["tetrahedra"] = blocks->tetrahedra;
         json["divided"] = blocks->divided;
         json["volume_difference"] = blocks->volume_difference;
+    }
+    if (const auto& change = judged.verdict.change) {
+        json["change"] = change->limit;
+        json["max_change"] = change->max_limit;
     }
     for (const JudgedOutput& output : judged.outputs)
         json["outputs"].push_back({{"name", judged.certificate.outputs[output.number].name},
@@ -345,6 +376,11 @@ Command verify_command(CLI::App& program) {
         ->type_name("FILE");
     app->add_option("--max-deviation", options->options.max_deviation,
                     "The largest distance between the mesh and the inputs that is accepted")
+        ->check(CLI::NonNegativeNumber.description(""))
+        ->type_name("D");
+    app->add_option("--max-change", options->options.max_change,
+                    "The largest limit of a change to surfaces that is accepted, for instance of "
+                    "improved triangles")
         ->check(CLI::NonNegativeNumber.description(""))
         ->type_name("D");
     app->add_flag("--json", options->json, "The verdict as JSON");

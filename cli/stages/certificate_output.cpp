@@ -76,11 +76,15 @@ std::string certified_format(Format format, bool ascii) {
     return "smesh";
 }
 
-void add_proof(CLI::App& command, ProofOptions& options) {
+void add_certificate(CLI::App& command, std::string& certificate) {
     command
-        .add_option("--certificate", options.certificate,
+        .add_option("--certificate", certificate,
                     "Write all that it takes to check the result (terrane verify)")
         ->type_name("FILE");
+}
+
+void add_proof(CLI::App& command, ProofOptions& options) {
+    add_certificate(command, options.certificate);
     command.add_option("--exact", options.exact, "Write the exact coordinates, as fractions")
         ->type_name("FILE");
 }
@@ -120,6 +124,34 @@ Status write_proof(const ProofOptions& options, const ProofFiles& files, const I
     if (options.exact.empty()) return Done{};
     return write(options.exact, to_text(to_exact(arranged.exact, session.run())), files.told,
                  session);
+}
+
+Status write_improved_certificate(const std::string& path, const ProofFiles& files,
+                                  const Inputs& inputs, const Arranged& before,
+                                  const Improved& improved, Session& session) {
+    const auto records = record_inputs(path, files.inputs, inputs);
+    if (!records) return records.error();
+    const auto outputs = record_outputs(path, files, improved.mesh);
+    if (!outputs) return outputs.error();
+    const auto text = to_improved_certificate(
+        {records.value(), before.surfaces, before.exact, &before.rounded, outputs.value()},
+        improved.mesh, improved.report.bound_of, session.run());
+    return write(path, text, files.told, session);
+}
+
+Status write_filled_certificate(const std::string& path, const ProofFiles& files,
+                                const Inputs& inputs, const FillWork& work, const Mesh& mesh,
+                                Session& session) {
+    const auto records = record_inputs(path, files.inputs, inputs);
+    if (!records) return records.error();
+    const auto outputs = record_outputs(path, files, mesh);
+    if (!outputs) return outputs.error();
+    std::vector<FilledRecord> filled;
+    for (const HoledSurface& s : work.surfaces)
+        filled.push_back({&s.filled, s.given_vertices, s.given_triangles});
+    const auto text =
+        to_filled_certificate(records.value(), inputs.surfaces, outputs.value(), filled);
+    return write(path, text, files.told, session);
 }
 
 } // namespace terrane::cli

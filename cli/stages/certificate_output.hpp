@@ -9,6 +9,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include <terrane/algorithms/quality/improve.hpp>
+#include <terrane/algorithms/reconstruction/fill.hpp>
 #include <terrane/cli/options/files.hpp>
 #include <terrane/cli/session/session.hpp>
 #include <terrane/cli/stages/pipeline.hpp>
@@ -20,7 +22,10 @@ struct ProofOptions {
     std::string certificate, exact; ///< files; empty: none
 };
 
+/// Adds --certificate and --exact.
 void add_proof(CLI::App& command, ProofOptions& options);
+/// Adds --certificate only.
+void add_certificate(CLI::App& command, std::string& certificate);
 
 /// Checks the file names before any work is done. Errors: bad_option, cannot_open.
 Status plan_proof(const ProofOptions& options, const FileOptions& files);
@@ -52,5 +57,16 @@ Result<std::string> certificate_text(const std::string& path, const ProofFiles& 
 /// exact result holds anyway.
 Status write_proof(const ProofOptions& options, const ProofFiles& files, const Inputs& inputs,
                    const Arranged& arranged, Session& session);
+
+/// Writes the certificate of a mesh that was improved after it was arranged, and says so on
+/// `files.told`.
+Status write_improved_certificate(const std::string& path, const ProofFiles& files,
+                                  const Inputs& inputs, const Arranged& before,
+                                  const Improved& improved, Session& session);
+
+/// Writes the certificate of surfaces whose holes were filled; `mesh` is what the output files hold.
+Status write_filled_certificate(const std::string& path, const ProofFiles& files,
+                                const Inputs& inputs, const FillWork& work, const Mesh& mesh,
+                                Session& session);
 
 } // namespace terrane::cli

@@ -97,6 +97,24 @@ TEST_CASE("cli: fill lists holes, by numbers, and writes nothing then", "[cli]")
     CHECK(holes[0]["kind"] == "hole");
 }
 
+TEST_CASE("cli: fill writes a certificate that verify takes", "[cli]") {
+    const Folder folder;
+    const auto in = folder.input("top.irap", irap(two_discs));
+    for (const std::string method : {"kriging", "rbf"}) {
+        REQUIRE(folder
+                    .run("fill --depth " + in + " -o out.obj -o out.vtp --certificate c.json " +
+                         "--method " + method)
+                    .status == 0);
+        const Outcome valid = folder.run("verify --depth c.json");
+        INFO(valid.out << valid.err);
+        CHECK(valid.status == 0);
+        CHECK(contains(valid.out, "given and kept"));
+        CHECK(contains(valid.out, "out.vtp: holds these triangles, bit for bit"));
+        CHECK(folder.run("verify c.json").status == 1); // heights, not depths
+    }
+    CHECK(folder.run("fill --depth " + in + " -o x.obj --certificate -").status == 2);
+}
+
 TEST_CASE("cli: fill by kriging and by RBF, with a map, points and a report", "[cli]") {
     for (const std::string method : {"kriging", "rbf"}) {
         const Folder folder;

@@ -39,6 +39,29 @@ TEST_CASE("cli: improve writes a conforming mesh, its statistics and histograms"
     CHECK(contains(svg, "after: " + std::to_string(after.at("triangles").get<int>())));
 }
 
+TEST_CASE("cli: improve writes a certificate that verify takes", "[cli]") {
+    const Folder folder;
+    folder.input("two.obj", crossing);
+    REQUIRE(folder
+                .run("improve in/two.obj -o out.obj -o out.vtp --edge-length 0.5 "
+                     "--max-deviation 0.02 --certificate c.json")
+                .status == 0);
+    const Outcome valid = folder.run("verify c.json");
+    INFO(valid.out << valid.err);
+    CHECK(valid.status == 0);
+    CHECK(contains(valid.out, "improved: "));
+    CHECK(contains(valid.out, "at most 0.02 away, both ways"));
+    CHECK(contains(valid.out, "out.vtp: holds these triangles, bit for bit"));
+    const Json verdict = Json::parse(folder.run("verify c.json --json").out);
+    CHECK(verdict.at("change") == 0.02);
+    CHECK(folder.run("verify c.json --max-change 0.01").status == 1);
+    CHECK(folder.run("verify c.json --output in/two.obj").status == 1);
+    const Outcome cut = folder.run("improve in/two.obj -o no.obj --certificate no.json "
+                                   "--box -9,-9,-9,9,9,9");
+    CHECK(cut.status == 2);
+    CHECK(contains(cut.err, "--certificate"));
+}
+
 TEST_CASE("cli: improve refuses what makes no sense, and writes nothing", "[cli]") {
     const Folder folder;
     folder.input("two.obj", crossing);

@@ -205,6 +205,10 @@ def write_json_files(program, folder):
     if has_tetgen(program):
         run("tetrahedralize", *model, "-o", "c.vtu", "--certificate", "tetrahedra-certificate.json")
         certificates.append("tetrahedra-certificate.json")
+    run("improve", *model, "-o", "m.vtp", "--certificate", "improved.json")
+    run("verify", "improved.json", "--json", out="valid_improved.json")
+    run("fill", "fold.ts", "-o", "g.vtp", "--certificate", "filled.json")
+    certificates += ["improved.json", "filled.json"]
     with (folder / "top.ts").open("a") as changed:
         changed.write("\n")
     run("verify", "certificate.json", "--json", out="refuted.json")
@@ -214,7 +218,7 @@ def write_json_files(program, folder):
         statistics.append("tetrahedra.json")
     return {"statistics.md": statistics, "model.md": ["open/model.json", "sealed/model.json"],
             "certificate.md": certificates, "check": ["check.json"],
-            "verdict": ["valid.json", "blocks.json", "refuted.json"]}
+            "verdict": ["valid.json", "blocks.json", "valid_improved.json", "refuted.json"]}
 
 
 def check_json(program, findings):

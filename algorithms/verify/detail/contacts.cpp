@@ -6,6 +6,8 @@
 #include <optional>
 #include <utility>
 
+#include <terrane/algorithms/verify/detail/box_tree.hpp>
+
 namespace terrane::verifier {
 
 namespace {
@@ -210,95 +212,6 @@ bool meet_properly(const ExactMesh& mesh, std::uint32_t first, std::uint32_t sec
 
 namespace {
 
-bool touch(const Box& a, const Box& b) {
-    for (std::size_t i = 0; i < 3; ++i) {
-        if (a.high[i] < b.low[i] || b.high[i] < a.low[i]) return false;
-    }
-    return true;
-}
-
-void extend(Box& box, const Box& other) {
-    for (std::size_t i = 0; i < 3; ++i) {
-        box.low[i] = std::min(box.low[i], other.low[i]);
-        box.high[i] = std::max(box.high[i], other.high[i]);
-    }
-}
-
-/// A tree of boxes over some items: the box of a node contains the boxes of all items below it.
-class BoxTree {
-public:
-    /// Item i has box boxes[i].
-    BoxTree(std::vector<Box> boxes, std::vector<std::uint32_t> items) :
-        boxes_(std::move(boxes)), items_(std::move(items)) {
-        if (!items_.empty()) build(0, items_.size());
-    }
-
-    /// Returns the items larger than `item` whose boxes touch its box, sorted.
-    [[nodiscard]] std::vector<std::uint32_t> touching_above(std::uint32_t item) const {
-        std::vector<std::uint32_t> found;
-        for (std::size_t n = 0; n < nodes_.size();) {
-            const Node& node = nodes_[n];
-            if (!touch(node.box, boxes_[item])) {
-                n = node.after;
-                continue;
-            }
-            for (std::size_t i = node.first; i < node.last; ++i) {
-                const std::uint32_t other = items_[i];
-                if (other > item && touch(boxes_[other], boxes_[item])) found.push_back(other);
-            }
-            ++n;
-        }
-        std::sort(found.begin(), found.end());
-        return found;
-    }
-
-private:
-    /// A node of the tree. Nodes are in depth-first order: the first child of a node follows it.
-    struct Node {
-        Box box;
-        std::size_t first = 0; ///< of a leaf: its items are items_[first, last)
-        std::size_t last = 0;
-        std::size_t after = 0; ///< the node that follows the whole subtree
-    };
-    static constexpr std::size_t leaf_size = 4;
-
-    void build(std::size_t first, std::size_t last) {
-        const std::size_t n = nodes_.size();
-        Box box = boxes_[items_[first]];
-        for (std::size_t i = first; i < last; ++i) extend(box, boxes_[items_[i]]);
-        nodes_.push_back({box, 0, 0, 0});
-        if (last - first <= leaf_size) {
-            nodes_[n].first = first;
-            nodes_[n].last = last;
-        } else {
-            const std::size_t middle = split(first, last, box);
-            build(first, middle);
-            build(middle, last);
-        }
-        nodes_[n].after = nodes_.size();
-    }
-
-    /// Splits the items in half along the longest side of their box. Any split would be correct.
-    std::size_t split(std::size_t first, std::size_t last, const Box& box) {
-        std::size_t axis = 0;
-        for (std::size_t i = 1; i < 3; ++i) {
-            if (box.high[i] - box.low[i] > box.high[axis] - box.low[axis]) axis = i;
-        }
-        const std::size_t middle = first + (last - first) / 2;
-        const auto at = [this](std::size_t i) {
-            return items_.begin() + static_cast<std::ptrdiff_t>(i);
-        };
-        std::nth_element(at(first), at(middle), at(last), [&](std::uint32_t a, std::uint32_t b) {
-            return std::pair(boxes_[a].low[axis], a) < std::pair(boxes_[b].low[axis], b);
-        });
-        return middle;
-    }
-
-    std::vector<Box> boxes_;
-    std::vector<std::uint32_t> items_;
-    std::vector<Node> nodes_;
-};
-
 std::vector<Box> boxes_of_triangles(const ExactMesh& mesh) {
     std::vector<Box> corners;
     corners.reserve(mesh.points.size());
@@ -330,6 +243,24 @@ std::vector<std::array<std::uint32_t, 2>> find_improper_pairs(const ExactMesh& m
         }
         if (improper.size() >= at_most) break;
     }
+    return improper;
+}
+
+std::vector<std::array<std::uint32_t, 2>>
+find_improper_pairs_from(const ExactMesh& mesh, std::uint32_t first, std::size_t at_most) {
+    std::vector<std::uint32_t> with_area;
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+        if (projection_axis(mesh.planes[t])) with_area.push_back(t);
+    const auto boxes = boxes_of_triangles(mesh);
+    const BoxTree tree(boxes, with_area);
+    std::vector<std::array<std::uint32_t, 2>> improper;
+    for (const std::uint32_t t : with_area) {
+        if (t < first) continue;
+        for (const std::uint32_t other : tree.touching(boxes[t]))
+            if (other < t && !meet_properly(mesh, other, t)) improper.push_back({other, t});
+        if (improper.size() >= at_most) break;
+    }
+    std::sort(improper.begin(), improper.end());
     return improper;
 }
 

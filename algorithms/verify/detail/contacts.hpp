@@ -39,4 +39,8 @@ bool meet_properly(const ExactMesh& mesh, std::uint32_t first, std::uint32_t sec
 std::vector<std::array<std::uint32_t, 2>> find_improper_pairs(const ExactMesh& mesh,
                                                               std::size_t at_most);
 
+/// Does the same for the pairs whose second triangle is `first` or a later one.
+std::vector<std::array<std::uint32_t, 2>>
+find_improper_pairs_from(const ExactMesh& mesh, std::uint32_t first, std::size_t at_most);
+
 } // namespace terrane::verifier

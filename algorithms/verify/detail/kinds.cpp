@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 
 #include <terrane/algorithms/verify/detail/inputs.hpp>
 
@@ -12,7 +14,8 @@ namespace {
 
 /// All kinds, in the order of CertificateKind.
 const auto& all_kinds() {
-    static const std::array kinds{&arrangement_kind(), &volumes_kind(), &tetrahedra_kind()};
+    static const std::array kinds{&arrangement_kind(), &volumes_kind(), &tetrahedra_kind(),
+                                  &improved_kind(), &filled_kind()};
     return kinds;
 }
 
@@ -35,6 +38,26 @@ const Kind* find_kind(std::string_view name) {
 
 const Kind& find_kind(CertificateKind kind) {
     return **std::ranges::find(all_kinds(), kind, &Kind::kind);
+}
+
+double default_max_change(std::span<const Surface> surfaces) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    std::array<double, 3> low{infinity, infinity, infinity};
+    std::array<double, 3> high{-infinity, -infinity, -infinity};
+    for (const Surface& surface : surfaces)
+        for (const Triangle& t : surface.triangles)
+            for (const std::uint32_t corner : t) {
+                const Point3& p = surface.vertices[corner];
+                const std::array<double, 3> at{p.x, p.y, p.z};
+                for (std::size_t i = 0; i < 3; ++i) {
+                    low[i] = std::min(low[i], at[i]);
+                    high[i] = std::max(high[i], at[i]);
+                }
+            }
+    double part = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+        if (low[i] < high[i]) part = std::hypot(part, high[i] / 20 - low[i] / 20);
+    return part;
 }
 
 IndexLists<std::uint32_t> surfaces_of_parents(const Certificate& certificate,

@@ -26,6 +26,8 @@ struct WrittenMesh {
     const IndexLists<std::uint32_t>& parents_of; ///< per triangle; empty: the files have none
     IndexLists<std::uint32_t> surfaces_of;       ///< per triangle: its surfaces, sorted, unique
     bool clean = false;                          ///< conforming, as was verified
+    bool filled = false; ///< VTP files have the arrays "invented" and "deviation", which are not
+                         ///< judged
 };
 
 /// What distinguishes a kind of certificate from the others.
@@ -58,6 +60,8 @@ const Kind& find_kind(CertificateKind kind);
 const Kind& arrangement_kind();
 const Kind& volumes_kind();
 const Kind& tetrahedra_kind();
+const Kind& improved_kind();
+const Kind& filled_kind();
 
 // --- For kinds that contain an arrangement ------------------------------------------------------
 
@@ -67,6 +71,10 @@ void parse_arrangement_sections(const Node& node, Certificate& certificate);
 void judge_arrangement(std::span<const Surface> surfaces, const Certificate& certificate,
                        const VerifyOptions& options, Verdict& verdict);
 std::optional<WrittenMesh> rounded_mesh(const Certificate& certificate);
+
+/// Returns the largest limit of a change that is accepted where none is given; VerifyOptions defines
+/// it.
+double default_max_change(std::span<const Surface> surfaces);
 
 /// Returns the surfaces of each triangle, given the input triangles that are its parents.
 IndexLists<std::uint32_t> surfaces_of_parents(const Certificate& certificate,

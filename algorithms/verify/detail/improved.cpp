@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/verify/detail/improved.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include <terrane/algorithms/verify/detail/distance.hpp>
+#include <terrane/algorithms/verify/detail/indices.hpp>
+#include <terrane/algorithms/verify/detail/nearness.hpp>
+
+namespace terrane::verifier {
+
+namespace {
+
+/// Both meshes in exact numbers. The vertices of the improved mesh follow those before.
+class Comparison {
+public:
+    Comparison(const LabelledMesh& before, const ImprovedClaim& improved, Violations& found) :
+        after_{improved.vertices, improved.triangles, improved.surfaces_of, improved.regions_of,
+               improved.intersection_edges},
+        found_(found) {
+        old_ = find_sheets(before, numbers_);
+        new_ = find_sheets(after_, numbers_);
+        for (Sheets* sheets : {&old_, &new_}) {
+            sheets->triangles.resize(numbers_.sheets.size());
+            sheets->shapes.resize(numbers_.sheets.size());
+        }
+        offset_ = static_cast<std::uint32_t>(before.vertices.size());
+        points_ = before.vertices;
+        points_.insert(points_.end(), improved.vertices.begin(), improved.vertices.end());
+        auto all = points_;
+        for (const double limit : improved.limits) all.push_back({limit, 0, 0});
+        exact_ = scale_to_integers(all).points;
+        for (std::size_t s = 0; s < improved.limits.size(); ++s)
+            limits_.push_back({improved.limits[s], exact_[points_.size() + s][0]});
+        exact_.resize(points_.size());
+        rounding_ = rounding_of(points_);
+        old_triangles_ = before.triangles;
+        new_triangles_ = improved.triangles;
+        for (Triangle& t : new_triangles_) t = moved(t);
+        find_surfaces_of_sheets(before.surfaces_of, old_);
+        find_surfaces_of_sheets(improved.surfaces_of, new_);
+    }
+
+    void check() {
+        check_sheets();
+        check_curves();
+        if (!found_.empty()) return; // distances are between what corresponds
+        for (std::uint32_t s = 0; s < old_.triangles.size(); ++s) {
+            check_distances_of_sheet(s);
+            check_side(s);
+        }
+        for (const auto& [key, edges] : old_.curves) check_distances_of_curve(key, edges);
+    }
+
+private:
+    [[nodiscard]] Triangle moved(const Triangle& t) const {
+        return {t[0] + offset_, t[1] + offset_, t[2] + offset_};
+    }
+
+    void find_surfaces_of_sheets(const IndexLists<std::uint32_t>& surfaces_of,
+                                 const Sheets& sheets) {
+        surfaces_of_sheet_.resize(numbers_.sheets.size());
+        for (std::size_t s = 0; s < sheets.triangles.size(); ++s)
+            if (!sheets.triangles[s].empty()) {
+                const auto surfaces = surfaces_of[sheets.triangles[s].front()];
+                surfaces_of_sheet_[s].assign(surfaces.begin(), surfaces.end());
+            }
+    }
+
+    void report(Rule rule, Numbers elements, std::string sentence) {
+        found_.push_back({rule, std::move(elements), std::move(sentence)});
+    }
+
+    // --- R24, R25 ---------------------------------------------------------------------------------
+
+    void check_sheets() {
+        constexpr Rule rule = Rule::R24_sheets;
+        for (std::uint32_t s = 0; s < old_.triangles.size(); ++s) {
+            if (old_.triangles[s].empty())
+                report(rule, {new_.triangles[s].front()},
+                       "improved triangle " + text(new_.triangles[s].front()) +
+                           " has surfaces or regions that none had before");
+            else if (new_.triangles[s].empty())
+                report(rule, {},
+                       "nothing is left of the region of triangle " +
+                           text(old_.triangles[s].front()));
+            else if (old_.shapes[s].characteristic != new_.shapes[s].characteristic ||
+                     old_.shapes[s].components != new_.shapes[s].components)
+                report(rule, {new_.triangles[s].front()},
+                       "the region of improved triangle " + text(new_.triangles[s].front()) +
+                           " has other pieces, holes or handles than before");
+        }
+    }
+
+    void check_curves() {
+        constexpr Rule rule = Rule::R25_curves;
+        if (new_.intersection_edges != after_.intersection_edges.size())
+            report(rule, {}, "an intersection edge is no edge of the improved mesh");
+        for (const auto& [key, count] : old_.chains) {
+            const auto same = new_.chains.find(key);
+            if (same != new_.chains.end() && same->second == count) continue;
+            const Triangle& edge = old_.curves.at(key).front();
+            report(rule, {},
+                   "the curve along vertices " + text(Edge{edge[0], edge[1]}) +
+                       " of the mesh before has not been kept");
+        }
+        for (const auto& [key, count] : new_.chains)
+            if (!old_.chains.contains(key)) {
+                const Triangle& edge = new_.curves.at(key).front();
+                report(rule, {edge[0], edge[1]},
+                       "the curve along vertices " + text(Edge{edge[0], edge[1]}) +
+                           " was none before, or ended elsewhere");
+            }
+    }
+
+    // --- R26: distances ---------------------------------------------------------------------------
+
+    /// Returns the least limit of the surfaces of a sheet.
+    [[nodiscard]] const Bound& limit_of(std::uint32_t sheet) const {
+        const Bound* least = &limits_[surfaces_of_sheet_[sheet].front()];
+        for (const std::uint32_t surface : surfaces_of_sheet_[sheet])
+            if (limits_[surface].distance < least->distance) least = &limits_[surface];
+        return *least;
+    }
+
+    static std::vector<Triangle> selected(const std::vector<Triangle>& triangles,
+                                          const Numbers& which) {
+        std::vector<Triangle> result;
+        for (const std::uint32_t t : which) result.push_back(triangles[t]);
+        return result;
+    }
+
+    void check_distances_of_sheet(std::uint32_t s) {
+        const Bound& limit = limit_of(s);
+        const PointPairs points{points_, exact_, rounding_};
+        const Nearness old(points, selected(old_triangles_, old_.triangles[s]));
+        for (const std::uint32_t t : new_.triangles[s])
+            if (!old.covers(new_triangles_[t], limit))
+                report(Rule::R26_limits, {t},
+                       "improved triangle " + text(t) +
+                           " is farther from the surface before than the limit");
+        const Nearness now(points, selected(new_triangles_, new_.triangles[s]));
+        for (const std::uint32_t t : old_.triangles[s])
+            if (!now.covers(old_triangles_[t], limit))
+                report(Rule::R26_limits, {t},
+                       "triangle " + text(t) +
+                           " of the mesh before is farther from the improved one than the limit");
+    }
+
+    void check_distances_of_curve(const CurveClass& key, const std::vector<Triangle>& before) {
+        const Numbers& sheets = old_.sheets_of_label.at(key[0]);
+        const Bound* limit = &limit_of(sheets.front());
+        for (const std::uint32_t s : sheets)
+            if (limit_of(s).distance < limit->distance) limit = &limit_of(s);
+        std::vector<Triangle> after;
+        for (const Triangle& edge : new_.curves.at(key)) after.push_back(moved(edge));
+        const PointPairs points{points_, exact_, rounding_};
+        const Nearness old(points, before), now(points, after);
+        for (const Triangle& edge : after)
+            if (!old.covers(edge, *limit))
+                report(Rule::R25_curves, {edge[0] - offset_, edge[1] - offset_},
+                       "the edge of vertices " + text(Edge{edge[0] - offset_, edge[1] - offset_}) +
+                           " is farther from its curve before than the limit");
+        for (const Triangle& edge : before)
+            if (!now.covers(edge, *limit))
+                report(Rule::R25_curves, {edge[0], edge[1]},
+                       "the edge of vertices " + text(Edge{edge[0], edge[1]}) +
+                           " of the mesh before is farther from its curve than the limit");
+    }
+
+    // --- R27: sides -------------------------------------------------------------------------------
+
+    [[nodiscard]] Vector3 corner(std::uint32_t v) const {
+        return {exact_[v][0], exact_[v][1], exact_[v][2]};
+    }
+
+    /// Returns twice the vector area of triangles.
+    [[nodiscard]] Vector3 area_of(const std::vector<Triangle>& triangles,
+                                  const Numbers& which) const {
+        Vector3 sum;
+        for (const std::uint32_t t : which) {
+            const auto& [a, b, c] = triangles[t];
+            const Vector3 area =
+                cross(difference(exact_[b], exact_[a]), difference(exact_[c], exact_[a]));
+            for (std::size_t i = 0; i < 3; ++i) sum[i] += area[i];
+        }
+        return sum;
+    }
+
+    /// Returns six times the volume between triangles and the origin.
+    [[nodiscard]] mpz_class volume_of(const std::vector<Triangle>& triangles,
+                                      const Numbers& which) const {
+        mpz_class sum = 0;
+        for (const std::uint32_t t : which) {
+            const auto& [a, b, c] = triangles[t];
+            sum += dot(corner(a), cross(corner(b), corner(c)));
+        }
+        return sum;
+    }
+
+    void check_side(std::uint32_t s) {
+        if (!old_.shapes[s].oriented) return;
+        const std::uint32_t first = new_.triangles[s].front();
+        if (!new_.shapes[s].oriented) {
+            report(Rule::R27_sides, {first},
+                   "triangles of the region of improved triangle " + text(first) +
+                       " face different sides");
+            return;
+        }
+        const Vector3 area = area_of(old_triangles_, old_.triangles[s]);
+        const bool same = sgn(dot(area, area)) != 0
+                              ? sgn(dot(area, area_of(new_triangles_, new_.triangles[s]))) > 0
+                              : sgn(volume_of(old_triangles_, old_.triangles[s])) ==
+                                    sgn(volume_of(new_triangles_, new_.triangles[s]));
+        if (!same)
+            report(Rule::R27_sides, {first},
+                   "the region of improved triangle " + text(first) + " is turned over");
+    }
+
+    LabelledMesh after_;
+    Violations& found_;
+    SharedNumbers numbers_;
+    Sheets old_, new_;
+    std::uint32_t offset_ = 0; ///< number of vertices before
+    std::vector<Point3> points_;
+    std::vector<Vector4> exact_;
+    double rounding_ = 0;                                 ///< see PointPairs
+    std::vector<Bound> limits_;                           ///< per surface
+    std::vector<Triangle> old_triangles_, new_triangles_; ///< indices into points_
+    std::vector<Numbers> surfaces_of_sheet_;
+};
+
+bool has_attributes(const ImprovedClaim& improved, std::size_t surfaces) {
+    const std::size_t count = improved.triangles.size();
+    if (!well_formed(improved.surfaces_of, count) ||
+        improved.surfaces_of.offsets != improved.regions_of.offsets ||
+        !well_formed(improved.regions_of, count))
+        return false;
+    for (std::size_t t = 0; t < count; ++t) {
+        const auto list = improved.surfaces_of[t];
+        if (list.empty() || !sorted_and_unique(list) || !all_below(list, surfaces)) return false;
+    }
+    return true;
+}
+
+} // namespace
+
+void check_improved_numbers(const ImprovedClaim& improved, std::size_t surfaces, double accepted,
+                            Violations& found) {
+    constexpr Rule rule = Rule::R22_improved_indices;
+    check_finite(improved.vertices, "vertex", rule, found);
+    check_corners(improved.triangles, improved.vertices.size(), rule, found);
+    check_edge_list(improved.intersection_edges, improved.vertices.size(), rule, found);
+    if (!has_attributes(improved, surfaces))
+        found.push_back({rule, {}, "a triangle has no surface, or not one region for each"});
+    if (improved.limits.size() != surfaces)
+        found.push_back({rule, {}, "there is not one limit per surface"});
+    for (std::uint32_t s = 0; s < improved.limits.size(); ++s) {
+        const double limit = improved.limits[s];
+        if (!std::isfinite(limit) || limit < 0)
+            found.push_back({rule, {s}, "limit " + text(s) + " is negative or not finite"});
+        else if (limit > accepted)
+            found.push_back({Rule::R26_limits,
+                             {s},
+                             "limit " + text(s) + " is larger than the largest that is accepted"});
+    }
+}
+
+void check_improved(const LabelledMesh& before, const ImprovedClaim& improved, Violations& found) {
+    for (Violation& flaw : verify_conforming(improved.vertices, improved.triangles))
+        found.push_back(
+            {Rule::R23_improved_conforming, std::move(flaw.elements), std::move(flaw.sentence)});
+    if (found.empty()) Comparison(before, improved, found).check();
+}
+
+} // namespace terrane::verifier

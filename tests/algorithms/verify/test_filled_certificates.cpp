@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Certificates of filled surfaces: the verifier accepts what the producer writes and refutes each
+// forgery.
+#include "support/forged.hpp"
+#include "support/paths.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+#include <terrane/algorithms/mesh/submesh.hpp>
+#include <terrane/algorithms/reconstruction/fill.hpp>
+
+namespace {
+
+using namespace forged;
+
+constexpr int side = 12; // vertices along each side of a grid
+
+/// A wavy surface on a grid without the squares that `is_hole` names.
+template <class IsHole>
+std::string holed_grid(const std::string& name, double z, int first, const IsHole& is_hole) {
+    std::string text;
+    for (int i = 0; i < side; ++i)
+        for (int j = 0; j < side; ++j)
+            text += "v " + std::to_string(i) + " " + std::to_string(j) + " " +
+                    std::to_string(z + 0.4 * std::sin(0.8 * i) * std::cos(0.6 * j)) + "\n";
+    text += "g " + name + "\n";
+    for (int i = 0; i + 1 < side; ++i)
+        for (int j = 0; j + 1 < side; ++j) {
+            if (is_hole(i, j)) continue;
+            const int a = first + i * side + j, b = a + side;
+            text += "f " + std::to_string(a) + " " + std::to_string(b) + " " +
+                    std::to_string(b + 1) + "\nf " + std::to_string(a) + " " +
+                    std::to_string(b + 1) + " " + std::to_string(a + 1) + "\n";
+        }
+    return text;
+}
+
+/// Two surfaces, the second with two holes.
+std::vector<File> holed() {
+    const auto none = [](int, int) { return false; };
+    const auto two = [](int i, int j) {
+        return (i >= 2 && i < 5 && j >= 2 && j < 5) || (i >= 7 && i < 9 && j >= 6 && j < 10);
+    };
+    return {{"whole.obj", holed_grid("whole", 10, 1, none)},
+            {"holed.obj", holed_grid("holed", 0, 1, two)}};
+}
+
+Subject filled_subject(const std::vector<File>& files, const std::vector<std::string>& formats,
+                       FillMethod method = FillMethod::kriging) {
+    Subject s;
+    s.inputs = input_files(files);
+    std::vector<InputRecord> records;
+    std::vector<FillTask> tasks;
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        const InputFile& file = s.inputs[i];
+        records.push_back({files[i].name, file.sha256, file.bytes, file.surfaces.size()});
+        s.surfaces.insert(s.surfaces.end(), file.surfaces.begin(), file.surfaces.end());
+    }
+    FillOptions options;
+    options.method = method;
+    for (std::uint32_t i = 0; i < s.surfaces.size(); ++i) tasks.push_back({SurfaceId(i), options});
+    const auto work = fill_surfaces(s.surfaces, tasks);
+    REQUIRE(work);
+    std::vector<Surface> surfaces;
+    std::vector<FilledRecord> filled;
+    for (const HoledSurface& surface : work->surfaces) {
+        surfaces.push_back(surface.filled);
+        filled.push_back({&surface.filled, surface.given_vertices, surface.given_triangles});
+    }
+    const Mesh mesh = concatenate(surfaces);
+    REQUIRE(mesh.triangles.size() >
+            s.surfaces[0].triangles.size() + s.surfaces.back().triangles.size());
+    std::vector<OutputRecord> outputs;
+    for (const std::string& format : formats) {
+        WriteOptions written;
+        std::vector<std::int32_t> invented(mesh.triangles.size(), 1);
+        std::vector<double> deviation(mesh.triangles.size(), 0.5);
+        const std::vector<CellArray> cells{{"invented", invented}, {"deviation", deviation}};
+        if (format == "vtp") written.cells = cells;
+        auto text = format_mesh(mesh, format_named(format).value(), written);
+        REQUIRE(text);
+        outputs.push_back(record_output(text.value(), "out." + format, format, mesh));
+        s.contents.push_back(std::move(text).value());
+    }
+    s.certificate = Json::parse(to_filled_certificate(records, s.surfaces, outputs, filled));
+    return s;
+}
+
+const Subject& right_filled() {
+    static const Subject subject = filled_subject(holed(), {"obj"});
+    return subject;
+}
+
+Forgery filled(const std::string& name, const std::function<void(Json&)>& change,
+               const std::string& rule) {
+    return {name, [change](Json& c) { change(c["filled"]); }, rule};
+}
+
+void set_number(Json& number, double value) {
+    char buffer[64];
+    number = std::string(buffer, std::to_chars(buffer, buffer + 64, value).ptr);
+}
+
+double number_in(const Json& text) {
+    return std::stod(text.get<std::string>());
+}
+
+std::size_t given_triangles() {
+    return right_filled().surfaces[0].triangles.size() +
+           right_filled().surfaces[1].triangles.size();
+}
+
+/// Removes a triangle of the second surface.
+void erase_new(Json& f, std::size_t t) {
+    f["triangles"].erase(t);
+    f["surfaces"][1]["triangles"] = f["surfaces"][1]["triangles"].get<std::size_t>() - 1;
+}
+
+void add_triangle(Json& f, const Json& corners) {
+    f["triangles"].push_back(corners);
+    f["surfaces"][1]["triangles"] = f["surfaces"][1]["triangles"].get<std::size_t>() + 1;
+}
+
+void add_vertex(Json& f, double x, double y, double z) {
+    Json point = Json::array({"", "", ""});
+    set_number(point[0], x);
+    set_number(point[1], y);
+    set_number(point[2], z);
+    f["vertices"].push_back(point);
+    f["surfaces"][1]["vertices"] = f["surfaces"][1]["vertices"].get<std::size_t>() + 1;
+}
+
+/// Adds a tetrahedron's four sides at a place: closed, and connected with nothing.
+void add_tetrahedron(Json& f, double z) {
+    const auto v = f["vertices"].size();
+    for (const auto& [x, y, dz] : {std::array{3.0, 3.0, 0.0}, std::array{4.0, 3.0, 0.0},
+                                   std::array{3.0, 4.0, 0.0}, std::array{3.0, 3.0, 1.0}})
+        add_vertex(f, x, y, z + dz);
+    for (const auto& t :
+         {std::array{0, 2, 1}, std::array{0, 1, 3}, std::array{1, 2, 3}, std::array{2, 0, 3}})
+        add_triangle(f, {v + static_cast<std::size_t>(t[0]), v + static_cast<std::size_t>(t[1]),
+                         v + static_cast<std::size_t>(t[2])});
+}
+
+} // namespace
+
+TEST_CASE("filled certificates: accepted with each format and method") {
+    CHECK(judged(filled_subject(holed(), {"obj", "off", "ply", "vtp", "ts"})) == "");
+    CHECK(judged(filled_subject(holed(), {"obj"}, FillMethod::rbf)) == "");
+    CHECK(right_filled().certificate["filled"]["triangles"].size() > given_triangles() + 20);
+}
+
+TEST_CASE("filled certificates: what was given is changed") {
+    const std::size_t second = right_filled().surfaces[0].vertices.size();
+    check_forgeries(
+        right_filled(),
+        {
+            filled(
+                "a given vertex moved by the last digit",
+                [=](Json& f) {
+                    Json& z = f["vertices"][second + 3][2];
+                    set_number(z, std::nextafter(number_in(z), 100));
+                },
+                "R29"),
+            filled(
+                "a given triangle turned over", [](Json& f) { turn_over(f, 2); }, "R29"),
+            filled(
+                "a given triangle missing, a new one in its place",
+                [](Json& f) {
+                    const Json last = f["triangles"].back();
+                    erase_new(f, f["triangles"].size() - 1);
+                    f["triangles"][given_triangles() - 1] = last;
+                },
+                "R29"),
+            filled(
+                "two given triangles exchanged",
+                [](Json& f) { std::swap(f["triangles"][0], f["triangles"][1]); }, "R29"),
+            filled(
+                "all of a surface missing",
+                [=](Json& f) {
+                    for (std::size_t i = 0; i < second; ++i) f["vertices"].erase(0);
+                    for (std::size_t i = 0; i < right_filled().surfaces[0].triangles.size(); ++i)
+                        f["triangles"].erase(0);
+                    for (Json& t : f["triangles"])
+                        for (Json& v : t) v = v.get<std::size_t>() - second;
+                    f["surfaces"][0]["vertices"] = 0;
+                    f["surfaces"][0]["triangles"] = 0;
+                },
+                "R29"),
+            filled(
+                "a given vertex more", [](Json& f) { add_vertex(f, 3.3, 3.3, 3.3); }, "R35"),
+        });
+}
+
+TEST_CASE("filled certificates: forged fillings") {
+    check_forgeries(
+        right_filled(),
+        {
+            filled(
+                "a new triangle is missing", [](Json& f) { erase_new(f, given_triangles() + 4); },
+                "R35"),
+            filled(
+                "a new triangle twice", [](Json& f) { add_triangle(f, f["triangles"].back()); },
+                "R35"),
+            filled(
+                "a new triangle turned over", [](Json& f) { turn_over(f, given_triangles() + 1); },
+                "R35"),
+            filled(
+                "all new triangles turned over",
+                [](Json& f) {
+                    for (std::size_t t = given_triangles(); t < f["triangles"].size(); ++t)
+                        turn_over(f, t);
+                },
+                "R35"),
+            filled(
+                "a triangle over given ones",
+                [=](Json& f) {
+                    const std::size_t v = right_filled().surfaces[0].vertices.size();
+                    add_triangle(f, {v, v + 1, v + side});
+                },
+                "R35"),
+            filled(
+                "a closed body that is connected with nothing",
+                [](Json& f) { add_tetrahedron(f, 5); }, "R26"),
+            filled(
+                "a closed body that crosses the surface", [](Json& f) { add_tetrahedron(f, -0.5); },
+                "R36"),
+            filled(
+                "a new vertex far away", [](Json& f) { set_number(f["vertices"].back()[2], 1e6); },
+                "R26"),
+            filled(
+                "a new vertex far away, with a limit as large",
+                [](Json& f) {
+                    set_number(f["vertices"].back()[2], 1e6);
+                    f["surfaces"][1]["limit"] = "1e+300";
+                },
+                "R26"),
+            filled(
+                "a new vertex pushed through given triangles",
+                [](Json& f) {
+                    f["vertices"].back()[0] = "10.5";
+                    f["vertices"].back()[1] = "0.5";
+                    f["vertices"].back()[2] = "0";
+                },
+                "R36"),
+            filled(
+                "a new vertex at the place of another",
+                [](Json& f) { f["vertices"].back() = *(f["vertices"].end() - 2); }, "R36"),
+            filled(
+                "a smaller limit",
+                [](Json& f) {
+                    set_number(f["vertices"].back()[2], number_in(f["vertices"].back()[2]) + 2);
+                },
+                "R26"),
+        });
+}
+
+TEST_CASE("filled certificates: forged numbers") {
+    check_forgeries(
+        right_filled(),
+        {
+            filled(
+                "a corner out of range",
+                [](Json& f) { f["triangles"].back()[0] = f["vertices"].size(); }, "R28"),
+            filled(
+                "a corner of another surface", [](Json& f) { f["triangles"].back()[0] = 0; },
+                "R28"),
+            filled(
+                "a surface is missing", [](Json& f) { f["surfaces"].erase(0); }, "R28"),
+            filled(
+                "another number of vertices", [](Json& f) { f["surfaces"][0]["vertices"] = 143; },
+                "R28"),
+            filled(
+                "a negative limit", [](Json& f) { f["surfaces"][0]["limit"] = "-1"; }, "R28"),
+            filled(
+                "a limit larger than what is accepted",
+                [](Json& f) { f["surfaces"][0]["limit"] = "1000"; }, "R26"),
+            {"another hash of an input",
+             [](Json& c) { c["inputs"][1]["sha256"] = std::string(64, '0'); }, "R9"},
+            {"as the arrangement", [](Json& c) { c["kind"] = "arrangement"; }, "missing"},
+        });
+}
+
+TEST_CASE("filled certificates: an output file with one digit changed") {
+    Subject wrong = right_filled();
+    const auto digit = wrong.contents[0].find_first_of("123456789", wrong.contents[0].find("\nv "));
+    REQUIRE(digit != std::string::npos);
+    char& c = wrong.contents[0][digit];
+    c = c == '9' ? '8' : static_cast<char>(c + 1);
+    CHECK(judged(wrong) == "R21");
+    seal(wrong); // with its new SHA-256 in the certificate
+    CHECK(judged(wrong) == "R21");
+}
