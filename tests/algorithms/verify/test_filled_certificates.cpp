@@ -42,11 +42,11 @@ std::string holed_grid(const std::string& name, double z, int first, const IsHol
 /// Two surfaces, the second with two holes.
 std::vector<File> holed() {
     const auto none = [](int, int) { return false; };
-    const auto two = [](int i, int j) {
+    const auto two_holes = [](int i, int j) {
         return (i >= 2 && i < 5 && j >= 2 && j < 5) || (i >= 7 && i < 9 && j >= 6 && j < 10);
     };
     return {{"whole.obj", holed_grid("whole", 10, 1, none)},
-            {"holed.obj", holed_grid("holed", 0, 1, two)}};
+            {"holed.obj", holed_grid("holed", 0, 1, two_holes)}};
 }
 
 Subject filled_subject(const std::vector<File>& files, const std::vector<std::string>& formats,
