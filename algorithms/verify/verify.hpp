@@ -44,23 +44,23 @@ enum class Rule : std::uint8_t {
     R7_intersection_edges, ///< an intersection edge is not listed, or another edge is
     R8_set_aside,          ///< a degenerate or duplicate triangle is not listed, or another one is
     // R9 and the following rules judge a certificate: see verify_certificate.hpp.
-    R9_inputs,           ///< an input file is not the one that the certificate describes
-    R10_rounded_indices, ///< in the mesh of doubles: as R1, or a number is not finite
-    R11_conforming,      ///< the doubles are stated to be conforming and are not, or the reverse
-    R12_rounded_parents, ///< a parent without area; an input triangle without any part that is not
-                         ///< listed as vanished, or the reverse
-    R13_deviation,       ///< a triangle and a parent are farther apart than the stated deviation,
-                         ///< or this is larger than the largest that is accepted
-    R14_moves,           ///< a vertex is farther from its exact point than the stated largest move
-    R15_rounded_edges,   ///< as R7, in the mesh of doubles
-    R16_regions,         ///< regions are not those into which intersection edges divide surfaces
-    R17_digest,          ///< the digest is not that of the arrangement
-    R18_coverage,        ///< the triangles that name an input triangle leave a hole in it
-    R19_orientation,     ///< a triangle does not face the side that its first parent faces
-    R20_meetings,        ///< a vertex is neither a corner of an input triangle nor a point where
-                         ///< intersection segments end or cross
-    R21_output,          ///< an output file is not the one that the certificate describes, or does
-                         ///< not hold the mesh of doubles
+    R9_inputs,            ///< an input file is not the one that the certificate describes
+    R10_rounded_indices,  ///< in the mesh of doubles: as R1, or a number is not finite
+    R11_conforming,       ///< the doubles are stated to be conforming and are not, or the reverse
+    R12_rounded_parents,  ///< a parent without area; an input triangle without any part that is not
+                          ///< listed as vanished, or the reverse
+    R13_deviation,        ///< a triangle and a parent are farther apart than the stated deviation,
+                          ///< or this is larger than the largest that is accepted
+    R14_moves,            ///< a vertex is farther from its exact point than the stated largest move
+    R15_rounded_edges,    ///< as R7, in the mesh of doubles
+    R16_regions,          ///< regions are not those into which intersection edges divide surfaces
+    R17_digest,           ///< the digest is not that of the arrangement
+    R18_coverage,         ///< the triangles that name an input triangle leave a hole in it
+    R19_orientation,      ///< a triangle does not face the side that its first parent faces
+    R20_meetings,         ///< a vertex is neither a corner of an input triangle nor a point where
+                          ///< intersection segments end or cross
+    R21_output,           ///< an output file is not the one that the certificate describes, or does
+                          ///< not hold the mesh of doubles
     R22_improved_indices, ///< in an improved mesh: as R1, or a number is not finite
     R23_improved_conforming, ///< an improved mesh is not conforming
     R24_sheets, ///< regions are not those of the mesh before, or are connected otherwise
@@ -76,9 +76,9 @@ enum class Rule : std::uint8_t {
     R32_nesting,          ///< another shell bounds a block from the outside
     R33_block_numbers,    ///< a shell bounds another block, or there are more or fewer blocks
     R34_volumes,          ///< a block has another volume
-    R35_fillings, ///< new triangles do not close whole borders of a surface
-    R36_embedded, ///< a new triangle has no area, or meets another one of its surface
-                  ///< improperly
+    R35_fillings,         ///< new triangles do not close whole borders of a surface
+    R36_embedded,         ///< a new triangle has no area, or meets another one of its surface
+                          ///< improperly
     // Tetrahedra: see docs/explanation/tetrahedra.md.
     R40_tetrahedra_lists = 39, ///< as R1, in the lists about tetrahedra
     R41_positive,              ///< a tetrahedron is flat or inverted
