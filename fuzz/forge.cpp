@@ -69,6 +69,10 @@ std::optional<Subject> make_subject(std::string_view obj) {
 /// Judges the certificate as it was written. What vanished without anything near it, and more
 /// rounding than is accepted, are refused by design.
 bool judge_original(Subject& s) {
+    // So are names that are not UTF-8, as a certificate cannot state them.
+    const auto& stated = s.certificate.inputs.front().surfaces;
+    for (std::size_t i = 0; i < stated.size(); ++i)
+        if (stated[i].name != s.surfaces[i].name) return false;
     const auto verdict = verify_certificate(s.files, s.certificate);
     for (const Violation& v : verdict.violations) {
         if (v.rule == Rule::R12_rounded_parents || v.rule == Rule::R13_deviation) return false;

@@ -71,6 +71,14 @@ inline std::vector<File> pierced() {
             {"wall.obj", "v 2 1 -3\nv 3 7 -1\nv 2.5 3 5\ng wall\nf 1 2 3\n"}};
 }
 
+/// Returns two surfaces that cross, and a third one apart from them.
+inline std::vector<File> with_a_third() {
+    auto files = pierced();
+    files.push_back({"apart.obj", "v 20 0 0\nv 24 0 0\nv 24 4 1\nv 20 4 1\n"
+                                  "g apart\nf 1 2 3\nf 1 3 4\n"});
+    return files;
+}
+
 /// Returns surfaces with an overlap in a plane, a duplicate, a triangle without area and a wall;
 /// all points of the arrangement are doubles.
 inline std::vector<File> overlapping() {

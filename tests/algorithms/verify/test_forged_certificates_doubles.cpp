@@ -14,14 +14,6 @@ namespace {
 
 using namespace forged;
 
-/// Two surfaces that cross, and a third one apart from them.
-std::vector<File> with_a_third() {
-    auto files = pierced();
-    files.push_back({"apart.obj", "v 20 0 0\nv 24 0 0\nv 24 4 1\nv 20 4 1\n"
-                                  "g apart\nf 1 2 3\nf 1 3 4\n"});
-    return files;
-}
-
 std::vector<File> certified(const std::string& name) {
     std::ifstream in(test_support::source_dir() + "/tests/certified/" + name + "/input.obj");
     const std::string text(std::istreambuf_iterator<char>(in), {});

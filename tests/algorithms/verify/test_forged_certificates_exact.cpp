@@ -7,14 +7,6 @@ namespace {
 
 using namespace forged;
 
-/// Two surfaces that cross, and a third one apart from them.
-std::vector<File> with_a_third() {
-    auto files = pierced();
-    files.push_back({"apart.obj", "v 20 0 0\nv 24 0 0\nv 24 4 1\nv 20 4 1\n"
-                                  "g apart\nf 1 2 3\nf 1 3 4\n"});
-    return files;
-}
-
 /// Three planes through the origin, each of one triangle.
 std::vector<File> three_planes() {
     return {{"planes.obj", "v -8 -8 0\nv 9 -7 0\nv 0 11 0\n"
