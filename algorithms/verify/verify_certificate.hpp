@@ -180,7 +180,7 @@ struct MeasuredBlocks {
 };
 
 /// How far surfaces were changed.
-struct Change {
+struct SurfaceChange {
     double limit = 0;     ///< the largest that is stated, and verified; unit of the input
     double max_limit = 0; ///< the largest that was accepted
 };
@@ -190,7 +190,8 @@ struct Verdict {
     std::vector<Violation> violations; ///< sorted by rule and elements; none: the claims are true
     std::optional<Measured> measured;  ///< of the mesh of doubles; none if it was not judged
     std::optional<MeasuredBlocks> blocks; ///< none if they were not judged
-    std::optional<Change> change; ///< of surfaces that were changed; none if it was not judged
+    std::optional<SurfaceChange>
+        change; ///< of surfaces that were changed; none if it was not judged
 };
 
 /// Judges a certificate without its output files. After a violation of R9 no other rule is judged;

@@ -32,7 +32,7 @@ void judge(std::span<const Surface> surfaces, const Certificate& certificate,
     check_filled(surfaces, *certificate.filled, accepted, verdict.violations);
     double limit = 0;
     for (const FilledPart& part : certificate.filled->surfaces) limit = std::max(limit, part.limit);
-    verdict.change = Change{limit, accepted};
+    verdict.change = SurfaceChange{limit, accepted};
 }
 
 std::optional<WrittenMesh> written(const Certificate& certificate) {

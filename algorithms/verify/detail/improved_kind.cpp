@@ -44,7 +44,7 @@ void judge(std::span<const Surface> surfaces, const Certificate& certificate,
                     rounded.intersection_edges},
                    *certificate.improved, found);
     const auto& limits = certificate.improved->limits;
-    verdict.change = Change{limits.empty() ? 0 : std::ranges::max(limits), accepted};
+    verdict.change = SurfaceChange{limits.empty() ? 0 : std::ranges::max(limits), accepted};
 }
 
 std::optional<WrittenMesh> written(const Certificate& certificate) {
