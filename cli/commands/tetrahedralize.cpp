@@ -18,6 +18,7 @@
 #include <terrane/cli/options/roles.hpp>
 #include <terrane/cli/reports/tetrahedra_report.hpp>
 #include <terrane/cli/stages/block_certificate.hpp>
+#include <terrane/cli/stages/certificate_output.hpp>
 #include <terrane/cli/stages/pipeline.hpp>
 
 namespace terrane::cli {

@@ -69,13 +69,6 @@ Status write(const BlockProof& proof, const std::vector<WrittenFile>& files,
 
 } // namespace
 
-void add_certificate(CLI::App& command, std::string& path) {
-    command
-        .add_option("--certificate", path,
-                    "Write all that it takes to check the result (terrane verify)")
-        ->type_name("FILE");
-}
-
 Status plan_certificate(const std::string& path, const FileOptions& files,
                         const ArrangeSettings& settings) {
     if (path.empty()) return Done{};

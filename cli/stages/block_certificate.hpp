@@ -7,15 +7,10 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
 #include <terrane/algorithms/model/model.hpp>
 #include <terrane/cli/stages/pipeline.hpp>
 
 namespace terrane::cli {
-
-/// Adds the option --certificate.
-void add_certificate(CLI::App& command, std::string& path);
 
 /// Checks before any work is done that a certificate can be made, if one is wanted. Errors:
 /// bad_option, cannot_open.
