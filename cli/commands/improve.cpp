@@ -110,7 +110,7 @@ Status write_all(const ImproveCommand& command, const Inputs& inputs, const Arra
 }
 
 /// Checks the options before any work is done.
-Status check_command(const ImproveCommand& command) {
+Status check_improve(const ImproveCommand& command) {
     if (!command.histogram.empty())
         if (auto folder = check_folder(command.histogram); !folder) return folder;
     if (auto sound = check_volume_options(command.settings.volume); !sound) return sound;
@@ -127,7 +127,7 @@ Result<ExitStatus> improve_files(const ImproveCommand& command, Session& session
     const FileOptions& files = command.files;
     const auto outputs = plan_outputs(files, OutputKind::surfaces);
     if (!outputs) return outputs.error();
-    if (const auto sound = check_command(command); !sound) return sound.error();
+    if (const auto sound = check_improve(command); !sound) return sound.error();
     auto inputs = read_inputs(files, session);
     if (!inputs) return inputs.error();
     ImproveOptions options = command.options;

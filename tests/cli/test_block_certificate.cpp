@@ -11,10 +11,6 @@ using Json = nlohmann::json;
 
 namespace {
 
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
-
 /// Changes the first digit behind a place in a file.
 void change_digit(const Folder& folder, const std::string& file, const std::string& behind) {
     REQUIRE(folder.shell("sed -i -E '0,/" + behind + "[0-9]/s/(" + behind + ")[0-8]/\\19/' " + file)

@@ -40,7 +40,7 @@ inline Subject improved_subject(const std::vector<File>& files, const ImproveOpt
     for (const std::string& format : formats) {
         auto text = format_mesh(mesh, format_named(format).value(), {});
         REQUIRE(text);
-        outputs.push_back(record_output(text.value(), "out." + format, format, mesh));
+        outputs.push_back(record_output(text.value(), "out." + format, format, mesh.surfaces));
         s.contents.push_back(std::move(text).value());
     }
     s.certificate = Json::parse(

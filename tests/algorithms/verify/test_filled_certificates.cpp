@@ -83,7 +83,7 @@ Subject filled_subject(const std::vector<File>& files, const std::vector<std::st
         if (format == "vtp") written.cells = cells;
         auto text = format_mesh(mesh, format_named(format).value(), written);
         REQUIRE(text);
-        outputs.push_back(record_output(text.value(), "out." + format, format, mesh));
+        outputs.push_back(record_output(text.value(), "out." + format, format, mesh.surfaces));
         s.contents.push_back(std::move(text).value());
     }
     s.certificate = Json::parse(to_filled_certificate(records, s.surfaces, outputs, filled));
