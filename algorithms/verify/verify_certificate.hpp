@@ -236,6 +236,7 @@ class OutputVerifier {
 public:
     /// The certificate must outlive the object.
     explicit OutputVerifier(const Certificate& certificate) : certificate_(certificate) {}
+    /// Compares one file, as verify_output() does.
     OutputVerdict operator()(std::string_view contents, std::size_t output);
 
 private:
