@@ -106,7 +106,7 @@ Result<std::optional<PairCounts>> conforming(std::span<const Point3> points,
                            " improperly: " + std::string(name_of(kind_of(*how))),
                        pair->first);
     }
-    if (!check.count) return std::optional<PairCounts>();
+    if (!check.counts(triangles.size())) return std::optional<PairCounts>();
     const auto decided_by = [&](const CandidatePair& p) {
         const bool in_one = !patches.empty() && patches[p.first] != no_group &&
                             patches[p.first] == patches[p.second];

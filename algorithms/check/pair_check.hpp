@@ -8,6 +8,7 @@
 // (3) With PairCheck::full, in_patches, separated and unmoved are 0.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 
@@ -25,7 +26,14 @@ std::string_view name_of(PairCheck method);
 /// Options of all that proves a mesh conforming. The verdict depends on none of them.
 struct PairCheckOptions {
     PairCheck method = PairCheck::bounds; ///< which pairs are tested
-    bool count = false; ///< count what decided each pair; costs one more box search
+    /// What decided each pair is counted for meshes of at most so many triangles. This takes one more
+    /// box search, which proven bounds spare otherwise: for many narrow triangles as long as all else.
+    std::size_t count_up_to = 0;
+
+    /// Tells whether the pairs of so many triangles are counted.
+    [[nodiscard]] constexpr bool counts(std::size_t triangles) const {
+        return count_up_to > 0 && triangles <= count_up_to;
+    }
 };
 
 /// How many pairs of triangles of a mesh were decided in which way.

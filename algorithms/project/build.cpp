@@ -28,7 +28,7 @@ Error flaw_of(const Preprocessed& done) {
 }
 
 /// Each mesh that is proven conforming says what decided its pairs of triangles.
-constexpr PairCheckOptions counted_pairs{.count = true};
+constexpr PairCheckOptions counted_pairs{.count_up_to = SIZE_MAX};
 
 /// Runs the stages of one call of build().
 class Builder {

@@ -126,7 +126,7 @@ Status stack(const std::vector<Layer>& order, double min_thickness, std::vector<
              const Run& run, Preprocessed& done) {
     if (run.progress) run.progress("layers", 0);
     auto layered = stack_layers(surfaces, order,
-                                {.min_thickness = min_thickness, .check = {.count = true}}, run);
+                                {.min_thickness = min_thickness, .check = {.count_up_to = SIZE_MAX}}, run);
     if (!layered) return layered.error();
     auto replaced = surfaces_of(layered->rounded.mesh);
     for (std::size_t i = 0; i < order.size(); ++i)

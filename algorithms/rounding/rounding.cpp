@@ -238,11 +238,12 @@ std::vector<CandidatePair> Rounding::first_contacts() {
         if (patch_of(t) != a.state->patches.of[t]) unproven.parts.push_back(t);
     for (const std::uint32_t t : unproven.ill_conditioned) // parts of one patch meet properly
         if (patch_of(t) == no_group) unproven.parts.push_back(t);
-    if (unproven.parts.empty() && !options_.check.count) return pairs;
+    const bool counts = options_.check.counts(arrangement_.triangles.size());
+    if (unproven.parts.empty() && !counts) return pairs;
     sort_unique(unproven.parts);
     std::vector<std::uint32_t> patches(state_.triangles.size());
     for (std::uint32_t t = 0; t < patches.size(); ++t) patches[t] = patch_of(t);
-    if (options_.check.count) first_search_ = {unproven.pairs, unproven.parts, dirty, patches};
+    if (counts) first_search_ = {unproven.pairs, unproven.parts, dirty, patches};
     if (unproven.parts.empty()) return pairs;
     const auto more = candidate_pairs_of({state_.points, state_.triangles}, unproven.parts, patches,
                                          improper, run_);
@@ -334,7 +335,7 @@ void Rounding::finish(std::span<const CandidatePair> pairs) {
             if (!changed_) mesh.surfaces_of = arrangement_.surfaces_of;
         });
     report_vanished();
-    if (options_.check.count)
+    if (options_.check.counts(arrangement_.triangles.size()))
         out_.report.pairs = count_decisions(state_, arrangement_.triangles, first_search_,
                                             options_.check.method, run_);
     if (changed_) state_.drop_unused_points();

@@ -131,7 +131,7 @@ Result<ExitStatus> improve_files(const ImproveCommand& command, Session& session
     auto inputs = read_inputs(files, session);
     if (!inputs) return inputs.error();
     ImproveOptions options = command.options;
-    options.check = {command.settings.check, true};
+    options.check = check_of(command.settings.check, inputs.value());
     if (const auto set = set_lengths(command, inputs.value(), options); !set) return set.error();
     Json statistics = statistics_of(inputs.value(), session.times());
 

@@ -25,7 +25,7 @@ struct LayerCommand {
     std::string keep;
     std::vector<std::string> layers; ///< NAME=HARDNESS, from the top down
     double min_thickness = 0;
-    PairCheck check = PairCheck::bounds;
+    PairCheckOptions check = few_pairs;
 };
 
 constexpr auto layer_footer =
@@ -120,10 +120,10 @@ Result<ExitStatus> layer_files(LayerCommand& command, Session& session) {
     const auto order = order_of(command, inputs.value());
     if (!order) return order.error();
 
-    const auto layered =
-        layer_inputs(inputs.value(), order.value(),
-                     {.min_thickness = command.min_thickness, .check = {command.check, true}},
-                     session, statistics);
+    const auto layered = layer_inputs(
+        inputs.value(), order.value(),
+        {.min_thickness = command.min_thickness, .check = check_of(command.check, inputs.value())},
+        session, statistics);
     if (!layered) return layered.error();
     const RoundedMesh& rounded = layered.value().rounded;
     const bool is_stack = layered->is_stack();

@@ -190,6 +190,7 @@ Result<Inputs> read_inputs(const FileOptions& options, Session& session) {
     if (std::max(all.vertices, all.triangles) >= UINT32_MAX)
         return Error{ErrorCode::unsupported, "more than 4294967294 vertices or triangles", ""};
     all.labels = unique_labels(infos_of(all.surfaces));
+    all.statistics_wanted = !options.stats.empty();
     return all;
 }
 

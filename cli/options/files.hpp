@@ -66,6 +66,7 @@ struct Inputs {
     std::vector<std::size_t> surfaces_of_file; ///< per input: number of surfaces read from it
     std::vector<std::string> labels;           ///< per surface: its name, made unique, on one line
     std::size_t vertices = 0, triangles = 0;
+    bool statistics_wanted = false; ///< whether --stats is given
 };
 
 /// Reads all inputs. Errors: those of read_surfaces; interrupted; unsupported if 32 bits can't

@@ -7,7 +7,7 @@
 
 namespace terrane::cli {
 
-void add_check(CLI::App& command, PairCheck& method) {
+void add_check(CLI::App& command, PairCheckOptions& check) {
     static const std::map<std::string, PairCheck> methods = [] {
         std::map<std::string, PairCheck> all;
         for (const auto m : {PairCheck::bounds, PairCheck::full}) all.emplace(name_of(m), m);
@@ -15,12 +15,18 @@ void add_check(CLI::App& command, PairCheck& method) {
     }();
     command
         .add_option(
-            "--check", method,
+            "--check", check.method,
             "Which pairs of triangles of the mesh exact predicates test: bounds (those that "
             "no proven bound clears) or full (all whose boxes overlap); the verdict is the "
             "same (default: bounds)")
         ->transform(CLI::Transformer(methods, CLI::ignore_case).description(""))
-        ->type_name("bounds|full");
+        ->type_name("bounds|full")
+        ->each([&check](const std::string&) { check.count_up_to = SIZE_MAX; });
+}
+
+PairCheckOptions check_of(PairCheckOptions check, const Inputs& inputs) {
+    if (inputs.statistics_wanted) check.count_up_to = SIZE_MAX;
+    return check;
 }
 
 std::string text_of(const std::optional<PairCounts>& pairs) {

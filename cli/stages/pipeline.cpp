@@ -10,7 +10,6 @@
 #include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
-#include <terrane/cli/reports/pair_report.hpp>
 #include <terrane/cli/reports/seal_report.hpp>
 #include <terrane/cli/session/console.hpp>
 
@@ -164,7 +163,7 @@ Result<Arranged> arrange_and_round(Inputs& inputs, const ArrangeSettings& settin
     auto arranged = arrange_within(
         std::move(inputs.surfaces), std::move(boundary),
         {.arrange = {.search = settings.search},
-         .rounding = {.max_rounds = settings.rounds, .check = {settings.check, true}},
+         .rounding = {.max_rounds = settings.rounds, .check = check_of(settings.check, inputs)},
          .seal = settings.seal,
          .extend = settings.volume.extend},
         session.run());

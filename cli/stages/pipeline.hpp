@@ -13,6 +13,7 @@
 #include <terrane/cli/options/files.hpp>
 #include <terrane/cli/options/statistics.hpp>
 #include <terrane/cli/options/volume_options.hpp>
+#include <terrane/cli/reports/pair_report.hpp>
 #include <terrane/cli/session/session.hpp>
 
 namespace terrane::cli {
@@ -20,9 +21,9 @@ namespace terrane::cli {
 struct ArrangeSettings {
     Search search = Search::automatic;
     unsigned rounds = RoundingOptions{}.max_rounds;
-    PairCheck check = PairCheck::bounds;
-    VolumeOptions volume; ///< volume of interest
-    double seal = 0;      ///< distance within which gaps are sealed; 0: not at all
+    PairCheckOptions check = few_pairs; ///< how the mesh is checked
+    VolumeOptions volume;               ///< volume of interest
+    double seal = 0;                    ///< distance within which gaps are sealed; 0: not at all
 };
 
 void add_settings(CLI::App& command, ArrangeSettings& settings);

@@ -313,3 +313,28 @@ TEST_CASE("cli: tetrahedralize with a box, and what it refuses", "[cli]") {
     CHECK(folder.left() == left);
 }
 #endif
+
+TEST_CASE("cli: pairs of large meshes are counted on request", "[cli]") {
+    constexpr int n = 160; // 51 200 triangles
+    std::string sheet = "o sheet\n";
+    for (int j = 0; j <= n; ++j)
+        for (int i = 0; i <= n; ++i)
+            sheet += "v " + std::to_string(i) + " " + std::to_string(j) + " 0\n";
+    for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i) {
+            const int a = (n + 1) * j + i + 1;
+            sheet += "f " + std::to_string(a) + " " + std::to_string(a + 1) + " " +
+                     std::to_string(a + n + 2) + " " + std::to_string(a + n + 1) + "\n";
+        }
+    const Folder folder;
+    const auto in = folder.input("sheet.obj", sheet);
+    const auto says = [&](const std::string& more) {
+        const auto made = folder.run("arrange " + in + " -o out.off" + more);
+        CHECK(made.status == 0);
+        return contains(made.out, "pairs of triangles: ");
+    };
+    CHECK_FALSE(says(""));
+    CHECK(says(" --check bounds"));
+    CHECK(says(" --check full"));
+    CHECK(says(" --stats s.json"));
+}

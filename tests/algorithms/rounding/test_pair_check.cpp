@@ -21,8 +21,8 @@ using namespace test_support;
 
 namespace {
 
-constexpr RoundingOptions counting{.check = {PairCheck::bounds, true}};
-constexpr RoundingOptions full{.check = {PairCheck::full, true}};
+constexpr RoundingOptions counting{.check = {PairCheck::bounds, SIZE_MAX}};
+constexpr RoundingOptions full{.check = {PairCheck::full, SIZE_MAX}};
 
 /// Pairs of triangles whose boxes overlap, one by one.
 std::uint64_t overlapping_pairs(const Mesh& m) {
@@ -166,7 +166,7 @@ TEST_CASE("pair check: meshes are proven conforming, or not, by either method") 
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
         labels.push_back(mesh.surfaces_of[t][0]);
     for (const PairCheck method : {PairCheck::bounds, PairCheck::full}) {
-        const auto proof = prove_conforming(mesh, labels, {method, true});
+        const auto proof = prove_conforming(mesh, labels, {method, SIZE_MAX});
         REQUIRE(proof);
         REQUIRE(proof->pairs());
         check_laws(mesh, *proof->pairs());
@@ -182,7 +182,7 @@ TEST_CASE("pair check: meshes are proven conforming, or not, by either method") 
     REQUIRE(moved != mesh.vertices.end());
     moved->x += 0.4;
     for (const PairCheck method : {PairCheck::bounds, PairCheck::full}) {
-        const auto refused = prove_conforming(mesh, labels, {method, true});
+        const auto refused = prove_conforming(mesh, labels, {method, SIZE_MAX});
         REQUIRE_FALSE(refused);
         CHECK(refused.error().code == ErrorCode::improper_contact);
     }
