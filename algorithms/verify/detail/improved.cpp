@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -134,21 +135,29 @@ private:
         return result;
     }
 
+    /// Returns the first triangle that is not near enough. One is enough to refuse, and each may cost as
+    /// much as all that are near.
+    static std::optional<std::uint32_t> first_beyond(const Numbers& which,
+                                                     const std::vector<Triangle>& triangles,
+                                                     const Nearness& other, const Bound& limit) {
+        for (const std::uint32_t t : which)
+            if (!other.covers(triangles[t], limit)) return t;
+        return std::nullopt;
+    }
+
     void check_distances_of_sheet(std::uint32_t s) {
         const Bound& limit = limit_of(s);
         const PointPairs points{points_, exact_, rounding_};
         const Nearness old(points, selected(old_triangles_, old_.triangles[s]));
-        for (const std::uint32_t t : new_.triangles[s])
-            if (!old.covers(new_triangles_[t], limit))
-                report(Rule::R26_limits, {t},
-                       "improved triangle " + text(t) +
-                           " is farther from the surface before than the limit");
+        if (const auto t = first_beyond(new_.triangles[s], new_triangles_, old, limit))
+            report(Rule::R26_limits, {*t},
+                   "improved triangle " + text(*t) +
+                       " is farther from the surface before than the limit");
         const Nearness now(points, selected(new_triangles_, new_.triangles[s]));
-        for (const std::uint32_t t : old_.triangles[s])
-            if (!now.covers(old_triangles_[t], limit))
-                report(Rule::R26_limits, {t},
-                       "triangle " + text(t) +
-                           " of the mesh before is farther from the improved one than the limit");
+        if (const auto t = first_beyond(old_.triangles[s], old_triangles_, now, limit))
+            report(Rule::R26_limits, {*t},
+                   "triangle " + text(*t) +
+                       " of the mesh before is farther from the improved one than the limit");
     }
 
     void check_distances_of_curve(const CurveClass& key, const std::vector<Triangle>& before) {
@@ -160,16 +169,20 @@ private:
         for (const Triangle& edge : new_.curves.at(key)) after.push_back(moved(edge));
         const PointPairs points{points_, exact_, rounding_};
         const Nearness old(points, before), now(points, after);
-        for (const Triangle& edge : after)
-            if (!old.covers(edge, *limit))
-                report(Rule::R25_curves, {edge[0] - offset_, edge[1] - offset_},
-                       "the edge of vertices " + text(Edge{edge[0] - offset_, edge[1] - offset_}) +
-                           " is farther from its curve before than the limit");
-        for (const Triangle& edge : before)
-            if (!now.covers(edge, *limit))
-                report(Rule::R25_curves, {edge[0], edge[1]},
-                       "the edge of vertices " + text(Edge{edge[0], edge[1]}) +
-                           " of the mesh before is farther from its curve than the limit");
+        const auto far = std::ranges::find_if_not(
+            after, [&](const Triangle& edge) { return old.covers(edge, *limit); });
+        if (far != after.end()) {
+            const Edge edge{(*far)[0] - offset_, (*far)[1] - offset_};
+            report(Rule::R25_curves, {edge[0], edge[1]},
+                   "the edge of vertices " + text(edge) +
+                       " is farther from its curve before than the limit");
+        }
+        const auto left = std::ranges::find_if_not(
+            before, [&](const Triangle& edge) { return now.covers(edge, *limit); });
+        if (left != before.end())
+            report(Rule::R25_curves, {(*left)[0], (*left)[1]},
+                   "the edge of vertices " + text(Edge{(*left)[0], (*left)[1]}) +
+                       " of the mesh before is farther from its curve than the limit");
     }
 
     // --- R27: sides -------------------------------------------------------------------------------

@@ -159,6 +159,15 @@ bool Nearness::is_near_one(const Piece& piece, std::span<const std::uint32_t> ta
     return !targets.empty() && least <= reach(bound) && is_near(piece, best, bound);
 }
 
+bool Nearness::is_refuted(const Piece& piece, std::span<const std::uint32_t> targets,
+                          const Bound& bound) const {
+    return std::ranges::any_of(piece, [&](const Corner& corner) {
+        return std::ranges::all_of(targets, [&](std::uint32_t target) {
+            return to_triangle(corner.near, corners(target)) > reach(bound);
+        });
+    });
+}
+
 bool Nearness::covers(const Triangle& triangle, const Bound& bound) const {
     Piece whole;
     for (std::size_t i = 0; i < 3; ++i)
@@ -171,6 +180,7 @@ bool Nearness::covers(const Triangle& triangle, const Bound& bound) const {
         open.pop_back();
         const auto targets = within_reach(piece, around, reach(bound));
         if (is_near_one(piece, targets, bound)) continue;
+        if (is_refuted(piece, targets, bound)) return false;
         if (targets.empty() || pieces + 2 * open.size() > most_pieces || open.size() > 60)
             return false;
         const std::size_t i = longest_side({piece[0].near, piece[1].near, piece[2].near});

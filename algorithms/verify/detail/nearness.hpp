@@ -38,7 +38,7 @@ public:
 
     /// Tells whether each point of a triangle is shown to be at most `bound` away from some target.
     /// The distance to one target is convex, so a piece of the triangle is near it if its corners
-    /// are. The triangle is halved until each piece is near one target. Numbers in double precision
+    /// are. The triangle is halved until each piece is near one target, or a corner is near none. Numbers in double precision
     /// choose the target, rational numbers decide. It is false, too, where so many pieces do not
     /// suffice as most_pieces.
     /// Cost: some microseconds per piece; few pieces unless the bound is small beside the triangle.
@@ -61,6 +61,9 @@ private:
     [[nodiscard]] bool is_near_one(const Piece& piece, std::span<const std::uint32_t> targets,
                                    const Bound& bound) const;
     [[nodiscard]] bool is_near(const Piece& piece, std::uint32_t target, const Bound& bound) const;
+    /// Tells whether a corner of the piece is farther away than `bound` from all targets.
+    [[nodiscard]] bool is_refuted(const Piece& piece, std::span<const std::uint32_t> targets,
+                                  const Bound& bound) const;
     [[nodiscard]] std::array<Point3, 3> corners(std::uint32_t target) const;
     [[nodiscard]] std::vector<std::uint32_t>
     within_reach(const Piece& piece, std::span<const std::uint32_t> targets, double reach) const;

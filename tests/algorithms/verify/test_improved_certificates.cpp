@@ -204,7 +204,7 @@ TEST_CASE("improved certificates: forged lists and limits") {
             improved(
                 "smaller limits",
                 [](Json& m) {
-                    for (Json& limit : m["limits"]) limit = "1e-09";
+                    for (Json& limit : m["limits"]) limit = "0.001";
                 },
                 "R26"),
             improved(
