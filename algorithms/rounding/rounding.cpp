@@ -298,7 +298,7 @@ bool Rounding::divide_again(std::size_t most_pairs) {
 
 void Rounding::report_moves() {
     RoundingReport& r = out_.report;
-    r.deviation = state_.deviation;
+    r.deviation = state_.total_deviation();
     for (std::size_t v = 0; v < state_.points.size(); ++v) {
         const double m = state_.move[v];
         r.max_move = std::max(r.max_move, m);

@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/algorithms/rounding/detail/collapsed_triangles.hpp>
@@ -97,12 +98,45 @@ void RoundingState::end_round() {
     deviation = (deviation + most) * (1 + 0x1p-51);
 }
 
-/// Bounds the gaps that collapsed triangles leave. A collapsed triangle is a line. If no remaining
-/// triangle has this line as an edge, and none its halves, points of the line are up to half its
-/// length away from the mesh.
+namespace {
+
+/// A collapsed triangle whose line is part of no remaining side.
+struct OpenLine {
+    Triangle corners;
+    double length = 0; ///< of its longest side
+};
+
+/// Bounds how far points of the lines are from the mesh. A line with both ends at the mesh is up to
+/// half its length away. Lines that are connected at points which are not at the mesh are up to the
+/// sum of their lengths away from a point that is. (If there is none, the input triangle has
+/// vanished, because its parts stay connected.)
+double largest_gap(std::span<const OpenLine> lines, const std::vector<bool>& at_mesh) {
+    std::map<std::uint32_t, std::uint32_t> first_at; // point that is not at the mesh: a line there
+    DisjointSets sets(lines.size());
+    std::vector<bool> ends_free(lines.size(), false);
+    for (std::uint32_t l = 0; l < lines.size(); ++l)
+        for (const std::uint32_t v : lines[l].corners) {
+            if (at_mesh[v]) continue;
+            ends_free[l] = true;
+            sets.join(l, first_at.try_emplace(v, l).first->second);
+        }
+    std::map<std::uint32_t, double> sums;
+    double largest = 0;
+    for (std::uint32_t l = 0; l < lines.size(); ++l)
+        if (ends_free[l])
+            largest = std::max(largest, sums[sets.find(l)] += lines[l].length * (1 + 0x1p-48));
+        else
+            largest = std::max(largest, lines[l].length / 2);
+    return largest;
+}
+
+} // namespace
+
+/// Bounds the gaps that collapsed triangles leave. A collapsed triangle is a line. Points of it are
+/// at the mesh if a remaining triangle has this line as an edge, or its halves.
 void RoundingState::find_gaps(const std::vector<bool>& gone) {
     std::set<Side> lines; // sides of dropped triangles, without those of remaining triangles
-    std::vector<bool> concerned(points.size(), false);
+    std::vector<bool> concerned(points.size(), false), at_mesh(points.size(), false);
     const auto side = [](const Triangle& t, unsigned i) { return side_of(t, i); };
     for (std::uint32_t t = 0; t < triangles.size(); ++t)
         if (gone[t])
@@ -112,12 +146,15 @@ void RoundingState::find_gaps(const std::vector<bool>& gone) {
             }
     for (std::uint32_t t = 0; t < triangles.size(); ++t)
         if (!gone[t])
-            for (unsigned i = 0; i < 3; ++i)
+            for (unsigned i = 0; i < 3; ++i) {
+                at_mesh[triangles[t][i]] = true;
                 if (concerned[triangles[t][i]]) lines.erase(side(triangles[t], i));
+            }
     const auto length = [&](const Side& l) {
         const Point3 &p = points[l[0]], &q = points[l[1]];
         return length_bound(std::fabs(p.x - q.x), std::fabs(p.y - q.y), std::fabs(p.z - q.z));
     };
+    std::vector<OpenLine> open_lines;
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {
         if (!gone[t]) continue;
         // The longest side spans the line, and so do the two other sides together.
@@ -128,8 +165,17 @@ void RoundingState::find_gaps(const std::vector<bool>& gone) {
         for (unsigned i = 1; i < 3; ++i)
             if (length(side(triangles[t], i)) > length(side(triangles[t], longest))) longest = i;
         const double others = std::max(open[(longest + 1) % 3], open[(longest + 2) % 3]);
-        largest_gap_ = std::max(largest_gap_, std::min(open[longest], others) / 2);
+        const double least = std::min(open[longest], others);
+        if (least > 0)
+            open_lines.push_back({triangles[t], least});
+        else
+            for (const std::uint32_t v : triangles[t]) at_mesh[v] = true;
     }
+    largest_gap_ = std::max(largest_gap_, largest_gap(open_lines, at_mesh));
+}
+
+double RoundingState::total_deviation() const {
+    return largest_gap_ == 0 ? deviation : (deviation + largest_gap_) * (1 + 0x1p-51);
 }
 
 /// Merges equal points into the one with the lowest index. Only a dirty point can have become equal

@@ -76,8 +76,10 @@ struct RoundingState {
     /// longer valid afterwards.
     void drop_unused_points();
 
-    /// Adds the largest move since the last call to the deviation.
+    /// Adds the largest move and the largest gap since the last call to the deviation.
     void end_round();
+    /// Returns the deviation with the gaps since the last round ended.
+    [[nodiscard]] double total_deviation() const;
 
 private:
     void move_point(std::size_t v, const Point3& to);
@@ -87,8 +89,8 @@ private:
     bool divide_sides(const CollapsedTriangles& lines);
 
     double largest_move_ = 0;
-    double largest_gap_ = 0; ///< half the length of the longest line to which triangles collapsed
-                             ///< and that no other triangle contains
+    double largest_gap_ = 0; ///< since the last end_round(): no point of a line to which triangles
+                             ///< collapsed is farther from the mesh
 };
 
 /// Returns an upper bound of the distance between a point and its nearest doubles.

@@ -47,6 +47,47 @@ TEST_CASE("rounding: triangles that became a line leave no corner inside their n
     CHECK_FALSE(state.tidy({}));
 }
 
+TEST_CASE("rounding: the deviation counts lines that collapsed triangles leave") {
+    // Of each state triangle 0 remains, and the others are lines.
+    SECTION("a line within a side of the triangle is no gap") {
+        auto state = state_of({{0, 0, 0}, {8, 0, 0}, {0, 8, 0}, {3, 0, 0}}, {{0, 1, 2}, {0, 3, 1}});
+        CHECK(state.tidy({}));
+        CHECK(state.total_deviation() == 0);
+    }
+    SECTION("a line between two triangles is up to half its length away") {
+        auto state =
+            state_of({{0, 0, 0}, {8, 0, 0}, {0, 8, 0}, {0, 0, 5}, {8, 0, 5}, {0, 8, 5}, {0, 0, 0}},
+                     {{0, 1, 2}, {3, 4, 5}, {0, 3, 6}});
+        CHECK(state.tidy({}));
+        CHECK(state.total_deviation() == Approx(2.5).epsilon(1e-12));
+        CHECK(state.total_deviation() >= 2.5);
+    }
+    SECTION("a line that ends freely is up to its length away") {
+        auto state = state_of({{0, 0, 0}, {8, 0, 0}, {0, 8, 0}, {0, 0, 5}, {0, 0, 0}},
+                              {{0, 1, 2}, {0, 3, 4}});
+        CHECK(state.tidy({}));
+        CHECK(state.total_deviation() == Approx(5).epsilon(1e-12));
+        CHECK(state.total_deviation() >= 5);
+    }
+    SECTION("so are lines that are connected, with the sum of their lengths") {
+        auto state =
+            state_of({{0, 0, 0}, {8, 0, 0}, {0, 8, 0}, {0, 0, 5}, {0, 0, 0}, {3, 0, 5}, {0, 0, 5}},
+                     {{0, 1, 2}, {0, 3, 4}, {3, 5, 6}});
+        CHECK(state.tidy({}));
+        CHECK(state.total_deviation() == Approx(8).epsilon(1e-12));
+        CHECK(state.total_deviation() >= 8);
+    }
+    SECTION("the next round adds them once") {
+        auto state = state_of({{0, 0, 0}, {8, 0, 0}, {0, 8, 0}, {0, 0, 5}, {0, 0, 0}},
+                              {{0, 1, 2}, {0, 3, 4}});
+        CHECK(state.tidy({}));
+        const double before = state.total_deviation();
+        state.end_round();
+        CHECK(state.deviation == Approx(before).epsilon(1e-12));
+        CHECK(state.total_deviation() == state.deviation);
+    }
+}
+
 TEST_CASE("rounding: points that became equal are counted once, however often they are looked at") {
     auto state = state_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 0}, {2, 2, 0}, {9, 9, 9}},
                           {{0, 1, 2}, {2, 3, 4}});
