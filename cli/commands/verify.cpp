@@ -198,8 +198,8 @@ std::string output_text(const JudgedOutput& output, const std::string& what) {
     case OutputCheck::doubles:
         return fmt::format("{}: holds these {}, bit for bit{}\n", output.path, what, names);
     case OutputCheck::numbers:
-        return fmt::format("{}: holds these blocks, interfaces and patches; the rest of it is not "
-                           "verified{}\n",
+        return fmt::format("{}: holds these blocks, interfaces, patches, lines and corners; block "
+                           "names, exact volumes, gaps and leaks are not verified{}\n",
                            output.path, names);
     case OutputCheck::float32:
         return fmt::format("{}: holds these triangles rounded to float32, at most {:.3g} away{}\n",

@@ -38,8 +38,8 @@ TEST_CASE("cli: volume: a certificate that verify takes", "[cli]") {
         INFO(verified.out);
         CHECK(verified.status == 0);
         CHECK(contains(verified.out, " with their exact volumes\n"));
-        CHECK(contains(verified.out,
-                       "model/model.json: holds these blocks, interfaces and patches; the rest"));
+        CHECK(contains(verified.out, "model/model.json: holds these blocks, interfaces, patches, "
+                                     "lines and corners; block "));
         CHECK(contains(verified.out,
                        "model/interfaces/interface_0.obj: holds these triangles, bit for bit\n"));
         const auto json = Json::parse(folder.run("verify --json blocks.json").out);

@@ -7,17 +7,39 @@
 #include <vector>
 
 #include <terrane/algorithms/model/model.hpp>
-#include <terrane/algorithms/structure/structure_meshes.hpp>
 #include <terrane/algorithms/tetgen/fill_blocks.hpp>
 #include <terrane/io/block_certificate.hpp>
 #include <terrane/io/meshes/gmsh.hpp>
 #include <terrane/io/meshes/gmsh22.hpp>
 #include <terrane/io/meshes/vtk.hpp>
-#include <terrane/io/structure_json.hpp>
 
+#include "support/block_folder.hpp"
 #include "support/forged.hpp"
 
 namespace forged {
+
+/// A box from (low, low, low) to (high, high, high), as OBJ.
+inline std::string cube(const std::string& name, const std::string& low, const std::string& high) {
+    std::string text;
+    for (const std::string& z : {low, high})
+        for (const std::string& y : {low, high})
+            for (const std::string& x : {low, high}) text += "v " + x + " " + y + " " + z + "\n";
+    return text + "g " + name +
+           "\nf 1 3 4\nf 1 4 2\nf 5 6 8\nf 5 8 7\nf 1 2 6\nf 1 6 5\n"
+           "f 3 7 8\nf 3 8 4\nf 1 5 7\nf 1 7 3\nf 2 4 8\nf 2 8 6\n";
+}
+
+/// A box with a box inside, which holds a third one and a sheet; a horizon divides the outer one; and
+/// a box apart from all.
+inline std::vector<File> nested() {
+    return {{"outer.obj", cube("outer", "0", "9")},
+            {"inner.obj", cube("inner", "1", "4")},
+            {"innermost.obj", cube("innermost", "2", "2.1")},
+            {"sheet.obj", "v 3 3 3\nv 3.5 3 3\nv 3 3.25 3.125\ng sheet\nf 1 2 3\n"},
+            {"level.obj", "v -1 -1 6\nv 10 -1 6.5\nv 10 10 6\nv -1 10 6.25\n"
+                          "g level\nf 1 2 3\nf 1 3 4\n"},
+            {"apart.obj", cube("apart", "20", "21")}};
+}
 
 /// A model, with all that its certificate needs.
 struct Modelled {
@@ -48,71 +70,12 @@ inline Modelled modelled(const std::vector<File>& files) {
             std::move(model).value()};
 }
 
-using Cells = std::vector<CellArray>;
-
-inline std::vector<std::int32_t> as_cells(const std::vector<std::uint32_t>& numbers) {
-    return {numbers.begin(), numbers.end()};
-}
-
-/// The files of a folder as `terrane volume` writes it: name in the folder and contents.
-inline std::vector<File> folder_of(const Model& model, const std::string& part_format) {
-    std::vector<File> files;
-    const auto add = [&](const std::string& name, const Mesh& mesh, const Cells& cells) {
-        WriteOptions options;
-        if (name.ends_with("vtp")) options.cells = cells;
-        auto text =
-            format_mesh(mesh, format_named(name.substr(name.rfind('.') + 1)).value(), options);
-        REQUIRE(text);
-        files.push_back({name, std::move(text).value()});
-    };
-    const Structure& s = model.structure;
-    std::vector<std::uint32_t> front, back;
-    for (const auto& sides : model.volumes.of_sides) {
-        front.push_back(sides[0]);
-        back.push_back(sides[1]);
-    }
-    add("result.vtp", model.mesh,
-        {{"volume_front", as_cells(front)},
-         {"volume_back", as_cells(back)},
-         {"interface", as_cells(s.interface_of)},
-         {"patch", as_cells(s.patch_of)}});
-    const auto add_part = [&](const std::string& name, const MeshPart& part) {
-        std::vector<std::uint32_t> interfaces, patches;
-        for (const std::uint32_t t : part.triangles) {
-            interfaces.push_back(s.interface_of[t]);
-            patches.push_back(s.patch_of[t]);
-        }
-        add(name, part.mesh,
-            {{"triangle", as_cells(part.triangles)},
-             {"interface", as_cells(interfaces)},
-             {"patch", as_cells(patches)}});
-    };
-    StructureExtras extras;
-    extras.block_files.resize(s.blocks.size());
-    for (std::uint32_t b = 1; b < s.blocks.size(); ++b) {
-        if (s.blocks[b].interfaces.empty()) continue;
-        extras.block_files[b] = "blocks/block_" + std::to_string(b) + "." + part_format;
-        add_part(extras.block_files[b], block_part(model.mesh, model.volumes, s, BlockId(b)));
-    }
-    for (std::uint32_t i = 0; i < s.interfaces.size(); ++i) {
-        extras.interface_files.push_back("interfaces/interface_" + std::to_string(i) + "." +
-                                         part_format);
-        add_part(extras.interface_files[i],
-                 interface_part(model.mesh, model.volumes, s, InterfaceId(i)));
-    }
-    extras.exact_volumes = model.exact_volumes;
-    extras.exact_volumes.resize(s.blocks.size());
-    extras.free_borders = model.borders;
-    files.push_back({"model.json", to_json(model.mesh, s, extras)});
-    return files;
-}
-
 /// Returns the certificate of the blocks of these files, with the folder "model".
 inline Subject block_subject(const std::vector<File>& files,
                              const std::string& part_format = "vtp") {
     Modelled m = modelled(files);
     std::vector<OutputRecord> outputs;
-    for (const File& file : folder_of(m.model, part_format)) {
+    for (const auto& file : block_folder::folder_of(m.model, part_format)) {
         outputs.push_back(record_output(file.contents, "model/" + file.name,
                                         file.name.substr(file.name.rfind('.') + 1),
                                         m.model.mesh->surfaces));

@@ -58,6 +58,7 @@ PartMesh interface_mesh(const WrittenMesh& mesh, const std::vector<BlockSides>& 
 
 /// What the lists of model.json are compared with.
 struct ModelLists {
+    const WrittenMesh& mesh;
     const BlockParts& parts;
     std::span<const SurfaceInfo> surfaces;
     const std::vector<BlockSides>& sides;
@@ -65,8 +66,9 @@ struct ModelLists {
     std::string part_format;     ///< "vtp" or "obj"
 };
 
-/// Compares the numbers of blocks, interfaces and patches in model.json; lengths, areas, lines,
-/// corners and the volumes of the exact blocks are not compared. Throws Difference.
+/// Compares model.json with what follows from a mesh and its blocks; the volumes of the exact
+/// blocks, their names and the surfaces above, below and beside them, gaps and leaks are not
+/// compared. Throws Difference.
 void compare_model_json(std::string_view contents, const ModelLists& lists);
 
 } // namespace terrane::verifier

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <memory>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include <terrane/algorithms/verify/detail/block_files.hpp>
@@ -33,14 +34,16 @@ struct Folder {
     BlockParts parts;
 };
 
+Folder make_folder(const Certificate& certificate) {
+    Folder folder{rounded_mesh(certificate).value(), {}, {}};
+    folder.sides = sides_of(certificate.blocks.value(), folder.mesh.triangles.size());
+    folder.parts = find_parts(folder.mesh, folder.sides);
+    return folder;
+}
+
 const Folder& folder_of(const Certificate& certificate, std::any& computed) {
     using Kept = std::shared_ptr<const Folder>;
-    if (!computed.has_value()) {
-        Folder folder{rounded_mesh(certificate).value(), {}, {}};
-        folder.sides = sides_of(certificate.blocks.value(), folder.mesh.triangles.size());
-        folder.parts = find_parts(folder.mesh, folder.sides);
-        computed = Kept(std::make_shared<Folder>(std::move(folder)));
-    }
+    if (!computed.has_value()) computed = Kept(std::make_shared<Folder>(make_folder(certificate)));
     return *std::any_cast<const Kept&>(computed);
 }
 
@@ -109,11 +112,28 @@ std::string part_format(const Certificate& certificate) {
     return "vtp";
 }
 
+/// Returns the names of all files of a folder with these blocks, relative to it.
+std::set<std::string> file_names(const Folder& folder, const std::string& part_format) {
+    std::set<std::string> names{"model.json", "result.vtp"};
+    const auto add = [&](const std::string& start, std::size_t number) {
+        names.insert(start + std::to_string(number) + "." + part_format);
+    };
+    for (std::size_t i = 0; i < folder.parts.interfaces.size(); ++i) {
+        add("interfaces/interface_", i);
+        const auto [low, high] = folder.parts.interfaces[i].blocks;
+        if (low == high) continue;
+        for (const std::uint32_t block : {low, high})
+            if (block > 0) add("blocks/block_", block);
+    }
+    return names;
+}
+
 std::string compare_model(std::string_view contents, const Certificate& certificate,
                           const Folder& folder, const CertifiedOutput& output,
                           OutputVerdict& verdict) {
     verdict.check = OutputCheck::numbers;
-    ModelLists lists{folder.parts, output.surfaces, folder.sides, {}, part_format(certificate)};
+    ModelLists lists{folder.mesh,  folder.parts, output.surfaces,
+                     folder.sides, {},           part_format(certificate)};
     for (const std::string& volume : certificate.blocks->volumes)
         lists.volumes.push_back(nearest_double(mpq_class(volume)));
     try {
@@ -147,6 +167,26 @@ ExpectedTetrahedra expected_tetrahedra(const Certificate& certificate,
 }
 
 } // namespace
+
+void check_folder_files(const Certificate& certificate, Violations& found) {
+    const auto& outputs = certificate.outputs;
+    if (outputs.empty()) return;
+    const auto refute = [&](const std::string& what) {
+        found.push_back({Rule::R21_output, {}, what});
+    };
+    const auto model = std::ranges::find_if(
+        outputs, [](const CertifiedOutput& o) { return is_called(o.name, "model.json"); });
+    if (model == outputs.end()) return refute("no output is the model.json of a folder");
+    const auto folder =
+        model->name.substr(0, model->name.size() - std::string("model.json").size());
+    auto missing = file_names(make_folder(certificate), part_format(certificate));
+    for (const CertifiedOutput& output : outputs)
+        if (!output.name.starts_with(folder) ||
+            missing.erase(output.name.substr(folder.size())) == 0)
+            return refute("the output " + output.name +
+                          " is no file of the folder, or there twice");
+    if (!missing.empty()) refute("the file " + folder + *missing.begin() + " is no output");
+}
 
 std::string compare_block_file(std::string_view contents, const Certificate& certificate,
                                const CertifiedOutput& output, std::any& computed,

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include <terrane/algorithms/verify/detail/inputs.hpp>
 #include <terrane/algorithms/verify/verify_certificate.hpp>
 
 namespace terrane::verifier {
@@ -16,6 +17,10 @@ namespace terrane::verifier {
 std::string compare_block_file(std::string_view contents, const Certificate& certificate,
                                const CertifiedOutput& output, std::any& computed,
                                OutputVerdict& verdict);
+
+/// Checks that the outputs are all files of one folder with these blocks, each once (R21). There may
+/// be no outputs at all. Precondition: the claims of the certificate hold.
+void check_folder_files(const Certificate& certificate, Violations& found);
 
 /// All outputs hold all tetrahedra.
 std::string compare_tetrahedra_file(std::string_view contents, const Certificate& certificate,

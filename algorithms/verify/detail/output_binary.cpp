@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The readers of output.hpp for binary STL and binary PLY.
+// The readers of output.hpp for binary STL, and PLY, which may be text as well.
 #include <bit>
 #include <cstring>
 #include <type_traits>
 #include <utility>
 
+#include <terrane/algorithms/verify/detail/line_scanner.hpp>
 #include <terrane/algorithms/verify/detail/output.hpp>
 
 namespace terrane::verifier {
@@ -73,8 +74,8 @@ void compare_stl(std::string_view contents, const ExpectedMesh& expected) {
 
 namespace {
 
-std::string ply_header(const ExpectedMesh& expected) {
-    std::string text = "ply\nformat binary_little_endian 1.0\n";
+std::string ply_header(const ExpectedMesh& expected, const std::string& format) {
+    std::string text = "ply\nformat " + format + " 1.0\n";
     for (const SurfaceInfo& surface : expected.surfaces) {
         std::string name = surface.name;
         for (char& c : name)
@@ -92,11 +93,40 @@ std::string ply_header(const ExpectedMesh& expected) {
                   "property list uint int surfaces\nend_header\n";
 }
 
+/// Reads PLY as text. The header is that of the binary file but for its second line; each vertex and
+/// each face is a line.
+void compare_ply_text(std::string_view contents, const ExpectedMesh& expected) {
+    LineScanner in(contents);
+    const std::string header = ply_header(expected, "ascii");
+    for (std::size_t at = 0, end = 0; at < header.size(); at = end + 1) {
+        end = header.find('\n', at);
+        in.expect(header.substr(at, end - at));
+    }
+    for (const Point3& p : expected.mesh.vertices) {
+        in.next();
+        in.expect_point(p);
+        in.end_line();
+    }
+    for (std::size_t t = 0; t < expected.mesh.triangles.size(); ++t) {
+        const auto surfaces = expected.mesh.surfaces_of[t];
+        in.next();
+        in.expect_word("3");
+        for (const std::uint32_t corner : expected.mesh.triangles[t])
+            in.expect_word(std::to_string(corner));
+        in.expect_word(std::to_string(surfaces[0]));
+        in.expect_word(std::to_string(surfaces.size()));
+        for (const std::uint32_t surface : surfaces) in.expect_word(std::to_string(surface));
+        in.end_line();
+    }
+    in.end();
+}
+
 } // namespace
 
 void compare_ply(std::string_view contents, const ExpectedMesh& expected) {
+    if (contents.starts_with("ply\nformat ascii ")) return compare_ply_text(contents, expected);
     ByteScanner in(contents);
-    in.expect_text(ply_header(expected));
+    in.expect_text(ply_header(expected, "binary_little_endian"));
     for (const Point3& p : expected.mesh.vertices)
         for (const double c : {p.x, p.y, p.z})
             in.expect(std::bit_cast<std::uint64_t>(c), "coordinate");

@@ -92,7 +92,8 @@ std::optional<NumberedBlocks> judge_blocks(std::span<const Surface> surfaces,
 
 void judge_volumes(std::span<const Surface> surfaces, const Certificate& certificate,
                    const VerifyOptions& options, Verdict& verdict) {
-    judge_blocks(surfaces, certificate, options, verdict);
+    if (judge_blocks(surfaces, certificate, options, verdict) && verdict.violations.empty())
+        check_folder_files(certificate, verdict.violations);
 }
 
 void judge_tetrahedra(std::span<const Surface> surfaces, const Certificate& certificate,

@@ -3,7 +3,11 @@
 // Output files that are not what their certificate says, with right hashes: each is refuted.
 #include "support/forged.hpp"
 
+#include <array>
 #include <cctype>
+#include <charconv>
+#include <cstring>
+#include <string_view>
 
 namespace {
 
@@ -42,6 +46,45 @@ std::string replaced(std::string text, const std::string& old, const std::string
     INFO(old);
     REQUIRE(at != std::string::npos);
     return text.replace(at, old.size(), by);
+}
+
+/// Takes numbers from binary PLY, little endian.
+class PlyBytes {
+public:
+    explicit PlyBytes(std::string_view bytes) : bytes_(bytes) {}
+
+    template <class T>
+    std::string take() {
+        T value{};
+        std::memcpy(&value, bytes_.data(), sizeof value);
+        bytes_.remove_prefix(sizeof value);
+        std::array<char, 64> digits{};
+        return {digits.data(), std::to_chars(digits.data(), digits.data() + 64, value).ptr};
+    }
+
+private:
+    std::string_view bytes_;
+};
+
+/// Returns a binary PLY file as text.
+std::string ply_text(const std::string& binary, std::size_t vertices, std::size_t faces) {
+    const std::string end = "end_header\n";
+    const std::size_t header = binary.find(end) + end.size();
+    std::string text = replaced(binary.substr(0, header), "binary_little_endian", "ascii");
+    PlyBytes in(std::string_view(binary).substr(header));
+    for (std::size_t v = 0; v < vertices; ++v) {
+        for (int i = 0; i < 3; ++i) text += (i > 0 ? " " : "") + in.take<double>();
+        text += "\n";
+    }
+    for (std::size_t f = 0; f < faces; ++f) {
+        text += in.take<std::int8_t>();
+        for (int i = 0; i < 4; ++i) text += " " + in.take<std::int32_t>(); // corners, surface
+        const std::string count = in.take<std::uint32_t>();
+        text += " " + count;
+        for (int i = 0; i < std::stoi(count); ++i) text += " " + in.take<std::uint32_t>();
+        text += "\n";
+    }
+    return text;
 }
 
 struct FileForgery {
@@ -130,6 +173,38 @@ TEST_CASE("forged output files: each byte of binary formats, with a new hash") {
             CHECK(judged_as(s, wrong) != "");
         }
     }
+}
+
+TEST_CASE("output files: PLY as text, to the last bit") {
+    const auto with_text = [](const std::vector<File>& files) {
+        Subject s = subject(files, {"ply"});
+        const auto certificate = parse_certificate(s.certificate.dump(), "c");
+        REQUIRE(certificate);
+        s.contents[0] = ply_text(s.contents[0], certificate->rounded->vertices.size(),
+                                 certificate->rounded->triangles.size());
+        seal(s);
+        return s;
+    };
+    for (const auto& files : {named(), pierced(), overlapping()})
+        CHECK(judged(with_text(files)) == "");
+    const Subject s = with_text(overlapping());
+    const std::string& right = s.contents[0];
+    for (std::size_t at = 0; at < right.size(); ++at) {
+        if (std::isdigit(static_cast<unsigned char>(right[at])) == 0) continue;
+        std::string wrong = right;
+        wrong[at] = wrong[at] == '9' ? '0' : static_cast<char>(wrong[at] + 1);
+        INFO("byte " << at);
+        CHECK(judged_as(s, wrong) != "");
+    }
+    const std::string vertex = "\n8 0 0\n";
+    for (const std::string wrong : {"\n8 0 -0\n", "\n8.0 0 0\n", "\n8 0 5e-324\n", "\n8 0\n",
+                                    "\n8 0 0 0\n", "\n8  0 0\n", "\n8 0 0\n8 0 0\n", "\n"}) {
+        INFO(wrong);
+        CHECK(judged_as(s, replaced(right, vertex, wrong)) != "");
+    }
+    CHECK(judged_as(s, replaced(right, "ascii", "binary_little_endian")) != "");
+    CHECK(judged_as(s, right + "3 0 1 2 0 1 0\n") != "");
+    CHECK(judged_as(s, right.substr(0, right.size() - 1)) != "");
 }
 
 TEST_CASE("forged output files: each character of VTP that is not compressed") {

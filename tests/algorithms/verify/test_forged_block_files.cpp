@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Files of a folder with blocks that are not what their certificate says, with right hashes: each is
+// refuted.
+#include "support/forged_blocks.hpp"
+
+#include <cctype>
+
+namespace forged_block_files_test {
+
+using namespace forged;
+
+namespace {
+
+/// Tells whether the verifier compares a digit of model.json: not those of keys that
+/// docs/reference/certificate.md excepts, nor digits of areas and lengths behind the twelfth.
+bool is_compared(const std::string& text, std::size_t at) {
+    const std::size_t start = text.rfind('\n', at) + 1;
+    const std::string line = text.substr(start, at - start);
+    if (text.rfind("\"leaks\": [", at) != std::string::npos) return false;
+    if (line.find("\"gaps\":") != std::string::npos) return false;
+    const std::size_t key = line.rfind("\":");
+    if (key == std::string::npos) return true;
+    const std::size_t quote = line.rfind('"', key - 1) + 1;
+    const std::string name = line.substr(quote, key - quote);
+    for (const char* free : {"volume", "name", "above", "below", "beside"})
+        if (name == free && line.find("\"volume_written\"") == std::string::npos) return false;
+    for (const char* free : {"above", "below", "beside"})
+        if (name == free) return false;
+    const std::size_t number = text.find_last_not_of("0123456789.-+e", at) + 1;
+    if (at - number > 14) return false; // another decimal may be the same double
+    if (name != "area" && name != "dangling_area" && name != "length") return true;
+    return line.size() - key - 2 < 9 && text.compare(start + key + 2, 3, "0.0") != 0;
+}
+
+} // namespace
+
+TEST_CASE("forged certificates of blocks: files") {
+    const Subject right = block_subject(nested());
+    REQUIRE(judged(right) == "");
+    const auto output = [&](const std::string& name) {
+        for (std::size_t i = 0; i < right.contents.size(); ++i)
+            if (right.certificate["outputs"][i]["name"] == "model/" + name) return i;
+        FAIL(name);
+        return std::size_t(0);
+    };
+    const auto judged_with = [&](std::size_t i, const std::string& contents) {
+        Subject s = right;
+        s.contents[i] = contents;
+        seal(s);
+        return judged(s);
+    };
+    SECTION("another file of the folder") {
+        for (const auto& [name, other] : std::vector<std::pair<std::string, std::string>>{
+                 {"blocks/block_1.vtp", "blocks/block_2.vtp"},
+                 {"blocks/block_3.vtp", "blocks/block_5.vtp"},
+                 {"interfaces/interface_0.vtp", "interfaces/interface_1.vtp"},
+                 {"result.vtp", "blocks/block_1.vtp"},
+                 {"blocks/block_1.vtp", "result.vtp"},
+                 {"model.json", "result.vtp"}}) {
+            INFO(name << " holds " << other);
+            CHECK(judged_with(output(name), right.contents[output(other)]) == "R21");
+        }
+    }
+    SECTION("a name that says that it is another one") {
+        for (const char* name :
+             {"model/blocks/block_2.vtp", "model/blocks/block_01.vtp", "model/blocks/block_0.vtp",
+              "model/blocks/block_99.vtp", "model/any.vtp", "model/model.json"}) {
+            Subject s = right;
+            s.certificate["outputs"][output("blocks/block_1.vtp")]["name"] = name;
+            CHECK(judged(s) == "R21");
+        }
+    }
+    SECTION("a file left out, there twice, or of another folder") {
+        for (std::size_t i = 0; i < right.contents.size(); ++i) {
+            INFO(right.certificate["outputs"][i]["name"]);
+            Subject s = right;
+            s.certificate["outputs"].erase(i);
+            s.contents.erase(s.contents.begin() + static_cast<std::ptrdiff_t>(i));
+            CHECK(judged(s) == "R21");
+            s = right;
+            s.certificate["outputs"].push_back(Json(s.certificate["outputs"][i]));
+            s.contents.push_back(std::string(s.contents[i]));
+            CHECK(judged(s) == "R21");
+            s = right;
+            Json& name = s.certificate["outputs"][i]["name"];
+            name = "other/" + name.get<std::string>().substr(6);
+            CHECK(judged(s) == "R21");
+        }
+        Subject s = right;
+        s.certificate["outputs"] = Json::array();
+        s.contents.clear();
+        CHECK(judged(s) == ""); // the certificate is about no file
+    }
+    SECTION("one number of model.json") {
+        const std::string text = right.contents[output("model.json")];
+        for (const auto& [old, by] : std::vector<std::pair<std::string, std::string>>{
+                 {"\"volume_written\":1.0", "\"volume_written\":1.0000000000000002"},
+                 {"\"volumes\":[0,1]", "\"volumes\":[0,2]"},
+                 {"\"interfaces\":[", "\"interfaces\":[7,"},
+                 {"\"neighbours\":[", "\"neighbours\":[7,"},
+                 {"\"triangles\":[[", "\"triangles\":[[1"},
+                 {"blocks/block_1.vtp", "blocks/block_2.vtp"},
+                 {"\"patches\":[0", "\"patches\":[1"}}) {
+            INFO(old);
+            const auto at = text.find(old);
+            REQUIRE(at != std::string::npos);
+            CHECK(judged_with(output("model.json"),
+                              std::string(text).replace(at, old.size(), by)) == "R21");
+        }
+    }
+    SECTION("any digit of model.json, but for what is not compared") {
+        // The sheet ends freely, and the bodies have corners.
+        const std::size_t model = output("model.json");
+        const std::string& text = right.contents[model];
+        const auto parsed = parse_certificate(right.certificate.dump(), "c");
+        REQUIRE(parsed);
+        Certificate certificate = parsed.value();
+        OutputVerifier verifier(certificate);
+        CHECK(verifier(text, model).violations.empty());
+        std::size_t compared = 0;
+        for (std::size_t at = text.find("\"surfaces\": ["); at < text.size(); ++at) {
+            if (!std::isdigit(static_cast<unsigned char>(text[at])) || !is_compared(text, at))
+                continue;
+            std::string wrong = text;
+            wrong[at] = wrong[at] == '9' ? '1' : static_cast<char>(wrong[at] + 1);
+            certificate.outputs[model].sha256 = hexadecimal(sha256(wrong));
+            INFO(text.substr(text.rfind('\n', at) + 1, 60) << " digit " << at);
+            if (verifier(wrong, model).violations.empty()) FAIL_CHECK(at);
+            ++compared;
+        }
+        CHECK(compared > 400);
+    }
+    SECTION("any character of a number in OBJ") {
+        const Subject obj = block_subject({{"c.obj", cube("c", "0", "3")}}, "obj");
+        for (std::size_t i = 0; i < obj.contents.size(); ++i) {
+            if (obj.certificate["outputs"][i]["format"] != "obj") continue;
+            for (std::size_t k = 0; k < obj.contents[i].size(); ++k) {
+                if (!std::isdigit(static_cast<unsigned char>(obj.contents[i][k]))) continue;
+                Subject s = obj;
+                s.contents[i][k] = s.contents[i][k] == '7' ? '5' : '7';
+                seal(s);
+                CHECK(judged(s) == "R21");
+            }
+        }
+    }
+    SECTION("one bit of a file") {
+        for (std::size_t i = 0; i < right.contents.size(); ++i) {
+            Subject s = right;
+            s.contents[i][s.contents[i].size() / 2] ^= 1; // the hash stays as it was
+            CHECK(judged(s) == "R21");
+        }
+    }
+}
+
+} // namespace forged_block_files_test
