@@ -43,8 +43,9 @@
 //     "digest": "sha256:..." }       of the exact part; digest.hpp defines it
 //
 // Each object has these keys and no others. Numbers are whole and without sign.
-// Input vertices and triangles are counted from 0 through all surfaces of all files. In names that
-// are not UTF-8 each wrong byte becomes U+FFFD, so that the verifier refuses them.
+// Input vertices and triangles are counted from 0 through all surfaces of all files. JSON cannot state
+// names that are not UTF-8: each wrong byte becomes U+FFFD, and the verifier refuses the certificate.
+// The program refuses such names before the work.
 #pragma once
 
 #include <cstdint>

@@ -43,7 +43,7 @@ Result<ExitStatus> arrange_files(const ArrangeCommand& command, Session& session
         return Error{ErrorCode::bad_option,
                      "a certificate is about the surfaces as they are, not cut or sealed",
                      "--certificate"};
-    auto inputs = read_inputs(files, session);
+    auto inputs = read_certified_inputs(command.proof.certificate, files, session);
     if (!inputs) return inputs.error();
     Json statistics = statistics_of(inputs.value(), session.times());
 

@@ -181,7 +181,7 @@ Result<ExitStatus> fill_files(const FillCommand& command, Session& session) {
     Stopwatch total;
     const auto outputs = plan(command);
     if (!outputs) return outputs.error();
-    const auto inputs = read_inputs(command.files, session);
+    const auto inputs = read_certified_inputs(command.proof.certificate, command.files, session);
     if (!inputs) return inputs.error();
     session.begin("holes", Phase::computing);
     auto work =

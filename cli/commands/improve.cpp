@@ -128,7 +128,7 @@ Result<ExitStatus> improve_files(const ImproveCommand& command, Session& session
     const auto outputs = plan_outputs(files, OutputKind::surfaces);
     if (!outputs) return outputs.error();
     if (const auto sound = check_improve(command); !sound) return sound.error();
-    auto inputs = read_inputs(files, session);
+    auto inputs = read_certified_inputs(command.proof.certificate, files, session);
     if (!inputs) return inputs.error();
     ImproveOptions options = command.options;
     options.check = check_of(command.settings.check, inputs.value());

@@ -144,7 +144,7 @@ Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Se
     if (const auto sound = check_volume_options(command.settings.volume); !sound)
         return sound.error();
     if (const auto helper = find_tetgen_helper(); !helper) return helper.error();
-    auto inputs = read_inputs(files, session);
+    auto inputs = read_certified_inputs(command.certificate, files, session);
     if (!inputs) return inputs.error();
     const auto roles = roles_of(inputs.value());
     if (const auto set = set_roles(command.roles, inputs.value()); !set) return set.error();

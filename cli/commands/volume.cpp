@@ -74,9 +74,12 @@ Result<ExitStatus> find_blocks(const VolumeCommand& command, Session& session) {
     if (const auto planned = plan_certificate(command.certificate, files, command.settings);
         !planned)
         return planned.error();
+    if (!command.certificate.empty())
+        if (const auto named = check_certified_names(command.certificate, {command.folder}); !named)
+            return named.error();
     if (const auto sound = check_volume_options(command.settings.volume); !sound)
         return sound.error();
-    auto inputs = read_inputs(files, session);
+    auto inputs = read_certified_inputs(command.certificate, files, session);
     if (!inputs) return inputs.error();
     const auto roles = roles_of(inputs.value());
     if (const auto set = set_roles(command.roles, inputs.value()); !set) return set.error();

@@ -47,11 +47,10 @@ Result<std::vector<OutputRecord>> record(const std::string& certificate,
     return records;
 }
 
-/// Makes the text by make(certified) and writes it.
+/// Makes the text by make(certified).
 template <class Make>
-Status write(const BlockProof& proof, const std::vector<WrittenFile>& files,
-             const std::vector<SurfaceInfo>& surfaces, const Make& make, Session& session) {
-    session.begin("write", Phase::writing);
+Result<std::string> make_text(const BlockProof& proof, const std::vector<WrittenFile>& files,
+                              const std::vector<SurfaceInfo>& surfaces, const Make& make) {
     const auto inputs = record_inputs(proof.path, proof.files.inputs, proof.inputs);
     if (!inputs) return inputs.error();
     const auto outputs = record(proof.path, files, surfaces);
@@ -59,9 +58,17 @@ Status write(const BlockProof& proof, const std::vector<WrittenFile>& files,
     for (std::size_t s = 0; s < proof.roles.size(); ++s)
         proof.arranged.surfaces[s].role = proof.roles[s];
     const Arranged& arranged = proof.arranged;
-    auto written =
-        write_file(proof.path, make(Certified{inputs.value(), arranged.surfaces, arranged.exact,
-                                              &arranged.rounded, outputs.value()}));
+    return make(Certified{inputs.value(), arranged.surfaces, arranged.exact, &arranged.rounded,
+                          outputs.value()});
+}
+
+/// Makes the text by make() and writes it.
+template <class Make>
+Status write(const BlockProof& proof, const Make& make, Session& session) {
+    session.begin("write", Phase::writing);
+    const auto text = make();
+    if (!text) return text.error();
+    auto written = write_file(proof.path, text.value());
     session.end_stage();
     if (written) print(summary_stream(proof.files), "wrote " + proof.path + "\n");
     return written;
@@ -82,6 +89,8 @@ Status plan_certificate(const std::string& path, const FileOptions& files,
         return Error{ErrorCode::bad_option,
                      "a certificate is about the surfaces as they are, not cut or sealed",
                      "--certificate"};
+    for (const auto& names : {files.inputs, files.outputs})
+        if (auto status = check_certified_names(path, names); !status) return status;
     return check_folder(path);
 }
 
@@ -91,29 +100,41 @@ std::vector<Role> roles_of(const Inputs& inputs) {
     return roles;
 }
 
+Result<std::string> certificate_text(const BlockProof& proof, const Model& model,
+                                     const std::filesystem::path& folder,
+                                     const std::string& part_format, const Session& session) {
+    return make_text(
+        proof, files_in(folder, model, part_format), model.mesh->surfaces,
+        [&](const Certified& certified) {
+            return to_certificate(certified, {model.volumes, model.block_count()}, session.run());
+        });
+}
+
+Result<std::string> certificate_text(const BlockProof& proof, const Model& model,
+                                     const TetrahedralMesh& tetrahedra,
+                                     const std::vector<Output>& outputs, const Session& session) {
+    std::vector<WrittenFile> files;
+    for (const Output& output : outputs)
+        files.push_back({output.path, certified_format(output.format, false)});
+    return make_text(proof, files, tetrahedra.surfaces, [&](const Certified& certified) {
+        return to_certificate(certified, {model.volumes, model.block_count()}, tetrahedra,
+                              session.run());
+    });
+}
+
 Status write_certificate(const BlockProof& proof, const Model& model,
                          const std::filesystem::path& folder, const std::string& part_format,
                          Session& session) {
     return write(
-        proof, files_in(folder, model, part_format), model.mesh->surfaces,
-        [&](const Certified& certified) {
-            return to_certificate(certified, {model.volumes, model.block_count()}, session.run());
-        },
+        proof, [&] { return certificate_text(proof, model, folder, part_format, session); },
         session);
 }
 
 Status write_certificate(const BlockProof& proof, const Model& model,
                          const TetrahedralMesh& tetrahedra, const std::vector<Output>& outputs,
                          Session& session) {
-    std::vector<WrittenFile> files;
-    for (const Output& output : outputs)
-        files.push_back({output.path, certified_format(output.format, false)});
     return write(
-        proof, files, tetrahedra.surfaces,
-        [&](const Certified& certified) {
-            return to_certificate(certified, {model.volumes, model.block_count()}, tetrahedra,
-                                  session.run());
-        },
+        proof, [&] { return certificate_text(proof, model, tetrahedra, outputs, session); },
         session);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Certificates of blocks and of tetrahedra, for `volume` and `tetrahedralize`.
+// Certificates of blocks and of tetrahedra, for `volume`, `tetrahedralize` and `build`.
 #pragma once
 
 #include <filesystem>
@@ -22,12 +22,21 @@ struct BlockProof {
     std::string path; ///< of the certificate
     const FileOptions& files;
     const Inputs& inputs;
-    std::vector<Role> roles; ///< of the surfaces as they are in the files
+    std::vector<Role> roles; ///< of the surfaces as they are in the files; empty: as arranged
     Arranged& arranged;      ///< its surfaces get these roles
 };
 
 /// Returns the roles of the surfaces.
 std::vector<Role> roles_of(const Inputs& inputs);
+
+/// Makes the certificate of a model whose files are in a folder, with parts in this format; or of
+/// tetrahedra that were written to these files. Errors: cannot_open.
+Result<std::string> certificate_text(const BlockProof& proof, const Model& model,
+                                     const std::filesystem::path& folder,
+                                     const std::string& part_format, const Session& session);
+Result<std::string> certificate_text(const BlockProof& proof, const Model& model,
+                                     const TetrahedralMesh& tetrahedra,
+                                     const std::vector<Output>& outputs, const Session& session);
 
 /// Writes the certificate of a model whose files are in a folder, with parts in this format.
 /// Errors: cannot_open, write_failed.

@@ -5,10 +5,13 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include <terrane/cli/session/console.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/certificate.hpp>
 #include <terrane/io/exact_text.hpp>
+#include <terrane/io/text/utf8.hpp>
 
 namespace terrane::cli {
 
@@ -46,6 +49,38 @@ Result<std::vector<OutputRecord>> record_outputs(const std::string& certificate,
 }
 
 } // namespace
+
+Status check_certified_names(const std::string& certificate,
+                             const std::vector<std::string>& files) {
+    for (const std::string& file : files)
+        if (file != "-" && !detail::is_utf8(certified_name(file, certificate)))
+            return Error{ErrorCode::bad_option,
+                         "a certificate cannot name this file, as its path is not UTF-8", file};
+    return Done{};
+}
+
+Status check_certified_surfaces(std::span<const std::string> names,
+                                std::span<const std::string> files) {
+    for (std::size_t s = 0; s < names.size(); ++s)
+        if (!detail::is_utf8(names[s]))
+            return Error{ErrorCode::bad_option,
+                         fmt::format("a certificate cannot state the name of surface {} of {}, as "
+                                     "it is not UTF-8",
+                                     s + 1, names.size()),
+                         files[s]};
+    return Done{};
+}
+
+Result<Inputs> read_certified_inputs(const std::string& certificate, const FileOptions& options,
+                                     Session& session) {
+    auto inputs = read_inputs(options, session);
+    if (!inputs || certificate.empty()) return inputs;
+    std::vector<std::string> names;
+    for (const Surface& surface : inputs->surfaces) names.push_back(surface.name);
+    if (const auto sound = check_certified_surfaces(names, inputs->files); !sound)
+        return sound.error();
+    return inputs;
+}
 
 Result<std::vector<InputRecord>> record_inputs(const std::string& certificate,
                                                const std::vector<std::string>& files,
@@ -98,7 +133,10 @@ Status plan_proof(const ProofOptions& options, const FileOptions& files) {
     for (const auto& path : {options.certificate, options.exact})
         if (!path.empty())
             if (auto status = check_folder(path); !status) return status;
-    return Done{};
+    if (options.certificate.empty()) return Done{};
+    if (auto status = check_certified_names(options.certificate, files.inputs); !status)
+        return status;
+    return check_certified_names(options.certificate, files.outputs);
 }
 
 Result<std::string> certificate_text(const std::string& path, const ProofFiles& files,

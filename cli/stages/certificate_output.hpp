@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdio>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,20 @@ void add_certificate(CLI::App& command, std::string& certificate);
 
 /// Checks the file names before any work is done. Errors: bad_option, cannot_open.
 Status plan_proof(const ProofOptions& options, const FileOptions& files);
+
+/// Checks before any work is done that a certificate can name these files. It is UTF-8 and names
+/// them relative to its folder. Errors: bad_option.
+Status check_certified_names(const std::string& certificate, const std::vector<std::string>& files);
+
+/// Checks before any work is done that a certificate can state the names of surfaces, which are those
+/// of their files. Errors: bad_option, with the file as its place.
+Status check_certified_surfaces(std::span<const std::string> names,
+                                std::span<const std::string> files);
+
+/// Reads all inputs; if `certificate` is not empty, their surfaces must have names that it can state.
+/// Errors: those of read_inputs; bad_option.
+Result<Inputs> read_certified_inputs(const std::string& certificate, const FileOptions& options,
+                                     Session& session);
 
 /// Hashes the input files in their present state. If one was changed after it was read, the
 /// verifier finds that the certificate does not fit it. Errors: cannot_open.
