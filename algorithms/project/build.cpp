@@ -27,9 +27,6 @@ Error flaw_of(const Preprocessed& done) {
     return refused("the stack of layers is no conforming mesh of doubles in order");
 }
 
-/// Each mesh that is proven conforming says what decided its pairs of triangles.
-constexpr PairCheckOptions counted_pairs{.count_up_to = SIZE_MAX};
-
 /// Runs the stages of one call of build().
 class Builder {
 public:
@@ -75,7 +72,7 @@ private:
     }
 
     Status arrange_surfaces() {
-        const ArrangeWithinOptions options{.rounding = {.check = counted_pairs},
+        const ArrangeWithinOptions options{.rounding = {.check = project_.check},
                                            .seal = project_.seal.value_or(0),
                                            .extend = project_.extend.value_or(0)};
         auto arranged =
@@ -94,7 +91,7 @@ private:
         const ProjectImprove& wanted = *project_.improve;
         const auto& surfaces = rounded()->surfaces;
         ImproveOptions options;
-        options.check = counted_pairs;
+        options.check = project_.check;
         options.edge_length = wanted.edge_length.value_or(0);
         options.max_deviation = wanted.max_deviation.value_or(0);
         if (!wanted.edge_length_of.empty()) options.edge_length_of.resize(surfaces.size());

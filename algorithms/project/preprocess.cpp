@@ -122,11 +122,12 @@ Status fill(const std::vector<FillTask>& tasks, std::vector<Surface>& surfaces, 
     return Done{};
 }
 
-Status stack(const std::vector<Layer>& order, double min_thickness, std::vector<Surface>& surfaces,
-             const Run& run, Preprocessed& done) {
+Status stack(const std::vector<Layer>& order, const Project& project,
+             std::vector<Surface>& surfaces, const Run& run, Preprocessed& done) {
     if (run.progress) run.progress("layers", 0);
-    auto layered = stack_layers(surfaces, order,
-                                {.min_thickness = min_thickness, .check = {.count_up_to = SIZE_MAX}}, run);
+    const LayerOptions options{.min_thickness = project.layers->min_thickness,
+                               .check = project.check};
+    auto layered = stack_layers(surfaces, order, options, run);
     if (!layered) return layered.error();
     auto replaced = surfaces_of(layered->rounded.mesh);
     for (std::size_t i = 0; i < order.size(); ++i)
@@ -158,8 +159,7 @@ Result<Preprocessed> preprocess(const Project& project, std::vector<Surface>& su
     if (!tasks->empty())
         if (auto filled = fill(*tasks, surfaces, run, done); !filled) return filled.error();
     if (!order->empty() && done.good())
-        if (auto stacked = stack(*order, project.layers->min_thickness, surfaces, run, done);
-            !stacked)
+        if (auto stacked = stack(*order, project, surfaces, run, done); !stacked)
             return stacked.error();
     return done;
 }

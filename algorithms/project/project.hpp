@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -11,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include <terrane/algorithms/check/pair_check.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
 #include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
@@ -118,6 +120,9 @@ struct Project {
     ProjectTetrahedra tetrahedra{};          ///< made where outputs.tetrahedra asks for them
     ProjectOutputs outputs{};                ///< what is written
     unsigned threads = 0;                    ///< 0: all cores
+    /// How meshes are shown to be conforming, and that it is counted what decided each pair of
+    /// triangles; no key of the file, as the result does not depend on it.
+    PairCheckOptions check{PairCheck::bounds, SIZE_MAX};
 };
 
 /// Returns the place of a key of the project, for messages: "project.json:

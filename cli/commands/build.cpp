@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -17,7 +18,9 @@
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/reports/fill_report.hpp>
 #include <terrane/cli/reports/improve_report.hpp>
+#include <terrane/cli/reports/pair_report.hpp>
 #include <terrane/cli/reports/tetrahedra_report.hpp>
+#include <terrane/cli/stages/block_certificate.hpp>
 #include <terrane/cli/stages/blocks.hpp>
 #include <terrane/cli/stages/certificate_output.hpp>
 #include <terrane/cli/stages/layer_stage.hpp>
@@ -36,7 +39,11 @@ struct BuildCommand {
     std::string project;             ///< the file
     std::string folder;              ///< empty: the folder that the project names
     std::optional<unsigned> threads; ///< none: the number that the project names
+    PairCheckOptions check{PairCheck::bounds, SIZE_MAX};
 };
+
+constexpr const char* blocks_certificate = "certificate_blocks.json";
+constexpr const char* tetrahedra_certificate = "certificate_tetrahedra.json";
 
 constexpr auto build_footer =
     R"(The whole chain from one file: surfaces are read, on request their holes filled as `terrane fill`
@@ -50,7 +57,8 @@ does. All results go to one new folder:
   model/                 blocks, interfaces and model.json, with outputs.blocks
   invented.csv           points that fill made up, with expected errors
   filled.svg             surfaces before and after it
-  certificate.json       for `terrane verify`, with outputs.certificate
+  certificate.json, ...  for `terrane verify`, with outputs.certificate; certificate_blocks.json of
+                         model/ and certificate_tetrahedra.json of the tetrahedra
   statistics.json        counts, times and memory, as --stats of the other commands
   log.txt                what was said, with times
 
@@ -128,6 +136,11 @@ private:
                 return Error{ErrorCode::bad_option,
                              "a certificate is about whole files, not about some of their objects",
                              fmt::format("{}: surfaces[{}].objects", source_, i)};
+        if (project_.outputs.certificate)
+            if (auto named =
+                    check_certified_names((folder_ / "certificate.json").string(), files());
+                !named)
+                return named;
         if (!project_.outputs.tetrahedra.empty())
             if (const auto helper = find_tetgen_helper(); !helper)
                 return Error{helper.error().code, helper.error().message(),
@@ -143,6 +156,7 @@ private:
         session_.end_stage();
         if (!inputs) return inputs.error();
         read_ = std::move(*inputs);
+        if (auto sound = check_read_names(); !sound) return sound;
         inputs_.surfaces_of_file = read_.surfaces_of_entry;
         inputs_.labels = unique_labels(infos_of(read_.build.surfaces));
         inputs_.vertices = read_.vertices;
@@ -150,6 +164,17 @@ private:
         timer.stop();
         statistics_ = statistics_of(inputs_, session_.times());
         return Done{};
+    }
+
+    /// Checks that a certificate can state the names of the surfaces, if one is wanted.
+    [[nodiscard]] Status check_read_names() const {
+        if (!project_.outputs.certificate) return Done{};
+        std::vector<std::string> names, paths;
+        for (std::size_t entry = 0; entry < project_.surfaces.size(); ++entry)
+            paths.insert(paths.end(), read_.surfaces_of_entry[entry],
+                         project_.surfaces[entry].file.string());
+        for (const SurfaceInfo& surface : read_.as_read) names.push_back(surface.name);
+        return check_certified_surfaces(names, paths);
     }
 
     Status make() {
@@ -225,7 +250,7 @@ private:
         const fs::path& to = folder.value().temporary();
         for (const auto step :
              {&Build::write_surfaces, &Build::write_tetrahedra_files, &Build::write_blocks,
-              &Build::write_invented, &Build::write_certificate}) {
+              &Build::write_invented, &Build::write_certificates}) {
             if (auto done = (this->*step)(to); !done) return done;
             if (session_.stopped()) return Error{ErrorCode::interrupted, "", ""};
         }
@@ -314,22 +339,58 @@ private:
         return files;
     }
 
-    Status write_certificate(const fs::path& to) {
+    /// Writes a certificate of the surfaces, one of the blocks and one of the tetrahedra, as far as
+    /// the project asks for their files.
+    Status write_certificates(const fs::path& to) {
         if (!project_.outputs.certificate) return Done{};
-        written_.emplace_back("certificate.json");
-        const auto path = to / written_.back();
         Arranged& arranged = built_.arranged; // the verifier reads the files, not the project
         for (std::size_t s = 0; s < read_.as_read.size(); ++s) {
             arranged.surfaces[s].name = read_.as_read[s].name;
             arranged.surfaces[s].role = read_.as_read[s].role;
         }
-        ProofFiles certified{files(), {}, true};
-        for (const std::string& format : project_.outputs.surfaces)
-            certified.outputs.push_back(
-                {(to / file_name("surfaces", format)).string(), format_named(format).value()});
-        const auto text = certificate_text(path.string(), certified, inputs_, arranged, session_);
+        const auto path = [&](const char* name) { return (to / name).string(); };
+        const ProofFiles certified{files(), outputs_in(to, "surfaces", project_.outputs.surfaces),
+                                   true};
+        if (auto done = write_certificate(
+                to, "certificate.json",
+                certificate_text(path("certificate.json"), certified, inputs_, arranged, session_));
+            !done)
+            return done;
+        FileOptions files_of_inputs;
+        files_of_inputs.inputs = files();
+        const auto proof = [&](const char* name) {
+            return BlockProof{path(name), files_of_inputs, inputs_, {}, arranged};
+        };
+        if (!project_.outputs.blocks.empty())
+            if (auto done = write_certificate(to, blocks_certificate,
+                                              certificate_text(proof(blocks_certificate),
+                                                               *built_.model, to / "model",
+                                                               project_.outputs.blocks, session_));
+                !done)
+                return done;
+        if (!built_.filled) return Done{};
+        return write_certificate(
+            to, tetrahedra_certificate,
+            certificate_text(proof(tetrahedra_certificate), *built_.model,
+                             built_.filled->tetrahedra,
+                             outputs_in(to, "tetrahedra", project_.outputs.tetrahedra), session_));
+    }
+
+    Status write_certificate(const fs::path& to, const char* name,
+                             const Result<std::string>& text) {
         if (!text) return text.error();
-        return write_file(path, text.value());
+        written_.emplace_back(name);
+        return write_file(to / name, *text);
+    }
+
+    /// Returns the files with these formats in the folder.
+    static std::vector<Output> outputs_in(const fs::path& to, const std::string& start,
+                                          const std::vector<std::string>& formats) {
+        std::vector<Output> outputs;
+        for (const std::string& format : formats)
+            outputs.push_back(
+                {(to / file_name(start, format)).string(), format_named(format).value()});
+        return outputs;
     }
 
     const Project& project_;
@@ -346,8 +407,9 @@ private:
 };
 
 Result<ExitStatus> build(const BuildCommand& command) {
-    const auto project = read_project(command.project);
+    auto project = read_project(command.project);
     if (!project) return project.error();
+    project.value().check = command.check;
     Session session(command.threads.value_or(project.value().threads));
     const fs::path folder =
         command.folder.empty() ? project.value().folder : fs::path(command.folder);
@@ -371,6 +433,7 @@ Command build_command(CLI::App& program) {
                     "says)")
         ->check(CLI::Range(0U, most_threads).description(""))
         ->type_name("N");
+    add_check(*app, command->check);
     app->footer(build_footer);
     return {app, [command] {
                 const auto status = build(*command);

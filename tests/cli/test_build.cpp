@@ -197,8 +197,27 @@ TEST_CASE("cli: build: a certificate that verify takes", "[cli]") {
     CHECK(contains(verified.out, "surfaces.vtp: holds these triangles, bit for bit"));
     CHECK(contains(verified.out, "surfaces_22.msh: NOT verified"));
     CHECK(c.folder.run("verify out/certificate.json --output out/surfaces.vtp").status == 0);
+    const auto blocks = c.folder.run("verify out/certificate_blocks.json");
+    INFO(blocks.out);
+    CHECK(blocks.status == 0);
+    CHECK(contains(blocks.out, "model/result.vtp: holds these triangles, bit for bit"));
     c.folder.input("fault.obj", std::string(fault) + "v 0 0 0\n"); // differs from what was read
     CHECK(c.folder.run("verify out/certificate.json").status == 1);
+    CHECK(c.folder.run("verify out/certificate_blocks.json").status == 1);
+}
+
+TEST_CASE("cli: build: with --check full all pairs of boxes are tested, with the same result",
+          "[cli]") {
+    const Case c;
+    REQUIRE(c.build(project(), "-o bounds").status == 0);
+    const auto full = c.build(project(), "-o full --check full");
+    INFO(full.err);
+    REQUIRE(full.status == 0);
+    CHECK(contains(
+        full.out,
+        "; 0 cleared by proven bounds (0 in injective patches, 0 by separation); 0 not moved"));
+    CHECK(c.folder.read("full/surfaces.vtp") == c.folder.read("bounds/surfaces.vtp"));
+    CHECK(c.build(project(), "-o other --check some").status == 2);
 }
 
 TEST_CASE("cli: build: what is wrong is named by its key, and nothing is written", "[cli]") {
@@ -245,6 +264,22 @@ TEST_CASE("cli: build without a conforming mesh writes nothing", "[cli]") {
 }
 
 #ifdef TERRANE_HAS_TETGEN
+
+TEST_CASE("cli: build: a certificate of tetrahedra that verify takes", "[cli]") {
+    const Case c;
+    auto json = project();
+    json.erase("volume_of_interest");
+    json["surfaces"][0].erase("objects");
+    json["outputs"] = Json::parse(R"({"tetrahedra": ["vtu", "msh22"], "certificate": true})");
+    const auto r = c.build(json);
+    INFO(r.err);
+    REQUIRE(r.status == 0);
+    const auto verified = c.folder.run("verify out/certificate_tetrahedra.json");
+    INFO(verified.out);
+    CHECK(verified.status == 0);
+    CHECK(contains(verified.out, "tetrahedra_22.msh: holds these tetrahedra, bit for bit"));
+    CHECK(contains(verified.out, "tetrahedra.vtu: holds these tetrahedra, bit for bit"));
+}
 
 TEST_CASE("cli: build: tetrahedra with sizes and cuts, by name", "[cli]") {
     const Case c;
