@@ -341,11 +341,11 @@ FILES.update({
 
 
 def forge():
-    """A list of changes (forge_changes.hpp), then an OBJ file: each kind of change once per part."""
+    """A list of changes (forge_changes.hpp), then an OBJ file: each change once per part."""
     certified = pathlib.Path(__file__).parent.parent / "tests" / "certified"
     inputs = ["contact_pierced", "coplanar_overlap", "junction_x", "triple_point", "duplicates",
               "degenerate", "triple_point_inexact", "tetrahedra_star", "one_ulp_tilted", "tips_touch"]
-    kinds, change, most = 29, 8, 3
+    kinds, change, most = 36, 8, 3
     for kind in range(kinds):
         for part in range(3):
             name = inputs[(3 * kind + part) % len(inputs)]
@@ -355,10 +355,22 @@ def forge():
                    header + (certified / name / "input.obj").read_bytes())
 
 
+def forge_kind():
+    """The same for a kind that has small models of its own (forge_subjects.cpp); with output files that
+    follow the changes, or not."""
+    change, most = 8, 3
+    for kind in range(46):
+        first = bytes([kind, 5 * kind % 256, 7 * kind % 256, 0, kind % 7, kind + 1, 5 + kind, 0])
+        yield (f"change_{kind:02}", bytes([most * (kind // 2 % 2)]) + first +
+               bytes(change * (most - 1)) + bytes([kind % 2]))
+
+
 def main():
     folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else
                           pathlib.Path(__file__).parent / "corpus")
-    targets = {"tri_tri": tri_tri, "corefine": corefine, "predicates": predicates, "search": search, "forge": forge,
+    targets = {"tri_tri": tri_tri, "corefine": corefine, "predicates": predicates, "search": search,
+               "forge_arrangement": forge, "forge_volumes": forge_kind, "forge_tetrahedra": forge_kind,
+               "forge_improved": forge_kind, "forge_filled": forge_kind,
                "arrange": soups, "rounding": soups, "regions": soups, "volumes": soups, "tetrahedra": soups}
     seeds = {t: dict(make()) for t, make in targets.items()}
     for fmt, files in FILES.items():

@@ -14,7 +14,8 @@ seconds=${1:-60}
 shift || true
 targets=("$@")
 [[ ${#targets[@]} -gt 0 ]] ||
-    targets=(corefine arrange rounding tetrahedra predicates tri_tri search regions volumes forge
+    targets=(corefine arrange rounding tetrahedra predicates tri_tri search regions volumes
+             forge_arrangement forge_volumes forge_tetrahedra forge_improved forge_filled
              read_ts read_ml read_obj read_off read_stl read_ply read_irap read_zmap read_cps3
              read_asc read_xyz read_vs)
 
@@ -40,7 +41,7 @@ run_target() {
     if [[ $target == read_* ]]; then
         options=(-max_len=4096 -malloc_limit_mb=256 "-dict=$PWD/fuzz/dictionaries/${target#read_}.dict")
     fi
-    [[ $target != forge ]] || options[0]=-max_len=4096 # it has an OBJ file in it
+    [[ $target != forge_arrangement ]] || options[0]=-max_len=4096 # it has an OBJ file in it
     # len_control lets inputs grow sooner. entropic is off, as its cost is linear in the features of
     # a run and took two thirds of the time.
     "$binaries/fuzz_$target" "${options[@]}" -seed="$seed" -max_total_time="$seconds" -timeout=20 \
@@ -55,11 +56,11 @@ for target in "${targets[@]}"; do
 done
 wait
 
-printf '%-12s %12s %9s %9s %9s\n' target executions per_second edges features
+printf '%-17s %12s %9s %9s %9s\n' target executions per_second edges features
 for target in "${targets[@]}"; do
     log=$results/$target.log
     progress=$(grep -aE '^#[0-9]+.* cov: ' "$log" | tail -1) || true # no line if the first seed failed
-    printf '%-12s %12s %9s %9s %9s\n' "$target" \
+    printf '%-17s %12s %9s %9s %9s\n' "$target" \
         "$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")" \
         "$(sed -n 's/^stat::average_exec_per_sec: *//p' "$log")" \
         "$(sed -nE 's/.* cov: ([0-9]+).*/\1/p' <<<"$progress")" \

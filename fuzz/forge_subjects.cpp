@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "forge_subjects.hpp"
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include <terrane/algorithms/arrangement/arrangement.hpp>
+#include <terrane/algorithms/mesh/submesh.hpp>
+#include <terrane/algorithms/model/model.hpp>
+#include <terrane/algorithms/quality/improve_measured.hpp>
+#include <terrane/algorithms/reconstruction/fill.hpp>
+#include <terrane/algorithms/rounding/rounding.hpp>
+#include <terrane/algorithms/tetgen/fill_blocks.hpp>
+#include <terrane/io/block_certificate.hpp>
+#include <terrane/io/certificate.hpp>
+#include <terrane/io/files.hpp>
+#include <terrane/io/meshes/gmsh.hpp>
+#include <terrane/io/meshes/vtk.hpp>
+
+#include "forge_meaning.hpp"
+#include "report.hpp"
+#include "support/block_folder.hpp"
+
+namespace terrane::fuzz {
+
+namespace {
+
+constexpr std::size_t most_triangles = 60;
+
+template <class T>
+T needed(Result<T> result) {
+    if (!result) fail("no base model: " + result.error().message());
+    return std::move(result).value();
+}
+
+/// What the producer makes of an OBJ file, before its kind matters.
+struct Arranged {
+    Subject subject;
+    std::vector<InputRecord> records;
+    Arrangement exact;
+    RoundedMesh rounded;
+};
+
+std::optional<Arranged> arranged(std::string_view obj) {
+    Arranged a;
+    auto surfaces = parse_surfaces(obj, "input.obj", Format::obj);
+    if (!surfaces) return std::nullopt;
+    std::size_t count = 0;
+    for (const Surface& surface : *surfaces) count += surface.triangles.size();
+    if (count > most_triangles) return std::nullopt;
+    a.subject.surfaces = std::move(surfaces).value();
+    a.subject.files = {input_file(obj, a.subject.surfaces)};
+    a.records = {{"input.obj", a.subject.files[0].sha256, a.subject.files[0].bytes,
+                  a.subject.surfaces.size()}};
+    auto exact = arrange(a.subject.surfaces);
+    if (!exact || exact->triangles.size() > 4 * most_triangles) return std::nullopt;
+    a.exact = std::move(exact).value();
+    auto rounded = round_to_doubles(a.exact);
+    if (!rounded) return std::nullopt;
+    a.rounded = std::move(rounded).value();
+    return a;
+}
+
+OutputRecord add_output(Subject& subject, const std::string& name, const std::string& format,
+                        std::string contents, const std::vector<SurfaceInfo>& surfaces) {
+    subject.contents.push_back(std::move(contents));
+    return record_output(subject.contents.back(), name, format, surfaces);
+}
+
+void parse(Subject& subject, const std::string& text) {
+    auto parsed = parse_certificate(text, "certificate");
+    if (!parsed) fail("a certificate that can't be parsed: " + parsed.error().message());
+    subject.certificate = std::move(parsed).value();
+}
+
+// --- Models -------------------------------------------------------------------------------------
+
+/// A tetrahedron with a right-angled corner.
+Surface corner(const std::string& name, const Point3& at, double size) {
+    Surface s{name, Role::unknown, {}, {}};
+    s.vertices = {
+        at, {at.x + size, at.y, at.z}, {at.x, at.y + size, at.z}, {at.x, at.y, at.z + size}};
+    s.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+    return s;
+}
+
+Surface triangle(const std::string& name, const Point3& a, const Point3& b, const Point3& c) {
+    return {name, Role::unknown, {a, b, c}, {{0, 1, 2}}};
+}
+
+/// A wavy grid of n x n squares without those from `low` to `high` in both directions.
+Surface grid(const std::string& name, int n, double height, int low, int high) {
+    Surface s{name, Role::unknown, {}, {}};
+    for (int i = 0; i <= n; ++i)
+        for (int j = 0; j <= n; ++j)
+            s.vertices.push_back(
+                {static_cast<double>(i), static_cast<double>(j),
+                 std::round(64 * height * std::sin(0.8 * i) * std::cos(0.6 * j)) / 64});
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) {
+            if (i >= low && i < high && j >= low && j < high) continue;
+            const auto a = static_cast<std::uint32_t>(i * (n + 1) + j);
+            const auto b = a + static_cast<std::uint32_t>(n) + 1;
+            s.triangles.push_back({a, b, b + 1});
+            s.triangles.push_back({a, b + 1, a + 1});
+        }
+    return s;
+}
+
+using Model3 = std::vector<Surface>;
+
+/// A body in a body, a sheet that pierces the outer one, and a body apart.
+Model3 nested() {
+    return {corner("outer", {0, 0, 0}, 8), corner("inner", {1, 1, 1}, 1),
+            triangle("sheet", {-1, 2, 1}, {9, 3, 1.5}, {2, -1, 5}), corner("apart", {20, 0, 0}, 1)};
+}
+
+/// Bodies that share a side, and one that touches a corner.
+Model3 touching() {
+    return {corner("a", {0, 0, 0}, 2),
+            corner("b", {0, 0, 0}, -2),
+            corner("c", {2, 0, 0}, 1),
+            {"d",
+             Role::unknown,
+             {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {1, 1, -3}},
+             {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}}};
+}
+
+// --- Kinds --------------------------------------------------------------------------------------
+
+Arranged with_blocks(const Model3& surfaces, Model& model) {
+    auto a = arranged(obj_text(surfaces));
+    if (!a || !a->rounded.conforming) fail("no base model: it cannot be rounded");
+    model = needed(make_model(a->exact, *a->rounded.conforming));
+    a->subject.mesh = *model.mesh;
+    a->subject.volumes = model.volumes;
+    return std::move(*a);
+}
+
+Subject volumes_subject(const Model3& surfaces, const std::string& part_format) {
+    Model model{*arranged(obj_text(surfaces)).value().rounded.conforming};
+    Arranged a = with_blocks(surfaces, model);
+    std::vector<OutputRecord> outputs;
+    for (auto& [name, contents] : block_folder::folder_of(model, part_format))
+        outputs.push_back(add_output(a.subject, "model/" + name, name.substr(name.rfind('.') + 1),
+                                     contents, model.mesh->surfaces));
+    parse(a.subject, to_certificate({a.records, a.subject.surfaces, a.exact, &a.rounded, outputs},
+                                    {model.volumes, model.block_count()}));
+    return std::move(a.subject);
+}
+
+#ifdef TERRANE_HAS_TETGEN
+Model3 body_in_body() {
+    return {corner("outer", {0, 0, 0}, 8), corner("inner", {1, 1, 1}, 1)};
+}
+
+Model3 divided_body() {
+    return {corner("body", {0, 0, 0}, 8), triangle("sheet", {-1, -1, 1}, {20, -1, 2}, {-1, 20, 3})};
+}
+
+Subject tetrahedra_subject(const Model3& surfaces, const TetrahedraRequest& request) {
+    Model model{*arranged(obj_text(surfaces)).value().rounded.conforming};
+    Arranged a = with_blocks(surfaces, model);
+    const FilledBlocks filled = needed(fill_blocks(model, request));
+    const TetrahedralMesh& mesh = filled.tetrahedra;
+    const std::vector<OutputRecord> outputs{
+        add_output(a.subject, "out.vtu", "vtu", needed(to_vtu(mesh, false, {})), mesh.surfaces),
+        add_output(a.subject, "out.msh", "msh", to_msh(mesh, {}), mesh.surfaces)};
+    parse(a.subject, to_certificate({a.records, a.subject.surfaces, a.exact, &a.rounded, outputs},
+                                    {model.volumes, model.block_count()}, mesh));
+    return std::move(a.subject);
+}
+#endif
+
+Subject improved_subject(const Model3& surfaces, const ImproveOptions& options) {
+    auto a = arranged(obj_text(surfaces));
+    if (!a || !a->rounded.conforming) fail("no base model: it cannot be rounded");
+    const auto made = needed(improve_and_measure(*a->rounded.conforming, options));
+    const Mesh& mesh = made.improved.mesh;
+    const std::vector<OutputRecord> outputs{add_output(
+        a->subject, "out.obj", "obj", needed(format_mesh(mesh, Format::obj)), mesh.surfaces)};
+    parse(a->subject,
+          to_improved_certificate({a->records, a->subject.surfaces, a->exact, &a->rounded, outputs},
+                                  mesh, made.improved.report.bound_of));
+    return std::move(a->subject);
+}
+
+Subject filled_subject(const Model3& surfaces, FillMethod method) {
+    Subject s;
+    const std::string obj = obj_text(surfaces);
+    s.surfaces = needed(parse_surfaces(obj, "input.obj", Format::obj));
+    s.files = {input_file(obj, s.surfaces)};
+    const std::vector<InputRecord> records{
+        {"input.obj", s.files[0].sha256, s.files[0].bytes, s.surfaces.size()}};
+    std::vector<FillTask> tasks;
+    for (std::uint32_t i = 0; i < s.surfaces.size(); ++i) {
+        tasks.push_back({SurfaceId(i), {}});
+        tasks.back().options.method = method;
+    }
+    const FillWork work = needed(fill_surfaces(s.surfaces, tasks));
+    std::vector<Surface> filled;
+    std::vector<FilledRecord> parts;
+    for (const HoledSurface& surface : work.surfaces) {
+        filled.push_back(surface.filled);
+        parts.push_back({&surface.filled, surface.given_vertices, surface.given_triangles});
+    }
+    const Mesh mesh = concatenate(filled);
+    const std::vector<OutputRecord> outputs{
+        add_output(s, "out.obj", "obj", needed(format_mesh(mesh, Format::obj)), mesh.surfaces)};
+    parse(s, to_filled_certificate(records, s.surfaces, outputs, parts));
+    return s;
+}
+
+} // namespace
+
+std::optional<Subject> arrangement_subject(std::string_view obj) {
+    auto a = arranged(obj);
+    if (!a) return std::nullopt;
+    const Mesh& mesh = *a->rounded.mesh;
+    const std::vector<OutputRecord> outputs{add_output(
+        a->subject, "out.obj", "obj", needed(format_mesh(mesh, Format::obj)), mesh.surfaces)};
+    parse(a->subject,
+          to_certificate({a->records, a->subject.surfaces, a->exact, &a->rounded, outputs}));
+    return std::move(a->subject);
+}
+
+std::vector<Subject> subjects_of(CertificateKind kind) {
+    switch (kind) {
+    case CertificateKind::volumes:
+        return {volumes_subject(nested(), "obj"), volumes_subject(touching(), "vtp")};
+    case CertificateKind::tetrahedra:
+#ifdef TERRANE_HAS_TETGEN
+        return {tetrahedra_subject(body_in_body(), {}),
+                tetrahedra_subject(divided_body(), {.split = {{"sheet", ""}}, .outside = false})};
+#else
+        return {};
+#endif
+    case CertificateKind::improved:
+        return {improved_subject({grid("horizon", 3, 0.25, 3, 3),
+                                  triangle("wall", {1.25, -1, -2}, {1.5, 5, -2}, {1.5, 2, 3})},
+                                 {.edge_length = 1.2}),
+                improved_subject({triangle("a", {0, 0, 0}, {8, 0, 0}, {0, 8, 0}),
+                                  triangle("b", {2, 1, -2}, {2, 5, -2}, {2, 3, 2})},
+                                 {.edge_length = 3.5})};
+    case CertificateKind::filled:
+        return {filled_subject({grid("holed", 5, 0.4, 2, 4)}, FillMethod::rbf),
+                filled_subject({triangle("whole", {0, 0, 9}, {5, 0, 9}, {0, 5, 9}),
+                                grid("holed", 4, 0.25, 1, 3)},
+                               FillMethod::kriging)};
+    default:
+        return {};
+    }
+}
+
+bool write_outputs(const Subject& subject, const Certificate& certificate, Contents& contents) {
+    if (certificate.outputs.size() != contents.size()) return false;
+    for (std::size_t i = 0; i < contents.size(); ++i) {
+        Result<std::string> text = Error{};
+        if (certificate.kind == CertificateKind::tetrahedra) {
+            const auto mesh = tetrahedra_of(subject, certificate);
+            if (!mesh) return false;
+            text = certificate.outputs[i].format == "vtu" ? to_vtu(*mesh, false, {})
+                                                          : Result<std::string>(to_msh(*mesh, {}));
+        } else if (certificate.kind != CertificateKind::volumes) {
+            const auto mesh = mesh_of(subject, certificate);
+            if (!mesh) return false;
+            text = format_mesh(*mesh, Format::obj);
+        }
+        if (!text) return false;
+        contents[i] = std::move(text).value();
+    }
+    return true;
+}
+
+} // namespace terrane::fuzz

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Changes of lists, of blocks and tetrahedra, and of output files in certificates.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "forge_changes.hpp"
+#include "forge_parts.hpp"
+
+namespace terrane::fuzz {
+
+struct Change {
+    const char* name;
+    void (*make)(Certificate&, const Arguments&);
+};
+
+/// Makes a number small, one more, one less, another side, or the mark of none.
+void change_number(std::uint32_t& number, const Arguments& arguments);
+
+/// Returns the changes that only certificates of a kind have.
+std::span<const Change> changes_of(CertificateKind kind);
+
+/// Changes one of the lists of a certificate, together with those that are parallel to it or not:
+/// drops, repeats or exchanges elements, changes a number, empties it.
+std::string change_table(Certificate& certificate, unsigned which, const Arguments& arguments);
+
+/// Changes what the certificate says of its output files, or a byte of one.
+std::string change_files(Certificate& certificate, Contents& contents, const Arguments& arguments);
+
+} // namespace terrane::fuzz
