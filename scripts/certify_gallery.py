@@ -1,0 +1,211 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Makes certificates of every kind on real models and tries to have forged output files accepted.
+
+  scripts/certify_gallery.py [--terrane PROGRAM] [--data FOLDER] [--places N] [--scratch FOLDER] [KIND...]
+
+For each model it runs the command without and with --certificate, verifies the certificate, then changes one byte of
+a number in each output file, at N places one after the other (default 3), computes the hashes in the certificate
+anew, and demands that `terrane verify` refuses each of these files. It prints a table in Markdown, with times of all
+processors together; the status is 1 if a certificate was refused or a forged file accepted. FOLDER has the models
+(default ../shared/data); those that are missing are left out and named. KIND chooses among the kinds (default: all).
+"""
+import argparse
+import hashlib
+import json
+import os
+import pathlib
+import re
+import resource
+import subprocess
+import sys
+import tempfile
+from dataclasses import dataclass, field
+
+RING, PYTOOLS = "ringmesh+RINGMesh", "xaliphostes+xali-pytools/data/models"
+ARCH, CGAL = "xaliphostes+arch-platform/public/models", "debian+libcgal-demo/data/meshes"
+MODELS = {
+    "modelA1": f"{RING}/modelA1.ml",
+    "modelA2": f"{RING}/modelA2.ml",
+    "cube, not sealed": f"{RING}/not_sealed_cube.ml",
+    "gom": f"{PYTOOLS}/gom.ts",
+    "tindel": f"{PYTOOLS}/tindel.ts",
+    "sphere": f"{PYTOOLS}/sphere.ts",
+    "Tet faults": f"{ARCH}/Tet/faults.ts",
+    "NashPoint joints": f"{ARCH}/NashPoint/all_joints_3D.ts",
+    "mannequin-devil": f"{CGAL}/mannequin-devil.off",
+    "elephant with holes": f"{CGAL}/elephant-with-holes.off",
+    "shark with holes": f"{CGAL}/mech-holes-shark.off",
+    "mesh with border": f"{CGAL}/mesh_with_border.off",
+    "mask": f"{CGAL}/mask_cone.off",
+    "patch": f"{CGAL}/patch-01.off",
+    "double torus": f"{CGAL}/double-torus-3-holes.off",
+    "three blobs": f"{CGAL}/blobby_3cc.off",
+    "bull": f"{CGAL}/bull.off",
+    "horizons": f"{CGAL}/horizons.off",
+}
+
+
+@dataclass
+class Kind:
+    """How to make a certificate of one kind: the words before and after the input file, the outputs, the models."""
+    command: list
+    outputs: list
+    models: list
+    options: list = field(default_factory=list)
+
+
+SURFACES = ["out.obj", "out.vtp", "out.ply"]
+KINDS = {
+    "arrangement": Kind(["arrange"], SURFACES,
+                        ["modelA1", "modelA2", "gom", "tindel", "Tet faults", "NashPoint joints", "mannequin-devil"]),
+    "volumes": Kind(["volume"], ["model"],
+                    ["modelA1", "modelA2", "gom", "three blobs", "double torus", "bull"], ["--parts", "obj"]),
+    "tetrahedra": Kind(["tetrahedralize"], ["out.vtu", "out.msh"],
+                       ["modelA1", "cube, not sealed", "sphere", "three blobs", "double torus", "gom"]),
+    "improved": Kind(["improve"], SURFACES,
+                     ["modelA1", "tindel", "three blobs", "horizons", "double torus", "bull"]),
+    "filled": Kind(["fill"], SURFACES,
+                   ["elephant with holes", "shark with holes", "mesh with border", "mask", "patch"],
+                   ["--method", "rbf"]),
+    # The kinds cut, sealed and layered get their entries here.
+}
+
+
+@dataclass
+class Outcome:
+    """What a run of the program took."""
+    status: int
+    seconds: float  # of all processors
+    megabytes: float
+    out: str
+    err: str
+
+
+def run(words, folder):
+    """Runs the program in a folder."""
+    with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
+        child = subprocess.Popen([str(w) for w in words], cwd=folder, stdout=out, stderr=err)
+        _, status, usage = os.wait4(child.pid, 0)
+        child.returncode = os.waitstatus_to_exitcode(status)
+        texts = []
+        for stream in (out, err):
+            stream.seek(0)
+            texts.append(stream.read().decode(errors="replace"))
+    return Outcome(child.returncode, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024, *texts)
+
+
+def changed_digit(data, at):
+    """Replaces the digit at a place by another one."""
+    return data[:at] + (b"5" if data[at:at + 1] != b"5" else b"6") + data[at + 1:]
+
+
+def place_in(places, share):
+    return places[min(int(share * len(places)), len(places) - 1)]
+
+
+def forged(name, data, share):
+    """Changes one byte of a number, at about this share of the file."""
+    if name.endswith(".ply"):
+        start = data.index(b"end_header\n") + len(b"end_header\n")
+        at = start + int(share * (len(data) - start - 1))
+        return data[:at] + bytes([data[at] ^ 1]) + data[at + 1:]
+    if name.endswith((".vtp", ".vtu")):  # numbers are compressed and in base64
+        numbers = list(re.finditer(rb"[A-Za-z0-9+/]{40,}", data))
+        found = place_in(numbers, share)
+        at = (found.start() + found.end()) // 2
+        return data[:at] + (b"B" if data[at:at + 1] != b"B" else b"C") + data[at + 1:]
+    pattern = {".obj": rb"(?m)^[vf] [^\n]*?(\d)[^\d\n]*$", ".json": rb'"volume_written":-?(\d)|"volumes":\[(\d)'}
+    if name.endswith(".msh"):
+        pattern[".msh"] = rb"(?m)^-?[\d.e-]+ -?[\d.e-]+ -?\d*?(\d)[\d.e-]*$"
+    found = place_in(list(re.finditer(pattern[pathlib.Path(name).suffix], data)), share)
+    return changed_digit(data, found.start(next(g for g in range(1, found.re.groups + 1) if found.group(g))))
+
+
+def accepted_forgeries(terrane, folder, share):
+    """Changes each output file and returns those that the verifier accepts, and the number of all."""
+    text = (folder / "certificate.json").read_text()
+    certificate = json.loads(text)
+    right = {}
+    for output in certificate["outputs"]:
+        path = folder / output["name"]
+        right[path] = path.read_bytes()
+        wrong = forged(output["name"], right[path], share)
+        assert len(wrong) == len(right[path]) and wrong != right[path]
+        path.write_bytes(wrong)
+        text = text.replace(output["sha256"], hashlib.sha256(wrong).hexdigest())
+    (folder / "forged.json").write_text(text)
+    verdict = run([terrane, "verify", "--json", "forged.json"], folder)
+    for path, data in right.items():
+        path.write_bytes(data)
+    outputs = json.loads(verdict.out)["outputs"]
+    return [o["name"] for o in outputs if o["state"] != "refuted"], len(certificate["outputs"])
+
+
+def memory_text(megabytes):
+    """Linux counts the memory of this script, from which the program is started, as the least."""
+    own = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+    return f"{megabytes:.0f} MB" if megabytes > 1.05 * own else f"at most {megabytes:.0f} MB"
+
+
+def triangles_of(certificate):
+    return sum(s["triangles"] for i in certificate["inputs"] for s in i["surfaces"])
+
+
+def judge(options, name, kind, model, source):
+    """Judges one model; returns the cells of its row, and what is wrong."""
+    with tempfile.TemporaryDirectory(dir=options.scratch) as scratch:
+        folder = pathlib.Path(scratch)
+        base = [options.terrane, *kind.command, source, *kind.options]
+        outputs = [word for output in kind.outputs for word in ("-o", output)]
+        plain_folder = folder / "plain"
+        plain_folder.mkdir()
+        plain = run(base + outputs, plain_folder)
+        made = run(base + outputs + ["--certificate", "certificate.json"], folder)
+        if made.status not in (0, 1) or not (folder / "certificate.json").exists():
+            return None, f"{name}, {model}: no certificate: {made.err.strip().splitlines()[-1:]}"
+        verified = run([options.terrane, "verify", "--json", "certificate.json"], folder)
+        triangles = triangles_of(json.loads((folder / "certificate.json").read_text()))
+        refused = tried = 0
+        wrong = "" if verified.status == 0 else f"{name}, {model}: refused: {verified.out[-400:]}{verified.err}"
+        for place in range(options.places if verified.status == 0 else 0):
+            accepted, count = accepted_forgeries(options.terrane, folder, (place + 0.5) / options.places)
+            refused += count - len(accepted)
+            tried += count
+            for file in accepted:
+                wrong += f"{name}, {model}: accepted: a forged {file}\n"
+        return [name, model, f"{triangles:,}".replace(",", " "), f"{plain.seconds:.2f} s", f"{made.seconds:.2f} s",
+                f"{verified.seconds:.2f} s", memory_text(verified.megabytes), f"{refused} of {tried}"], wrong
+
+
+def main():
+    home = pathlib.Path(__file__).resolve().parent.parent
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("kinds", nargs="*", choices=[*KINDS, []], metavar="KIND")
+    parser.add_argument("--terrane", type=pathlib.Path, default=home / "build/release/cli/terrane")
+    parser.add_argument("--data", type=pathlib.Path, default=home.parent / "shared/data")
+    parser.add_argument("--places", type=int, default=3)
+    parser.add_argument("--scratch", type=pathlib.Path)
+    options = parser.parse_args()
+    options.terrane = options.terrane.resolve()
+    print("| kind | model | triangles | made | made with certificate | verified | memory of verify | forged files refused |")
+    print("|---|---|--:|--:|--:|--:|--:|--:|", flush=True)
+    flaws = []
+    for name in options.kinds or KINDS:
+        for model in KINDS[name].models:
+            source = (options.data / MODELS[model]).resolve()
+            if not source.exists():
+                print(f"certify_gallery: {source} is missing", file=sys.stderr)
+                continue
+            row, wrong = judge(options, name, KINDS[name], model, source)
+            if row:
+                print("| " + " | ".join(row) + " |", flush=True)
+            if wrong:
+                flaws.append(wrong)
+    for wrong in flaws:
+        print("certify_gallery: " + wrong, file=sys.stderr)
+    return 1 if flaws else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
