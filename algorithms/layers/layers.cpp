@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -163,6 +164,44 @@ double width_of_steps(const RoundedMesh& rounded) {
 }
 
 Result<Layered> stack_valid(std::span<const Surface> surfaces, std::span<const Layer> order,
+                            const LayerOptions& options, const Run& run);
+
+/// Stacks layers again that rounding put out of order: copies of layers, moved by the minimum
+/// thickness and rounded, cross each other at slightly different places than the layers do. Now
+/// heights and thickness are multiples of a power of two, so that no copy is rounded. Returns
+/// nothing if that does not help.
+Result<std::optional<Layered>> stack_again(std::span<const Surface> surfaces,
+                                           std::span<const Layer> order,
+                                           const LayerOptions& options, const Run& run) {
+    // Copies of each layer are moved by at most one step per other layer, in either direction.
+    double highest = static_cast<double>(order.size()) * options.min_thickness;
+    for (const Surface& s : surfaces)
+        for (const Point3& p : s.vertices) highest = std::max(highest, std::fabs(p.z));
+    constexpr int digits = std::numeric_limits<double>::digits;
+    const double unit = std::ldexp(1.0, std::ilogb(highest) + 2 - digits);
+    if (!(unit > 0)) return {std::nullopt}; // no doubles in between
+    const auto rounded = [&](double z) { return std::nearbyint(z / unit) * unit; };
+    std::vector<Surface> exact(surfaces.begin(), surfaces.end());
+    bool is_changed = false;
+    LayerOptions same = options;
+    same.min_thickness = rounded(options.min_thickness);
+    for (Surface& s : exact)
+        for (Point3& p : s.vertices) {
+            const double z = rounded(p.z);
+            is_changed = is_changed || z != p.z;
+            p.z = z;
+        }
+    if (!(same.min_thickness > 0) || (!is_changed && same.min_thickness == options.min_thickness))
+        return {std::nullopt};
+    Run quiet = run;
+    quiet.progress = nullptr;
+    auto again = stack_valid(exact, order, same, quiet);
+    if (!again && again.error().code == ErrorCode::interrupted) return again.error();
+    if (!again || !again->is_stack()) return {std::nullopt};
+    return {std::move(*again)};
+}
+
+Result<Layered> stack_valid(std::span<const Surface> surfaces, std::span<const Layer> order,
                             const LayerOptions& options, const Run& run) {
     const auto progress = [&](double share) {
         if (run.progress) run.progress("layers", share);
@@ -199,6 +238,11 @@ Result<Layered> stack_valid(std::span<const Surface> surfaces, std::span<const L
     const double width = width_of_steps(*rounded);
     auto flaws = find_out_of_order(*rounded->mesh, width, run);
     if (!flaws) return flaws.error();
+    if (thick && !flaws->empty()) {
+        auto again = stack_again(surfaces, order, options, run);
+        if (!again) return again.error();
+        if (*again) return std::move(**again);
+    }
     progress(1);
     return Layered{std::move(*rounded), resolver.reports(), width, std::move(*flaws)};
 }

@@ -14,7 +14,9 @@
 //       one are dropped, and those of the harder one above (below) them are taken;
 //   (4) with a minimum thickness D, a soft horizon keeps this distance from harder ones, which take
 //       part as copies moved up or down by D. Where two harder ones leave less room than D, the
-//       soft one coincides with the upper one;
+//       soft one coincides with the upper one. Copies are rounded, so layers may come out of order by
+//       rounding errors; such a stack is made once more, of heights and a thickness rounded to
+//       multiples of a power of two, the spacing of doubles at the largest height or twice that;
 //   (5) the result is rounded to doubles and checked exactly (rounding.hpp);
 //   (6) other code checks the doubles exactly for layers above others that are higher in the order,
 //       over each place (order_check.hpp).
