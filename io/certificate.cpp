@@ -97,15 +97,16 @@ void write_rounded(CertificateWriter& out, const Arrangement& exact, const Round
 } // namespace
 
 void detail::write_arrangement(CertificateWriter& out, const Certified& certified, const Run& run) {
+    const Arrangement& all = certified.whole == nullptr ? certified.exact : *certified.whole;
     out.raw(",\n\"exact\":");
-    write_exact(out, certified.exact);
+    write_exact(out, all);
     out.raw(",\n\"rounded\":");
     if (certified.rounded == nullptr)
         out.raw("null");
     else
         write_rounded(out, certified.exact, *certified.rounded);
     out.raw(",\n\"digest\":");
-    out.quote(canonical_digest(certified.surfaces, certified.exact, run));
+    out.quote(canonical_digest(certified.surfaces, all, run));
 }
 
 Result<InputRecord> record_input(const fs::path& path, std::string name, std::size_t surfaces) {

@@ -48,6 +48,7 @@
 // The program refuses such names before the work.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <span>
@@ -58,6 +59,7 @@
 #include <terrane/algorithms/arrangement/arrangement.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
+#include <terrane/algorithms/layers/layers.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
@@ -101,11 +103,40 @@ struct Certified {
     const Arrangement& exact;                ///< of these surfaces
     const RoundedMesh* rounded = nullptr;    ///< nullptr: "rounded" is null
     std::span<const OutputRecord> outputs{}; ///< the files that hold the rounded mesh
+    const Arrangement* whole = nullptr; ///< what `exact` was cut out of; nullptr: nothing was cut
 };
 
 /// Returns the text of a certificate. Cost: linear; a second for 200 000 triangles.
 /// Precondition: the sum of files[].surfaces is the number of surfaces.
 std::string to_certificate(const Certified& certified, const Run& run = {});
+
+/// A volume of interest, as it was asked for.
+struct VolumeRecord {
+    std::string shape = "prism"; ///< "prism", "hexahedron" or "surface": see verify_certificate.hpp
+    std::vector<std::array<double, 2>> corners{}; ///< of a prism: its polygon, in order
+    std::vector<double> between{};                ///< of a prism: its two heights, the lower first
+    std::vector<InputRecord> files{};             ///< of a surface
+    std::vector<Surface> surfaces{};              ///< of a surface: of these files, in order
+};
+
+/// Returns the text of a certificate of the kind "cut". It has the keys of a certificate of an
+/// arrangement, of which "exact" and "digest" are about all surfaces with the boundary of the volume
+/// as the last ones, and "rounded" about what was kept; and
+///
+///   "cut": {
+///     "volume": {
+///       "shape": "prism",          or "hexahedron", or "surface", of the last input files
+///       "corners": [["0", "7.5"]], "between": ["-1", "1"],   of a prism; else empty
+///       "files": 0,                of a surface: how many input files hold it
+///       "boundary": [{ "name": "boundary top",
+///                      "vertices": [["0.5", "-1e-3", "7"]], "triangles": [[u, v, w]] }] },
+///     "dropped": [t, ...] }        the triangles of "exact" that are outside
+///
+/// `cut.exact` is a part of the arrangement of `cut.surfaces`, of which the last `boundary_count` are
+/// the boundary. It is arranged again for what was dropped. Errors: those of arrange().
+Result<std::string> to_cut_certificate(const Certified& cut, const VolumeRecord& volume,
+                                       std::size_t boundary_count, const ArrangeOptions& options,
+                                       const Run& run = {});
 
 /// A surface whose holes were filled.
 struct FilledRecord {
@@ -129,6 +160,22 @@ std::string to_filled_certificate(std::span<const InputRecord> files,
                                   std::span<const Surface> surfaces,
                                   std::span<const OutputRecord> outputs,
                                   std::span<const FilledRecord> filled);
+
+/// Returns the text of a certificate of the kind "layered". It has the keys "format" to "outputs" of
+/// a certificate of an arrangement, and
+///
+///   "layered": {
+///     "order": [{ "surface": 1, "hardness": "2" }],  from the top down; surfaces of the files
+///     "deviation": "1e-12",        no triangle is farther from where it must be
+///     "vertices": [["0.5", "-1e-3", "7"]], "triangles": [[u, v, w]],
+///     "layers": [[i, ...]],        per triangle: positions in "order"
+///     "regions": [[r, ...]], "parents": [[p, ...]] }  per triangle: what the output files say
+///
+/// Precondition: layered.is_stack(), made of `surfaces` without a minimum thickness.
+std::string to_layered_certificate(std::span<const InputRecord> files,
+                                   std::span<const Surface> surfaces,
+                                   std::span<const OutputRecord> outputs,
+                                   std::span<const Layer> order, const Layered& layered);
 
 /// Returns the text of a certificate of the kind "improved" about a mesh that improve() made of
 /// before.rounded; `limits` has one bound per surface (ImproveReport::bound_of). It has the keys

@@ -31,8 +31,9 @@ struct ArrangementClaim {
                                                           ///< same three points}, sorted
 };
 
-/// The rules that the verifier judges by. R22 to R39 are for surfaces that were changed, R40 to R49
-/// for volumes, R50 to R59 for tetrahedra.
+/// The rules that the verifier judges by. R22 to R29, R35 and R36 are for surfaces that were
+/// changed, R30 to R34 for volumes, R40 to R49 for tetrahedra, R50 to R59 for
+/// volumes of interest, R60 to R69 for layers.
 enum class Rule : std::uint8_t {
     R1_indices,   ///< an index is out of range, a list unsorted or empty
     R2_vertices,  ///< a construction is undefined (parallel line and plane, ...)
@@ -90,6 +91,18 @@ enum class Rule : std::uint8_t {
     R47_block_volumes,         ///< a block and its tetrahedra differ in volume by more than nodes
                                ///< near its triangles allow
     R48_cuts,                  ///< nodes are not split as twin faces say
+    // Volumes of interest: see detail/cut.hpp.
+    R50_volume = 49, ///< the boundary is not that of the stated volume, or not closed
+    R51_dropped,     ///< a triangle outside is not listed as dropped, or another one is
+    R52_inside,      ///< a triangle of the mesh of doubles is outside
+    // Layers: see detail/layered.hpp.
+    R60_layer_lists = 59, ///< as R1, in layers, or a number is not finite
+    R61_layer_mesh,       ///< the mesh of the layers is not conforming
+    R62_layer_order,      ///< a layer is above one that is higher in the order
+    R63_layer_heights,    ///< a triangle is neither on its surface nor on a harder one that must
+                          ///< replace it there
+    R64_layer_places,     ///< a layer does not exist where its surface does, or the reverse
+    R65_layer_sides,      ///< a triangle faces another side than the surface that it is on
 };
 
 /// Returns "R5" for rule R5, and so on.
@@ -117,6 +130,9 @@ struct Violation {
                                          ///< R25: the vertices of an edge, or none
                                          ///< R26: {triangle} or {surface}; R27: {triangle}
                                          ///< R28, R29, R35, R36: a triangle, a vertex or none
+                                         ///< R50: none; R51, R52: a triangle
+                                         ///< R60, R63, R65: a triangle or none; R61: as R3 to
+                                         ///< R5; R62: two triangles; R64: a triangle or an edge
     std::string sentence;                ///< what is wrong
 };
 

@@ -21,7 +21,10 @@
 //     within the stated limits of it, both ways (R22 to R27).
 // (7) Filled surfaces have all that was given, and new triangles close whole borders without
 //     meeting others (R28, R29, R35, R36).
-// (8) Each output file that was given holds this mesh (R21): all coordinates and all triangles, bit
+// (8) Layers are the pointwise stack of the surfaces that they were made of (R60 to R65).
+// (9) The mesh of a volume of interest is what is inside of it, all of that and nothing else (R50 to
+//     R52); (3) and (4) hold for the parts inside.
+// (10) Each output file that was given holds this mesh (R21): all coordinates and all triangles, bit
 //     for bit; with the numbers rounded to float32 where this is what the file holds.
 #pragma once
 
@@ -38,6 +41,7 @@
 #include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
 #include <terrane/algorithms/verify/block_claims.hpp>
+#include <terrane/algorithms/verify/changed_claims.hpp>
 #include <terrane/algorithms/verify/verify.hpp>
 
 namespace terrane {
@@ -85,33 +89,6 @@ struct RoundedClaim {
     std::vector<std::uint32_t> vanished; ///< input triangles, sorted
 };
 
-/// The claims of a certificate about a mesh that was improved.
-struct ImprovedClaim {
-    std::vector<Point3> vertices;          ///< unit of the input
-    std::vector<Triangle> triangles;       ///< indices into vertices
-    IndexLists<std::uint32_t> surfaces_of; ///< per triangle: surfaces of the inputs, sorted, >= 1
-    IndexLists<std::uint32_t> regions_of;  ///< per triangle: its region in each of these surfaces,
-                                           ///< numbered as in the mesh before
-    std::vector<Edge> intersection_edges;  ///< sorted, unique
-    std::vector<double> limits; ///< per surface: no point of it is farther from the same region in
-                                ///< the other mesh, unit of the input
-};
-
-/// A surface whose holes were filled.
-struct FilledPart {
-    std::uint32_t vertices = 0;  ///< number of its vertices, given and new
-    std::uint32_t triangles = 0; ///< number of its triangles, given and new
-    double limit = 0; ///< no filling reaches farther out of the box around the border of its hole,
-                      ///< unit of the input
-};
-
-/// The claims of a certificate about surfaces whose holes were filled.
-struct FilledClaim {
-    std::vector<Point3> vertices;     ///< of all surfaces in order; of each first the given ones
-    std::vector<Triangle> triangles;  ///< likewise; indices into vertices
-    std::vector<FilledPart> surfaces; ///< order of the inputs
-};
-
 /// What a certificate is about.
 enum class CertificateKind : std::uint8_t {
     arrangement, ///< the arrangement of the surfaces as they are in the input files
@@ -119,6 +96,8 @@ enum class CertificateKind : std::uint8_t {
     tetrahedra,  ///< all that, and tetrahedra in the blocks
     improved,    ///< an arrangement whose triangles were improved
     filled,      ///< the surfaces of the input files with triangles in their holes
+    layered,     ///< horizons of the input files, put in order
+    cut,         ///< an arrangement of which a volume of interest was cut out
 };
 
 /// A certificate, parsed.
@@ -132,7 +111,9 @@ struct Certificate {
     std::optional<TetrahedraClaim> tetrahedra;           ///< for tetrahedra
     std::optional<ImprovedClaim> improved;               ///< of the kind improved
     std::optional<FilledClaim> filled;                   ///< of the kind filled
-    std::string digest; ///< "sha256:" and 64 hexadecimal digits; see digest.hpp
+    std::string digest;                  ///< "sha256:" and 64 hexadecimal digits; see digest.hpp
+    std::optional<LayeredClaim> layered; ///< of the kind layered
+    std::optional<CutClaim> cut;         ///< of the kind cut
 };
 
 /// Parses a certificate. Errors: bad_syntax with "source, line l, column c" if the text is not

@@ -28,7 +28,19 @@ Examples:
   terrane arrange horizons.ts faults.ts -o model.vtp
   terrane arrange *.obj -o model.obj -o model.vtp --stats model.json
   terrane arrange horizons.ts faults.ts -o part.vtp --box 0,0,-3000,10000,10000,500
+  terrane arrange horizons.ts -o part.vtp --within salt.ts --certificate part.json
   terrane arrange --format ts --output-format obj - -o - < in.ts > out.obj)";
+
+/// Checks before any work is done that a certificate can be made, if one is wanted.
+Status check_certificate(const ArrangeCommand& command) {
+    const bool is_changed = command.settings.seal != 0 || command.settings.volume.extend != 0;
+    if (command.proof.certificate.empty()) return Done{};
+    if (!is_changed)
+        return check_certified_names(command.proof.certificate, command.settings.volume.within);
+    return Error{ErrorCode::bad_option,
+                 "there is no certificate of surfaces that were sealed or extended",
+                 "--certificate"};
+}
 
 Result<ExitStatus> arrange_files(const ArrangeCommand& command, Session& session) {
     Stopwatch total;
@@ -38,11 +50,7 @@ Result<ExitStatus> arrange_files(const ArrangeCommand& command, Session& session
     if (const auto named = plan_proof(command.proof, files); !named) return named.error();
     if (const auto sound = check_volume_options(command.settings.volume); !sound)
         return sound.error();
-    const bool whole = !command.settings.volume.wanted() && command.settings.seal == 0;
-    if (!whole && !command.proof.certificate.empty())
-        return Error{ErrorCode::bad_option,
-                     "a certificate is about the surfaces as they are, not cut or sealed",
-                     "--certificate"};
+    if (const auto possible = check_certificate(command); !possible) return possible.error();
     auto inputs = read_certified_inputs(command.proof.certificate, files, session);
     if (!inputs) return inputs.error();
     Json statistics = statistics_of(inputs.value(), session.times());
@@ -71,7 +79,8 @@ Result<ExitStatus> arrange_files(const ArrangeCommand& command, Session& session
         print(stderr, std::string("terrane: ") + (proves ? "the mesh is not" : "nothing") +
                           " written (see --keep-unverified)\n");
     const ProofFiles certified{files.inputs, keep ? outputs.value() : std::vector<Output>(),
-                               files.ascii, summary_stream(files)};
+                               files.ascii, summary_stream(files),
+                               command.settings.volume.wanted() ? &command.settings : nullptr};
     const auto proved =
         write_proof(command.proof, certified, inputs.value(), arranged.value(), session);
     if (!proved) return proved.error();

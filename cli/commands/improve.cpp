@@ -118,7 +118,7 @@ Status check_improve(const ImproveCommand& command) {
     const bool whole = !command.settings.volume.wanted() && command.settings.seal == 0;
     if (whole || command.proof.certificate.empty()) return Done{};
     return Error{ErrorCode::bad_option,
-                 "a certificate is about the surfaces as they are, not cut or sealed",
+                 "there is no certificate of improved surfaces that were cut, sealed or extended",
                  "--certificate"};
 }
 

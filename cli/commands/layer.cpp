@@ -14,6 +14,7 @@
 #include <terrane/cli/options/files.hpp>
 #include <terrane/cli/options/statistics.hpp>
 #include <terrane/cli/reports/pair_report.hpp>
+#include <terrane/cli/stages/certificate_output.hpp>
 #include <terrane/cli/stages/layer_stage.hpp>
 
 namespace terrane::cli {
@@ -26,6 +27,7 @@ struct LayerCommand {
     std::vector<std::string> layers; ///< NAME=HARDNESS, from the top down
     double min_thickness = 0;
     PairCheckOptions check = few_pairs;
+    ProofOptions proof; ///< a certificate only
 };
 
 constexpr auto layer_footer =
@@ -40,7 +42,8 @@ horizon is anywhere above one that is higher in the order, by exact checks; else
 Examples:
   terrane layer --hard salt.ts --soft shale.ts --keep upper -o layers.vtp
   terrane layer basin.ts --layer top=1 --layer middle=3 --layer base=2 -o basin.vtp
-  terrane layer basin.ts --layer top=1 --layer base=2 --min-thickness 5 -o basin.obj)";
+  terrane layer basin.ts --layer top=1 --layer base=2 --min-thickness 5 -o basin.obj
+  terrane layer basin.ts --layer top=1 --layer base=2 -o basin.obj --certificate basin.json)";
 
 /// Puts the input files into files.inputs, whichever of the two ways to call the command was used.
 Status plan_inputs(LayerCommand& command) {
@@ -97,6 +100,15 @@ Result<std::vector<Layer>> order_of(const LayerCommand& command, const Inputs& i
     return order;
 }
 
+/// Checks before any work is done that a certificate can be made, if one is wanted.
+Status check_certificate(const LayerCommand& command) {
+    if (command.proof.certificate.empty()) return Done{};
+    if (command.min_thickness > 0)
+        return Error{ErrorCode::bad_option,
+                     "there is no certificate of layers with a minimum thickness", "--certificate"};
+    return plan_proof(command.proof, command.files);
+}
+
 Status write_all(const Mesh& mesh, const FileOptions& files, const std::vector<Output>& outputs,
                  Session& session) {
     WriteOptions options;
@@ -114,7 +126,8 @@ Result<ExitStatus> layer_files(LayerCommand& command, Session& session) {
     const FileOptions& files = command.files;
     const auto outputs = plan_outputs(files, OutputKind::surfaces);
     if (!outputs) return outputs.error();
-    const auto inputs = read_inputs(files, session);
+    if (const auto possible = check_certificate(command); !possible) return possible.error();
+    const auto inputs = read_certified_inputs(command.proof.certificate, files, session);
     if (!inputs) return inputs.error();
     Json statistics = statistics_of(inputs.value(), session.times());
     const auto order = order_of(command, inputs.value());
@@ -134,6 +147,14 @@ Result<ExitStatus> layer_files(LayerCommand& command, Session& session) {
     if (is_stack)
         if (const auto written = write_all(rounded.mesh, files, outputs.value(), session); !written)
             return written.error();
+    if (is_stack && !command.proof.certificate.empty()) {
+        const ProofFiles certified{files.inputs, outputs.value(), files.ascii,
+                                   summary_stream(files)};
+        const auto proved =
+            write_layered_certificate(command.proof.certificate, certified, inputs.value(),
+                                      order.value(), layered.value(), session);
+        if (!proved) return proved.error();
+    }
     const auto status = write_statistics(statistics, files.stats, total.lap());
     if (!status) return status.error();
     return is_stack ? ExitStatus::done : ExitStatus::negative;
@@ -162,6 +183,7 @@ Command layer_command(CLI::App& program) {
     add_output(*app, command->files, "File for the mesh; - is standard output");
     add_check(*app, command->check);
     app->add_flag("--ascii", command->files.ascii, "STL as text, with doubles, not float32");
+    add_certificate(*app, command->proof.certificate);
     add_threads(*app, command->files);
     add_stats(*app, command->files);
     app->footer(layer_footer);

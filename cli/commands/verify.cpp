@@ -3,6 +3,8 @@
 // The command reads the input files again with the readers of io/; terrane::verify alone judges.
 #include <filesystem>
 #include <memory>
+#include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -255,8 +257,52 @@ std::string change_text(const Judgement& judged) {
                        counted(improved->triangles.size(), "triangle"), change->limit);
 }
 
+/// Says that layers are in their order: "2 layers: shale, salt".
+std::string layers_text(const Judgement& judged) {
+    const LayeredClaim& layered = *judged.certificate.layered;
+    std::vector<std::string> names;
+    for (const CertifiedInput& input : judged.certificate.inputs)
+        for (const CertifiedSurface& s : input.surfaces) names.push_back(s.name);
+    std::string text = counted(layered.order.size(), "layer") + ", from the top down:";
+    for (const CertifiedLayer& layer : layered.order)
+        text += fmt::format("{} {} (hardness {})", &layer == &layered.order.front() ? "" : ",",
+                            names[layer.surface], layer.hardness);
+    return text + fmt::format("; {}, conforming, in this order, at most {:.3g} from their surfaces "
+                              "or from the harder ones that replace these",
+                              counted(layered.triangles.size(), "triangle"), layered.deviation);
+}
+
+/// Says what surfaces were cut by, with a line end before it; nothing if they were not.
+std::string cut_text(const Certificate& certificate) {
+    if (!certificate.cut) return "";
+    const VolumeClaim& volume = certificate.cut->volume;
+    std::string text = "\ncut by ";
+    if (volume.shape == "prism") {
+        text += volume.corners.size() > 12
+                    ? fmt::format("a polygon of {} corners", volume.corners.size())
+                    : std::string("the polygon");
+        if (volume.corners.size() <= 12)
+            for (const auto& [x, y] : volume.corners) text += fmt::format(" ({}, {})", x, y);
+        text += fmt::format(" between {} and {}", volume.between[0], volume.between[1]);
+    } else if (volume.shape == "hexahedron") {
+        std::set<Point3> corners;
+        for (const Surface& s : volume.boundary)
+            corners.insert(s.vertices.begin(), s.vertices.end());
+        text += "the box with the corners";
+        for (const Point3& p : corners) text += fmt::format(" ({}, {}, {})", p.x, p.y, p.z);
+    } else {
+        text += "the surface of";
+        for (const CertifiedInput& input : std::span(certificate.inputs).last(volume.files))
+            text += " " + input.name;
+    }
+    return text + fmt::format(": all that is inside, and nothing else; {} of {} exact triangles "
+                              "are outside",
+                              certificate.cut->dropped.size(), certificate.exact.triangles.size());
+}
+
 /// Says what a valid certificate states.
 std::string subject_text(const Judgement& judged) {
+    if (judged.certificate.layered) return layers_text(judged);
     if (const auto& filled = judged.certificate.filled; filled && judged.verdict.change) {
         std::size_t given = 0;
         for (const CertifiedInput& input : judged.certificate.inputs)
@@ -266,8 +312,8 @@ std::string subject_text(const Judgement& judged) {
                            counted(given, "triangle"), filled->triangles.size() - given,
                            judged.verdict.change->limit);
     }
-    return fmt::format("{} exact triangles; {}{}", judged.certificate.exact.triangles.size(),
-                       doubles_text(judged), change_text(judged));
+    return fmt::format("{} exact triangles; {}{}{}", judged.certificate.exact.triangles.size(),
+                       doubles_text(judged), change_text(judged), cut_text(judged.certificate));
 }
 
 std::string verdict_text(const Judgement& judged, const std::string& name) {

@@ -192,6 +192,36 @@ Result<std::vector<Surface>> boundary_of(const VolumeOptions& options, Session& 
         error.code = ErrorCode::bad_option; // the options are wrong, the surfaces may be good
     return error;
 }
+
+Result<VolumeRecord> record_of(const VolumeOptions& options, const std::string& path) {
+    VolumeRecord record;
+    if (!options.box.empty()) {
+        const auto n = *numbers_in(options.box);
+        record.corners = {{n[0], n[1]}, {n[3], n[1]}, {n[3], n[4]}, {n[0], n[4]}};
+        record.between = {n[2], n[5]};
+    } else if (!options.polygon.empty()) {
+        const auto corners = polygon_of(options.polygon);
+        if (!corners) return corners.error();
+        record.corners = corners.value();
+        if (record.corners.front() == record.corners.back()) record.corners.pop_back();
+        record.between = *numbers_in(options.between);
+        std::ranges::sort(record.between);
+    } else if (!options.rotated_box.empty()) {
+        record.shape = "hexahedron";
+    } else {
+        record.shape = "surface";
+        for (const std::string& file : options.within) {
+            auto surfaces = read_surfaces(file);
+            if (!surfaces) return surfaces.error();
+            auto input = record_input(file, certified_name(file, path), surfaces->size());
+            if (!input) return input.error();
+            record.files.push_back(std::move(input).value());
+            std::ranges::move(surfaces.value(), std::back_inserter(record.surfaces));
+        }
+    }
+    return record;
+}
+
 std::string text_of(const VolumeReport& report, const Inputs& inputs) {
     std::string text = "volume of interest: areas inside, of all, and where surfaces end inside\n";
     std::size_t width = 7, shown = 0, outside = 0;

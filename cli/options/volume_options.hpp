@@ -14,6 +14,7 @@
 #include <terrane/cli/options/files.hpp>
 #include <terrane/cli/options/statistics.hpp>
 #include <terrane/cli/session/session.hpp>
+#include <terrane/io/certificate.hpp>
 
 namespace terrane::cli {
 
@@ -40,6 +41,10 @@ Status check_volume_options(const VolumeOptions& options);
 /// Makes the boundary that the options define. Precondition: wanted(). Errors: those of the makers
 /// (boundary_surfaces.hpp) and of reading files; bad_option.
 Result<std::vector<Surface>> boundary_of(const VolumeOptions& options, Session& session);
+
+/// Returns the volume of interest as a certificate describes it; `path` is that of the certificate.
+/// Precondition: boundary_of() succeeded.
+Result<VolumeRecord> record_of(const VolumeOptions& options, const std::string& path);
 
 /// Reports what the cut left of each surface, and where surfaces end inside.
 std::string text_of(const VolumeReport& report, const Inputs& inputs);

@@ -86,9 +86,10 @@ Status plan_certificate(const std::string& path, const FileOptions& files,
         return Error{ErrorCode::bad_option, "a certificate is about files, not standard input",
                      "--certificate"};
     if (settings.volume.wanted() || settings.seal > 0)
-        return Error{ErrorCode::bad_option,
-                     "a certificate is about the surfaces as they are, not cut or sealed",
-                     "--certificate"};
+        return Error{
+            ErrorCode::bad_option,
+            "there is no certificate of blocks of surfaces that were cut, sealed or extended",
+            "--certificate"};
     for (const auto& names : {files.inputs, files.outputs})
         if (auto status = check_certified_names(path, names); !status) return status;
     return check_folder(path);

@@ -146,9 +146,15 @@ Result<std::string> certificate_text(const std::string& path, const ProofFiles& 
     if (!records) return records.error();
     const auto outputs = record_outputs(path, files, arranged.rounded.mesh);
     if (!outputs) return outputs.error();
-    return to_certificate(
-        {records.value(), arranged.surfaces, arranged.exact, &arranged.rounded, outputs.value()},
-        session.run());
+    const Certified certified{records.value(), arranged.surfaces, arranged.exact, &arranged.rounded,
+                              outputs.value()};
+    if (files.cut == nullptr) return to_certificate(certified, session.run());
+    const auto volume = record_of(files.cut->volume, path);
+    if (!volume) return volume.error();
+    std::size_t own = 0;
+    for (const std::size_t count : inputs.surfaces_of_file) own += count;
+    return to_cut_certificate(certified, volume.value(), arranged.surfaces.size() - own,
+                              {.search = files.cut->search}, session.run());
 }
 
 Status write_proof(const ProofOptions& options, const ProofFiles& files, const Inputs& inputs,
@@ -189,6 +195,18 @@ Status write_filled_certificate(const std::string& path, const ProofFiles& files
         filled.push_back({&s.filled, s.given_vertices, s.given_triangles});
     const auto text =
         to_filled_certificate(records.value(), inputs.surfaces, outputs.value(), filled);
+    return write(path, text, files.told, session);
+}
+
+Status write_layered_certificate(const std::string& path, const ProofFiles& files,
+                                 const Inputs& inputs, std::span<const Layer> order,
+                                 const Layered& layered, Session& session) {
+    const auto records = record_inputs(path, files.inputs, inputs);
+    if (!records) return records.error();
+    const auto outputs = record_outputs(path, files, layered.rounded.mesh);
+    if (!outputs) return outputs.error();
+    const auto text =
+        to_layered_certificate(records.value(), inputs.surfaces, outputs.value(), order, layered);
     return write(path, text, files.told, session);
 }
 

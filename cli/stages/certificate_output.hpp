@@ -10,6 +10,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <terrane/algorithms/layers/layers.hpp>
 #include <terrane/algorithms/quality/improve.hpp>
 #include <terrane/algorithms/reconstruction/fill.hpp>
 #include <terrane/cli/options/files.hpp>
@@ -57,13 +58,15 @@ std::string certified_format(Format format, bool ascii);
 /// The files that a certificate is about.
 struct ProofFiles {
     std::vector<std::string> inputs;
-    std::vector<Output> outputs; ///< those that were written
-    bool ascii = false;          ///< STL was written as text
-    std::FILE* told = stdout;    ///< where people are told what is written
+    std::vector<Output> outputs;          ///< those that were written
+    bool ascii = false;                   ///< STL was written as text
+    std::FILE* told = stdout;             ///< where people are told what is written
+    const ArrangeSettings* cut = nullptr; ///< with the volume of interest; nullptr: there is none
 };
 
 /// Makes the certificate of a result whose inputs are exactly these files, to be written to `path`.
-/// Errors: cannot_open, where a file cannot be read again.
+/// Errors: cannot_open, where a file cannot be read again; with a volume of interest those of
+/// to_cut_certificate().
 Result<std::string> certificate_text(const std::string& path, const ProofFiles& files,
                                      const Inputs& inputs, const Arranged& arranged,
                                      const Session& session);
@@ -83,5 +86,10 @@ Status write_improved_certificate(const std::string& path, const ProofFiles& fil
 Status write_filled_certificate(const std::string& path, const ProofFiles& files,
                                 const Inputs& inputs, const FillWork& work, const Mesh& mesh,
                                 Session& session);
+
+/// Writes the certificate of horizons that were put in this order, and says so on `files.told`.
+Status write_layered_certificate(const std::string& path, const ProofFiles& files,
+                                 const Inputs& inputs, std::span<const Layer> order,
+                                 const Layered& layered, Session& session);
 
 } // namespace terrane::cli

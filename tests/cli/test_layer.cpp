@@ -88,6 +88,33 @@ f 5 6 7 8
     CHECK(count(again.out, "nothing to replace") == 2);
 }
 
+TEST_CASE("cli: layer writes a certificate that verify takes", "[cli][layer]") {
+    const Folder folder;
+    const auto soft = folder.input("shale.obj", tilted), hard = folder.input("salt.obj", flat);
+    const auto run = folder.run("layer --hard " + hard + " --soft " + soft +
+                                " --keep upper -o out.obj -o out.vtp --certificate c.json");
+    INFO(run.err);
+    REQUIRE(run.status == 0);
+    const auto valid = folder.run("verify c.json");
+    INFO(valid.out << valid.err);
+    CHECK(valid.status == 0);
+    CHECK(valid.out.find("2 layers, from the top down: shale (hardness 0), salt (hardness 1)") !=
+          std::string::npos);
+    CHECK(valid.out.find("out.vtp: holds these triangles, bit for bit") != std::string::npos);
+    CHECK(folder.run("verify c.json --output " + soft).status == 1);
+    CHECK(folder.run("verify c.json --max-deviation 0").status == 1);
+    const auto thick =
+        folder.run("layer " + soft + " " + hard + " --layer shale=1 --layer salt=2 " +
+                   "--min-thickness 1 -o no.obj --certificate no.json");
+    CHECK(thick.status == 2);
+    CHECK(thick.err.find("there is no certificate of layers with a minimum thickness") !=
+          std::string::npos);
+    CHECK(folder
+              .run("layer --hard " + hard + " --soft " + soft +
+                   " --keep upper -o no.obj --certificate -")
+              .status == 2);
+}
+
 TEST_CASE("cli: layer says what is wrong with its options", "[cli][layer]") {
     const Folder folder;
     const auto soft = folder.input("shale.obj", tilted), hard = folder.input("salt.obj", flat);

@@ -107,7 +107,7 @@ TEST_CASE("cli: faces of the boundary have names", "[cli]") {
     CHECK(found);
 }
 
-TEST_CASE("cli: arrange in a volume of interest, conforming and without certificate", "[cli]") {
+TEST_CASE("cli: arrange in a volume of interest is conforming", "[cli]") {
     const Folder folder;
     const auto in = folder.input("model.obj", model);
     const auto r = folder.run("arrange " + in + " -o a.obj --box 0,0,0,8,8,8");
@@ -116,10 +116,39 @@ TEST_CASE("cli: arrange in a volume of interest, conforming and without certific
     // A second cut by the same box changes nothing.
     CHECK(folder.run("arrange a.obj -o b.obj --box 0,0,0,8,8,8").status == 0);
     CHECK(contains(folder.run("volume b.obj -o out").out, "5 closed blocks, volume 512 in all\n"));
-    const auto refused =
-        folder.run("arrange " + in + " -o c.obj --box 0,0,0,8,8,8 --certificate c.json");
-    CHECK(refused.status == 2);
-    CHECK(contains(refused.err, "--certificate"));
+}
+
+TEST_CASE("cli: arrange in a volume of interest writes a certificate that verify takes", "[cli]") {
+    const Folder folder;
+    const auto in = folder.input("model.obj", model);
+    folder.input("cube.obj", cube);
+    for (const auto& [volume, named] :
+         {std::pair("--box 0,0,0,8,8,8", "cut by the polygon (0, 0) (8, 0) (8, 8) (0, 8) between 0 "
+                                         "and 8: all that is inside, and nothing else"),
+          {"--polygon 1,1,7.5,2,2,7.5 --between 7,1",
+           "cut by the polygon (1, 1) (7.5, 2) (2, 7.5)"},
+          {"--rotated-box 4,4,4,5,4,6,30", "cut by the box with the corners"},
+          {"--within in/cube.obj", "cut by the surface of in/cube.obj"}}) {
+        INFO(volume);
+        REQUIRE(
+            folder.run("arrange " + in + " -o out.obj -o out.vtp --certificate c.json " + volume)
+                .status == 0);
+        const Outcome valid = folder.run("verify c.json");
+        INFO(valid.out << valid.err);
+        CHECK(valid.status == 0);
+        CHECK(contains(valid.out, named));
+        CHECK(contains(valid.out, "out.vtp: holds these triangles, bit for bit"));
+    }
+    const std::string box = " --box 0,0,0,8,8,8 --certificate no.json";
+    for (const std::string refused :
+         {"arrange " + in + " -o no.obj --seal 0.1" + box,
+          "arrange " + in + " -o no.obj --extend 0.1" + box, "improve " + in + " -o no.obj" + box,
+          "volume " + in + " -o no" + box, "tetrahedralize " + in + " -o no.vtu" + box}) {
+        const Outcome r = folder.run(refused);
+        INFO(refused << r.err);
+        CHECK(r.status == 2);
+        CHECK(contains(r.err, "there is no certificate of "));
+    }
 }
 
 TEST_CASE("cli: volumes of interest that are none are refused by name", "[cli]") {

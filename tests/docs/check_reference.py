@@ -208,7 +208,10 @@ def write_json_files(program, folder):
     run("improve", *model, "-o", "m.vtp", "--certificate", "improved.json")
     run("verify", "improved.json", "--json", out="valid_improved.json")
     run("fill", "fold.ts", "-o", "g.vtp", "--certificate", "filled.json")
-    certificates += ["improved.json", "filled.json"]
+    run("layer", "--hard", "salt.ts", "--soft", "shale.ts", "--keep", "upper", "-o", "l.vtp",
+        "--certificate", "layered.json")
+    run("arrange", *model, "-o", "v.vtp", "--box", "0,0,-1700,2000,1500,-700", "--certificate", "cut.json")
+    certificates += ["improved.json", "filled.json", "layered.json", "cut.json"]
     with (folder / "top.ts").open("a") as changed:
         changed.write("\n")
     run("verify", "certificate.json", "--json", out="refuted.json")

@@ -35,6 +35,12 @@ Coverage::Coverage(const std::array<const Vector4*, 3>& parent, std::span<const 
     points_(points), collar_(collar),
     normal_(cross(difference(*parent[1], *parent[0]), difference(*parent[2], *parent[0]))) {}
 
+Coverage::Coverage(const std::array<const Vector4*, 3>& parent, std::span<const Vector4> points,
+                   const mpz_class& collar, const CoveredRegion& region) :
+    Coverage(parent, points, collar) {
+    region_ = region;
+}
+
 /// Returns 1 for a point on the left of the line, seen against the normal, -1 on its right, 0 on
 /// it. `from` and `to` have w = 1.
 int Coverage::side_of(const Vector4& from, const Vector4& to, const Vector4& point) const {
@@ -42,6 +48,12 @@ int Coverage::side_of(const Vector4& from, const Vector4& to, const Vector4& poi
 }
 
 bool Coverage::near_border(const Vector4& a, const Vector4& b) const {
+    if (region_)
+        return std::ranges::any_of(region_->borders, [&](const Triangle& t) {
+            const Vector4 &start = region_->points[t[0]], &end = region_->points[t[1]];
+            return within_of_segment(a, start, end, collar_) &&
+                   within_of_segment(b, start, end, collar_);
+        });
     for (std::size_t i = 0; i < 3; ++i) {
         const Vector4& start = *parent_[i];
         const Vector4& end = *parent_[(i + 1) % 3];
@@ -57,12 +69,28 @@ bool Coverage::has_in(const Triangle& child, const Vector4& point) const {
     return true;
 }
 
-bool Coverage::covers_centroid(std::span<const Triangle> children) const {
+/// Tells whether an edge is near the border. A region's border may have several edges beside it.
+bool Coverage::near_border(const Edge& edge) const {
+    const Vector4 &a = points_[edge[0]], &b = points_[edge[1]];
+    if (near_border(a, b)) return true;
+    return region_ && segment_is_near({&a, &b}, region_->points, region_->borders, collar_);
+}
+
+bool Coverage::covers_centroids(std::span<const Triangle> children) const {
+    if (!region_) return covers_centroid(parent_, children);
+    return std::ranges::all_of(region_->triangles, [&](const Triangle& t) {
+        const auto& points = region_->points;
+        return covers_centroid({&points[t[0]], &points[t[1]], &points[t[2]]}, children);
+    });
+}
+
+bool Coverage::covers_centroid(const std::array<const Vector4*, 3>& part,
+                               std::span<const Triangle> children) const {
     Vector4 centroid{0, 0, 0, 3};
-    for (const Vector4* corner : parent_)
+    for (const Vector4* corner : part)
         for (std::size_t i = 0; i < 3; ++i) centroid[i] += (*corner)[i];
     for (std::size_t i = 0; i < 3; ++i)
-        if (within_of_segment(centroid, *parent_[i], *parent_[(i + 1) % 3], collar_)) return true;
+        if (within_of_segment(centroid, *part[i], *part[(i + 1) % 3], collar_)) return true;
     return std::ranges::any_of(children, [&](const Triangle& t) { return has_in(t, centroid); });
 }
 
@@ -79,10 +107,8 @@ std::vector<Triangle> Coverage::facing(std::span<const Triangle> children) const
 
 /// Returns the points where borders of children meet an edge when projected along the normal:
 /// points of the edge, in order, each once, including its ends.
-std::vector<Vector4> Coverage::crossings(const Edge& edge,
+std::vector<Vector4> Coverage::crossings(const Vector4& from, const Vector4& to,
                                          std::span<const Triangle> children) const {
-    const Vector4& from = points_[edge[0]];
-    const Vector4& to = points_[edge[1]];
     const Vector3 along = difference(to, from);
     const Vector3 left = cross(normal_, along);
     const Vector3 forward = cross(left, normal_); // the edge, projected along the normal
@@ -129,7 +155,7 @@ bool Coverage::covers_beside(const Triangle& child, const Side& side, const Vect
 /// Tells whether other children cover the other side of an edge that has children on one side only,
 /// except near the border of the parent.
 bool Coverage::covered_elsewhere(const Side& side, std::span<const Triangle> children) const {
-    const auto places = crossings(side.edge, children);
+    const auto places = crossings(points_[side.edge[0]], points_[side.edge[1]], children);
     for (std::size_t i = 1; i < places.size(); ++i) {
         if (near_border(places[i - 1], places[i])) continue;
         const Vector4 point = middle(places[i - 1], places[i]);
@@ -140,9 +166,25 @@ bool Coverage::covered_elsewhere(const Side& side, std::span<const Triangle> chi
     return true;
 }
 
+bool Coverage::reaches(const Vector4& from, const Vector4& to,
+                       std::span<const Triangle> all) const {
+    const std::vector<Triangle> children = facing(all);
+    const auto places = crossings(from, to, children);
+    for (std::size_t i = 1; i < places.size(); ++i) {
+        const Vector4 point = middle(places[i - 1], places[i]);
+        const bool is_reached = std::ranges::any_of(children, [&](const Triangle& t) {
+            const std::array<const Vector4*, 3> at{&points_[t[0]], &points_[t[1]], &points_[t[2]]};
+            return has_in(t, point) ||
+                   (within(places[i - 1], at, collar_) && within(places[i], at, collar_));
+        });
+        if (!is_reached) return false;
+    }
+    return true;
+}
+
 bool Coverage::holds(std::span<const Triangle> all) const {
     const std::vector<Triangle> children = facing(all);
-    if (!covers_centroid(children)) return false;
+    if (!covers_centroids(children)) return false;
     std::vector<Side> sides;
     for (const Triangle& t : children)
         for (std::size_t i = 0; i < 3; ++i) {
@@ -156,7 +198,7 @@ bool Coverage::holds(std::span<const Triangle> all) const {
         while (last < sides.size() && sides[last].edge == sides[first].edge) ++last;
         const Side& side = sides[first];
         if (side.sign != sides[last - 1].sign) continue; // children on both sides
-        if (near_border(points_[side.edge[0]], points_[side.edge[1]])) continue;
+        if (near_border(side.edge)) continue;
         if (!covered_elsewhere(side, children)) return false;
     }
     return true;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -15,23 +16,40 @@
 
 namespace terrane::verifier {
 
+/// A part of a triangle: a union of triangles with the same normal.
+struct CoveredRegion {
+    std::span<const Vector4> points;
+    std::span<const Triangle> triangles; ///< indices into points
+    std::span<const Triangle> borders;   ///< edges {a, b, b} of one triangle
+};
+
 /// Judges whether the children cover their parent except for a collar along its border.
 /// Projected along the normal of the parent, the children are triangles in a plane, and the border
 /// of their union consists of parts of edges. If all of it is within `collar` of the border of the
 /// parent, the union covers all of the parent without the collar, or nothing of it, because that
 /// set is connected; the centroid tells which. (In a parent so thin that its centroid is in the
 /// collar, the centroid need not be covered.)
+/// If only a region of the parent is to be covered, the same holds for each triangle of the region,
+/// as the region's border is outside of all of them.
 /// It holds references to the points. All points have w = 1.
 class Coverage {
 public:
     /// Precondition: the parent has area.
     Coverage(const std::array<const Vector4*, 3>& parent, std::span<const Vector4> points,
              const mpz_class& collar);
+    /// Only this region is to be covered.
+    Coverage(const std::array<const Vector4*, 3>& parent, std::span<const Vector4> points,
+             const mpz_class& collar, const CoveredRegion& region);
 
     /// Tells whether the children cover the parent. Cost: some ten products of integers per edge;
     /// if children overlap, the same for each pair of an edge with children on one side and a
     /// child.
     [[nodiscard]] bool holds(std::span<const Triangle> children) const;
+
+    /// Tells whether each point of a segment in the parent is covered, or at most `collar` away from
+    /// a child. Precondition: the ends have w = 1 and differ when projected along the normal.
+    [[nodiscard]] bool reaches(const Vector4& from, const Vector4& to,
+                               std::span<const Triangle> children) const;
 
 private:
     struct Side {
@@ -40,12 +58,15 @@ private:
     };
 
     [[nodiscard]] int side_of(const Vector4& from, const Vector4& to, const Vector4& point) const;
-    [[nodiscard]] bool covers_centroid(std::span<const Triangle> children) const;
+    [[nodiscard]] bool covers_centroid(const std::array<const Vector4*, 3>& part,
+                                       std::span<const Triangle> children) const;
+    [[nodiscard]] bool covers_centroids(std::span<const Triangle> children) const;
+    [[nodiscard]] bool near_border(const Edge& edge) const;
     [[nodiscard]] bool has_in(const Triangle& child, const Vector4& point) const;
     [[nodiscard]] bool near_border(const Vector4& a, const Vector4& b) const;
     [[nodiscard]] bool covered_elsewhere(const Side& side,
                                          std::span<const Triangle> children) const;
-    [[nodiscard]] std::vector<Vector4> crossings(const Edge& edge,
+    [[nodiscard]] std::vector<Vector4> crossings(const Vector4& from, const Vector4& to,
                                                  std::span<const Triangle> children) const;
     [[nodiscard]] bool covers_beside(const Triangle& child, const Side& side,
                                      const Vector4& point) const;
@@ -55,6 +76,7 @@ private:
     std::span<const Vector4> points_;
     mpz_class collar_;
     Vector3 normal_;
+    std::optional<CoveredRegion> region_; ///< none: all of the parent
 };
 
 } // namespace terrane::verifier

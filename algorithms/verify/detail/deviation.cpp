@@ -2,6 +2,7 @@
 //
 // check_distances of rounded_parts.hpp.
 #include <algorithm>
+#include <map>
 #include <string>
 #include <utility>
 
@@ -86,13 +87,12 @@ IndexLists<std::uint32_t> triangles_at_vertices(const ArrangementClaim& exact) {
 class Neighbours {
 public:
     explicit Neighbours(const RoundedParts& parts) :
-        parts_(parts), at_vertex_(triangles_at_vertices(parts.exact)),
-        exact_children_(children_of(parts.exact.parents_of, parts.inputs.triangles.size())) {}
+        parts_(parts), at_vertex_(triangles_at_vertices(parts.exact)) {}
 
     /// Returns the triangles that name an input triangle that the given one meets, or itself.
     [[nodiscard]] Triangles of(std::uint32_t input) const {
         Numbers inputs;
-        for (const std::uint32_t part : exact_children_[input])
+        for (const std::uint32_t part : parts_.exact_children[input])
             for (const std::uint32_t vertex : parts_.exact.triangles[part])
                 for (const std::uint32_t t : at_vertex_[vertex])
                     for (const std::uint32_t parent : parts_.exact.parents_of[t])
@@ -114,7 +114,7 @@ private:
     }
 
     const RoundedParts& parts_;
-    IndexLists<std::uint32_t> at_vertex_, exact_children_;
+    IndexLists<std::uint32_t> at_vertex_;
 };
 
 // --- (3) From an input triangle to the triangles that name it ---------------------------------
@@ -162,6 +162,92 @@ bool check_covered(const RoundedParts& parts, std::uint32_t input, const Neighbo
     return false;
 }
 
+// --- (3) for input triangles of which a part was left out ---------------------------------------
+
+/// What was kept of an input triangle, with points taken to integers.
+struct KeptRegion {
+    std::vector<Vector4> points;
+    Triangles triangles; ///< indices into points
+    std::vector<Edge> edges;
+    Triangles borders; ///< edges {a, b, b} of one triangle
+};
+
+/// Returns the integers nearest to the coordinates of a point.
+Vector4 nearest_integers(const Vector4& point) {
+    Vector4 result{0, 0, 0, 1};
+    for (std::size_t i = 0; i < 3; ++i)
+        mpz_fdiv_q(result[i].get_mpz_t(), mpz_class(2 * point[i] + point[3]).get_mpz_t(),
+                   mpz_class(2 * point[3]).get_mpz_t());
+    return result;
+}
+
+KeptRegion kept_region(const RoundedParts& parts, std::uint32_t input) {
+    KeptRegion region;
+    std::map<std::uint32_t, std::uint32_t> number_of;
+    std::map<Edge, int> uses;
+    for (const std::uint32_t t : parts.exact_children[input]) {
+        Triangle corners = parts.exact.triangles[t];
+        for (std::uint32_t& corner : corners) {
+            const auto [at, added] =
+                number_of.try_emplace(corner, static_cast<std::uint32_t>(region.points.size()));
+            if (added)
+                region.points.push_back(nearest_integers(
+                    construct(parts.exact.vertices[corner], parts.input_points).value()));
+            corner = at->second;
+        }
+        region.triangles.push_back(corners);
+        for (std::size_t i = 0; i < 3; ++i)
+            ++uses[{std::min(corners[i], corners[(i + 1) % 3]),
+                    std::max(corners[i], corners[(i + 1) % 3])}];
+    }
+    for (const auto& [edge, count] : uses) {
+        if (region.points[edge[0]] == region.points[edge[1]]) continue;
+        region.edges.push_back(edge);
+        if (count == 1) region.borders.push_back({edge[0], edge[1], edge[1]});
+    }
+    return region;
+}
+
+/// Tells whether all edges of a region are near triangles, or covered by the children.
+bool edges_are_near(const RoundedParts& parts, const KeptRegion& region, const Coverage& coverage,
+                    const Triangles& children, const Triangles& triangles) {
+    return std::ranges::all_of(region.edges, [&](const Edge& e) {
+        const Vector4 &a = region.points[e[0]], &b = region.points[e[1]];
+        return segment_is_near({&a, &b}, parts.points, triangles, parts.quarter) ||
+               coverage.reaches(a, b, children);
+    });
+}
+
+bool is_thin(const KeptRegion& region, const mpz_class& width) {
+    return std::ranges::all_of(region.triangles, [&](const Triangle& t) {
+        const Squared height =
+            squared_height({&region.points[t[0]], &region.points[t[1]], &region.points[t[2]]});
+        return sgn(height.below) == 0 || within(height, width);
+    });
+}
+
+/// Judges an input triangle of which a part was left out. Returns whether a part of what was kept
+/// has vanished.
+bool check_cut(const RoundedParts& parts, std::uint32_t input, const Neighbours& neighbours,
+               Violations& found) {
+    const KeptRegion region = kept_region(parts, input);
+    Triangles triangles;
+    for (const std::uint32_t child : parts.children[input])
+        triangles.push_back(parts.rounded.triangles[child]);
+    const Coverage coverage(parts.input_corners(input), parts.points, parts.quarter,
+                            {region.points, region.triangles, region.borders});
+    const bool is_covered = triangles.empty() ? is_thin(region, mpz_class(2 * parts.quarter))
+                                              : coverage.holds(triangles);
+    if (is_covered && edges_are_near(parts, region, coverage, triangles, triangles)) return false;
+    if (is_covered && edges_are_near(parts, region, coverage, triangles, neighbours.of(input)))
+        return true;
+    found.push_back({triangles.empty() ? Rule::R12_rounded_parents : Rule::R18_coverage,
+                     {input},
+                     "a part of input triangle " + text(input) +
+                         ", which was kept, is missing in the doubles"});
+    return false;
+}
+
 // --- (4) Vanished input triangles -------------------------------------------------------------
 
 void check_vanished(const RoundedParts& parts, std::uint32_t input, const Neighbours& neighbours,
@@ -187,15 +273,19 @@ Distances check_distances(const RoundedParts& parts, Violations& found) {
     for (std::uint32_t input = 0; input < parts.inputs.triangles.size(); ++input) {
         if (parts.set_aside.first_of[input] != input ||
             std::ranges::binary_search(parts.set_aside.degenerate, input) ||
-            is_unchanged(parts, input))
+            parts.exact_children[input].empty() || is_unchanged(parts, input))
             continue;
         all_unchanged = false;
-        if (parts.children[input].empty())
+        if (!parts.is_cut.empty() && parts.is_cut[input])
+            result.partly_vanished += check_cut(parts, input, neighbours, found) ? 1 : 0;
+        else if (parts.children[input].empty())
             check_vanished(parts, input, neighbours, found);
         else if (check_covered(parts, input, neighbours, found))
             ++result.partly_vanished;
     }
-    const Squared proven{mpz_class(25 * parts.quarter * parts.quarter), 4}; // (5/2 c)^2
+    // (5/2 c)^2, and more than the integers moved points
+    const mpz_class root = 5 * parts.quarter + (parts.is_cut.empty() ? 0 : 8);
+    const Squared proven{mpz_class(root * root), 4};
     if (!all_unchanged && farthest < proven) farthest = proven;
     result.deviation = root_above(farthest, parts.scale);
     return result;

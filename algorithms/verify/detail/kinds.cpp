@@ -15,7 +15,8 @@ namespace {
 /// All kinds, in the order of CertificateKind.
 const auto& all_kinds() {
     static const std::array kinds{&arrangement_kind(), &volumes_kind(), &tetrahedra_kind(),
-                                  &improved_kind(), &filled_kind()};
+                                  &improved_kind(),    &filled_kind(),  &layered_kind(),
+                                  &cut_kind()};
     return kinds;
 }
 
@@ -23,9 +24,8 @@ const auto& all_kinds() {
 Numbers surfaces_of_inputs(const Certificate& certificate) {
     Numbers surface_of;
     std::uint32_t surface = 0;
-    for (const CertifiedInput& input : certificate.inputs)
-        for (const CertifiedSurface& s : input.surfaces)
-            surface_of.insert(surface_of.end(), s.triangles, surface++);
+    for (const CertifiedSurface& s : surfaces_of_mesh(certificate))
+        surface_of.insert(surface_of.end(), s.triangles, surface++);
     return surface_of;
 }
 
@@ -58,6 +58,22 @@ double default_max_change(std::span<const Surface> surfaces) {
     for (std::size_t i = 0; i < 3; ++i)
         if (low[i] < high[i]) part = std::hypot(part, high[i] / 20 - low[i] / 20);
     return part;
+}
+
+std::vector<CertifiedSurface> surfaces_of_mesh(const Certificate& certificate) {
+    std::vector<CertifiedSurface> all;
+    const std::size_t files =
+        certificate.inputs.size() - (certificate.cut ? certificate.cut->volume.files : 0);
+    for (const CertifiedInput& input : std::span(certificate.inputs).first(files))
+        all.insert(all.end(), input.surfaces.begin(), input.surfaces.end());
+    if (certificate.cut)
+        for (const Surface& s : certificate.cut->volume.boundary)
+            all.push_back({s.name, s.role, s.vertices.size(), s.triangles.size()});
+    if (!certificate.layered) return all;
+    std::vector<CertifiedSurface> layers;
+    for (const CertifiedLayer& layer : certificate.layered->order)
+        layers.push_back(all.at(layer.surface));
+    return layers;
 }
 
 IndexLists<std::uint32_t> surfaces_of_parents(const Certificate& certificate,

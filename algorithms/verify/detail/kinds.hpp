@@ -62,6 +62,8 @@ const Kind& volumes_kind();
 const Kind& tetrahedra_kind();
 const Kind& improved_kind();
 const Kind& filled_kind();
+const Kind& layered_kind();
+const Kind& cut_kind();
 
 // --- For kinds that contain an arrangement ------------------------------------------------------
 
@@ -75,6 +77,9 @@ std::optional<WrittenMesh> rounded_mesh(const Certificate& certificate);
 /// Returns the largest limit of a change that is accepted where none is given; VerifyOptions defines
 /// it.
 double default_max_change(std::span<const Surface> surfaces);
+
+/// Returns the surfaces of the mesh as the inputs describe them.
+std::vector<CertifiedSurface> surfaces_of_mesh(const Certificate& certificate);
 
 /// Returns the surfaces of each triangle, given the input triangles that are its parents.
 IndexLists<std::uint32_t> surfaces_of_parents(const Certificate& certificate,

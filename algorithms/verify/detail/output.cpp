@@ -51,20 +51,16 @@ std::string difference(std::string_view contents, std::string_view format,
 std::vector<std::uint32_t> renamed_surfaces(const Certificate& certificate,
                                             const CertifiedOutput& output) {
     std::vector<std::uint32_t> renamed;
-    std::uint32_t surface = 0;
-    for (const CertifiedInput& input : certificate.inputs)
-        for (const CertifiedSurface& s : input.surfaces) {
-            const SurfaceInfo& named = output.surfaces[surface];
-            if (named.name != s.name || named.role != s.role) renamed.push_back(surface);
-            ++surface;
-        }
+    const auto surfaces = surfaces_of_mesh(certificate);
+    for (std::uint32_t s = 0; s < surfaces.size(); ++s) {
+        const SurfaceInfo& named = output.surfaces[s];
+        if (named.name != surfaces[s].name || named.role != surfaces[s].role) renamed.push_back(s);
+    }
     return renamed;
 }
 
 std::size_t surface_count(const Certificate& certificate) {
-    std::size_t count = 0;
-    for (const CertifiedInput& input : certificate.inputs) count += input.surfaces.size();
-    return count;
+    return surfaces_of_mesh(certificate).size();
 }
 
 } // namespace verifier

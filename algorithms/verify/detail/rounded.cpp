@@ -72,7 +72,15 @@ void check_vanished_list(const RoundedParts& parts, Violations& found) {
     const Numbers& listed = parts.rounded.vanished;
     Numbers gone;
     for (std::uint32_t t = 0; t < parts.inputs.triangles.size(); ++t)
-        if (parts.children[t].empty()) gone.push_back(t);
+        if (parts.exact_children[t].empty()) {
+            for (const std::uint32_t child : parts.children[t])
+                found.push_back({Rule::R12_rounded_parents,
+                                 {child, t},
+                                 "input triangle " + text(t) +
+                                     " is no parent in the exact part, yet it is named as one"});
+        } else if (parts.children[t].empty()) {
+            gone.push_back(t);
+        }
     Numbers vanished;
     std::ranges::set_difference(gone, parts.set_aside.degenerate, std::back_inserter(vanished));
     verifier::for_each_missing(vanished, listed, [&](std::uint32_t t) {
@@ -139,13 +147,21 @@ void check_all(const RoundedParts& parts, double accepted, Verdict& verdict) {
 
 Verdict verify_rounded(std::span<const Surface> surfaces, const ArrangementClaim& exact,
                        const RoundedClaim& rounded, const VerifyOptions& options) {
+    return verifier::verify_rounded_part(surfaces, exact, rounded, options, {});
+}
+
+Verdict verifier::verify_rounded_part(std::span<const Surface> surfaces,
+                                      const ArrangementClaim& exact, const RoundedClaim& rounded,
+                                      const VerifyOptions& options, std::vector<bool> is_cut) {
     Verdict verdict;
     const Inputs inputs = verifier::join_inputs(surfaces, verdict.violations);
     check_numbers(inputs, rounded, verdict.violations);
     if (verdict.violations.empty()) {
         const double accepted =
             options.max_deviation.value_or(verifier::default_max_deviation(inputs));
-        check_all(verifier::make_rounded_parts(inputs, exact, rounded), accepted, verdict);
+        RoundedParts parts = verifier::make_rounded_parts(inputs, exact, rounded);
+        parts.is_cut = std::move(is_cut);
+        check_all(parts, accepted, verdict);
     }
     verifier::sort_by_rule(verdict.violations);
     return verdict;

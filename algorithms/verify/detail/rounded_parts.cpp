@@ -15,7 +15,7 @@ RoundedParts make_rounded_parts(const Inputs& inputs, const ArrangementClaim& ex
     // A quarter is an integer, too, unless it is below the smallest double.
     all.push_back({move, rounded.deviation, rounded.deviation / 4});
     auto [points, scale] = scale_to_integers(all);
-    RoundedParts parts{inputs, exact, rounded, {}, {}, {}, {}, 0, 0, 0, scale, false};
+    RoundedParts parts{inputs, exact, rounded, {}, {}, {}, {}, 0, 0, 0, scale, false, {}, {}};
     parts.max_move = points.back()[0];
     parts.deviation = points.back()[1];
     parts.quarter = parts.deviation / 4;
@@ -25,6 +25,7 @@ RoundedParts make_rounded_parts(const Inputs& inputs, const ArrangementClaim& ex
     parts.points.assign(middle, points.end());
     parts.set_aside = find_set_aside(inputs, parts.input_points);
     parts.children = children_of(rounded.parents_of, inputs.triangles.size());
+    parts.exact_children = children_of(exact.parents_of, inputs.triangles.size());
     parts.same_triangles = exact.vertices.size() == rounded.vertices.size() &&
                            exact.triangles == rounded.triangles &&
                            exact.parents_of == rounded.parents_of;

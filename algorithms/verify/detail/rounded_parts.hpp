@@ -5,6 +5,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <terrane/algorithms/core/index_lists.hpp>
@@ -29,6 +30,9 @@ struct RoundedParts {
     mpz_class scale = 1;
     bool same_triangles = false; ///< the mesh has the vertices, triangles and parents of the exact
                                  ///< part, each vertex at another place at most
+    IndexLists<std::uint32_t> exact_children; ///< per input triangle: its exact triangles
+    std::vector<bool> is_cut; ///< per input triangle: some of its exact triangles were left out;
+                              ///< empty: none
 
     [[nodiscard]] std::array<const Vector4*, 3> input_corners(std::uint32_t triangle) const {
         const auto& [a, b, c] = inputs.triangles[triangle];
@@ -39,6 +43,12 @@ struct RoundedParts {
         return {&points[a], &points[b], &points[c]};
     }
 };
+
+/// Does what verify_rounded() does for an arrangement of which a part was left out: `exact` is what
+/// was kept, and `is_cut` is that of RoundedParts.
+Verdict verify_rounded_part(std::span<const Surface> inputs, const ArrangementClaim& exact,
+                            const RoundedClaim& rounded, const VerifyOptions& options,
+                            std::vector<bool> is_cut);
 
 RoundedParts make_rounded_parts(const Inputs& inputs, const ArrangementClaim& exact,
                                 const RoundedClaim& rounded);
@@ -68,6 +78,10 @@ struct Distances {
 ///     is a third of it). The sides are at most c away from the triangles that name the input
 ///     triangle. So all of it is at most 5/2 c away from these. Where the tip of a needle has
 ///     vanished, its sides are at most c away from triangles that name what the needle meets.
+///     Where a part of the input triangle was left out, the same is shown for each exact triangle
+///     that was kept: the border of what is covered is at most c away from the border of what was
+///     kept, which is outside of each of them. Exact points are taken to integers for that, which
+///     moves them by less than the unit of these integers.
 /// (4) An input triangle that has vanished has a height of at most 2 c, so that each point is at
 ///     most c away from the sides, and the sides are at most c away from triangles that name
 ///     neighbours.

@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/verify/detail/cut.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include <terrane/algorithms/verify/detail/box_tree.hpp>
+#include <terrane/algorithms/verify/detail/contacts.hpp>
+#include <terrane/algorithms/verify/detail/indices.hpp>
+#include <terrane/algorithms/verify/detail/joined_sets.hpp>
+#include <terrane/algorithms/verify/detail/output.hpp>
+
+namespace terrane::verifier {
+
+namespace {
+
+// --- R50: the boundary --------------------------------------------------------------------------
+
+/// The triangles of all surfaces of a boundary; vertices at one place are one vertex.
+struct Shell {
+    std::vector<Point3> vertices;
+    std::vector<Triangle> triangles;
+};
+
+Shell joined_shell(const std::vector<Surface>& boundary) {
+    Shell shell;
+    std::map<Point3, std::uint32_t> number_of;
+    for (const Surface& s : boundary)
+        for (Triangle t : s.triangles) {
+            for (std::uint32_t& corner : t) {
+                const auto [at, added] = number_of.try_emplace(
+                    s.vertices[corner], static_cast<std::uint32_t>(shell.vertices.size()));
+                if (added) shell.vertices.push_back(s.vertices[corner]);
+                corner = at->second;
+            }
+            shell.triangles.push_back(t);
+        }
+    return shell;
+}
+
+/// Tells whether each edge has triangles in both directions, one of each.
+bool is_closed(const Shell& shell) {
+    std::map<Edge, std::array<int, 2>> uses;
+    for (const Triangle& t : shell.triangles)
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::uint32_t a = t[i], b = t[(i + 1) % 3];
+            ++uses[{std::min(a, b), std::max(a, b)}][a < b ? 0 : 1];
+        }
+    return std::ranges::all_of(uses, [](const auto& use) {
+        return use.second == std::array<int, 2>{1, 1};
+    });
+}
+
+bool has_even_edges(const Shell& shell) {
+    std::map<Edge, bool> is_odd;
+    for (const Triangle& t : shell.triangles)
+        for (std::size_t i = 0; i < 3; ++i) {
+            bool& odd = is_odd[{std::min(t[i], t[(i + 1) % 3]), std::max(t[i], t[(i + 1) % 3])}];
+            odd = !odd;
+        }
+    return std::ranges::none_of(is_odd, [](const auto& edge) { return edge.second; });
+}
+
+/// Returns what is wrong with a prism, or nothing.
+std::string prism_flaw(const VolumeClaim& volume, const Shell& shell) {
+    const auto& corners = volume.corners;
+    if (corners.size() < 3 || volume.between.size() != 2 ||
+        !(volume.between[0] < volume.between[1]))
+        return "a prism needs three corners and two heights, the lower first";
+    std::map<std::array<double, 2>, std::size_t> number_of;
+    for (const auto& corner : corners) number_of.try_emplace(corner, number_of.size());
+    const std::size_t count = corners.size();
+    if (number_of.size() != count) return "two corners of the polygon are the same";
+    if (shell.vertices.size() != 2 * count)
+        return "the boundary has not two vertices per corner of the polygon";
+    for (const Triangle& t : shell.triangles) {
+        std::array<std::size_t, 3> at{};
+        std::array<bool, 3> is_high{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Point3& p = shell.vertices[t[i]];
+            const auto corner = number_of.find({p.x, p.y});
+            if (corner == number_of.end() || (p.z != volume.between[0] && p.z != volume.between[1]))
+                return "a vertex of the boundary is no corner of the prism";
+            at[i] = corner->second;
+            is_high[i] = p.z == volume.between[1];
+        }
+        const bool is_cap = is_high[0] == is_high[1] && is_high[1] == is_high[2];
+        const auto [low, high] = std::minmax({at[0], at[1], at[2]});
+        const bool ends = std::ranges::all_of(
+            at, [&, a = low, b = high](std::size_t i) { return i == a || i == b; });
+        if (!is_cap && !(ends && (high - low == 1 || (low == 0 && high + 1 == count))))
+            return "a triangle of the boundary is in no side of the prism";
+    }
+    return "";
+}
+
+bool is_same(const Surface& a, const Surface& b) {
+    return a.triangles == b.triangles && a.vertices.size() == b.vertices.size() &&
+           std::ranges::equal(a.vertices, b.vertices,
+                              [](const Point3& p, const Point3& q) { return same_bits(p, q); });
+}
+
+std::string volume_flaw(const VolumeClaim& volume, std::span<const Surface> files) {
+    for (const Surface& s : volume.boundary) {
+        for (const Point3& p : s.vertices)
+            if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+                return "a coordinate of the boundary is not finite";
+        for (const Triangle& t : s.triangles)
+            if (!all_below(t, s.vertices.size()))
+                return "a triangle of the boundary names a vertex that does not exist";
+    }
+    const Shell shell = joined_shell(volume.boundary);
+    if (shell.triangles.empty()) return "the boundary has no triangles";
+    if ((volume.shape == "prism") == (volume.corners.empty() || volume.between.empty()) ||
+        (volume.shape == "surface") == (volume.files == 0))
+        return "the volume is described otherwise than its shape needs it";
+    if (volume.shape == "surface") {
+        if (!std::ranges::equal(volume.boundary, files, is_same))
+            return "the boundary is not the surface of the last input files";
+        return has_even_edges(shell) ? "" : "the boundary is not closed";
+    }
+    if (volume.shape == "prism") {
+        if (auto flaw = prism_flaw(volume, shell); !flaw.empty()) return flaw;
+    } else if (volume.shape != "hexahedron" || shell.vertices.size() != 8) {
+        return "the boundary is no prism, no hexahedron and no surface";
+    }
+    if (!is_closed(shell)) return "the boundary is not closed";
+    return verify_conforming(shell.vertices, shell.triangles).empty()
+               ? ""
+               : "the boundary meets itself improperly";
+}
+
+// --- Locations ----------------------------------------------------------------------------------
+
+/// Triangles and what they have to do with a boundary.
+struct Located {
+    const ExactMesh& mesh;
+    std::vector<bool> is_boundary; ///< per triangle: it has a parent in the boundary
+    std::vector<bool> is_odd;      ///< per triangle: it has an odd number of these
+};
+
+Located located(const ExactMesh& mesh, const IndexLists<std::uint32_t>& parents_of,
+                std::size_t first_of_boundary) {
+    Located result{mesh, {}, {}};
+    for (std::size_t t = 0; t < parents_of.size(); ++t) {
+        const auto count = std::ranges::count_if(
+            parents_of[t], [&](std::uint32_t p) { return p >= first_of_boundary; });
+        result.is_boundary.push_back(count > 0);
+        result.is_odd.push_back(count % 2 == 1);
+    }
+    return result;
+}
+
+/// Tells which points are in a boundary: rays upwards, moved aside by e in x and e^2 in y for an e
+/// that is smaller than all else, so that none meets an edge.
+class Rays {
+public:
+    explicit Rays(const Located& located) : mesh_(located.mesh), tree_({}, {}) {
+        std::vector<Box> boxes;
+        Numbers odd;
+        for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+            Box box{};
+            if (located.is_odd[t]) {
+                box = enclose(mesh_.points[mesh_.triangles[t][0]], mesh_.scale);
+                for (const std::size_t i : {1U, 2U})
+                    extend(box, enclose(mesh_.points[mesh_.triangles[t][i]], mesh_.scale));
+                odd.push_back(t);
+            }
+            boxes.push_back(box);
+        }
+        tree_ = BoxTree(std::move(boxes), std::move(odd));
+    }
+
+    [[nodiscard]] bool is_inside(const Vector4& point) const {
+        Box box = enclose(point, mesh_.scale);
+        box.high[up] = std::numeric_limits<double>::infinity();
+        bool inside = false;
+        for (const std::uint32_t t : tree_.touching(box))
+            if (is_under(point, t)) inside = !inside;
+        return inside;
+    }
+
+private:
+    static constexpr std::size_t up = 2;
+
+    static int side_of(const Vector4& a, const Vector4& b, const Vector4& point) {
+        if (const int side = sgn(turn(a, b, point, up)); side != 0) return side;
+        // moved by (e, e^2): the edge's direction tells
+        if (const int y = sgn(mpz_class(b[1] * a[3] - a[1] * b[3])); y != 0) return -y;
+        return sgn(mpz_class(b[0] * a[3] - a[0] * b[3]));
+    }
+
+    [[nodiscard]] bool is_under(const Vector4& point, std::uint32_t t) const {
+        const auto& [i, j, k] = mesh_.triangles[t];
+        const Vector4 &a = mesh_.points[i], &b = mesh_.points[j], &c = mesh_.points[k];
+        const int side = side_of(a, b, point);
+        if (side == 0 || side_of(b, c, point) != side || side_of(c, a, point) != side) return false;
+        return sgn(dot(mesh_.planes[t], point)) * side < 0;
+    }
+
+    const ExactMesh& mesh_;
+    BoxTree tree_;
+};
+
+Vector4 centroid_of(const ExactMesh& mesh, std::uint32_t triangle) {
+    const auto& [i, j, k] = mesh.triangles[triangle];
+    const Vector4 &a = mesh.points[i], &b = mesh.points[j], &c = mesh.points[k];
+    const mpz_class bc = b[3] * c[3], ca = c[3] * a[3], ab = a[3] * b[3];
+    Vector4 point{0, 0, 0, mpz_class(3 * a[3] * bc)};
+    for (std::size_t x = 0; x < 3; ++x) point[x] = a[x] * bc + b[x] * ca + c[x] * ab;
+    make_primitive(point);
+    return point;
+}
+
+/// Returns the triangles at each edge.
+std::map<Edge, Numbers> triangles_at_edges(const std::vector<Triangle>& triangles) {
+    std::map<Edge, Numbers> result;
+    for (std::uint32_t t = 0; t < triangles.size(); ++t)
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::uint32_t a = triangles[t][i], b = triangles[t][(i + 1) % 3];
+            result[{std::min(a, b), std::max(a, b)}].push_back(t);
+        }
+    return result;
+}
+
+/// Returns, for each triangle, whether it is inside or on the boundary.
+std::vector<bool> find_inside(const Located& located, const std::map<Edge, Numbers>& at_edge) {
+    const auto& triangles = located.mesh.triangles;
+    JoinedSets sets(triangles.size());
+    for (const auto& [edge, list] : at_edge)
+        if (std::ranges::none_of(list, [&](auto t) { return located.is_boundary[t]; }))
+            for (const std::uint32_t t : list) sets.join(list.front(), t);
+    const Rays rays(located);
+    std::map<std::uint32_t, bool> is_inside;
+    std::vector<bool> inside(triangles.size(), true);
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+        if (located.is_boundary[t]) continue;
+        const auto [at, added] = is_inside.try_emplace(sets.find(t), false);
+        if (added) at->second = rays.is_inside(centroid_of(located.mesh, t));
+        inside[t] = at->second;
+    }
+    return inside;
+}
+
+std::size_t first_triangle(std::span<const Surface> surfaces, std::size_t boundary_count) {
+    std::size_t first = 0;
+    for (const Surface& s : surfaces.first(surfaces.size() - boundary_count))
+        first += s.triangles.size();
+    return first;
+}
+
+} // namespace
+
+void check_volume(const VolumeClaim& volume, std::span<const Surface> files, Violations& found) {
+    if (auto flaw = volume_flaw(volume, files); !flaw.empty())
+        found.push_back({Rule::R50_volume, {}, std::move(flaw)});
+}
+
+void check_dropped(std::span<const Surface> surfaces, std::size_t boundary_count,
+                   const ArrangementClaim& exact, const Numbers& dropped, Violations& found) {
+    const Inputs inputs = join_inputs(surfaces, found);
+    auto [input_points, scale] = scale_to_integers(inputs.vertices);
+    std::vector<Vector4> points;
+    for (const Construction& how : exact.vertices)
+        points.push_back(construct(how, input_points).value());
+    const auto mesh = make_exact_mesh(std::move(points), scale, exact.triangles);
+    const auto inside =
+        find_inside(located(mesh, exact.parents_of, first_triangle(surfaces, boundary_count)),
+                    triangles_at_edges(exact.triangles));
+    for (std::uint32_t t = 0; t < inside.size(); ++t) {
+        const bool is_dropped = std::ranges::binary_search(dropped, t);
+        if (is_dropped != inside[t]) continue;
+        found.push_back({Rule::R51_dropped,
+                         {t},
+                         "exact triangle " + text(t) +
+                             (is_dropped ? " is inside or on the boundary, but dropped"
+                                         : " is outside, but not dropped")});
+    }
+}
+
+void check_inside(std::span<const Surface> surfaces, std::size_t boundary_count,
+                  const RoundedClaim& rounded, Violations& found) {
+    auto [points, scale] = scale_to_integers(rounded.vertices);
+    const auto mesh = make_exact_mesh(std::move(points), scale, rounded.triangles);
+    const Located all = located(mesh, rounded.parents_of, first_triangle(surfaces, boundary_count));
+    const auto at_edge = triangles_at_edges(rounded.triangles);
+    for (const auto& [edge, list] : at_edge)
+        if (std::ranges::count_if(list, [&](auto t) { return all.is_odd[t]; }) % 2 == 1) {
+            found.push_back(
+                {Rule::R52_inside,
+                 {},
+                 "the boundary in doubles is not closed at the edge of vertices " + text(edge)});
+            return;
+        }
+    const auto inside = find_inside(all, at_edge);
+    for (std::uint32_t t = 0; t < inside.size(); ++t)
+        if (!inside[t])
+            found.push_back({Rule::R52_inside, {t}, "triangle " + text(t) + " is outside"});
+}
+
+ArrangementClaim without(const ArrangementClaim& exact, const Numbers& dropped) {
+    constexpr std::uint32_t none = UINT32_MAX;
+    ArrangementClaim kept;
+    std::vector<std::uint32_t> number_of(exact.vertices.size(), none);
+    for (std::uint32_t t = 0; t < exact.triangles.size(); ++t) {
+        if (std::ranges::binary_search(dropped, t)) continue;
+        kept.triangles.push_back(exact.triangles[t]);
+        kept.parents_of.push_back(exact.parents_of[t]);
+        for (const std::uint32_t v : exact.triangles[t]) number_of[v] = 0;
+    }
+    for (std::uint32_t v = 0; v < number_of.size(); ++v) {
+        if (number_of[v] == none) continue;
+        number_of[v] = static_cast<std::uint32_t>(kept.vertices.size());
+        kept.vertices.push_back(exact.vertices[v]);
+    }
+    for (Triangle& t : kept.triangles)
+        for (std::uint32_t& corner : t) corner = number_of[corner];
+    kept.degenerate = exact.degenerate;
+    kept.duplicates = exact.duplicates;
+    return kept;
+}
+
+} // namespace terrane::verifier

@@ -1,0 +1,450 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Certificates of layers: the verifier accepts what the producer writes and refutes each forgery.
+#include "support/layered_certificates.hpp"
+#include "support/paths.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <numeric>
+#include <optional>
+
+namespace {
+
+using namespace forged;
+
+constexpr int nodes = 9; // along each side of a grid
+
+/// A horizon on a grid over [x0, x0 + 8] x [0, 8].
+template <class Height>
+std::string horizon_text(const std::string& name, double x0, const Height& height) {
+    std::string text;
+    for (int i = 0; i < nodes; ++i)
+        for (int j = 0; j < nodes; ++j)
+            text += "v " + std::to_string(x0 + i) + " " + std::to_string(j) + " " +
+                    std::to_string(height(x0 + i, j)) + "\n";
+    text += "g " + name + "\n";
+    for (int i = 0; i + 1 < nodes; ++i)
+        for (int j = 0; j + 1 < nodes; ++j) {
+            const int a = 1 + i * nodes + j, b = a + nodes;
+            text += "f " + std::to_string(a) + " " + std::to_string(b) + " " +
+                    std::to_string(b + 1) + "\nf " + std::to_string(a) + " " +
+                    std::to_string(b + 1) + " " + std::to_string(a + 1) + "\n";
+        }
+    return text;
+}
+
+/// Three horizons: the middle one is the softest and crosses both others; the lower one is the
+/// hardest and ends before the others.
+std::vector<File> three_horizons() {
+    return {{"top.obj", horizon_text("top", 0, [](double x, double) { return 3.1 + 0.07 * x; })},
+            {"middle.obj", horizon_text("middle", 0,
+                                        [](double x, double y) {
+                                            return 2 + 1.9 * std::sin(0.9 * x) * std::cos(0.7 * y);
+                                        })},
+            {"base.obj", horizon_text("base", -2.53, [](double x, double y) {
+                 return 0.9 + 0.3 * std::sin(0.5 * x + y);
+             })}};
+}
+
+std::vector<Layer> order_of_three() {
+    return {{SurfaceId(0), 2}, {SurfaceId(1), 1}, {SurfaceId(2), 3}};
+}
+
+const Subject& right_layers() {
+    static const Subject subject = layered_subject(three_horizons(), order_of_three());
+    return subject;
+}
+
+Forgery layered(const std::string& name, const std::function<void(Json&)>& change,
+                const std::string& rule) {
+    return {name, [change](Json& c) { change(c["layered"]); }, rule};
+}
+
+double coordinate(const Json& mesh, std::size_t v, std::size_t axis) {
+    return std::stod(mesh["vertices"][v][axis].get<std::string>());
+}
+
+void put(Json& number, double value) {
+    char buffer[64];
+    number = std::string(buffer, std::to_chars(buffer, buffer + 64, value).ptr);
+}
+
+void move(Json& mesh, std::size_t v, std::size_t axis, double by) {
+    put(mesh["vertices"][v][axis], coordinate(mesh, v, axis) + by);
+}
+
+/// Returns the first triangle of exactly these layers that is away from the borders of all.
+std::size_t triangle_of(const Json& mesh, const Json& layers) {
+    for (std::size_t t = 0; t < mesh["triangles"].size(); ++t) {
+        bool inside = mesh["layers"][t] == layers;
+        for (const Json& v : mesh["triangles"][t]) {
+            const double x = coordinate(mesh, v.get<std::size_t>(), 0),
+                         y = coordinate(mesh, v.get<std::size_t>(), 1);
+            inside = inside && y > 1.5 && y < 7 && x > 0.5 && x < 7;
+        }
+        if (inside) return t;
+    }
+    FAIL("there is no triangle of these layers");
+    return 0;
+}
+
+void erase_layered(Json& mesh, std::size_t t) {
+    for (const char* list : {"triangles", "layers", "regions", "parents"}) mesh[list].erase(t);
+}
+
+/// Removes vertices without a triangle.
+void drop_unused_vertices(Json& mesh) {
+    std::vector<int> number(mesh["vertices"].size(), -1);
+    for (const Json& t : mesh["triangles"])
+        for (const Json& v : t) number[v.get<std::size_t>()] = 0;
+    Json kept = Json::array();
+    for (std::size_t v = 0; v < number.size(); ++v)
+        if (number[v] == 0) {
+            number[v] = static_cast<int>(kept.size());
+            kept.push_back(mesh["vertices"][v]);
+        }
+    mesh["vertices"] = kept;
+    for (Json& t : mesh["triangles"])
+        for (Json& v : t) v = number[v.get<std::size_t>()];
+}
+
+/// Removes all triangles of these layers.
+void erase_all(Json& mesh, const Json& layers) {
+    for (std::size_t t = mesh["triangles"].size(); t-- > 0;)
+        if (mesh["layers"][t] == layers) erase_layered(mesh, t);
+    drop_unused_vertices(mesh);
+}
+
+void set_layers(Json& mesh, std::size_t t, const Json& layers) {
+    mesh["layers"][t] = layers;
+    mesh["regions"][t] = Json::array();
+    for (std::size_t i = 0; i < layers.size(); ++i) mesh["regions"][t].push_back(0);
+}
+
+/// Divides a triangle into three by a vertex above its centroid.
+void raise_peak(Json& mesh, std::size_t t, double height) {
+    const Json corners = mesh["triangles"][t];
+    Json peak = Json::array({"", "", ""});
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        double sum = 0;
+        for (const Json& v : corners) sum += coordinate(mesh, v.get<std::size_t>(), axis);
+        put(peak[axis], sum / 3 + (axis == 2 ? height : 0));
+    }
+    const auto v = static_cast<int>(mesh["vertices"].size());
+    mesh["vertices"].push_back(peak);
+    mesh["triangles"][t] = {corners[0], corners[1], v};
+    for (const std::size_t i : {1U, 2U}) {
+        mesh["triangles"].push_back({corners[i], corners[(i + 1) % 3], v});
+        for (const char* list : {"layers", "regions", "parents"})
+            mesh[list].push_back(mesh[list][t]);
+    }
+}
+
+/// Moves all vertices of the triangles of one layer.
+void move_layer(Json& mesh, int layer, double by) {
+    std::set<std::size_t> vertices;
+    for (std::size_t t = 0; t < mesh["triangles"].size(); ++t)
+        for (const Json& l : mesh["layers"][t])
+            if (l == layer)
+                for (const Json& v : mesh["triangles"][t]) vertices.insert(v.get<std::size_t>());
+    for (const std::size_t v : vertices) move(mesh, v, 2, by);
+}
+
+std::string text_in(const std::string& path) {
+    std::ifstream in(path);
+    std::string text(std::istreambuf_iterator<char>(in), {});
+    REQUIRE_FALSE(text.empty());
+    return text;
+}
+
+/// Returns an OBJ text of surfaces.
+std::string obj_of(const std::vector<Surface>& surfaces) {
+    std::string text;
+    std::size_t first = 1;
+    for (const Surface& s : surfaces) {
+        for (const Point3& p : s.vertices) {
+            text += "v";
+            for (const double c : {p.x, p.y, p.z}) {
+                char buffer[64];
+                text += " " + std::string(buffer, std::to_chars(buffer, buffer + 64, c).ptr);
+            }
+            text += "\n";
+        }
+        text += "g " + s.name + "\n";
+        for (const Triangle& t : s.triangles) {
+            text += "f";
+            for (const std::uint32_t v : t) text += " " + std::to_string(v + first);
+            text += "\n";
+        }
+        first += s.vertices.size();
+    }
+    return text;
+}
+
+std::vector<Layer> order_of(std::initializer_list<double> hardness) {
+    std::vector<Layer> order;
+    for (const double h : hardness)
+        order.push_back({SurfaceId(static_cast<std::uint32_t>(order.size())), h});
+    return order;
+}
+
+} // namespace
+
+TEST_CASE("layered certificates: accepted with each format", "[layers]") {
+    const Subject subject = layered_subject(three_horizons(), order_of_three(),
+                                            {"obj", "off", "ply", "vtp", "ts", "stl"});
+    CHECK(judged(subject) == "");
+    const auto parsed = parse_certificate(subject.certificate.dump(), "c");
+    REQUIRE(parsed);
+    const Verdict verdict = verify_certificate(subject.inputs, parsed.value());
+    REQUIRE(verdict.measured);
+    CHECK(verdict.measured->deviation < 1e-13);
+    CHECK(judged(subject, {.max_deviation = 1e-18}) == "R60");
+    // All that is told apart is there: what is replaced from above and below, and steps.
+    const Json& mesh = subject.certificate["layered"];
+    triangle_of(mesh, {0, 1});
+    triangle_of(mesh, {1, 2});
+    triangle_of(mesh, {1});
+}
+
+TEST_CASE("layered certificates: accepted for stacks of real and difficult surfaces", "[layers]") {
+    const std::string data = test_support::source_dir() + "/tests/data/layers/";
+    const std::vector<std::pair<std::string, std::vector<Layer>>> stacks{
+        {"partial_mid.obj", order_of({3, 2, 1})},
+        {"stack16_cross.obj", order_of({1, 3, 2, 4})},
+        {"stack261_cross.obj", order_of({2, 4, 2, 2})},
+        {"stack536_cross.obj", order_of({4, 6, 7, 3, 5, 3})}};
+    for (const auto& [name, order] : stacks) {
+        INFO(name);
+        CHECK(judged(layered_subject({{name, text_in(data + name)}}, order)) == "");
+    }
+    const std::string docs = test_support::source_dir() + "/docs/data/";
+    const auto salt = read_surfaces(docs + "salt.ts"), shale = read_surfaces(docs + "shale.ts"),
+               top = read_surfaces(docs + "top.ts"), base = read_surfaces(docs + "base.ts");
+    REQUIRE(salt);
+    REQUIRE(shale);
+    REQUIRE(top);
+    REQUIRE(base);
+    const std::vector<File> dome{{"salt.obj", obj_of(salt.value())},
+                                 {"shale.obj", obj_of(shale.value())}};
+    CHECK(judged(layered_subject(dome, {{SurfaceId(1), 0}, {SurfaceId(0), 1}})) == "");
+    CHECK(judged(layered_subject(dome, {{SurfaceId(0), 1}, {SurfaceId(1), 0}})) == "");
+    const std::vector<File> horizons{{"top.obj", obj_of(top.value())},
+                                     {"base.obj", obj_of(base.value())}};
+    CHECK(judged(layered_subject(horizons, order_of({1, 2}))) == "");
+    // The upper horizon as the lower one: all of the softer one gives way.
+    CHECK(judged(layered_subject(horizons, {{SurfaceId(1), 1}, {SurfaceId(0), 2}})) == "");
+}
+
+TEST_CASE("layered certificates: forged layers", "[layers]") {
+    check_forgeries(
+        right_layers(),
+        {
+            layered(
+                "a triangle of one layer is missing",
+                [](Json& m) { erase_layered(m, triangle_of(m, {0})); }, "R64"),
+            layered(
+                "a triangle that replaces a part of another layer is missing",
+                [](Json& m) {
+                    erase_layered(m, triangle_of(m, {1, 2}));
+                },
+                "R64"),
+            layered(
+                "a replacement belongs to the harder layer alone",
+                [](Json& m) {
+                    set_layers(m, triangle_of(m, {1, 2}), {2});
+                },
+                "R64"),
+            layered(
+                "a replacement belongs to the softer layer alone",
+                [](Json& m) {
+                    set_layers(m, triangle_of(m, {0, 1}), {1});
+                },
+                "R63"),
+            layered(
+                "all replacements belong to the harder layer alone",
+                [](Json& m) {
+                    for (std::size_t t = 0; t < m["triangles"].size(); ++t)
+                        if (m["layers"][t] == Json{1, 2}) set_layers(m, t, {2});
+                },
+                "R64"),
+            layered(
+                "a layer is missing where no other one is", [](Json& m) { erase_all(m, {1}); },
+                "R64"),
+            layered(
+                "a vertex moved up by a little",
+                [](Json& m) {
+                    move(m, m["triangles"][triangle_of(m, {0})][0].get<std::size_t>(), 2, 1e-9);
+                },
+                "R63"),
+            layered(
+                "a vertex moved sideways by a little",
+                [](Json& m) {
+                    move(m, m["triangles"][triangle_of(m, {1})][1].get<std::size_t>(), 0, 1e-6);
+                },
+                "R63"),
+            layered(
+                "a peak on a triangle", [](Json& m) { raise_peak(m, triangle_of(m, {0}), 0.01); },
+                "R63"),
+            layered(
+                "a pit in a triangle that replaces others",
+                [](Json& m) {
+                    raise_peak(m, triangle_of(m, {1, 2}), -0.01);
+                },
+                "R63"),
+            layered(
+                "a peak through the layer above",
+                [](Json& m) { raise_peak(m, triangle_of(m, {1}), 5); }, "R61"),
+            layered(
+                "the middle layer raised by a little", [](Json& m) { move_layer(m, 1, 1e-5); },
+                "R63"),
+            layered(
+                "the base lowered by much", [](Json& m) { move_layer(m, 2, -100); }, "R63"),
+            layered(
+                "a triangle turned over", [](Json& m) { turn_over(m, triangle_of(m, {1})); },
+                "R65"),
+            layered(
+                "all triangles turned over",
+                [](Json& m) {
+                    for (std::size_t t = 0; t < m["triangles"].size(); ++t) turn_over(m, t);
+                },
+                "R65"),
+            layered(
+                "a triangle of the middle one belongs to the top, too",
+                [](Json& m) {
+                    set_layers(m, triangle_of(m, {1}), {0, 1});
+                },
+                "R63"),
+            layered(
+                "a triangle twice",
+                [](Json& m) {
+                    const std::size_t t = triangle_of(m, {1});
+                    for (const char* list : {"triangles", "layers", "regions", "parents"})
+                        m[list].push_back(m[list][t]);
+                },
+                "R61"),
+        });
+}
+
+TEST_CASE("layered certificates: forged orders and numbers", "[layers]") {
+    check_forgeries(
+        right_layers(),
+        {
+            layered(
+                "two layers exchanged",
+                [](Json& m) { std::swap(m["order"][0]["surface"], m["order"][1]["surface"]); },
+                "R63"),
+            layered(
+                "the order reversed", [](Json& m) { std::swap(m["order"][0], m["order"][2]); },
+                "R63"),
+            layered(
+                "the order reversed, and the layers of all triangles",
+                [](Json& m) {
+                    std::swap(m["order"][0], m["order"][2]);
+                    for (std::size_t t = 0; t < m["triangles"].size(); ++t) {
+                        std::set<int> layers;
+                        for (const Json& l : m["layers"][t]) layers.insert(2 - l.get<int>());
+                        m["layers"][t] = layers;
+                    }
+                },
+                "R62"),
+            layered(
+                "the softest is said to be the hardest",
+                [](Json& m) { m["order"][1]["hardness"] = "9"; }, "R63"),
+            layered(
+                "all of the same hardness",
+                [](Json& m) {
+                    for (Json& layer : m["order"]) layer["hardness"] = "1";
+                },
+                "R63"),
+            layered(
+                "a layer is left out",
+                [](Json& m) {
+                    m["order"].erase(2);
+                    for (std::size_t t = m["triangles"].size(); t-- > 0;) {
+                        Json layers = Json::array();
+                        for (const Json& l : m["layers"][t])
+                            if (l != 2) layers.push_back(l);
+                        if (layers.empty())
+                            erase_layered(m, t);
+                        else
+                            set_layers(m, t, layers);
+                    }
+                    drop_unused_vertices(m);
+                },
+                "R63"),
+            layered(
+                "a smaller deviation", [](Json& m) { m["deviation"] = "0"; }, "R63"),
+            layered(
+                "a larger deviation, for a vertex moved as far",
+                [](Json& m) {
+                    move(m, m["triangles"][triangle_of(m, {0})][0].get<std::size_t>(), 2, 1e-3);
+                    m["deviation"] = "0.01";
+                },
+                "R60"),
+            layered(
+                "a negative deviation", [](Json& m) { m["deviation"] = "-1"; }, "R60"),
+            layered(
+                "a corner out of range",
+                [](Json& m) { m["triangles"][3][0] = m["vertices"].size(); }, "R60"),
+            layered(
+                "a triangle of no layer", [](Json& m) { set_layers(m, 3, Json::array()); }, "R60"),
+            layered(
+                "a triangle of a layer that does not exist", [](Json& m) { set_layers(m, 3, {3}); },
+                "R60"),
+            layered(
+                "layers of a triangle in another order",
+                [](Json& m) {
+                    set_layers(m, triangle_of(m, {0, 1}), {1, 0});
+                },
+                "R60"),
+            layered(
+                "a surface is in the order twice", [](Json& m) { m["order"][0]["surface"] = 1; },
+                "R60"),
+            layered(
+                "a layer names no surface", [](Json& m) { m["order"][0]["surface"] = 3; },
+                "names no surface"),
+            layered(
+                "a vertex without a triangle",
+                [](Json& m) {
+                    m["vertices"].push_back({"1", "1", "50"});
+                },
+                "R61"),
+            {"another hash of an input",
+             [](Json& c) { c["inputs"][1]["sha256"] = std::string(64, '0'); }, "R9"},
+            {"names of two inputs exchanged",
+             [](Json& c) {
+                 std::swap(c["inputs"][0]["surfaces"][0]["name"],
+                           c["inputs"][1]["surfaces"][0]["name"]);
+             },
+             "R9"},
+            {"as filled surfaces", [](Json& c) { c["kind"] = "filled"; }, "missing"},
+        });
+}
+
+TEST_CASE("layered certificates: output files", "[layers]") {
+    const Subject right =
+        layered_subject(three_horizons(), order_of_three(), {"obj", "ply", "vtp", "ts"});
+    REQUIRE(judged(right) == "");
+    for (std::size_t i = 0; i < right.contents.size(); ++i) {
+        INFO(right.certificate["outputs"][i]["name"]);
+        Subject wrong = right;
+        std::string& text = wrong.contents[i];
+        const auto digit = text.find_first_of("123456789", text.size() / 2);
+        REQUIRE(digit != std::string::npos);
+        text[digit] = text[digit] == '9' ? '8' : static_cast<char>(text[digit] + 1);
+        CHECK(judged(wrong) == "R21");
+        seal(wrong); // with its new SHA-256 in the certificate
+        CHECK(judged(wrong) == "R21");
+    }
+    Subject wrong = right;
+    wrong.certificate["outputs"][0]["surfaces"].erase(0);
+    CHECK(judged(wrong) == "R21");
+    wrong = right;
+    std::swap(wrong.certificate["outputs"][2]["surfaces"][0],
+              wrong.certificate["outputs"][2]["surfaces"][1]);
+    CHECK(judged(wrong) == "R21");
+}
