@@ -71,5 +71,6 @@ set(terrane_headers
     io/structure_json.hpp)
 set(verify_headers
     algorithms/verify/block_claims.hpp
+    algorithms/verify/changed_claims.hpp
     algorithms/verify/verify.hpp
     algorithms/verify/verify_certificate.hpp)

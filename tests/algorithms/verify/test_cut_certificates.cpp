@@ -60,11 +60,11 @@ const Subject& right_cut() {
     return subject;
 }
 
-double coordinate(const Json& mesh, const Json& vertex, std::size_t axis) {
+double cut_coordinate(const Json& mesh, const Json& vertex, std::size_t axis) {
     return std::stod(mesh["vertices"][vertex.get<std::size_t>()][axis].get<std::string>());
 }
 
-void put(Json& number, double value) {
+void set_cut_number(Json& number, double value) {
     char buffer[64];
     number = std::string(buffer, std::to_chars(buffer, buffer + 64, value).ptr);
 }
@@ -106,8 +106,8 @@ std::array<std::size_t, 2> inner_pair(const Json& rounded) {
 }
 
 double turn_of(const Json& mesh, const Json& a, const Json& b, const Json& c) {
-    const auto x = [&](const Json& v) { return coordinate(mesh, v, 0); };
-    const auto y = [&](const Json& v) { return coordinate(mesh, v, 1); };
+    const auto x = [&](const Json& v) { return cut_coordinate(mesh, v, 0); };
+    const auto y = [&](const Json& v) { return cut_coordinate(mesh, v, 1); };
     return (x(b) - x(a)) * (y(c) - y(a)) - (y(b) - y(a)) * (x(c) - x(a));
 }
 
@@ -153,12 +153,12 @@ Forgery cut(const std::string& name, const std::function<void(Json&)>& change,
     return {name, [change](Json& c) { change(c["cut"]); }, rule};
 }
 
-Forgery doubles(const std::string& name, const std::function<void(Json&)>& change,
-                const std::string& rule) {
+Forgery cut_doubles(const std::string& name, const std::function<void(Json&)>& change,
+                    const std::string& rule) {
     return {name, [change](Json& c) { change(c["rounded"]); }, rule};
 }
 
-std::string text_in(const std::string& path) {
+std::string cut_text_in(const std::string& path) {
     std::ifstream in(path);
     std::string text(std::istreambuf_iterator<char>(in), {});
     REQUIRE_FALSE(text.empty());
@@ -214,7 +214,7 @@ TEST_CASE("cut certificates: accepted for real surfaces", "[volume_of_interest]"
               horizons, file_volume({"body.obj", obj_in(source + "/docs/data/body.ts")}))) == "");
     for (const std::string name : {"manifold/Havocglass8_left.obj", "manifold/Cray_left.obj"}) {
         INFO(name);
-        const File file{"input.obj", text_in(source + "/tests/data/" + name)};
+        const File file{"input.obj", cut_text_in(source + "/tests/data/" + name)};
         Point3 low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
         for (const InputFile& input : input_files({file}))
             for (const Surface& s : input.surfaces)
@@ -354,10 +354,10 @@ TEST_CASE("cut certificates: forged lists of what is outside", "[volume_of_inter
 /// Forgeries of the doubles, whether these have the triangles of the exact part or others.
 std::vector<Forgery> forged_doubles() {
     return {
-        doubles(
+        cut_doubles(
             "a triangle inside is missing", [](Json& m) { drop_triangle(m, inner_triangle(m)); },
             "R12"),
-        doubles(
+        cut_doubles(
             "two triangles are missing",
             [](Json& m) {
                 const auto [a, b] = inner_pair(m);
@@ -365,17 +365,17 @@ std::vector<Forgery> forged_doubles() {
                 drop_triangle(m, std::min(a, b));
             },
             "R12"),
-        doubles(
+        cut_doubles(
             "a triangle of the boundary is missing",
             [](Json& m) { drop_triangle(m, m["triangles"].size() - 1); }, "R18"),
-        doubles(
+        cut_doubles(
             "a vertex moved",
             [](Json& m) {
                 Json& x = m["vertices"][m["triangles"][inner_triangle(m)][0].get<std::size_t>()][2];
-                put(x, std::stod(x.get<std::string>()) + 1e-9);
+                set_cut_number(x, std::stod(x.get<std::string>()) + 1e-9);
             },
             "R13"),
-        doubles(
+        cut_doubles(
             "a triangle outside is added",
             [](Json& m) {
                 const auto v = static_cast<int>(m["vertices"].size());
@@ -385,9 +385,9 @@ std::vector<Forgery> forged_doubles() {
                 add_triangle(m, {v, v + 1, v + 2}, {0});
             },
             "R13"),
-        doubles(
+        cut_doubles(
             "a triangle turned over", [](Json& m) { turn_over(m, inner_triangle(m)); }, "R19"),
-        doubles(
+        cut_doubles(
             "all of a surface is missing, and listed as vanished",
             [](Json& m) {
                 std::set<int> inputs;
@@ -400,18 +400,18 @@ std::vector<Forgery> forged_doubles() {
                 m["vanished"] = vanished;
             },
             "R12"),
-        doubles(
+        cut_doubles(
             "regions are exchanged", [](Json& m) { m["regions"][inner_triangle(m)][0] = 99; },
             "R16"),
-        doubles(
+        cut_doubles(
             "an intersection edge is missing", [](Json& m) { m["intersection_edges"].erase(0); },
             "R15"),
-        doubles(
+        cut_doubles(
             "a larger deviation than what is accepted", [](Json& m) { m["deviation"] = "1"; },
             "R13"),
-        doubles(
+        cut_doubles(
             "said not to be conforming", [](Json& m) { m["clean"] = false; }, "R11"),
-        doubles(
+        cut_doubles(
             "a triangle names another parent",
             [](Json& m) { m["parents"][inner_triangle(m)][0] = 60; }, "R13"),
     };
@@ -420,9 +420,9 @@ std::vector<Forgery> forged_doubles() {
 TEST_CASE("cut certificates: forged doubles", "[volume_of_interest]") {
     check_forgeries(right_cut(), forged_doubles());
     check_forgeries(right_cut(),
-                    {doubles(
+                    {cut_doubles(
                          "a smaller largest move", [](Json& m) { m["max_move"] = "0"; }, "R14"),
-                     doubles(
+                     cut_doubles(
                          "a smaller deviation",
                          [](Json& m) {
                              m["max_move"] = "0";
@@ -444,7 +444,7 @@ TEST_CASE("cut certificates: forged doubles with other triangles", "[volume_of_i
     check_forgeries(right, forged_doubles());
     check_forgeries(
         right,
-        {doubles(
+        {cut_doubles(
              "a triangle that continues an input triangle outside",
              [](Json& m) {
                  // The part of the first input triangle with a part inside that is outside.
@@ -466,16 +466,16 @@ TEST_CASE("cut certificates: forged doubles with other triangles", "[volume_of_i
                               &c = s.vertices[corners[2]];
                  for (const auto& [k, l] : {std::pair(0.0, 0.0), {0.05, 0.0}, {0.0, 0.05}}) {
                      Json point = Json::array({"", "", ""});
-                     put(point[0], a.x + k * (b.x - a.x) + l * (c.x - a.x));
-                     put(point[1], a.y + k * (b.y - a.y) + l * (c.y - a.y));
-                     put(point[2], a.z + k * (b.z - a.z) + l * (c.z - a.z));
+                     set_cut_number(point[0], a.x + k * (b.x - a.x) + l * (c.x - a.x));
+                     set_cut_number(point[1], a.y + k * (b.y - a.y) + l * (c.y - a.y));
+                     set_cut_number(point[2], a.z + k * (b.z - a.z) + l * (c.z - a.z));
                      m["vertices"].push_back(point);
                  }
                  add_triangle(m, {v, v + 1, v + 2}, {input});
                  m["regions"].back() = {999};
              },
              "R18"),
-         doubles(
+         cut_doubles(
              "the largest move is stated", [](Json& m) { m["max_move"] = "1e-15"; }, "R14")});
 }
 

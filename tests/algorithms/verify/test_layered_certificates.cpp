@@ -63,17 +63,17 @@ Forgery layered(const std::string& name, const std::function<void(Json&)>& chang
     return {name, [change](Json& c) { change(c["layered"]); }, rule};
 }
 
-double coordinate(const Json& mesh, std::size_t v, std::size_t axis) {
+double layer_coordinate(const Json& mesh, std::size_t v, std::size_t axis) {
     return std::stod(mesh["vertices"][v][axis].get<std::string>());
 }
 
-void put(Json& number, double value) {
+void set_layer_number(Json& number, double value) {
     char buffer[64];
     number = std::string(buffer, std::to_chars(buffer, buffer + 64, value).ptr);
 }
 
 void move(Json& mesh, std::size_t v, std::size_t axis, double by) {
-    put(mesh["vertices"][v][axis], coordinate(mesh, v, axis) + by);
+    set_layer_number(mesh["vertices"][v][axis], layer_coordinate(mesh, v, axis) + by);
 }
 
 /// Returns the first triangle of exactly these layers that is away from the borders of all.
@@ -81,8 +81,8 @@ std::size_t triangle_of(const Json& mesh, const Json& layers) {
     for (std::size_t t = 0; t < mesh["triangles"].size(); ++t) {
         bool inside = mesh["layers"][t] == layers;
         for (const Json& v : mesh["triangles"][t]) {
-            const double x = coordinate(mesh, v.get<std::size_t>(), 0),
-                         y = coordinate(mesh, v.get<std::size_t>(), 1);
+            const double x = layer_coordinate(mesh, v.get<std::size_t>(), 0),
+                         y = layer_coordinate(mesh, v.get<std::size_t>(), 1);
             inside = inside && y > 1.5 && y < 7 && x > 0.5 && x < 7;
         }
         if (inside) return t;
@@ -130,8 +130,8 @@ void raise_peak(Json& mesh, std::size_t t, double height) {
     Json peak = Json::array({"", "", ""});
     for (std::size_t axis = 0; axis < 3; ++axis) {
         double sum = 0;
-        for (const Json& v : corners) sum += coordinate(mesh, v.get<std::size_t>(), axis);
-        put(peak[axis], sum / 3 + (axis == 2 ? height : 0));
+        for (const Json& v : corners) sum += layer_coordinate(mesh, v.get<std::size_t>(), axis);
+        set_layer_number(peak[axis], sum / 3 + (axis == 2 ? height : 0));
     }
     const auto v = static_cast<int>(mesh["vertices"].size());
     mesh["vertices"].push_back(peak);
@@ -153,7 +153,7 @@ void move_layer(Json& mesh, int layer, double by) {
     for (const std::size_t v : vertices) move(mesh, v, 2, by);
 }
 
-std::string text_in(const std::string& path) {
+std::string layer_text_in(const std::string& path) {
     std::ifstream in(path);
     std::string text(std::istreambuf_iterator<char>(in), {});
     REQUIRE_FALSE(text.empty());
@@ -219,7 +219,7 @@ TEST_CASE("layered certificates: accepted for stacks of real and difficult surfa
         {"stack536_cross.obj", order_of({4, 6, 7, 3, 5, 3})}};
     for (const auto& [name, order] : stacks) {
         INFO(name);
-        CHECK(judged(layered_subject({{name, text_in(data + name)}}, order)) == "");
+        CHECK(judged(layered_subject({{name, layer_text_in(data + name)}}, order)) == "");
     }
     const std::string docs = test_support::source_dir() + "/docs/data/";
     const auto salt = read_surfaces(docs + "salt.ts"), shale = read_surfaces(docs + "shale.ts"),
