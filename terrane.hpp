@@ -25,6 +25,8 @@
 #include <terrane/algorithms/mesh/surface.hpp>
 #include <terrane/algorithms/model/arrange_within.hpp>
 #include <terrane/algorithms/model/model.hpp>
+#include <terrane/algorithms/model/model_doubts.hpp>
+#include <terrane/algorithms/plausibility/plausibility.hpp>
 #include <terrane/algorithms/project/build.hpp>
 #include <terrane/algorithms/project/preprocess.hpp>
 #include <terrane/algorithms/project/project.hpp>

@@ -23,6 +23,7 @@
 #include <terrane/io/surfaces/ply.hpp>
 #include <terrane/io/surfaces/stl.hpp>
 #include <terrane/io/text/text.hpp>
+#include <terrane/io/text/units.hpp>
 
 namespace terrane {
 
@@ -67,15 +68,15 @@ Result<Format> choose_format(const fs::path& path, std::optional<Format> wanted,
     return *format;
 }
 
-Result<std::vector<Surface>> parse(std::string_view contents, std::string_view source,
-                                   Format format, const ReadOptions& options) {
+Result<std::vector<Surface>> parse_as_stated(std::string_view contents, std::string_view source,
+                                             Format format, const ReadOptions& options) {
     const std::string place(source);
     const auto name = fs::path(place).stem().string();
     if (contents.size() > max_bytes)
         return Error{ErrorCode::unsupported, "the file is larger than 12 GiB", place};
     switch (format) {
     case Format::gocad:
-        return read_gocad(contents, source, name);
+        return read_gocad(contents, source, name, !options.unit.empty());
     case Format::obj:
         return read_obj(contents, source, name);
     case Format::off:
@@ -100,6 +101,16 @@ Result<std::vector<Surface>> parse(std::string_view contents, std::string_view s
         break;
     }
     return Error{ErrorCode::unsupported, "this format is written, not read", place};
+}
+
+Result<std::vector<Surface>> parse(std::string_view contents, std::string_view source,
+                                   Format format, const ReadOptions& options) {
+    auto surfaces = parse_as_stated(contents, source, format, options);
+    if (!surfaces || options.unit.empty()) return surfaces;
+    for (Surface& s : *surfaces)
+        if (auto trouble = convert_units(s, options.unit))
+            return Error{trouble->code, trouble->sentence, std::string(source)};
+    return surfaces;
 }
 
 Result<std::string> contents_of(const Mesh& mesh, Format format, const WriteOptions& options) {

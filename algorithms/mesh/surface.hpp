@@ -16,6 +16,22 @@ using Triangle = std::array<std::uint32_t, 3>;
 /// The geological role of a surface. It does not influence the geometry of an arrangement.
 enum class Role : std::uint8_t { unknown, horizon, fault, boundary };
 
+/// The direction in which the heights of a file are counted.
+enum class VerticalAxis : std::uint8_t {
+    unstated, ///< the file does not say, nor did the user; taken for up
+    up,       ///< heights
+    down,     ///< depths; they were turned into heights when the file was read
+};
+
+/// What the file of a surface states about its coordinates. It does not influence any geometry.
+struct CoordinateFrame {
+    std::string horizontal_unit{}; ///< of x and y: "m", "ft"; empty: not stated
+    std::string vertical_unit{};   ///< of z; empty: not stated
+    std::string system{};          ///< coordinate system; empty: not stated
+    VerticalAxis vertical_axis = VerticalAxis::unstated; ///< of z
+    bool column_of_depths = false; ///< z is a column called depth that was not turned over
+};
+
 /// A triangulated surface as it is read. It may be open, cross itself, and have duplicate or
 /// degenerate triangles; only its coordinates must be finite.
 struct Surface {
@@ -23,6 +39,7 @@ struct Surface {
     Role role = Role::unknown;       ///< what it is to the geologist
     std::vector<Point3> vertices;    ///< order and unit of the file; finite
     std::vector<Triangle> triangles; ///< order of the file; indices < vertices.size()
+    CoordinateFrame frame{};         ///< what the file states about the coordinates
 };
 
 } // namespace terrane

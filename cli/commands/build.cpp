@@ -12,6 +12,7 @@
 #include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
+#include <terrane/algorithms/model/model_doubts.hpp>
 #include <terrane/algorithms/project/build.hpp>
 #include <terrane/algorithms/tetgen/tetgen_helper.hpp>
 #include <terrane/algorithms/volumes/region_points.hpp>
@@ -24,6 +25,7 @@
 #include <terrane/cli/stages/blocks.hpp>
 #include <terrane/cli/stages/certificate_output.hpp>
 #include <terrane/cli/stages/layer_stage.hpp>
+#include <terrane/cli/stages/plausibility.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/atomic/atomic_folder.hpp>
 #include <terrane/io/project.hpp>
@@ -40,6 +42,7 @@ struct BuildCommand {
     std::string folder;              ///< empty: the folder that the project names
     std::optional<unsigned> threads; ///< none: the number that the project names
     PairCheckOptions check{PairCheck::bounds, SIZE_MAX};
+    bool strict = false;             ///< warnings about the inputs are errors
 };
 
 constexpr const char* blocks_certificate = "certificate_blocks.json";
@@ -104,9 +107,10 @@ private:
 /// Runs one project, from reading its file to publishing the folder of results.
 class Build {
 public:
-    Build(const Project& project, std::string source, fs::path folder, Session& session) :
-        project_(project), source_(std::move(source)), folder_(std::move(folder)),
-        session_(session) {}
+    Build(const Project& project, const BuildCommand& command, Session& session) :
+        project_(project), source_(command.project),
+        folder_(command.folder.empty() ? project.folder : fs::path(command.folder)),
+        strict_(command.strict), session_(session) {}
 
     Result<ExitStatus> operator()() {
         journal_.note(fmt::format("terrane {}, {}", TERRANE_VERSION, source_));
@@ -116,6 +120,7 @@ public:
             return refused_.empty() ? Result<ExitStatus>(done.error()) : refuse(refused_);
         if (built_.filled && !built_.filled->report.violations.empty())
             return refuse(violations_text(built_.filled->report) + "terrane: nothing written\n");
+        if (doubts_) return *doubts_;
         if (auto done = write(); !done) return done.error();
         return ExitStatus::done;
     }
@@ -163,7 +168,10 @@ private:
         inputs_.triangles = read_.triangles;
         timer.stop();
         statistics_ = statistics_of(inputs_, session_.times());
-        return Done{};
+        add_constants(statistics_, "plausibility", plausibility_constants());
+        const PlausibilityContext use{read_.build.boundary, true};
+        return report_doubts(find_doubts(read_.build.surfaces, use), inputs_.labels, strict_,
+                             statistics_);
     }
 
     /// Checks that a certificate can state the names of the surfaces, if one is wanted.
@@ -214,11 +222,19 @@ private:
             return journal_.say(improve_text(*built.improved, inputs_));
         case BuildStage::blocks:
             add_statistics(statistics_, *built.model, session_.times());
-            return journal_.say(model_text(inputs_, *built.model));
+            journal_.say(model_text(inputs_, *built.model));
+            return doubt(*built.model);
         case BuildStage::tetrahedra:
             add_statistics(statistics_, *built.filled, session_.times());
             return journal_.say(filled_text(*built.filled));
         }
+    }
+
+    /// Warns about the blocks; with --strict nothing will be written.
+    void doubt(const Model& model) {
+        const auto sound =
+            report_doubts(find_model_doubts(model), inputs_.labels, strict_, statistics_);
+        if (!sound) doubts_ = sound.error();
     }
 
     void preprocessed(const Preprocessed& done) {
@@ -396,12 +412,14 @@ private:
     const Project& project_;
     std::string source_; ///< the project file
     fs::path folder_;
+    bool strict_; ///< warnings about the inputs are errors
     Session& session_;
     Journal journal_;
     Json statistics_;
-    Inputs inputs_;       ///< names and counts; the surfaces are in built_
-    ProjectInputs read_;  ///< its surfaces move into the build
-    std::string refused_; ///< why nothing is written; empty: all is well
+    Inputs inputs_;               ///< names and counts; the surfaces are in built_
+    ProjectInputs read_;          ///< its surfaces move into the build
+    std::optional<Error> doubts_; ///< about the blocks, with --strict
+    std::string refused_;         ///< why nothing is written; empty: all is well
     Built built_;
     std::vector<std::string> written_; ///< names in the folder
 };
@@ -411,9 +429,7 @@ Result<ExitStatus> build(const BuildCommand& command) {
     if (!project) return project.error();
     project.value().check = command.check;
     Session session(command.threads.value_or(project.value().threads));
-    const fs::path folder =
-        command.folder.empty() ? project.value().folder : fs::path(command.folder);
-    return Build(project.value(), command.project, folder, session)();
+    return Build(project.value(), command, session)();
 }
 
 } // namespace
@@ -434,6 +450,7 @@ Command build_command(CLI::App& program) {
         ->check(CLI::Range(0U, most_threads).description(""))
         ->type_name("N");
     add_check(*app, command->check);
+    app->add_flag("--strict", command->strict, "Stop with status 2 at warnings about the inputs");
     app->footer(build_footer);
     return {app, [command] {
                 const auto status = build(*command);

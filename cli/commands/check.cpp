@@ -6,6 +6,7 @@
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/options/files.hpp>
 #include <terrane/cli/reports/check_report.hpp>
+#include <terrane/cli/stages/plausibility.hpp>
 
 namespace terrane::cli {
 namespace {
@@ -33,6 +34,8 @@ Result<ExitStatus> check_files(const CheckCommand& command, Session& session) {
     if (!nothing) return nothing.error();
     const auto inputs = read_inputs(command.files, session);
     if (!inputs) return inputs.error();
+    Json warnings;
+    if (const auto sound = examine(inputs.value(), {}, warnings); !sound) return sound.error();
     session.begin("check", Phase::computing);
     const auto report = check(inputs.value().surfaces, session.run());
     session.end_stage();

@@ -4,6 +4,7 @@
 #include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/options/files.hpp>
+#include <terrane/cli/stages/plausibility.hpp>
 
 namespace terrane::cli {
 namespace {
@@ -41,6 +42,8 @@ Result<ExitStatus> convert_file(const ConvertCommand& command, Session& session)
     if (!outputs) return outputs.error();
     const auto inputs = read_inputs(files, session);
     if (!inputs) return inputs.error();
+    Json statistics; // none are written
+    if (const auto sound = examine(inputs.value(), {}, statistics); !sound) return sound.error();
     const Mesh mesh = concatenate(inputs.value().surfaces);
     const Output& output = outputs.value().front();
     const auto written = write_output(mesh, output, {.ascii = files.ascii}, session);
@@ -70,6 +73,7 @@ Command convert_command(CLI::App& program) {
                     "Format of OUT, where its extension does not tell")
         ->type_name("FORMAT");
     add_reading(*app, options->files);
+    add_strict(*app, options->files);
     add_msh(*app, options->files);
     app->add_flag("--ascii", options->files.ascii, "STL as text, with doubles, not float32");
     app->footer(convert_footer);

@@ -14,6 +14,7 @@
 #include <terrane/cli/options/statistics.hpp>
 #include <terrane/cli/reports/fill_report.hpp>
 #include <terrane/cli/stages/certificate_output.hpp>
+#include <terrane/cli/stages/plausibility.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 
 namespace terrane::cli {
@@ -192,6 +193,8 @@ Result<ExitStatus> fill_files(const FillCommand& command, Session& session) {
     if (!outputs) return outputs.error();
     const auto inputs = read_certified_inputs(command.proof.certificate, command.files, session);
     if (!inputs) return inputs.error();
+    Json statistics = statistics_of(inputs.value(), session.times());
+    if (const auto sound = examine(inputs.value(), {}, statistics); !sound) return sound.error();
     session.begin("holes", Phase::computing);
     auto work =
         find_holes(inputs.value().surfaces, tasks_of(command, inputs.value()), session.run());
@@ -199,7 +202,6 @@ Result<ExitStatus> fill_files(const FillCommand& command, Session& session) {
     if (!work) return work.error();
     print(summary_stream(command.files),
           borders_text(work.value()) + (command.list ? holes_table(work.value()) : ""));
-    Json statistics = statistics_of(inputs.value(), session.times());
     bool whole = true;
     if (!command.list) {
         const auto filled =

@@ -16,6 +16,7 @@
 #include <terrane/cli/reports/pair_report.hpp>
 #include <terrane/cli/stages/certificate_output.hpp>
 #include <terrane/cli/stages/layer_stage.hpp>
+#include <terrane/cli/stages/plausibility.hpp>
 
 namespace terrane::cli {
 namespace {
@@ -130,6 +131,7 @@ Result<ExitStatus> layer_files(LayerCommand& command, Session& session) {
     const auto inputs = read_certified_inputs(command.proof.certificate, files, session);
     if (!inputs) return inputs.error();
     Json statistics = statistics_of(inputs.value(), session.times());
+    if (const auto sound = examine(inputs.value(), {}, statistics); !sound) return sound.error();
     const auto order = order_of(command, inputs.value());
     if (!order) return order.error();
 

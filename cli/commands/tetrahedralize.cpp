@@ -12,6 +12,7 @@
 
 #include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/algorithms/model/model.hpp>
+#include <terrane/algorithms/model/model_doubts.hpp>
 #include <terrane/algorithms/tetgen/fill_blocks.hpp>
 #include <terrane/algorithms/tetgen/tetgen_helper.hpp>
 #include <terrane/cli/commands/command.hpp>
@@ -20,6 +21,7 @@
 #include <terrane/cli/stages/block_certificate.hpp>
 #include <terrane/cli/stages/certificate_output.hpp>
 #include <terrane/cli/stages/pipeline.hpp>
+#include <terrane/cli/stages/plausibility.hpp>
 
 namespace terrane::cli {
 namespace {
@@ -165,6 +167,10 @@ Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Se
     const auto model =
         make_model(arranged.value().exact, *arranged.value().rounded.conforming, session.run());
     if (!model) return model.error();
+    if (const auto sound =
+            report_doubts(find_model_doubts(*model), inputs->labels, inputs->strict, statistics);
+        !sound)
+        return sound.error();
     const auto filled = fill(model.value(), wishes.value(), session, statistics);
     if (!filled) return filled.error();
     print(summary_stream(files), filled_text(filled.value()));
@@ -244,6 +250,7 @@ Command tetrahedralize_command(CLI::App& program) {
     add_settings(*app, command->settings);
     add_threads(*app, command->files);
     add_stats(*app, command->files);
+    command->settings.blocks = true;
     app->footer(tetrahedralize_footer);
     return {app, [command] {
                 Session session(command->files.threads);

@@ -2,6 +2,7 @@
 #include <memory>
 
 #include <terrane/algorithms/core/stopwatch.hpp>
+#include <terrane/algorithms/model/model_doubts.hpp>
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/options/roles.hpp>
 #include <terrane/cli/stages/block_certificate.hpp>
@@ -96,6 +97,10 @@ Result<ExitStatus> find_blocks(const VolumeCommand& command, Session& session) {
         const auto model = find_model(arranged.value(), session, statistics);
         if (!model) return model.error();
         print(summary_stream(files), model_text(inputs.value(), model.value()));
+        if (const auto sound = report_doubts(find_model_doubts(*model), inputs->labels,
+                                             inputs->strict, statistics);
+            !sound)
+            return sound.error();
         Stopwatch writing;
         const auto written = write_folder(command, arranged.value(), model.value(), session);
         if (!written) return written.error();
@@ -130,6 +135,7 @@ Command volume_command(CLI::App& program) {
     add_settings(*app, command->settings);
     add_threads(*app, command->files);
     add_stats(*app, command->files);
+    command->settings.blocks = true;
     app->footer(volume_footer);
     return {app, [command] {
                 Session session(command->files.threads);

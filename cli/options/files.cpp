@@ -99,6 +99,7 @@ void add_inputs(CLI::App& command, FileOptions& options) {
                     "mesh, poly, smesh")
         ->type_name("FORMAT");
     add_reading(command, options);
+    add_strict(command, options);
 }
 
 void add_reading(CLI::App& command, FileOptions& options) {
@@ -114,6 +115,15 @@ void add_reading(CLI::App& command, FileOptions& options) {
                     "Points: triangles with longer edges are left out (default: twice the median)")
         ->check(CLI::PositiveNumber.description(""))
         ->type_name("LENGTH");
+    command
+        .add_option("--unit", options.read.unit,
+                    "Convert what has a stated unit: m, km, cm, ft, ftUS (default: as it is)")
+        ->check(CLI::IsMember({"m", "km", "cm", "ft", "ftUS"}).description(""))
+        ->type_name("UNIT");
+}
+
+void add_strict(CLI::App& command, FileOptions& options) {
+    command.add_flag("--strict", options.strict, "Stop with status 2 at warnings about the inputs");
 }
 
 void add_output(CLI::App& command, FileOptions& options, const char* help) {
@@ -191,6 +201,7 @@ Result<Inputs> read_inputs(const FileOptions& options, Session& session) {
         return Error{ErrorCode::unsupported, "more than 4294967294 vertices or triangles", ""};
     all.labels = unique_labels(infos_of(all.surfaces));
     all.statistics_wanted = !options.stats.empty();
+    all.strict = options.strict;
     return all;
 }
 

@@ -29,12 +29,15 @@ struct FileOptions {
     std::string stats;         ///< path of the statistics; empty: none
     unsigned threads = 0;      ///< 0: all cores
     bool ascii = false;        ///< STL as text
+    bool strict = false;       ///< warnings about the inputs are errors
     std::string msh = "4.1";   ///< version of MSH, or 2.2
 };
 
 void add_inputs(CLI::App& command, FileOptions& options);
 /// Adds the options that say how grids and points are read.
 void add_reading(CLI::App& command, FileOptions& options);
+/// Adds --strict, which add_inputs does as well.
+void add_strict(CLI::App& command, FileOptions& options);
 void add_output(CLI::App& command, FileOptions& options, const char* help);
 void add_msh(CLI::App& command, FileOptions& options);
 void add_threads(CLI::App& command, FileOptions& options);
@@ -67,6 +70,7 @@ struct Inputs {
     std::vector<std::string> labels;           ///< per surface: its name, made unique, on one line
     std::size_t vertices = 0, triangles = 0;
     bool statistics_wanted = false; ///< whether --stats is given
+    bool strict = false;            ///< warnings about them are errors
 };
 
 /// Reads all inputs. Errors: those of read_surfaces; interrupted; unsupported if 32 bits can't

@@ -12,6 +12,7 @@
 #include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
 #include <terrane/cli/reports/seal_report.hpp>
 #include <terrane/cli/session/console.hpp>
+#include <terrane/cli/stages/plausibility.hpp>
 
 namespace terrane::cli {
 namespace {
@@ -159,6 +160,8 @@ Result<Arranged> arrange_and_round(Inputs& inputs, const ArrangeSettings& settin
         if (!made) return made.error();
         boundary = std::move(made).value();
     }
+    if (const auto sound = examine(inputs, {boundary, settings.blocks}, statistics); !sound)
+        return sound.error();
     session.begin("arrange", Phase::computing);
     auto arranged = arrange_within(
         std::move(inputs.surfaces), std::move(boundary),

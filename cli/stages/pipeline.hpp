@@ -24,6 +24,7 @@ struct ArrangeSettings {
     PairCheckOptions check = few_pairs; ///< how the mesh is checked
     VolumeOptions volume;               ///< volume of interest
     double seal = 0;                    ///< distance within which gaps are sealed; 0: not at all
+    bool blocks = false; ///< whether blocks are wanted, so that surfaces should close some
 };
 
 void add_settings(CLI::App& command, ArrangeSettings& settings);

@@ -37,7 +37,7 @@ Error no_tsurf(const LineParser& in, const GocadFile& file) {
     return in.file_error(ErrorCode::nothing_to_do, "there is no TSurf, only " + found);
 }
 
-MaybeError read_objects(LineParser& in, GocadFile& file) {
+MaybeError read_objects(LineParser& in, GocadFile& file, bool mixed_units = false) {
     in.allow_d_exponents();
     if (auto trouble = read_gocad_file(in, file)) return trouble;
     if (file.tsurfs.empty()) return no_tsurf(in, file);
@@ -45,7 +45,7 @@ MaybeError read_objects(LineParser& in, GocadFile& file) {
             return object.surface.triangles.empty();
         }))
         return in.file_error(ErrorCode::nothing_to_do, "there is no triangle");
-    return check_units(in, file.tsurfs);
+    return mixed_units ? std::nullopt : check_units(in, file.tsurfs);
 }
 
 std::string_view name_in_model(const TsurfObject& object) {
@@ -182,10 +182,10 @@ private:
 } // namespace
 
 Result<std::vector<Surface>> read_gocad(std::string_view contents, std::string_view source,
-                                        std::string_view name) {
+                                        std::string_view name, bool mixed_units) {
     LineParser in(contents, source);
     GocadFile file;
-    if (auto trouble = read_objects(in, file)) return *trouble;
+    if (auto trouble = read_objects(in, file, mixed_units)) return *trouble;
     take_roles(file);
     name_nameless(file, name);
     std::vector<Surface> surfaces;

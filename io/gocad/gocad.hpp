@@ -18,7 +18,8 @@ namespace terrane {
 /// are merged. Other objects (PLine, VSet, Voxet, ...) are skipped.
 /// - The z axis points up: if an object has ZPOSITIVE Depth, z becomes -z; the order of the corners
 ///   is kept.
-/// - Units are not converted; objects with different AXIS_UNIT in one file are an error.
+/// - Units are not converted; objects with different AXIS_UNIT in one file are an error, unless
+///   `mixed_units` says that the caller converts them.
 /// - A surface has all vertices of its object, in file order; an ATOM is the vertex that it refers
 ///   to. Ids may have gaps, and may be used before they are defined.
 /// - The role comes from GEOLOGICAL_TYPE, or from the feature type in a model's list of TFACE.
@@ -26,7 +27,7 @@ namespace terrane {
 /// Errors: bad_syntax (also for an object without END and a truncated file), bad_number, bad_index,
 /// unsupported, all with "source:line"; nothing_to_do if there is no TSurf or no triangle.
 Result<std::vector<Surface>> read_gocad(std::string_view contents, std::string_view source,
-                                        std::string_view name);
+                                        std::string_view name, bool mixed_units = false);
 
 /// A connected part of a surface of a model: one TFACE block.
 struct ModelPart {

@@ -20,7 +20,7 @@ struct TsurfObject {
     std::string name_in_model;              ///< empty if the header has none
     std::vector<std::uint32_t> part_begins; ///< first triangle of each TFACE block
     std::string units;                      ///< AXIS_UNIT; empty if there is none
-    bool depth = false;                     ///< true for ZPOSITIVE Depth
+    bool in_system = false;                 ///< while its coordinate system is read
     std::size_t line = 0;                   ///< number of its first line
 };
 

@@ -115,7 +115,9 @@ private:
 Result<Surface> surface_of_grid(const Grid& grid, bool depth) {
     if (grid.values.size() != std::size_t{grid.nx} * grid.ny || grid.dx == 0 || grid.dy == 0)
         return Error{ErrorCode::bad_option, "the grid has no steps or not nx ny values", ""};
-    return GridSurface(grid, depth).make();
+    auto surface = GridSurface(grid, depth).make();
+    if (surface && depth) surface->frame.vertical_axis = VerticalAxis::down;
+    return surface;
 }
 
 double height_at(const Grid& grid, double x, double y) {

@@ -11,38 +11,18 @@
 
 #include <terrane/algorithms/triangulation/point_surface.hpp>
 #include <terrane/io/gocad/gocad_objects.hpp>
+#include <terrane/io/points/detail/heading.hpp>
 #include <terrane/io/text/text.hpp>
 
 namespace terrane {
 
 using namespace detail;
+using namespace points::detail;
 
 namespace {
 
-constexpr std::size_t most_columns = 64;
-
 bool is_no_height(double z) {
     return std::abs(z) >= 1e29 || z == -99999 || z == -9999 || z == -999.25;
-}
-
-/// Splits a line into its columns and removes quotes.
-std::vector<std::string_view> columns_of(std::string_view line) {
-    const auto separates = [](char c) { return is_blank(c) || c == ',' || c == ';'; };
-    std::vector<std::string_view> columns;
-    std::size_t i = 0;
-    while (i < line.size() && columns.size() < most_columns) {
-        if (separates(line[i])) {
-            ++i;
-            continue;
-        }
-        const bool quoted = line[i] == '"';
-        const auto begin = quoted ? i + 1 : i;
-        auto end = begin;
-        while (end < line.size() && (quoted ? line[end] != '"' : !separates(line[end]))) ++end;
-        columns.push_back(line.substr(begin, end - begin));
-        i = quoted ? end + 1 : end;
-    }
-    return columns;
 }
 
 bool is_number(std::string_view token) {
@@ -76,30 +56,22 @@ private:
                line.starts_with("//");
     }
 
-    /// Returns the index of the first of the wanted names that a column has, if any.
-    static std::optional<std::size_t> place_of(const std::vector<std::string>& names,
-                                               std::initializer_list<std::string_view> wanted) {
-        for (const auto name : wanted)
-            for (std::size_t i = 0; i < names.size(); ++i)
-                if (names[i] == name) return i;
-        return std::nullopt;
-    }
-
     void look_for_names(std::string_view line) {
         if (chosen_) return;
         while (!line.empty() && std::string_view("#!@/ \t").find(line[0]) != std::string_view::npos)
             line.remove_prefix(1);
-        std::vector<std::string> names;
-        for (const auto column : columns_of(line)) names.push_back(lower(column));
-        const auto x = place_of(names, {"x", "easting", "x_coord", "inline"});
-        const auto y = place_of(names, {"y", "northing", "y_coord", "crossline", "xline"});
-        const auto z = place_of(names, {"z", "elevation", "depth", "z_coord"});
-        if (x && y && z) named_ = {*x, *y, *z};
+        if (auto heading = read_heading(line)) heading_ = std::move(heading);
     }
 
     MaybeError read_line(std::string_view line, std::vector<Surface>& surfaces) {
+        if (chosen_ && by_heading_) return read_cells(line, surfaces);
         auto columns = columns_of(line);
         const bool words = !columns.empty() && !is_number(columns[0]);
+        if (!chosen_ && fits_heading(line)) {
+            by_heading_ = true;
+            chosen_ = heading_->xyz;
+            return read_cells(line, surfaces);
+        }
         if (!chosen_ && words && line[0] != '"') { // a heading
             look_for_names(line);
             return std::nullopt;
@@ -108,6 +80,38 @@ private:
         const auto name = words ? columns[0] : std::string_view();
         columns.erase(columns.begin(), first);
         if (!chosen_) choose(columns.size());
+        return read_point(columns, name, surfaces);
+    }
+
+    /// Tells whether a line has all columns of a heading that names surfaces or has cells, and is a point.
+    [[nodiscard]] bool fits_heading(std::string_view line) const {
+        if (!heading_) return false;
+        const auto cells = cells_under_heading(line);
+        if (cells.size() != heading_->columns) return false;
+        return std::ranges::all_of(heading_->xyz,
+                                   [&](std::size_t i) {
+                                       return cells[i].empty() ? heading_->delimiter != ' '
+                                                               : is_number(cells[i]);
+                                   }) &&
+               is_number(cells[heading_->xyz[0]]);
+    }
+
+    [[nodiscard]] std::vector<std::string_view> cells_under_heading(std::string_view line) const {
+        return heading_->delimiter == ' ' ? columns_of(line) : cells_of(line, heading_->delimiter);
+    }
+
+    /// Reads a line with the columns of the heading. A point without a height is skipped.
+    MaybeError read_cells(std::string_view line, std::vector<Surface>& surfaces) {
+        const auto cells = cells_under_heading(line);
+        const bool empty = chosen_->at(2) < cells.size() && cells[chosen_->at(2)].empty();
+        if (empty) return std::nullopt;
+        const auto name = heading_->name && *heading_->name < cells.size() ? cells[*heading_->name]
+                                                                           : std::string_view();
+        return read_point(cells, name, surfaces);
+    }
+
+    MaybeError read_point(const std::vector<std::string_view>& columns, std::string_view name,
+                          std::vector<Surface>& surfaces) {
         std::array<double, 3> p{};
         for (std::size_t i = 0; i < 3; ++i) {
             if (chosen_->at(i) >= columns.size())
@@ -125,13 +129,18 @@ private:
 
     Surface& surface_named(std::string_view name, std::vector<Surface>& surfaces) {
         const auto [at, added] = surface_of_.try_emplace(std::string(name), surfaces.size());
-        if (added) surfaces.emplace_back().name = name;
+        if (added) {
+            Surface& surface = surfaces.emplace_back();
+            surface.name = name;
+            if (heading_) surface.frame = heading_->frame;
+            if (heading_ && by_heading_ && !name.empty()) surface.role = heading_->role;
+        }
         return surfaces[at->second];
     }
 
     void choose(std::size_t count) {
-        if (named_) {
-            chosen_ = named_;
+        if (heading_) {
+            chosen_ = heading_->xyz;
         } else {
             const std::size_t skipped = count == 5 ? 2 : 0;
             chosen_ = {skipped, skipped + 1, skipped + 2};
@@ -139,7 +148,8 @@ private:
     }
 
     LineParser in_;
-    std::optional<std::array<std::size_t, 3>> named_;  ///< columns of x, y, z from a heading
+    std::optional<Heading> heading_;                   ///< the last one before the points
+    bool by_heading_ = false;                          ///< lines have the columns of the heading
     std::optional<std::array<std::size_t, 3>> chosen_; ///< columns in use, set at the first point
     std::map<std::string, std::size_t> surface_of_;    ///< index by the text in front
 };
@@ -148,8 +158,11 @@ Result<std::vector<Surface>> connected(std::vector<Surface> surfaces, std::strin
                                        const ReadOptions& options) {
     bool any = false;
     for (Surface& s : surfaces) {
-        if (options.depth)
+        if (options.depth) {
             for (Point3& p : s.vertices) p.z = p.z == 0 ? 0 : -p.z;
+            s.frame.vertical_axis = VerticalAxis::down;
+            s.frame.column_of_depths = false;
+        }
         auto triangles = connect_points(s.vertices, {.max_edge = options.max_edge});
         if (!triangles) {
             Error error = triangles.error();
@@ -231,6 +244,7 @@ private:
         if (keyword.starts_with('#')) return std::nullopt;
         if (keyword == "ZPOSITIVE") {
             depth = same_ignoring_case(unquoted(tokens.rest()), "Depth");
+            surface.frame.vertical_axis = depth ? VerticalAxis::down : VerticalAxis::up;
             if (!depth && !same_ignoring_case(unquoted(tokens.rest()), "Elevation"))
                 return in_.error(ErrorCode::bad_syntax,
                                  "ZPOSITIVE must be Elevation or Depth, not " +

@@ -17,6 +17,7 @@ set(terrane_headers
     algorithms/mesh/region_point.hpp
     algorithms/mesh/shared_mesh.hpp
     algorithms/mesh/surface.hpp
+    algorithms/plausibility/plausibility.hpp
     algorithms/search/method.hpp
     algorithms/intersection/contact_kind.hpp
     algorithms/arrangement/arrangement.hpp
@@ -50,6 +51,7 @@ set(terrane_headers
     algorithms/volume_of_interest/volume_of_interest.hpp
     algorithms/model/arrange_within.hpp
     algorithms/model/model.hpp
+    algorithms/model/model_doubts.hpp
     algorithms/tetrahedra/check_tetrahedra.hpp
     algorithms/tetrahedra/split_nodes.hpp
     algorithms/tetrahedra/tetrahedra_shape.hpp

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <terrane/io/text/units.hpp>
+
 namespace terrane::detail {
 
 namespace {
@@ -73,6 +75,8 @@ private:
     MaybeError resolve_all();
     [[nodiscard]] Error no_vertex(std::size_t line, std::int64_t id) const;
     void read_names();
+    void read_units(Tokens tokens);
+    void read_system(std::string_view keyword, std::string_view value);
     void turn_z_up();
 
     LineParser& in_;
@@ -125,18 +129,39 @@ void TsurfReader::read_names() {
 MaybeError TsurfReader::read_attribute(std::string_view keyword, const Tokens& tokens) {
     if (keyword == "GEOLOGICAL_TYPE") object_.surface.role = role_of_feature(tokens.rest());
     if (keyword == "ZPOSITIVE") return read_zpositive(tokens.rest());
-    if (keyword == "AXIS_UNIT") {
-        Tokens units = tokens;
-        object_.units.clear();
-        for (auto unit = units.next(); !unit.empty(); unit = units.next())
-            object_.units += (object_.units.empty() ? "" : " ") + unquoted(unit);
-    }
+    if (keyword == "AXIS_UNIT") read_units(tokens);
+    read_system(keyword, tokens.rest());
     return std::nullopt;
 }
 
+void TsurfReader::read_units(Tokens tokens) {
+    object_.units.clear();
+    std::vector<std::string> units;
+    for (auto unit = tokens.next(); !unit.empty(); unit = tokens.next()) {
+        units.push_back(unquoted(unit));
+        object_.units += (object_.units.empty() ? "" : " ") + units.back();
+    }
+    CoordinateFrame& frame = object_.surface.frame;
+    if (!units.empty()) frame.horizontal_unit = unit_named(units[0]);
+    if (units.size() > 2) frame.vertical_unit = unit_named(units[2]);
+}
+
+/// Takes NAME, PROJECTION and DATUM within the coordinate system; "Default" and "Unknown" state nothing.
+void TsurfReader::read_system(std::string_view keyword, std::string_view value) {
+    if (keyword == "GOCAD_ORIGINAL_COORDINATE_SYSTEM") object_.in_system = true;
+    if (keyword == "END_ORIGINAL_COORDINATE_SYSTEM") object_.in_system = false;
+    if (!object_.in_system || (keyword != "NAME" && keyword != "PROJECTION" && keyword != "DATUM"))
+        return;
+    const auto text = unquoted(value);
+    for (const char* nothing : {"", "Default", "Unknown", "Local", "none"})
+        if (same_ignoring_case(text, nothing)) return;
+    object_.surface.frame.system += (object_.surface.frame.system.empty() ? "" : ", ") + text;
+}
+
 MaybeError TsurfReader::read_zpositive(std::string_view value) {
-    object_.depth = same_ignoring_case(unquoted(value), "Depth");
-    if (object_.depth || same_ignoring_case(unquoted(value), "Elevation")) return std::nullopt;
+    const bool depth = same_ignoring_case(unquoted(value), "Depth");
+    object_.surface.frame.vertical_axis = depth ? VerticalAxis::down : VerticalAxis::up;
+    if (depth || same_ignoring_case(unquoted(value), "Elevation")) return std::nullopt;
     return in_.error(ErrorCode::bad_syntax,
                      "ZPOSITIVE must be Elevation or Depth, not " + shown(value));
 }
@@ -225,7 +250,7 @@ MaybeError TsurfReader::resolve_all() {
 }
 
 void TsurfReader::turn_z_up() {
-    if (!object_.depth) return;
+    if (object_.surface.frame.vertical_axis != VerticalAxis::down) return;
     for (auto& vertex : object_.surface.vertices) vertex.z = vertex.z == 0 ? 0 : -vertex.z;
 }
 

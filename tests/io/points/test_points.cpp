@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <catch2/catch.hpp>
 
+#include <cctype>
 #include <string>
 
 #include <terrane/io/files.hpp>
@@ -18,6 +19,11 @@ std::vector<Surface> read(std::string_view text, Format format = Format::xyz,
     auto surfaces = parse_surfaces(text, "a", format, options);
     REQUIRE(message_of(surfaces) == "no error");
     return std::move(surfaces).value();
+}
+
+bool lower_is(std::string text, std::string_view lower) {
+    for (char& c : text) c = static_cast<char>(std::tolower(c));
+    return text == lower;
 }
 
 const std::vector<Point3> corner{{0, 0, 1}, {1, 0, 2}, {0, 1, 3}};
@@ -46,6 +52,55 @@ TEST_CASE("points: columns by position, by name, behind names of surfaces", "[io
     CHECK(two[0].vertices == corner);
     CHECK(two[1].name == "base");
     CHECK(two[1].triangles.size() == 1);
+}
+
+TEST_CASE("points: a column of names gives a surface for each", "[io][points]") {
+    const std::string rows = "0,0,1,top\n1,0,2,top\n0,1,3,top\n0,0,0,F1\n1,0,0,F1\n0,1,0,F1\n";
+    for (const auto* column : {"formation", "Horizon", "SURFACE", "fault", "unit", "name"}) {
+        INFO(column);
+        const auto two = read("x,y,z," + std::string(column) + "\n" + rows);
+        REQUIRE(two.size() == 2);
+        CHECK(two[0].name == "top");
+        CHECK(two[0].vertices == corner);
+        CHECK(two[1].name == "F1");
+        CHECK(two[0].role == (lower_is(column, "horizon") ? Role::horizon
+                              : lower_is(column, "fault") ? Role::fault
+                                                          : Role::unknown));
+    }
+    // Names first, cells in quotes, empty cells, other numbers, and a point without a height.
+    const auto quoted = read("formation;id;X;Y;Z\n\"upper top\";7;0;0;1\n\"upper top\";;1;0;2\n"
+                             "\"upper top\";9;5;5;\n\"upper top\";9;0;1;3\n");
+    REQUIRE(quoted.size() == 1);
+    CHECK(quoted[0].name == "upper top");
+    CHECK(quoted[0].vertices == corner);
+    // Without names in some rows these rows are a surface of their own, called as the file.
+    const auto nameless = read("x,y,z,name\n0,0,1,\n1,0,2,\n0,1,3,\n");
+    REQUIRE(nameless.size() == 1);
+    CHECK(nameless[0].name == "a");
+}
+
+TEST_CASE("points: units and depths that a heading states", "[io][points]") {
+    const std::string rows = "0,0,1\n1,0,2\n0,1,3\n";
+    const auto frame = [&](const std::string& heading) {
+        return read(heading + "\n" + rows)[0].frame;
+    };
+    CHECK(frame("x,y,z").vertical_unit.empty());
+    CHECK(frame("x,y,Depth_ft").vertical_unit == "ft");
+    CHECK(frame("x,y,Depth_ft").column_of_depths);
+    CHECK(frame("x,y,z (m)").vertical_unit == "m");
+    CHECK(frame("x [m],y [m],elevation[US-ft]").horizontal_unit == "m");
+    CHECK(frame("x [m],y [m],elevation[US-ft]").vertical_unit == "ftUS");
+    CHECK(frame("x [m],y [ft],z").horizontal_unit.empty());
+    CHECK_FALSE(frame("x,y,elevation").column_of_depths);
+    const auto blanks = read("# x (m) y (m) z (ft)\n0 0 1\n1 0 2\n0 1 3\n");
+    CHECK(blanks[0].vertices == corner);
+    CHECK(blanks[0].frame.vertical_unit == "ft");
+    const auto down = read("x,y,depth\n" + rows, Format::xyz, {.depth = true});
+    CHECK(down[0].frame.vertical_axis == VerticalAxis::down);
+    CHECK_FALSE(down[0].frame.column_of_depths);
+    const auto metres = read("x_m,y_m,depth_ft\n" + rows, Format::xyz, {.unit = "m"});
+    CHECK(metres[0].vertices[1] == Point3{1, 0, 2 * 0.3048});
+    CHECK(metres[0].frame.vertical_unit == "m");
 }
 
 TEST_CASE("points: depth, the longest edge, and the first of those at one place", "[io][points]") {

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include <terrane/algorithms/plausibility/detail/examination.hpp>
+#include <terrane/algorithms/plausibility/detail/thresholds.hpp>
+
+namespace terrane::plausibility::detail {
+namespace {
+
+/// Surfaces on one side of height 0, and the heights that they span.
+struct Side {
+    std::vector<std::uint32_t> surfaces;
+    double low = Extent::inf, high = -Extent::inf;
+
+    void add(std::uint32_t surface, const Extent& extent) {
+        surfaces.push_back(surface);
+        low = std::min(low, extent.low[2]);
+        high = std::max(high, extent.high[2]);
+    }
+};
+
+/// Tells whether the heights above 0 would lie at or near those below if they were depths.
+bool would_fit_turned(const Side& above, const Side& below) {
+    const double gap = std::max({0.0, -above.high - below.high, below.low + above.low});
+    const double from_zero = std::min(above.low + above.high, -below.low - below.high) / 2;
+    return gap < thresholds.turned_gap * from_zero;
+}
+
+} // namespace
+
+// A topography above horizons is common, so opposite signs alone are no sign of a mistake: the two
+// groups must be farther from each other than they are high, and fit once one is turned over.
+void check_heights(Examination& e) {
+    Side above, below;
+    for (const auto s : e.used) {
+        if (e.extents[s].low[2] > 0) above.add(s, e.extents[s]);
+        if (e.extents[s].high[2] < 0) below.add(s, e.extents[s]);
+    }
+    if (above.surfaces.empty() || below.surfaces.empty() ||
+        above.surfaces.size() + below.surfaces.size() != e.used.size())
+        return;
+    const double size = std::max(above.high - above.low, below.high - below.low);
+    if (above.low - below.high <= thresholds.height_gap * size || !would_fit_turned(above, below))
+        return;
+    const bool above_is_odd = above.surfaces.size() <= below.surfaces.size();
+    const Side& odd = above_is_odd ? above : below;
+    const Side& rest = above_is_odd ? below : above;
+    e.warn(
+        Doubt::heights_mixed, odd.surfaces,
+        fmt::format("z of {} is between {:.6g} and {:.6g}, that of all others between {:.6g} and "
+                    "{:.6g}",
+                    e.names(odd.surfaces), odd.low, odd.high, rest.low, rest.high),
+        "If one of them counts depths downward, the surfaces lie on opposite sides of height 0 and "
+        "never meet",
+        "Read grids and points of depths with --depth; in GOCAD files, state ZPOSITIVE Depth");
+}
+
+void check_unstated_depths(Examination& e) {
+    std::vector<std::uint32_t> columns, unstated, down;
+    for (const auto s : e.used) {
+        const CoordinateFrame& frame = e.surfaces[s].frame;
+        const bool positive = e.extents[s].low[2] > 0;
+        if (frame.column_of_depths && positive) columns.push_back(s);
+        if (frame.vertical_axis == VerticalAxis::unstated && positive) unstated.push_back(s);
+        if (frame.vertical_axis == VerticalAxis::down) down.push_back(s);
+    }
+    constexpr auto why = "Depths that are taken for heights turn the surface upside down";
+    if (!columns.empty())
+        e.warn(Doubt::depths_unstated, columns,
+               fmt::format("z of {} is a column called depth, with positive values, and is read as "
+                           "heights",
+                           e.names(columns)),
+               why, "Read it with --depth");
+    else if (!down.empty() && !unstated.empty())
+        e.warn(Doubt::depths_unstated, unstated,
+               fmt::format(
+                   "{} counts z downward and was turned over; {} does not state its direction, "
+                   "is positive, and is read as heights",
+                   e.names(down), e.names(unstated)),
+               why, "If these are depths, read them with --depth");
+}
+
+} // namespace terrane::plausibility::detail

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Thresholds of the checks; docs/explanation/plausibility.md gives the reason for each.
+#pragma once
+
+namespace terrane::plausibility::detail {
+
+struct Thresholds {
+    /// A surface is far away if its gap to the others exceeds so many diagonals of the larger box.
+    double far_apart = 1;
+    /// Heights above and below 0 are two groups if the gap between them exceeds so many of their sizes.
+    double height_gap = 1;
+    /// Turned over, a group of heights must come as near to the other, in shares of its distance from 0.
+    double turned_gap = 0.5;
+    /// Spacing of 24 bits at the largest coordinate, in shares of the mean edge, that is worth a warning.
+    double float32_spacing = 1e-4;
+    /// A surface is a layer, not a wall, if its footprint is at least such a share of its area.
+    double layer_footprint = 0.5;
+    /// The largest layer spans the model if its footprint is such a share of the model's.
+    double spanning_footprint = 0.3;
+    /// There may be two layers if all footprints together are so many times the largest.
+    double two_layers = 1.5;
+    /// Degrees of longitude and latitude that a model spans at most.
+    double most_degrees = 40;
+    /// Horizontal coordinates beyond this are lengths, not degrees.
+    double least_length = 1000;
+};
+
+inline constexpr Thresholds thresholds;
+
+} // namespace terrane::plausibility::detail

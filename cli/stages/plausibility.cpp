@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/cli/stages/plausibility.hpp>
+
+#include <fmt/format.h>
+
+#include <terrane/cli/session/console.hpp>
+
+namespace terrane::cli {
+
+Status report_doubts(const std::vector<PlausibilityWarning>& warnings,
+                     const std::vector<std::string>& labels, bool strict, Json& statistics) {
+    Json& list = statistics["warnings"];
+    if (!list.is_array()) list = Json::array();
+    for (const PlausibilityWarning& w : warnings) {
+        warn(w.message());
+        Json surfaces = Json::array();
+        for (const auto s : w.surfaces) surfaces.push_back(labels[s]);
+        list.push_back({{"about", std::string(name_of(w.doubt))},
+                        {"surfaces", std::move(surfaces)},
+                        {"seen", w.seen},
+                        {"why", w.why},
+                        {"answer", w.answer}});
+    }
+    if (!strict || warnings.empty()) return Done{};
+    return usage(
+        fmt::format("{} about the inputs; nothing was done", counted(warnings.size(), "warning")),
+        "--strict");
+}
+
+Status examine(const Inputs& inputs, const PlausibilityContext& context, Json& statistics) {
+    add_constants(statistics, "plausibility", plausibility_constants());
+    return report_doubts(find_doubts(inputs.surfaces, context), inputs.labels, inputs.strict,
+                         statistics);
+}
+
+} // namespace terrane::cli

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Warnings about inputs that do not fit together, for every command that takes surfaces.
+#pragma once
+
+#include <vector>
+
+#include <terrane/algorithms/plausibility/plausibility.hpp>
+#include <terrane/cli/options/files.hpp>
+#include <terrane/cli/options/statistics.hpp>
+
+namespace terrane::cli {
+
+/// Prints warnings and adds them to the statistics, under the key warnings. Errors: bad_option if
+/// there are some and --strict is given.
+Status report_doubts(const std::vector<PlausibilityWarning>& warnings,
+                     const std::vector<std::string>& labels, bool strict, Json& statistics);
+
+/// Looks for mistakes in the inputs and reports them, before any work is done on them.
+Status examine(const Inputs& inputs, const PlausibilityContext& context, Json& statistics);
+
+} // namespace terrane::cli
