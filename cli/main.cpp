@@ -3,11 +3,13 @@
 #include <csignal>
 #include <exception>
 #include <new>
+#include <optional>
 #include <string>
 #include <system_error>
 
 #include <terrane/algorithms/core/process_memory.hpp>
 #include <terrane/cli/commands/command.hpp>
+#include <terrane/cli/session/spelling.hpp>
 
 namespace terrane::cli {
 namespace {
@@ -41,6 +43,9 @@ ExitStatus run(int argc, char** argv) {
     try {
         program.parse(argc, argv);
     } catch (const CLI::ParseError& stop) {
+        const auto wrong =
+            stop.get_exit_code() == 0 ? std::nullopt : misspelt(program, {argv, std::size_t(argc)});
+        if (wrong) return fail(Error{ErrorCode::bad_option, *wrong, ""});
         const bool asked = program.exit(stop) == 0; // --help, --version
         return asked ? ExitStatus::done : ExitStatus::bad_input;
     }

@@ -56,6 +56,14 @@ inline Extent extent_of(std::span<const Extent> extents) {
     return all;
 }
 
+/// Returns the length of the gap between two boxes seen from above; 0 where they meet.
+inline double gap_from_above(const Extent& a, const Extent& b) {
+    std::array<double, 2> gap{};
+    for (std::size_t i = 0; i < 2; ++i)
+        gap[i] = std::max({0.0, a.low[i] - b.high[i], b.low[i] - a.high[i]});
+    return std::hypot(gap[0], gap[1]);
+}
+
 /// Returns the length of the gap between two boxes; 0 where they meet.
 inline double gap_between(const Extent& a, const Extent& b) {
     std::array<double, 3> gap{};

@@ -25,7 +25,7 @@ std::vector<std::vector<std::uint32_t>> groups_of(const Examination& e) {
             std::erase_if(left, [&](std::uint32_t s) {
                 const Extent& there = e.extents[s];
                 const double size = std::max(here.diagonal(), there.diagonal());
-                const bool near = gap_between(here, there) <= thresholds.far_apart * size;
+                const bool near = gap_from_above(here, there) <= thresholds.far_apart * size;
                 if (near) group.push_back(s);
                 return near;
             });
@@ -116,8 +116,8 @@ void check_distances(Examination& e) {
     for (std::size_t g = 1; g < groups.size(); ++g) {
         const Extent extent = extent_of(e, groups[g]);
         if (in_degrees(extent) != in_degrees(model)) continue; // check_systems() says so
-        const double gap = gap_between(model, extent);
-        const bool exchanged = gap_between(model, with_exchanged_axes(extent)) == 0;
+        const double gap = gap_from_above(model, extent);
+        const bool exchanged = gap_from_above(model, with_exchanged_axes(extent)) == 0;
         e.warn(Doubt::far_apart, groups[g],
                fmt::format("{} is {:.4g} away from {}, {:.3g} times the size of the larger",
                            e.names(groups[g]), gap, e.names(groups.front()),

@@ -11,7 +11,7 @@ struct Thresholds {
     /// Heights above and below 0 are two groups if the gap between them exceeds so many of their sizes.
     double height_gap = 1;
     /// Turned over, a group of heights must come as near to the other, in shares of its distance from 0.
-    double turned_gap = 0.5;
+    double turned_gap = 1;
     /// Spacing of 24 bits at the largest coordinate, in shares of the mean edge, that is worth a warning.
     double float32_spacing = 1e-4;
     /// A surface is a layer, not a wall, if its footprint is at least such a share of its area.
