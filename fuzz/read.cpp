@@ -67,10 +67,10 @@ Mesh mesh_of(const std::vector<Surface>& surfaces) {
     Mesh mesh;
     for (std::uint32_t s = 0; s < surfaces.size(); ++s) {
         const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-        const auto& [name, role, vertices, triangles] = surfaces[s];
-        mesh.surfaces.push_back({name, role});
-        mesh.vertices.insert(mesh.vertices.end(), vertices.begin(), vertices.end());
-        for (const Triangle& t : triangles) {
+        const Surface& surface = surfaces[s];
+        mesh.surfaces.push_back({surface.name, surface.role});
+        mesh.vertices.insert(mesh.vertices.end(), surface.vertices.begin(), surface.vertices.end());
+        for (const Triangle& t : surface.triangles) {
             mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
             mesh.surfaces_of.push_back(std::vector{s});
         }

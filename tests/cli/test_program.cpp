@@ -46,7 +46,7 @@ TEST_CASE("cli: wrong usage ends with status 2, before any work", "[cli]") {
     const Folder folder;
     const auto in = folder.input("model.obj", crossing);
     refused(folder, "", 2, "subcommand is required");
-    refused(folder, "explode " + in, 2, "Run with --help");
+    refused(folder, "explode " + in, 2, "there is no command explode");
     refused(folder, "arrange", 2, "required");
     refused(folder, "arrange " + in, 2, "--output is required");
     refused(folder, "arrange " + in + " -o out.obj --search quick", 2, "--search");
