@@ -57,10 +57,10 @@ std::map<Pair, double> crossings(const Model& model) {
 
 } // namespace
 
-std::vector<PlausibilityWarning> find_model_doubts(const Model& model) {
+std::vector<PlausibilityWarning> find_model_doubts(const Model& model, bool blocks) {
     const auto labels = unique_labels(model.mesh->surfaces);
     std::vector<PlausibilityWarning> warnings;
-    if (model.block_count() == 0)
+    if (blocks && model.block_count() == 0)
         warnings.push_back(
             {Doubt::no_block,
              {},

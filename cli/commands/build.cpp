@@ -12,7 +12,6 @@
 #include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
-#include <terrane/algorithms/model/model_doubts.hpp>
 #include <terrane/algorithms/project/build.hpp>
 #include <terrane/algorithms/tetgen/tetgen_helper.hpp>
 #include <terrane/algorithms/volumes/region_points.hpp>
@@ -166,11 +165,12 @@ private:
         inputs_.labels = unique_labels(infos_of(read_.build.surfaces));
         inputs_.vertices = read_.vertices;
         inputs_.triangles = read_.triangles;
+        inputs_.strict = strict_;
         timer.stop();
         statistics_ = statistics_of(inputs_, session_.times());
         add_constants(statistics_, "plausibility", plausibility_constants());
-        const PlausibilityContext use{read_.build.boundary, true};
-        return report_doubts(find_doubts(read_.build.surfaces, use), inputs_.labels, strict_,
+        const PlausibilityContext use{read_.build.boundary, wants_blocks()};
+        return report_doubts(find_doubts(read_.build.surfaces, use), inputs_.labels, inputs_.strict,
                              statistics_);
     }
 
@@ -230,10 +230,13 @@ private:
         }
     }
 
+    [[nodiscard]] bool wants_blocks() const {
+        return !project_.outputs.blocks.empty() || !project_.outputs.tetrahedra.empty();
+    }
+
     /// Warns about the blocks; with --strict nothing will be written.
     void doubt(const Model& model) {
-        const auto sound =
-            report_doubts(find_model_doubts(model), inputs_.labels, strict_, statistics_);
+        const auto sound = examine(model, inputs_, wants_blocks(), statistics_);
         if (!sound) doubts_ = sound.error();
     }
 

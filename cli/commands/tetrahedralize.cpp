@@ -12,7 +12,6 @@
 
 #include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/algorithms/model/model.hpp>
-#include <terrane/algorithms/model/model_doubts.hpp>
 #include <terrane/algorithms/tetgen/fill_blocks.hpp>
 #include <terrane/algorithms/tetgen/tetgen_helper.hpp>
 #include <terrane/cli/commands/command.hpp>
@@ -167,10 +166,7 @@ Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Se
     const auto model =
         make_model(arranged.value().exact, *arranged.value().rounded.conforming, session.run());
     if (!model) return model.error();
-    if (const auto sound =
-            report_doubts(find_model_doubts(*model), inputs->labels, inputs->strict, statistics);
-        !sound)
-        return sound.error();
+    if (const auto sound = examine(*model, *inputs, true, statistics); !sound) return sound.error();
     const auto filled = fill(model.value(), wishes.value(), session, statistics);
     if (!filled) return filled.error();
     print(summary_stream(files), filled_text(filled.value()));

@@ -2,7 +2,6 @@
 #include <memory>
 
 #include <terrane/algorithms/core/stopwatch.hpp>
-#include <terrane/algorithms/model/model_doubts.hpp>
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/options/roles.hpp>
 #include <terrane/cli/stages/block_certificate.hpp>
@@ -97,9 +96,7 @@ Result<ExitStatus> find_blocks(const VolumeCommand& command, Session& session) {
         const auto model = find_model(arranged.value(), session, statistics);
         if (!model) return model.error();
         print(summary_stream(files), model_text(inputs.value(), model.value()));
-        if (const auto sound = report_doubts(find_model_doubts(*model), inputs->labels,
-                                             inputs->strict, statistics);
-            !sound)
+        if (const auto sound = examine(*model, *inputs, true, statistics); !sound)
             return sound.error();
         Stopwatch writing;
         const auto written = write_folder(command, arranged.value(), model.value(), session);

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/cli/stages/plausibility.hpp>
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
+#include <terrane/algorithms/model/model_doubts.hpp>
 #include <terrane/cli/session/console.hpp>
 
 namespace terrane::cli {
@@ -30,6 +33,16 @@ Status report_doubts(const std::vector<PlausibilityWarning>& warnings,
 Status examine(const Inputs& inputs, const PlausibilityContext& context, Json& statistics) {
     add_constants(statistics, "plausibility", plausibility_constants());
     return report_doubts(find_doubts(inputs.surfaces, context), inputs.labels, inputs.strict,
+                         statistics);
+}
+
+Status examine(const Model& model, const Inputs& inputs, bool blocks, Json& statistics) {
+    const Json& said = statistics["warnings"];
+    const bool open = std::ranges::any_of(said, [](const Json& warning) {
+        return warning["about"] == name_of(Doubt::no_top) ||
+               warning["about"] == name_of(Doubt::no_base);
+    });
+    return report_doubts(find_model_doubts(model, blocks && !open), inputs.labels, inputs.strict,
                          statistics);
 }
 
