@@ -41,7 +41,7 @@ struct BuildCommand {
     std::string folder;              ///< empty: the folder that the project names
     std::optional<unsigned> threads; ///< none: the number that the project names
     PairCheckOptions check{PairCheck::bounds, SIZE_MAX};
-    bool strict = false;             ///< warnings about the inputs are errors
+    bool strict = false; ///< warnings about the inputs are errors
 };
 
 constexpr const char* blocks_certificate = "certificate_blocks.json";

@@ -53,7 +53,7 @@ TEST_CASE("cli: certificates: an output name that is not UTF-8 is refused before
           "[cli]") {
     const Folder folder;
     folder.input("a.obj", two_triangles + "g wall\nf 4 5 6\n");
-    for (const std::string line :
+    for (const std::string& line :
          {"arrange in/a.obj -o " + wrong_name + ".obj", "volume in/a.obj -o " + wrong_name,
           "tetrahedralize in/a.obj -o " + wrong_name + ".vtu"}) {
         INFO(line);
