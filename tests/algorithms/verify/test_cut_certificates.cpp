@@ -90,13 +90,13 @@ std::size_t inner_triangle(const Json& rounded) {
 
 /// Returns an edge of a horizon that no other surface meets, by its two triangles.
 std::array<std::size_t, 2> inner_pair(const Json& rounded) {
-    std::map<std::set<std::size_t>, std::vector<std::size_t>> at_edge;
+    std::map<std::set<std::size_t>, std::vector<std::size_t>> triangles_at;
     for (std::size_t t = 0; t < rounded["triangles"].size(); ++t)
         for (std::size_t i = 0; i < 3; ++i)
-            at_edge[{rounded["triangles"][t][i].get<std::size_t>(),
-                     rounded["triangles"][t][(i + 1) % 3].get<std::size_t>()}]
+            triangles_at[{rounded["triangles"][t][i].get<std::size_t>(),
+                          rounded["triangles"][t][(i + 1) % 3].get<std::size_t>()}]
                 .push_back(t);
-    for (const auto& [edge, pair] : at_edge)
+    for (const auto& [edge, pair] : triangles_at)
         if (pair.size() == 2 && rounded["parents"][pair[0]] == rounded["parents"][pair[1]] &&
             rounded["parents"][pair[0]].size() == 1 &&
             rounded["parents"][pair[0]][0] < own_triangles())
@@ -115,13 +115,13 @@ double turn_of(const Json& mesh, const Json& a, const Json& b, const Json& c) {
 /// triangles than the exact part. This is still valid.
 Subject with_other_diagonal(Subject s) {
     Json& mesh = s.certificate["rounded"];
-    std::map<std::set<std::size_t>, std::vector<std::size_t>> at_edge;
+    std::map<std::set<std::size_t>, std::vector<std::size_t>> triangles_at;
     for (std::size_t t = 0; t < mesh["triangles"].size(); ++t)
         for (std::size_t i = 0; i < 3; ++i)
-            at_edge[{mesh["triangles"][t][i].get<std::size_t>(),
-                     mesh["triangles"][t][(i + 1) % 3].get<std::size_t>()}]
+            triangles_at[{mesh["triangles"][t][i].get<std::size_t>(),
+                          mesh["triangles"][t][(i + 1) % 3].get<std::size_t>()}]
                 .push_back(t);
-    for (const auto& [edge, pair] : at_edge) {
+    for (const auto& [edge, pair] : triangles_at) {
         if (pair.size() != 2 || mesh["parents"][pair[0]] != mesh["parents"][pair[1]] ||
             mesh["parents"][pair[0]].size() != 1 ||
             mesh["parents"][pair[0]][0] >= own_triangles() - 2)
@@ -134,8 +134,8 @@ Subject with_other_diagonal(Subject s) {
         };
         const std::size_t i = beside(first), j = beside(second);
         const Json a = first[i], b = first[(i + 1) % 3], c = second[j], d = first[(i + 2) % 3];
-        const double one = turn_of(mesh, a, b, c), two = turn_of(mesh, a, c, d);
-        if (!(one * two > 1e-6)) continue; // not convex
+        const double abc = turn_of(mesh, a, b, c), acd = turn_of(mesh, a, c, d);
+        if (!(abc * acd > 1e-6)) continue; // not convex
         mesh["triangles"][pair[0]] = {a, b, c};
         mesh["triangles"][pair[1]] = {a, c, d};
         break;
