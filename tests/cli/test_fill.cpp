@@ -170,12 +170,6 @@ TEST_CASE("cli: fill foresees its errors, and smooths on request", "[cli]") {
         CHECK(r.status == 2);
         CHECK(contains(r.err, "--smoothing: "));
     }
-    for (const std::string option : {"--rings", "--isotropic", "--model"}) {
-        const std::string value = option == "--rings" ? " 3" : option == "--model" ? " matern" : "";
-        const auto r = folder.run("fill " + in + " -o no.obj --method rbf " + option + value);
-        CHECK(r.status == 2);
-        CHECK(contains(r.err, option + ": is of --method kriging"));
-    }
     CHECK_FALSE(folder.left().contains("no.obj"));
 }
 

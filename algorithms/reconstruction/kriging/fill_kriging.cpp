@@ -13,7 +13,6 @@
 
 #include <terrane/algorithms/mesh/edges.hpp>
 #include <terrane/algorithms/reconstruction/holes/flatness.hpp>
-#include <terrane/algorithms/reconstruction/kriging/contrasts.hpp>
 #include <terrane/algorithms/reconstruction/kriging/detail/choice.hpp>
 #include <terrane/algorithms/reconstruction/kriging/detail/constants.hpp>
 #include <terrane/algorithms/reconstruction/kriging/detail/data.hpp>
@@ -180,7 +179,7 @@ std::vector<Point3> thinned(const KrigingData& data, std::size_t border) {
     if (all.size() <= Kriging::most_at_once || border > Kriging::most_at_once) return all;
     std::vector<Point3> kept(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(border));
     const auto others = std::span(all).subspan(border);
-    for (const auto i : well_spread_in_plane(others, Kriging::most_at_once - border))
+    for (const auto i : well_spread(others, Kriging::most_at_once - border))
         kept.push_back(others[i]);
     return kept;
 }

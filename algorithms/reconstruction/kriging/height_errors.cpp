@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include <terrane/algorithms/reconstruction/kriging/contrasts.hpp>
 #include <terrane/algorithms/reconstruction/kriging/detail/choice.hpp>
 #include <terrane/algorithms/reconstruction/kriging/detail/constants.hpp>
 #include <terrane/algorithms/reconstruction/kriging/detail/kriging.hpp>
@@ -24,9 +23,8 @@ std::vector<Point3> some_of(std::span<const Point3> data, std::size_t border) {
     if (data.size() <= most) return {data.begin(), data.end()};
     const auto near = data.first(border), far = data.subspan(border);
     std::vector<Point3> some;
-    for (const auto i : well_spread_in_plane(near, std::min(most / 2, border)))
-        some.push_back(near[i]);
-    for (const auto i : well_spread_in_plane(far, most - some.size())) some.push_back(far[i]);
+    for (const auto i : well_spread(near, std::min(most / 2, border))) some.push_back(near[i]);
+    for (const auto i : well_spread(far, most - some.size())) some.push_back(far[i]);
     return some;
 }
 
@@ -50,6 +48,10 @@ HeightErrors::HeightErrors(std::span<const Point3> data, std::size_t border, dou
 
 HeightErrors::HeightErrors(HeightErrors&&) noexcept = default;
 HeightErrors::~HeightErrors() = default;
+
+double HeightErrors::noise() const {
+    return std::sqrt(state_->choice.variogram.nugget);
+}
 
 std::vector<double> HeightErrors::at(std::span<const Point3> heights, const Run& run) const {
     const State& s = *state_;

@@ -9,7 +9,6 @@
 
 #include <Eigen/Dense>
 
-#include <terrane/algorithms/reconstruction/kriging/contrasts.hpp>
 #include <terrane/algorithms/reconstruction/kriging/detail/constants.hpp>
 #include <terrane/algorithms/reconstruction/kriging/detail/system.hpp>
 
@@ -155,10 +154,9 @@ std::vector<std::vector<Eigen::Index>> blocks_of(std::span<const Point3> data,
 
 BlockValidation validate(const DataAroundHole& around, const Variogram& variogram, const Run& run) {
     BlockValidation result;
-    const auto data =
-        selected(around.data, well_spread_in_plane(around.data, constants.most_block_data));
+    const auto data = selected(around.data, well_spread(around.data, constants.most_block_data));
     const auto border = around.data.first(around.border);
-    const auto centres = selected(border, well_spread_in_plane(border, constants.blocks));
+    const auto centres = selected(border, well_spread(border, constants.blocks));
     const System system(data, variogram, trend_degree, run);
     if (!system.ready()) return result;
     const Eigen::MatrixXd projection = system.projection();
@@ -184,6 +182,41 @@ BlockValidation validate(const DataAroundHole& around, const Variogram& variogra
 
 } // namespace
 
+std::vector<std::uint32_t> well_spread(std::span<const Point3> points, std::size_t count) {
+    std::vector<std::uint32_t> chosen;
+    if (points.size() <= count) {
+        for (std::uint32_t i = 0; i < points.size(); ++i) chosen.push_back(i);
+        return chosen;
+    }
+    Point3 mean;
+    for (const Point3& p : points) {
+        const auto n = static_cast<double>(points.size());
+        mean = {mean.x + p.x / n, mean.y + p.y / n, mean.z + p.z / n};
+    }
+    std::vector<double> distance;
+    for (const Point3& p : points) distance.push_back(std::hypot(p.x - mean.x, p.y - mean.y));
+    constexpr double equal = 1 - 1e-9; // distances differ by more than rounding
+    while (chosen.size() < count) {
+        const double farthest = *std::max_element(distance.begin(), distance.end());
+        if (!(farthest > 0)) break;
+        std::uint32_t best = 0;
+        double height = -1;
+        for (std::uint32_t i = 0; i < points.size(); ++i) {
+            const double off = std::abs(points[i].z - mean.z);
+            if (distance[i] < equal * farthest || off <= height) continue;
+            best = i;
+            height = off;
+        }
+        if (chosen.empty())
+            std::fill(distance.begin(), distance.end(), std::numeric_limits<double>::infinity());
+        chosen.push_back(best);
+        for (std::uint32_t i = 0; i < points.size(); ++i)
+            distance[i] = std::min(distance[i], std::hypot(points[i].x - points[best].x,
+                                                           points[i].y - points[best].y));
+    }
+    return chosen;
+}
+
 ModelChoice choose_model(const DataAroundHole& around, const VariogramFitOptions& options,
                          const Run& run) {
     ModelChoice choice;
@@ -191,8 +224,7 @@ ModelChoice choose_model(const DataAroundHole& around, const VariogramFitOptions
     choice.determined = around.data.size() >= constants.least_data;
     VariogramFitOptions fit = options;
     fit.anisotropy = options.anisotropy && choice.determined;
-    const auto some =
-        selected(around.data, well_spread_in_plane(around.data, constants.most_fitted));
+    const auto some = selected(around.data, well_spread(around.data, constants.most_fitted));
     choice.variogram = Search(some, fit, run)();
     choice.validation = validate(around, choice.variogram, run);
     const auto n = static_cast<double>(choice.validation.blocks);

@@ -45,4 +45,9 @@ struct DataAroundHole {
 ModelChoice choose_model(const DataAroundHole& around, const VariogramFitOptions& options,
                          const Run& run);
 
+/// Selects `count` points, each as far as possible from those before it in x and y; the first one
+/// is farthest from the mean. Of points as far as each other the one farthest from the mean height
+/// is taken, so that neither the order of the points decides nor the direction of the axes.
+std::vector<std::uint32_t> well_spread(std::span<const Point3> points, std::size_t count);
+
 } // namespace terrane::kriging::detail

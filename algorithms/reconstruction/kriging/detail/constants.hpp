@@ -113,7 +113,7 @@ struct KrigingConstants {
     /// Data that determine standard deviations together where all of them would take too long.
     std::size_t most_deviations = 600;
     /// Data that determine the expected errors of another method's heights.
-    std::size_t most_error_data = 300;
+    std::size_t most_error_data = 400;
     /// Multiplications between looks at the stop token.
     double operations_per_check = 5e8;
     /// Multiplications above which all of them would take too long.

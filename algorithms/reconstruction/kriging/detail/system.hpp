@@ -75,6 +75,11 @@ private:
     bool ready_ = false;
 };
 
+/// Replaces the lower triangle of a symmetric matrix by its Cholesky factor, in panels of 128
+/// columns; looks at the stop token before each. Returns whether the matrix is positive definite
+/// and the run was not stopped. Cost: n^3 / 3.
+bool cholesky(Eigen::MatrixXd& matrix, const Run& run);
+
 /// The variogram of one shape with the largest restricted likelihood.
 struct Likely {
     double likelihood = -HUGE_VAL; ///< its logarithm, up to a constant of the data

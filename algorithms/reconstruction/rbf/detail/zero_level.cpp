@@ -330,13 +330,10 @@ Point3 onto_level(const SpaceFunction& function, Point3 p, double most, int step
 }
 
 /// Moves each inner vertex to the mean of its neighbours and to the level, unless that flips a
-/// triangle or makes one much worse. Stops early if the run is stopped.
-void smooth(DiskMesh& mesh, const SpaceFunction& function, double size, bool move_to_middle,
-            const Run& run) {
-    constexpr std::uint32_t vertices_per_check = 256;
+/// triangle or makes one much worse.
+void smooth(DiskMesh& mesh, const SpaceFunction& function, double size, bool move_to_middle) {
     const auto n = static_cast<std::uint32_t>(mesh.points().size());
     for (std::uint32_t v = 0; v < n; ++v) {
-        if (v % vertices_per_check == 0 && run.stop.stop_requested()) return;
         if (!mesh.is_alive(v)) continue;
         Point3 p = mesh.points()[v];
         if (move_to_middle && !mesh.is_at_border(v)) {
@@ -386,7 +383,7 @@ Result<Surface> zero_level(const SpaceFunction& function, const ZeroLevelOptions
     for (const bool move : {false, true, true, false}) {
         if (run.stop.stop_requested())
             return Error{ErrorCode::interrupted, "stopped on request", ""};
-        smooth(mesh, function, options.size, move, run);
+        smooth(mesh, function, options.size, move);
         mesh.improve(all);
     }
     return compact(mesh);
