@@ -127,9 +127,9 @@ Subject with_other_diagonal(Subject s) {
             mesh["parents"][pair[0]][0] >= own_triangles() - 2)
             continue;
         Json first = mesh["triangles"][pair[0]], second = mesh["triangles"][pair[1]];
-        const auto beside = [&](const Json& t) {
+        const auto beside = [&ends = edge](const Json& t) {
             for (std::size_t i = 0; i < 3; ++i)
-                if (!edge.contains(t[i].get<std::size_t>())) return i;
+                if (!ends.contains(t[i].get<std::size_t>())) return i;
             return std::size_t{0};
         };
         const std::size_t i = beside(first), j = beside(second);
