@@ -321,6 +321,9 @@ Result<std::vector<Surface>> polygon_boundary(std::span<const Point2> corners, d
     if (!std::isfinite(low) || !std::isfinite(high))
         return Error{ErrorCode::bad_number, "a depth is not finite", "polygon"};
     if (low == high) return Error{ErrorCode::bad_option, "the two depths are equal", "polygon"};
+    // A ring that is written closed, as in GeoJSON and shapefiles, repeats its first corner.
+    if (corners.size() > 3 && corners.front() == corners.back())
+        corners = corners.first(corners.size() - 1);
     Polygon polygon(corners);
     if (const auto flaw = polygon.flaw()) return *flaw;
     const auto around = triangle_around(polygon.corners());

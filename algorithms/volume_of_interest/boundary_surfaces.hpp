@@ -46,7 +46,8 @@ Result<std::vector<Surface>> box_boundary(const Point3& low, const Point3& high)
 /// improper_contact if the box is too thin for doubles.
 Result<std::vector<Surface>> rotated_box_boundary(const RotatedBox& box);
 
-/// Builds the prism of a simple polygon, of either orientation, between two depths in either order.
+/// Builds the prism of a simple polygon, of either orientation, between two depths in either order. The
+/// last corner may repeat the first.
 /// The first corner may be repeated as the last. Errors: bad_option (fewer than three corners,
 /// equal depths), bad_number; improper_contact if the polygon crosses or touches itself, with the
 /// two edges by number, from 1.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/cli/options/roles.hpp>
 
 #include <charconv>
@@ -23,7 +24,7 @@ Status set_role(const std::string& text, Inputs& inputs) {
         found = true;
     }
     if (found) return Done{};
-    return Error{ErrorCode::bad_option, "no surface is called " + name, "--role"};
+    return Error{ErrorCode::bad_option, not_called("surface", name, inputs.labels), "--role"};
 }
 
 } // namespace
