@@ -21,7 +21,7 @@ namespace {
 
 using namespace quality::detail;
 
-constexpr double endless = std::numeric_limits<double>::infinity();
+constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 /// Arranges the improved mesh by the sheets of the original, as the reference surface to compare
 /// with.
@@ -75,7 +75,7 @@ std::vector<double> bounds_of_sheets(const Mesh& before, const Features& feature
                                      const ImproveReport& report) {
     std::vector<double> bounds;
     for (const std::uint32_t first : features.first_of) {
-        double least = endless;
+        double least = unbounded;
         for (const std::uint32_t s : before.surfaces_of[first])
             least = std::min(least, report.bound_of[s]);
         bounds.push_back(least);
@@ -104,7 +104,7 @@ public:
             parts.pop_back();
             const Point3 middle{(c[0].x + c[1].x + c[2].x) / 3, (c[0].y + c[1].y + c[2].y) / 3,
                                 (c[0].z + c[1].z + c[2].z) / 3};
-            const auto near = tree_.nearest(middle, endless);
+            const auto near = tree_.nearest(middle, unbounded);
             if (!near) return false;
             const auto off = [&](const Point3& p) {
                 const auto& [i, j, k] = near->triangle;
@@ -203,7 +203,7 @@ Result<std::vector<double>> shown(const Mesh& before, const Improved& after,
         open = std::move(still_open);
         for (double& bound : bounds) bound *= 2;
     }
-    for (const std::uint32_t t : open) raise(t, endless);
+    for (const std::uint32_t t : open) raise(t, unbounded);
     return of_surfaces;
 }
 

@@ -3,8 +3,11 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/algorithms/quality/deviation.hpp>
@@ -27,6 +30,8 @@ struct ImproveCommand {
     std::vector<std::string> edge_length_of; ///< NAME=L
     std::string histogram;                   ///< empty: none
     ProofOptions proof;                      ///< a certificate only
+    double max_volume_change = 5;            ///< percent
+    bool is_strict = false;
 };
 
 constexpr auto improve_footer =
@@ -58,6 +63,51 @@ std::optional<double> positive(const std::string& text) {
     }
     if (used != text.size() || !(value > 0) || !std::isfinite(value)) return std::nullopt;
     return value;
+}
+
+/// Refuses numbers that can't be meant, before anything is read.
+Status check_numbers(const ImproveCommand& command, const CLI::App& app) {
+    for (const char* const name : {"--curve-length", "--turn", "--growth", "--max-deviation",
+                                   "--thickness-share", "--max-triangles", "--least-quality"})
+        if (const auto* option = app.get_option(name);
+            option->count() > 0 && !positive(option->as<std::string>()))
+            return Error{ErrorCode::bad_option, "needs a positive number", name};
+    if (!(command.options.least_quality <= 1))
+        return Error{ErrorCode::bad_option, "must be at most 1", "--least-quality"};
+    if (!(command.max_volume_change >= 0))
+        return Error{ErrorCode::bad_option, "needs a percentage", "--max-volume-change"};
+    return Done{};
+}
+
+/// Judges the options by the surfaces as they were read, before these are arranged.
+Status judge(const Inputs& inputs, const ImproveOptions& options) {
+    double largest = 0;
+    for (const Surface& s : inputs.surfaces)
+        for (const Point3& p : s.vertices)
+            largest = std::max({largest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+    if (options.max_deviation > 0 && options.max_deviation < least_deviation(largest))
+        return Error{ErrorCode::bad_option,
+                     fmt::format("is too small for coordinates of this size; the least is {:.3g}",
+                                 least_deviation(largest)),
+                     "--max-deviation"};
+    const double count = expected_triangles(inputs.surfaces, options);
+    if (count > options.max_triangles)
+        return Error{ErrorCode::bad_option,
+                     fmt::format("about {:.3g} triangles are to be expected, more than the limit "
+                                 "of {:.3g}; ask for longer edges or raise --max-triangles",
+                                 count, options.max_triangles),
+                     "--edge-length"};
+    return Done{};
+}
+
+/// Warns of blocks whose volumes changed by more than allowed. Returns whether the run may succeed.
+bool volumes_are_kept(const ImproveCommand& command, const Improved& improved) {
+    const double change = largest_volume_change(improved);
+    if (change <= command.max_volume_change) return true;
+    warn(fmt::format("the volume of a block changed by {:.3g} %, more than {:.3g} %; try a smaller "
+                     "--max-deviation or --thickness-share",
+                     change, command.max_volume_change));
+    return !command.is_strict;
 }
 
 Status set_length_of(const std::string& text, const Inputs& inputs, std::vector<double>& lengths) {
@@ -133,6 +183,7 @@ Result<ExitStatus> improve_files(const ImproveCommand& command, Session& session
     ImproveOptions options = command.options;
     options.check = check_of(command.settings.check, inputs.value());
     if (const auto set = set_lengths(command, inputs.value(), options); !set) return set.error();
+    if (const auto good = judge(inputs.value(), options); !good) return good.error();
     Json statistics = statistics_of(inputs.value(), session.times());
 
     const auto arranged = arrange_and_round(inputs.value(), command.settings, session, statistics);
@@ -164,6 +215,7 @@ Result<ExitStatus> improve_files(const ImproveCommand& command, Session& session
             warn(
                 "not all of each surface as it was is shown to be near enough to the improved one; "
                 "try another --max-deviation");
+        clean = volumes_are_kept(command, measured.value().improved) && clean;
         Stopwatch writing;
         if (clean) {
             const auto written = write_all(command, inputs.value(), arranged.value(),
@@ -205,6 +257,22 @@ void add_limits(CLI::App& app, ImproveCommand& command) {
                    "No point of a surface goes farther from it, unit of the files (default: a "
                    "twentieth of the wanted length)")
         ->type_name("D");
+    app.add_option("--thickness-share", command.options.thickness_share,
+                   "Where blocks are thin, points deviate by at most this share of the distance to "
+                   "the next sheet (default: 0.1)")
+        ->type_name("SHARE");
+    app.add_option("--max-volume-change", command.max_volume_change,
+                   "Warn where the volume of a block changes by more (default: 5)")
+        ->type_name("PERCENT");
+    app.add_flag("--strict", command.is_strict,
+                 "Such a change makes the status 1, and nothing is written");
+    app.add_option("--least-quality", command.options.least_quality,
+                   "No triangle becomes worse than the worst one before, or than this q if that is "
+                   "less, up to 1 (default: 1)")
+        ->type_name("Q");
+    app.add_option("--max-triangles", command.options.max_triangles,
+                   "Refuse to begin where more are to be expected (default: 2e7)")
+        ->type_name("N");
     app.add_option("--crease-angle", command.options.crease_angle,
                    "Edges at which a surface turns by more are kept (default: 50)")
         ->type_name("DEGREES");
@@ -234,7 +302,9 @@ Command improve_command(CLI::App& program) {
     add_threads(*app, command->files);
     add_stats(*app, command->files);
     app->footer(improve_footer);
-    return {app, [command] {
+    return {app, [command, app] {
+                if (const auto good = check_numbers(*command, *app); !good)
+                    return fail(good.error());
                 Session session(command->files.threads);
                 const auto status = improve_files(*command, session);
                 return status ? status.value() : fail(status.error());

@@ -12,6 +12,9 @@
 
 namespace terrane::cli {
 
+/// Returns the largest change of a block's volume, in percent of the volume before.
+double largest_volume_change(const Improved& improved);
+
 /// Reports quality before and after, the worst triangle, and the deviation both as proven and as
 /// measured.
 std::string improve_text(const ImprovedAndMeasured& measured, const Inputs& inputs);

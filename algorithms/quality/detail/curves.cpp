@@ -164,9 +164,11 @@ bool chord_within_bound(const RemeshContext& context, std::uint32_t curve, doubl
         const Point3 w = minus(context.points[c.vertices[i]], a);
         const double share = square > 0 ? std::clamp(dot(w, d) / square, 0.0, 1.0) : 0;
         const Point3 off{w.x - share * d.x, w.y - share * d.y, w.z - share * d.z};
-        if (!(std::sqrt(dot(off, off)) + context.reference.rounding() <=
-              context.curve_bound[curve]))
-            return false;
+        const double bound =
+            context.vertex_bound.empty()
+                ? context.curve_bound[curve]
+                : std::min(context.curve_bound[curve], context.vertex_bound[c.vertices[i]]);
+        if (!(std::sqrt(dot(off, off)) + context.reference.rounding() <= bound)) return false;
     }
     return true;
 }

@@ -72,7 +72,7 @@ ReferenceSurface::ReferenceSurface(std::span<const Point3> points, const Feature
             largest = std::max(
                 {largest, std::fabs(points[v].x), std::fabs(points[v].y), std::fabs(points[v].z)});
     }
-    slack_ = 256 * unit * largest;
+    slack_ = rounding_at(largest);
 }
 
 /// Tells whether all corners of triangle t are farther than `gap` from the plane of triangle `of`,
@@ -188,7 +188,8 @@ std::optional<ReferenceSurface::Target> ReferenceSurface::target_of(const Corner
                              whole[i].w + share * (target.middle.w - whole[i].w)};
     set_measures(target);
     target.error = 64 * unit * longest * longest / along;
-    target.bound = bound - share * radius;
+    target.shrink = share * radius;
+    target.bound = bound - target.shrink;
     return target;
 }
 
@@ -224,7 +225,7 @@ ReferenceSurface::Walk ReferenceSurface::walk(const Frame& frame, const Point3& 
 /// Tells whether a triangle is within the target's bound over the whole target. `heights` are those
 /// of its corners above the plane of the target.
 bool ReferenceSurface::is_near(const Target& target, const Corners& facet,
-                               const std::array<double, 3>& heights) {
+                               const std::array<double, 3>& heights, double bound) {
     std::array<Flat, 3> corners;
     for (std::size_t i = 0; i < 3; ++i)
         corners[i] = target.frame.flat(minus(facet[i], target.origin));
@@ -252,7 +253,7 @@ bool ReferenceSurface::is_near(const Target& target, const Corners& facet,
                               std::min({heights[0], heights[1], heights[2]});
         const double height =
             shares[0] * heights[0] + shares[1] * heights[1] + shares[2] * heights[2];
-        if (!(std::fabs(height) + 3 * error * spread <= target.bound)) return false;
+        if (!(std::fabs(height) + 3 * error * spread <= bound)) return false;
     }
     return true;
 }
@@ -262,6 +263,8 @@ ReferenceSurface::Cover ReferenceSurface::visit(const Target& target, std::uint3
                                                 Search& search) const {
     if (orientation_of(t, target.frame) != target.orientation) return Cover::open;
     const Facet& facet = facets_[t];
+    const double bound =
+        local_bound_.empty() ? target.bound : std::min(target.bound, bound_at(t) - target.shrink);
     const Target::Measures& m = target.measures;
     std::array<std::array<double, 4>, 3> measured{}; // per corner: how far inside of each edge, and
                                                      // the height
@@ -274,7 +277,7 @@ ReferenceSurface::Cover ReferenceSurface::visit(const Target& target, std::uint3
             measured[i][k] = m.x[k] * d.x + m.y[k] * d.y + m.z[k] * d.z - m.off[k];
         const double away = std::fabs(d.x) + std::fabs(d.y) + std::fabs(d.z);
         heights[i] = measured[i][3] + std::copysign(target.error * away, measured[i][3]);
-        all_near = all_near && std::fabs(heights[i]) <= target.bound;
+        all_near = all_near && std::fabs(heights[i]) <= bound;
         size = std::max(size, away);
     }
     // From here on, upper bounds of how far inside each corner lies.
@@ -305,12 +308,12 @@ ReferenceSurface::Cover ReferenceSurface::visit(const Target& target, std::uint3
         }
         if (all_near) continue;
         const double rise = heights[k] - heights[i];
-        const double most = target.bound - 2 * share_error * std::fabs(rise);
+        const double most = bound - 2 * share_error * std::fabs(rise);
         if (!(std::fabs(heights[i] + low * rise) <= most) ||
             !(std::fabs(heights[i] + high * rise) <= most))
             return Cover::far;
     }
-    return all_near || is_near(target, facet.corners, heights) ? Cover::near : Cover::far;
+    return all_near || is_near(target, facet.corners, heights, bound) ? Cover::near : Cover::far;
 }
 
 ReferenceSurface::Cover ReferenceSurface::covered(const Target& target, std::uint32_t start,
@@ -359,7 +362,7 @@ bool ReferenceSurface::contains_part(const Corners& triangle, Containment& conta
         }
         if (cover == Cover::far) return false;
     }
-    if (near_one(triangle, containment.hint, bound)) {
+    if (near_one(triangle, containment.hint, std::min(bound, bound_at(containment.hint)))) {
         containment.isolated = containment.isolated && facets_[containment.hint].isolated;
         return true;
     }
@@ -385,7 +388,7 @@ ReferenceSurface::contains_within_tolerance(const Corners& triangle, std::uint32
     search.seen_.resize(facets_.size(), 0);
     unsigned budget = constants.most_parts;
     Containment containment{hint, true};
-    const double bound = bound_of_[features_.sheet_of[hint]] - slack_;
+    const double bound = bound_at(hint);
     if (!contains_part(triangle, containment, bound, budget, search)) return std::nullopt;
     return containment;
 }

@@ -116,6 +116,7 @@ TEST_CASE("improve: sheets closer than the bound never meet", "[improve]") {
     ImproveOptions options;
     options.edge_length = 0.4;
     options.max_deviation = 0.1;
+    options.thickness_share = 1000; // the bound is not limited by the distance of the sheets
     const Improved better = improved(mesh, options); // the result is checked exactly
     CHECK(better.report.refused_contact > 0);        // otherwise the test would be too easy
 }
@@ -139,6 +140,7 @@ TEST_CASE("improve: no sheet sweeps over a piece that is smaller than the bound"
                 ImproveOptions options;
                 options.edge_length = length;
                 options.max_deviation = 0.8;
+                options.thickness_share = 1000;
                 const Improved better = improved(mesh, options);
                 INFO(size << ' ' << narrow << ' ' << length);
                 CHECK(better.mesh->triangles.size() < mesh.triangles.size() / 4);
@@ -192,6 +194,7 @@ TEST_CASE("improve: closed, one-sided and folded surfaces stay near their origin
         const Mesh mesh = mesh_of({s});
         ImproveOptions options;
         options.edge_length = 0.5;
+        options.least_quality = 0.3; // all triangles of the cube are good: half squares
         const Improved better = improved(mesh, options);
         const double bound = better.report.bound_of[0];
         CHECK(sampled_distance(surface_of_mesh(better.mesh, 0), s) <= bound);
