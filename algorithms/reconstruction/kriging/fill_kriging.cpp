@@ -185,13 +185,6 @@ std::vector<Point3> thinned(const KrigingData& data, std::size_t border) {
     return kept;
 }
 
-/// The height of what a double can tell of a plane through the data.
-double rounding_of(std::span<const Point3> points) {
-    double largest = 0;
-    for (const Point3& p : points) largest = std::max(largest, std::abs(p.z));
-    return largest * std::numeric_limits<double>::epsilon();
-}
-
 FittedModel model_of(const KrigingData& data, std::size_t border, const KrigingOptions& options,
                      FillReport& report, const Run& run) {
     const double area = std::abs(signed_area(data.points, data.borders[0]));

@@ -35,13 +35,12 @@ std::vector<Point3> some_of(std::span<const Point3> data, std::size_t border) {
 struct HeightErrors::State {
     State(std::span<const Point3> data, std::size_t border, double radius, const Run& run) :
         choice(choose_model({data, border, radius}, {}, run)),
-        kriging(some_of(data, border), choice.variogram, choice.degree, run) {
-        for (const Point3& p : data) largest = std::max(largest, std::abs(p.z));
-    }
+        kriging(some_of(data, border), choice.variogram, choice.degree, run),
+        rounding(rounding_of(data)) {}
 
     ModelChoice choice;
     Kriging kriging;
-    double largest = 0; ///< height
+    double rounding; ///< least expected error
 };
 
 HeightErrors::HeightErrors(std::span<const Point3> data, std::size_t border, double radius,
@@ -55,12 +54,11 @@ std::vector<double> HeightErrors::at(std::span<const Point3> heights, const Run&
     const State& s = *state_;
     if (!s.choice.determined)
         return std::vector<double>(heights.size(), std::numeric_limits<double>::quiet_NaN());
-    const double rounding = s.largest * std::numeric_limits<double>::epsilon();
     const auto estimates = s.kriging.at(heights, run);
     std::vector<double> errors;
     for (std::size_t i = 0; i < heights.size(); ++i)
         errors.push_back(std::hypot(estimates[i].standard_deviation,
-                                    estimates[i].value - heights[i].z, rounding));
+                                    estimates[i].value - heights[i].z, s.rounding));
     return errors;
 }
 

@@ -16,7 +16,7 @@
 namespace terrane::kriging::detail {
 namespace {
 
-constexpr unsigned trend_degree = 1;
+constexpr unsigned trend_degree = 1, higher_degree = 2;
 
 std::vector<Point3> selected(std::span<const Point3> points,
                              const std::vector<std::uint32_t>& which) {
@@ -45,11 +45,55 @@ std::vector<Variogram> shapes(const VariogramFitOptions& options) {
     return powers;
 }
 
+/// Data from which a variogram is chosen.
+struct FittedData {
+    std::vector<Point3> points;
+    double gap = 0; ///< median distance of neighbours; 0 if all data are taken
+};
+
+/// Selects well-spread data and, beside some of them, the nearest other one: without such pairs
+/// nobody could tell noise from a surface that is rough within the distance of well-spread data.
+FittedData fitted_data(std::span<const Point3> data) {
+    FittedData fitted;
+    auto chosen = well_spread_in_plane(data, constants.most_fitted);
+    std::vector<bool> taken(data.size(), false);
+    for (const auto i : chosen) taken[i] = true;
+    double mean = 0;
+    for (const Point3& p : data) mean += p.z / static_cast<double>(data.size());
+    std::vector<double> gaps;
+    const std::size_t pairs = std::min(constants.close_pairs, chosen.size());
+    for (std::size_t k = 0; k < pairs; ++k) {
+        const Point3& p = data[chosen[k]];
+        constexpr double equal = 1 + 1e-9; // distances differ by more than rounding
+        double least = std::numeric_limits<double>::infinity();
+        std::size_t best = data.size();
+        for (std::size_t i = 0; i < data.size(); ++i) {
+            const double d = std::hypot(data[i].x - p.x, data[i].y - p.y);
+            if (taken[i] || !(d > 0) || d > equal * least) continue;
+            const bool farther = best == data.size() || d * equal < least ||
+                                 std::abs(data[i].z - mean) > std::abs(data[best].z - mean);
+            least = std::min(least, d);
+            if (farther) best = i;
+        }
+        if (best == data.size()) continue;
+        taken[best] = true;
+        gaps.push_back(least);
+        chosen.push_back(static_cast<std::uint32_t>(best));
+    }
+    fitted.points = selected(data, chosen);
+    if (gaps.empty()) return fitted;
+    const auto middle = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2);
+    std::nth_element(gaps.begin(), middle, gaps.end());
+    fitted.gap = *middle;
+    return fitted;
+}
+
 /// Searches the most likely variogram.
 class Search {
 public:
-    Search(std::span<const Point3> data, const VariogramFitOptions& options, const Run& run) :
-        likelihood_(data, trend_degree), options_(options), run_(run) {}
+    Search(const FittedData& data, const VariogramFitOptions& options, const Run& run) :
+        likelihood_(data.points, trend_degree), least_range_(constants.gaps_per_range * data.gap),
+        options_(options), run_(run) {}
 
     Variogram operator()() {
         Variogram none;
@@ -88,7 +132,8 @@ private:
         };
         const double most = shape.model == VariogramModel::gaussian ? constants.most_smooth_range
                                                                     : constants.most_range;
-        const double low = std::log(constants.least_range * likelihood_.extent()),
+        const double low = std::log(
+                         std::max(constants.least_range * likelihood_.extent(), least_range_)),
                      high = std::log(most * likelihood_.extent());
         if (shape.model == VariogramModel::power) { // its range is a mere unit
             attempt(std::log(likelihood_.extent()));
@@ -99,7 +144,7 @@ private:
         for (int k = 0; k < constants.range_halvings; ++k) {
             step /= 2;
             const double middle = best_at;
-            attempt(middle - step);
+            attempt(std::max(middle - step, low));
             attempt(std::min(middle + step, high));
         }
         return best;
@@ -133,6 +178,7 @@ private:
     }
 
     Likelihood likelihood_;
+    double least_range_; ///< shorter ones can't be told from noise
     const VariogramFitOptions& options_;
     const Run& run_;
 };
@@ -153,13 +199,14 @@ std::vector<std::vector<Eigen::Index>> blocks_of(std::span<const Point3> data,
     return blocks;
 }
 
-BlockValidation validate(const DataAroundHole& around, const Variogram& variogram, const Run& run) {
+BlockValidation validate(const DataAroundHole& around, const Variogram& variogram, unsigned degree,
+                         const Run& run) {
     BlockValidation result;
     const auto data =
         selected(around.data, well_spread_in_plane(around.data, constants.most_block_data));
     const auto border = around.data.first(around.border);
     const auto centres = selected(border, well_spread_in_plane(border, constants.blocks));
-    const System system(data, variogram, trend_degree, run);
+    const System system(data, variogram, degree, run);
     if (!system.ready()) return result;
     const Eigen::MatrixXd projection = system.projection();
     double squares = 0, ratios = 0;
@@ -182,6 +229,36 @@ BlockValidation validate(const DataAroundHole& around, const Variogram& variogra
     return result;
 }
 
+/// Takes a trend of degree 2 if blocks are then missed by far less, as those of a paraboloid.
+void raise_degree(const DataAroundHole& around, const FittedData& fitted, double most_nugget,
+                  ModelChoice& choice, const Run& run) {
+    if (!(choice.variogram.sill > 0) || choice.validation.blocks == 0) return;
+    const Likelihood likelihood(fitted.points, higher_degree);
+    Variogram variogram = choice.variogram;
+    variogram.sill = variogram.nugget = 0;
+    if (!likelihood.trend_only()) {
+        const Likely found = likelihood.at(choice.variogram, most_nugget);
+        if (!(found.variogram.sill > 0)) return;
+        variogram = found.variogram;
+    }
+    const auto validation = validate(around, variogram, higher_degree, run);
+    if (validation.blocks < choice.validation.blocks ||
+        !(validation.error < constants.worth_degree * choice.validation.error))
+        return;
+    choice.degree = higher_degree;
+    choice.variogram = variogram;
+    choice.validation = validation;
+}
+
+/// Computes the factor of nugget and sill. Blocks overlap, so that many count as `most_counted`.
+double calibration(const BlockValidation& validation) {
+    const double n = std::min(static_cast<double>(validation.blocks), constants.most_counted);
+    // Blocks are beside the hole, not in it: half of what they are missed by less is believed.
+    const double seen =
+        validation.ratio > 1 ? validation.ratio * validation.ratio : validation.ratio;
+    return (n * seen + constants.block_prior) / (n + constants.block_prior);
+}
+
 } // namespace
 
 ModelChoice choose_model(const DataAroundHole& around, const VariogramFitOptions& options,
@@ -191,17 +268,21 @@ ModelChoice choose_model(const DataAroundHole& around, const VariogramFitOptions
     choice.determined = around.data.size() >= constants.least_data;
     VariogramFitOptions fit = options;
     fit.anisotropy = options.anisotropy && choice.determined;
-    const auto some =
-        selected(around.data, well_spread_in_plane(around.data, constants.most_fitted));
-    choice.variogram = Search(some, fit, run)();
-    choice.validation = validate(around, choice.variogram, run);
-    const auto n = static_cast<double>(choice.validation.blocks);
-    const double square = choice.validation.ratio * choice.validation.ratio;
-    const double factor =
-        std::max(1.0, (n * square + constants.block_prior) / (n + constants.block_prior));
+    const auto fitted = fitted_data(around.data);
+    choice.variogram = Search(fitted, fit, run)();
+    choice.validation = validate(around, choice.variogram, choice.degree, run);
+    if (choice.determined) raise_degree(around, fitted, options.most_nugget, choice, run);
+    const double factor = calibration(choice.validation);
     choice.variogram.sill *= factor;
     choice.variogram.nugget *= factor;
     return choice;
+}
+
+double rounding_of(std::span<const Point3> data) {
+    double largest = 0;
+    for (const Point3& p : data) largest = std::max(largest, std::abs(p.z));
+    const double unit = std::nextafter(largest, HUGE_VAL) - largest;
+    return unit * std::sqrt(2 / 12.0); // each of the two is spread evenly over a unit
 }
 
 } // namespace terrane::kriging::detail

@@ -39,10 +39,14 @@ struct DataAroundHole {
 /// Chooses the variogram that is most likely (restricted likelihood), of the models exponential,
 /// matern and gaussian, or of options.model alone; the nugget among them is the noise of the data.
 /// A gaussian model must be more likely by a margin, as must anisotropy. Then blocks as wide as the
-/// hole are left out in turn: if they are missed by more than the model expects, nugget and sill
-/// grow by the square of that ratio. The model counts for 2 blocks in it. The trend has degree 1.
+/// hole are left out in turn: nugget and sill are multiplied by the square of what they are missed
+/// by, in errors that the model expects, or by its root if that is less than 1. The model counts for
+/// 2 blocks in it. The trend has degree 1, or 2 if blocks are then missed by less than a tenth.
 /// Stops early if the run is stopped; the choice is of no use then.
 ModelChoice choose_model(const DataAroundHole& around, const VariogramFitOptions& options,
                          const Run& run);
+
+/// Computes the standard deviation of what rounding the data and an estimate to doubles adds.
+double rounding_of(std::span<const Point3> data);
 
 } // namespace terrane::kriging::detail
