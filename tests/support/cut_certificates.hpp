@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -80,6 +81,46 @@ inline Subject cut_subject(const std::vector<File>& files, const Volume& volume,
     REQUIRE(text);
     s.certificate = Json::parse(text.value());
     return s;
+}
+
+inline std::string wave_text(const std::string& name, double z, double slope) {
+    constexpr int count = 7;
+    std::string text;
+    for (int i = 0; i < count; ++i)
+        for (int j = 0; j < count; ++j)
+            text += "v " + std::to_string(1.7 * i) + " " + std::to_string(1.7 * j) + " " +
+                    std::to_string(z + slope * i + 0.3 * std::sin(1.1 * i + 0.7 * j)) + "\n";
+    text += "g " + name + "\n";
+    for (int i = 0; i + 1 < count; ++i)
+        for (int j = 0; j + 1 < count; ++j) {
+            const int a = 1 + i * count + j, b = a + count;
+            text += "f " + std::to_string(a) + " " + std::to_string(b) + " " +
+                    std::to_string(b + 1) + "\nf " + std::to_string(a) + " " +
+                    std::to_string(b + 1) + " " + std::to_string(a + 1) + "\n";
+        }
+    return text;
+}
+
+/// Two horizons that cross, and a fault.
+inline std::vector<File> crossing() {
+    return {{"first.obj", wave_text("first", 0, 0.3)},
+            {"second.obj", wave_text("second", 1, -0.2)},
+            {"fault.obj", "v 4 -1 -3\nv 5 12 -3\nv 7 12 4\nv 6 -1 4\ng fault\nf 1 2 3\nf 1 3 4\n"}};
+}
+
+/// A body with eight faces.
+inline File octahedron() {
+    return {"body.obj", "v 1 5 0.2\nv 9 5 0.3\nv 5 1 0.1\nv 5 9 0.4\nv 5 5 -3\nv 5.1 5 4\ng body\n"
+                        "f 1 3 6\nf 3 2 6\nf 2 4 6\nf 4 1 6\nf 3 1 5\nf 2 3 5\nf 4 2 5\nf 1 4 5\n"};
+}
+
+inline Volume the_box() {
+    return box_volume({0.9, 1.1, -1.3}, {8.3, 7.7, 2.4});
+}
+
+/// A polygon that is not convex.
+inline Volume the_prism() {
+    return prism_volume({{1, 1}, {8.2, 1.3}, {7.6, 8.8}, {4.1, 3.3}, {1.5, 7.1}}, -1.2, 2.3);
 }
 
 } // namespace forged
