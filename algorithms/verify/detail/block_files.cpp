@@ -13,9 +13,10 @@ namespace terrane::verifier {
 
 namespace {
 
-using Key = std::pair<BlockSides, Numbers>; ///< blocks, the lower first, and surfaces
+using InterfaceKey = std::pair<BlockSides, Numbers>; ///< blocks, the lower first, and surfaces
 
-Key interface_key(const WrittenMesh& mesh, const std::vector<BlockSides>& sides, std::uint32_t t) {
+InterfaceKey interface_key(const WrittenMesh& mesh, const std::vector<BlockSides>& sides,
+                           std::uint32_t t) {
     const auto [front, back] = sides[t];
     const auto surfaces = mesh.surfaces_of[t];
     return {{std::min(front, back), std::max(front, back)}, {surfaces.begin(), surfaces.end()}};
@@ -92,7 +93,7 @@ PartMesh cut(const WrittenMesh& mesh, Numbers triangles, const Turned& turned) {
 BlockParts find_parts(const WrittenMesh& mesh, const std::vector<BlockSides>& sides) {
     const Numbers rank = ranks_of(mesh.vertices);
     const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
-    std::map<Key, Numbers> groups;
+    std::map<InterfaceKey, Numbers> groups;
     for (std::uint32_t t = 0; t < count; ++t) groups[interface_key(mesh, sides, t)].push_back(t);
     std::vector<std::tuple<BlockSides, Numbers, std::uint32_t, const Numbers*>> order;
     for (const auto& [key, triangles] : groups)

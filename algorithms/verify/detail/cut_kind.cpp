@@ -32,7 +32,7 @@ std::array<double, 2> corner_of_polygon(const Node& node) {
     return corner;
 }
 
-void parse(const Node& node, Certificate& certificate) {
+void parse_cut(const Node& node, Certificate& certificate) {
     parse_arrangement_sections(node, certificate);
     const Node claim = node["cut"];
     claim.expect_keys({"volume", "dropped"});
@@ -86,8 +86,8 @@ void judge_doubles(std::span<const Surface> surfaces, const Certificate& certifi
                      verdict.violations);
 }
 
-void judge(std::span<const Surface> files, const Certificate& certificate,
-           const VerifyOptions& options, Verdict& verdict) {
+void judge_cut(std::span<const Surface> files, const Certificate& certificate,
+               const VerifyOptions& options, Verdict& verdict) {
     Violations& found = verdict.violations;
     const CutClaim& cut = *certificate.cut;
     const std::size_t own = arranged_surfaces(certificate);
@@ -113,7 +113,8 @@ void judge(std::span<const Surface> files, const Certificate& certificate,
 
 const Kind& cut_kind() {
     static constexpr std::array<std::string_view, 4> keys{"exact", "rounded", "digest", "cut"};
-    static constexpr Kind kind{CertificateKind::cut, "cut", keys, parse, judge, rounded_mesh};
+    static constexpr Kind kind{CertificateKind::cut, "cut", keys, parse_cut, judge_cut,
+                               rounded_mesh};
     return kind;
 }
 

@@ -14,7 +14,7 @@ namespace terrane::verifier {
 
 namespace {
 
-void parse(const Node& node, Certificate& certificate) {
+void parse_filled(const Node& node, Certificate& certificate) {
     const Node claim = node["filled"];
     claim.expect_keys({"vertices", "triangles", "surfaces"});
     const auto part = [](const Node& s) {
@@ -26,8 +26,8 @@ void parse(const Node& node, Certificate& certificate) {
                     each(claim["surfaces"], part)};
 }
 
-void judge(std::span<const Surface> surfaces, const Certificate& certificate,
-           const VerifyOptions& options, Verdict& verdict) {
+void judge_filled(std::span<const Surface> surfaces, const Certificate& certificate,
+                  const VerifyOptions& options, Verdict& verdict) {
     const double accepted = options.max_change.value_or(default_max_change(surfaces));
     check_filled(surfaces, *certificate.filled, accepted, verdict.violations);
     double limit = 0;
@@ -35,7 +35,7 @@ void judge(std::span<const Surface> surfaces, const Certificate& certificate,
     verdict.change = SurfaceChange{limit, accepted};
 }
 
-std::optional<WrittenMesh> written(const Certificate& certificate) {
+std::optional<WrittenMesh> written_filled(const Certificate& certificate) {
     static const IndexLists<std::uint32_t> none;
     const FilledClaim& filled = certificate.filled.value();
     IndexLists<std::uint32_t> surfaces_of;
@@ -50,7 +50,8 @@ std::optional<WrittenMesh> written(const Certificate& certificate) {
 
 const Kind& filled_kind() {
     static constexpr std::array<std::string_view, 1> keys{"filled"};
-    static constexpr Kind kind{CertificateKind::filled, "filled", keys, parse, judge, written};
+    static constexpr Kind kind{CertificateKind::filled, "filled", keys, parse_filled, judge_filled,
+                               written_filled};
     return kind;
 }
 

@@ -14,7 +14,7 @@ namespace terrane::verifier {
 
 namespace {
 
-void parse(const Node& node, Certificate& certificate) {
+void parse_improved(const Node& node, Certificate& certificate) {
     parse_arrangement_sections(node, certificate);
     const Node claim = node["improved"];
     claim.expect_keys(
@@ -28,8 +28,8 @@ void parse(const Node& node, Certificate& certificate) {
                       each(claim["limits"], [](const Node& limit) { return limit.number(); })};
 }
 
-void judge(std::span<const Surface> surfaces, const Certificate& certificate,
-           const VerifyOptions& options, Verdict& verdict) {
+void judge_improved(std::span<const Surface> surfaces, const Certificate& certificate,
+                    const VerifyOptions& options, Verdict& verdict) {
     judge_arrangement(surfaces, certificate, options, verdict);
     Violations& found = verdict.violations;
     if (!certificate.rounded || !certificate.rounded->clean)
@@ -47,7 +47,7 @@ void judge(std::span<const Surface> surfaces, const Certificate& certificate,
     verdict.change = SurfaceChange{limits.empty() ? 0 : std::ranges::max(limits), accepted};
 }
 
-std::optional<WrittenMesh> written(const Certificate& certificate) {
+std::optional<WrittenMesh> written_improved(const Certificate& certificate) {
     static const IndexLists<std::uint32_t> no_parents;
     const ImprovedClaim& mesh = certificate.improved.value();
     return WrittenMesh{mesh.vertices, mesh.triangles,   mesh.regions_of,
@@ -58,7 +58,9 @@ std::optional<WrittenMesh> written(const Certificate& certificate) {
 
 const Kind& improved_kind() {
     static constexpr std::array<std::string_view, 4> keys{"exact", "rounded", "digest", "improved"};
-    static constexpr Kind kind{CertificateKind::improved, "improved", keys, parse, judge, written};
+    static constexpr Kind kind{
+        CertificateKind::improved, "improved", keys, parse_improved, judge_improved,
+        written_improved};
     return kind;
 }
 

@@ -13,7 +13,7 @@ namespace terrane::verifier {
 
 namespace {
 
-void parse(const Node& node, Certificate& certificate) {
+void parse_layered(const Node& node, Certificate& certificate) {
     const Node claim = node["layered"];
     claim.expect_keys(
         {"order", "deviation", "vertices", "triangles", "layers", "regions", "parents"});
@@ -32,8 +32,8 @@ void parse(const Node& node, Certificate& certificate) {
         if (l.surface >= surfaces) claim["order"].fail("a layer names no surface");
 }
 
-void judge(std::span<const Surface> surfaces, const Certificate& certificate,
-           const VerifyOptions& options, Verdict& verdict) {
+void judge_layered(std::span<const Surface> surfaces, const Certificate& certificate,
+                   const VerifyOptions& options, Verdict& verdict) {
     const Inputs inputs = join_inputs(surfaces, verdict.violations);
     const double accepted = options.max_deviation.value_or(default_max_deviation(inputs));
     const LayeredClaim& layered = *certificate.layered;
@@ -41,7 +41,7 @@ void judge(std::span<const Surface> surfaces, const Certificate& certificate,
     verdict.measured = Measured{layered.deviation, accepted, 0, 0};
 }
 
-std::optional<WrittenMesh> written(const Certificate& certificate) {
+std::optional<WrittenMesh> written_layered(const Certificate& certificate) {
     const LayeredClaim& mesh = certificate.layered.value();
     return WrittenMesh{mesh.vertices,   mesh.triangles,   mesh.regions_of,
                        mesh.parents_of, mesh.surfaces_of, true};
@@ -51,7 +51,8 @@ std::optional<WrittenMesh> written(const Certificate& certificate) {
 
 const Kind& layered_kind() {
     static constexpr std::array<std::string_view, 1> keys{"layered"};
-    static constexpr Kind kind{CertificateKind::layered, "layered", keys, parse, judge, written};
+    static constexpr Kind kind{
+        CertificateKind::layered, "layered", keys, parse_layered, judge_layered, written_layered};
     return kind;
 }
 

@@ -10,9 +10,9 @@ namespace terrane::verifier {
 
 namespace {
 
-using Corners = std::array<const Vector4*, 3>;
+using CornerVectors = std::array<const Vector4*, 3>;
 
-Vector3 normal_of(const Corners& corners) {
+Vector3 normal_of(const CornerVectors& corners) {
     return cross(difference(*corners[1], *corners[0]), difference(*corners[2], *corners[0]));
 }
 
@@ -22,7 +22,7 @@ void check_rounded_orientation(const RoundedParts& parts, Violations& found) {
     if (parts.same_triangles) return;
     for (std::uint32_t t = 0; t < parts.rounded.triangles.size(); ++t) {
         const std::uint32_t parent = parts.rounded.parents_of[t].front();
-        const Corners corners = parts.corners(t);
+        const CornerVectors corners = parts.corners(t);
         if (sgn(dot(normal_of(corners), normal_of(parts.input_corners(parent)))) > 0) continue;
         const Squared height = squared_height(corners);
         if (sgn(height.below) == 0 || within(height, parts.deviation)) continue;

@@ -23,12 +23,12 @@ constexpr std::array<std::array<std::size_t, 3>, 4> seen_from_inside{
     {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}};
 
 /// A triangle of places in ascending order, and whether it was counterclockwise in that order.
-struct Key {
+struct FaceKey {
     Triangle places{};
     bool even = true;
 };
 
-Key key_of(Triangle t) {
+FaceKey key_of(Triangle t) {
     std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
     if (t[1] <= t[2]) return {t, true};
     return {{t[0], t[2], t[1]}, false};
@@ -36,7 +36,7 @@ Key key_of(Triangle t) {
 
 /// A face of a tetrahedron.
 struct CellFace {
-    Key key;
+    FaceKey key;
     std::uint32_t cell = 0;
 };
 
@@ -110,7 +110,7 @@ private:
     void take_list() {
         for (std::uint32_t f = 0; f < claim_.faces.size(); ++f) {
             if (is_behind_.contains(f)) continue;
-            const Key key = key_of(parts_.places(claim_.faces[f]));
+            const FaceKey key = key_of(parts_.places(claim_.faces[f]));
             if (!list_.emplace(key.places, Listed{f, key.even}).second)
                 refute(Rule::R42_faces, f, "is listed twice");
             if (const std::uint32_t t = claim_.triangle_of[f]; t != no_number)
