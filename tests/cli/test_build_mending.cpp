@@ -44,7 +44,7 @@ Json grid_project(const std::string& method) {
 
 /// Shale rises through flat salt, so that the order is wrong in one half. A bore wall is in no
 /// layer.
-constexpr auto crossing = R"(o shale
+constexpr auto crossing_horizons = R"(o shale
 v 0 0 -4
 v 8 0 4
 v 8 8 4
@@ -77,7 +77,7 @@ struct MendingCase {
     MendingCase() {
         folder.input("top.irap", holed_grid());
         folder.input("fold.obj", test_support::holed_fold_as_obj());
-        folder.input("stack.obj", crossing);
+        folder.input("stack.obj", crossing_horizons);
     }
     [[nodiscard]] Outcome build(const Json& json, const std::string& arguments) const {
         return folder.run("build " + folder.input("p.json", json.dump(2)) + " " + arguments);

@@ -13,7 +13,7 @@ using namespace program_test;
 namespace {
 
 /// A horizon that ends 0.1 short of a fault at x = 4, in the box from 0 to 8.
-constexpr auto model = R"(o horizon
+constexpr auto gapped_model = R"(o horizon
 v -1 -1 3
 v 3.9 -1 3
 v 3.9 9 3
@@ -33,7 +33,7 @@ const std::string box = " --box 0,0,0,8,8,8 ";
 
 TEST_CASE("cli: --seal closes gaps up to its distance and lists what it did", "[cli]") {
     const Folder folder;
-    const auto in = folder.input("model.obj", model);
+    const auto in = folder.input("model.obj", gapped_model);
     const auto open = folder.run("volume " + in + " -o open" + box);
     CHECK(contains(open.out, "2 closed blocks, volume 512 in all\n"));
     CHECK_FALSE(contains(open.out, "sealed"));
@@ -61,7 +61,7 @@ TEST_CASE("cli: --seal closes gaps up to its distance and lists what it did", "[
 
 TEST_CASE("cli: nothing moves where no gap is small enough: the same bytes", "[cli]") {
     const Folder folder;
-    const auto in = folder.input("model.obj", model);
+    const auto in = folder.input("model.obj", gapped_model);
     REQUIRE(folder.run("arrange " + in + " -o a.vtp -o a.obj").status == 0);
     const auto r = folder.run("arrange " + in + " -o b.vtp -o b.obj --seal 0.0999");
     REQUIRE(r.status == 0);
@@ -75,7 +75,7 @@ TEST_CASE("cli: nothing moves where no gap is small enough: the same bytes", "[c
 
 TEST_CASE("cli: --extend takes horizons to the boundary within its limit", "[cli]") {
     const Folder folder;
-    const auto in = folder.input("model.obj", model);
+    const auto in = folder.input("model.obj", gapped_model);
     const std::string roles = " --role fault=fault --role horizon=horizon";
     const auto r = folder.run("volume " + in + " -o out --extend 5 --stats s.json" + roles + box);
     INFO(r.err);
@@ -92,7 +92,7 @@ TEST_CASE("cli: --extend takes horizons to the boundary within its limit", "[cli
 
 TEST_CASE("cli: --seal and --extend refuse what makes no sense", "[cli]") {
     const Folder folder;
-    const auto in = folder.input("model.obj", model);
+    const auto in = folder.input("model.obj", gapped_model);
     for (const std::string options :
          {"--seal -1", "--seal nan", "--seal x", "--extend 1", "--extend -1 --box 0,0,0,8,8,8",
           "--seal 0.1 --certificate c.json"}) {
