@@ -55,26 +55,13 @@ inline Volume file_volume(const File& file) {
 inline Subject cut_subject(const std::vector<File>& files, const Volume& volume,
                            const std::vector<std::string>& formats = {"obj"}) {
     Subject s;
-    s.inputs = input_files(files);
-    std::vector<InputRecord> records;
-    for (std::size_t i = 0; i < files.size(); ++i) {
-        const InputFile& file = s.inputs[i];
-        records.push_back({files[i].name, file.sha256, file.bytes, file.surfaces.size()});
-        s.surfaces.insert(s.surfaces.end(), file.surfaces.begin(), file.surfaces.end());
-    }
+    const auto records = add_inputs(s, files);
     const auto arranged = arrange_within(s.surfaces, volume.boundary);
     REQUIRE(arranged);
     REQUIRE(arranged->rounded.report.clean);
     s.surfaces = arranged->surfaces; // for the digest
     for (InputFile& file : input_files(volume.files)) s.inputs.push_back(std::move(file));
-    std::vector<OutputRecord> outputs;
-    for (const std::string& format : formats) {
-        auto text = format_mesh(arranged->rounded.mesh, format_named(format).value(), {});
-        REQUIRE(text);
-        outputs.push_back(
-            record_output(text.value(), "out." + format, format, arranged->rounded.mesh->surfaces));
-        s.contents.push_back(std::move(text).value());
-    }
+    const auto outputs = add_outputs(s, arranged->rounded.mesh, formats);
     const auto text = to_cut_certificate(
         {records, arranged->surfaces, arranged->exact, &arranged->rounded, outputs}, volume.record,
         volume.boundary.size(), {});

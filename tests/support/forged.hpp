@@ -7,7 +7,11 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <array>
+#include <charconv>
+#include <fstream>
 #include <functional>
+#include <iterator>
 #include <set>
 #include <string>
 #include <utility>
@@ -32,33 +36,47 @@ struct Subject {
     std::vector<std::string> contents; ///< of the output files
 };
 
-/// Returns the certificate of these files with an output file in each format: "obj", "stl-ascii".
-inline Subject subject(const std::vector<File>& files,
-                       const std::vector<std::string>& formats = {"obj"}) {
-    Subject s;
-    s.inputs = input_files(files);
+/// Adds files and their surfaces to a subject; returns what a certificate says about them.
+inline std::vector<InputRecord> add_inputs(Subject& s, const std::vector<File>& files) {
     std::vector<InputRecord> records;
-    for (std::size_t i = 0; i < files.size(); ++i) {
-        const InputFile& file = s.inputs[i];
-        records.push_back({files[i].name, file.sha256, file.bytes, file.surfaces.size()});
+    for (InputFile& file : input_files(files)) {
+        records.push_back(
+            {files[records.size()].name, file.sha256, file.bytes, file.surfaces.size()});
         s.surfaces.insert(s.surfaces.end(), file.surfaces.begin(), file.surfaces.end());
+        s.inputs.push_back(std::move(file));
     }
-    const auto exact = arrange(s.surfaces);
-    REQUIRE(exact);
-    const auto rounded = round_to_doubles(exact.value());
-    REQUIRE(rounded);
-    std::vector<OutputRecord> outputs;
+    return records;
+}
+
+/// Adds an output file in each format: "obj", "stl-ascii", "vtp-plain"; returns what a certificate
+/// says about them.
+inline std::vector<OutputRecord> add_outputs(Subject& s, const Mesh& mesh,
+                                             const std::vector<std::string>& formats) {
+    std::vector<OutputRecord> records;
     for (const std::string& format : formats) {
         WriteOptions options;
         options.ascii = format == "stl-ascii";
         options.compress = format != "vtp-plain";
         const std::string name = format.substr(0, format.find('-'));
-        auto text = format_mesh(rounded->mesh, format_named(name).value(), options);
+        auto text = format_mesh(mesh, format_named(name).value(), options);
         REQUIRE(text);
-        outputs.push_back(record_output(text.value(), "out." + name, options.ascii ? format : name,
-                                        rounded->mesh->surfaces));
+        records.push_back(record_output(text.value(), "out." + name, options.ascii ? format : name,
+                                        mesh.surfaces));
         s.contents.push_back(std::move(text).value());
     }
+    return records;
+}
+
+/// Returns the certificate of these files with an output file in each format.
+inline Subject subject(const std::vector<File>& files,
+                       const std::vector<std::string>& formats = {"obj"}) {
+    Subject s;
+    const auto records = add_inputs(s, files);
+    const auto exact = arrange(s.surfaces);
+    REQUIRE(exact);
+    const auto rounded = round_to_doubles(exact.value());
+    REQUIRE(rounded);
+    const auto outputs = add_outputs(s, rounded->mesh, formats);
     s.certificate = Json::parse(
         to_certificate({records, s.surfaces, exact.value(), &rounded.value(), outputs}));
     return s;
@@ -118,6 +136,83 @@ inline void check_forgeries(const Subject& right, const std::vector<Forgery>& fo
     }
 }
 
+/// Changes a digit in each output file, the first one at or behind a place, and checks that R21
+/// refutes the file: by its SHA-256, and by what it holds where the certificate has the new one.
+inline void check_changed_digits(const Subject& right,
+                                 const std::function<std::size_t(const std::string&)>& place) {
+    REQUIRE(judged(right) == "");
+    REQUIRE_FALSE(right.contents.empty());
+    for (std::size_t i = 0; i < right.contents.size(); ++i) {
+        INFO(right.certificate["outputs"][i]["name"]);
+        Subject wrong = right;
+        std::string& text = wrong.contents[i];
+        const auto digit = text.find_first_of("123456789", place(text));
+        REQUIRE(digit != std::string::npos);
+        text[digit] = text[digit] == '9' ? '8' : static_cast<char>(text[digit] + 1);
+        CHECK(judged(wrong) == "R21");
+        seal(wrong);
+        CHECK(judged(wrong) == "R21");
+    }
+}
+
+inline std::size_t middle_of(const std::string& text) {
+    return text.size() / 2;
+}
+
+/// Returns where the first vertex of an OBJ file is.
+inline std::size_t first_vertex(const std::string& obj) {
+    return obj.find("\nv ");
+}
+
+// --- Numbers, and files of surfaces -------------------------------------------------------------
+
+inline double number_in(const Json& number) {
+    return std::stod(number.get<std::string>());
+}
+
+/// Returns the shortest text that reads back as the same double.
+inline std::string decimal_text(double value) {
+    std::array<char, 64> buffer{};
+    return {buffer.data(), std::to_chars(buffer.data(), buffer.data() + 64, value).ptr};
+}
+
+inline void shift_number(Json& number, double by) {
+    number = decimal_text(number_in(number) + by);
+}
+
+/// Returns an OBJ text of surfaces.
+inline std::string obj_text(const std::vector<Surface>& surfaces) {
+    std::string text;
+    std::size_t first = 1;
+    for (const Surface& s : surfaces) {
+        for (const Point3& p : s.vertices)
+            text +=
+                "v " + decimal_text(p.x) + " " + decimal_text(p.y) + " " + decimal_text(p.z) + "\n";
+        text += "g " + s.name + "\n";
+        for (const Triangle& t : s.triangles) {
+            text += "f";
+            for (const std::uint32_t v : t) text += " " + std::to_string(v + first);
+            text += "\n";
+        }
+        first += s.vertices.size();
+    }
+    return text;
+}
+
+/// Returns what a file of any format holds, as OBJ.
+inline std::string obj_in(const std::string& path) {
+    const auto surfaces = read_surfaces(path);
+    REQUIRE(surfaces);
+    return obj_text(surfaces.value());
+}
+
+inline std::string text_in(const std::string& path) {
+    std::ifstream in(path);
+    std::string text(std::istreambuf_iterator<char>(in), {});
+    REQUIRE_FALSE(text.empty());
+    return text;
+}
+
 // --- Changes of a part, "exact" or "rounded" ----------------------------------------------------
 
 inline const std::vector<std::string> both{"exact", "rounded"};
@@ -153,6 +248,7 @@ inline void drop_unused(Json& part) {
     part["vertices"] = vertices;
     for (Json& t : part["triangles"])
         for (Json& v : t) v = number[v.get<std::size_t>()];
+    if (!part.contains("intersection_edges")) return;
     Json edges = Json::array();
     for (const Json& e : part["intersection_edges"]) {
         const int low = number[e[0].get<std::size_t>()], high = number[e[1].get<std::size_t>()];

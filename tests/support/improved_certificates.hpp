@@ -20,13 +20,7 @@ namespace forged {
 inline Subject improved_subject(const std::vector<File>& files, const ImproveOptions& options,
                                 const std::vector<std::string>& formats = {"obj"}) {
     Subject s;
-    s.inputs = input_files(files);
-    std::vector<InputRecord> records;
-    for (std::size_t i = 0; i < files.size(); ++i) {
-        const InputFile& file = s.inputs[i];
-        records.push_back({files[i].name, file.sha256, file.bytes, file.surfaces.size()});
-        s.surfaces.insert(s.surfaces.end(), file.surfaces.begin(), file.surfaces.end());
-    }
+    const auto records = add_inputs(s, files);
     const auto exact = arrange(s.surfaces);
     REQUIRE(exact);
     const auto rounded = round_to_doubles(exact.value());
@@ -36,13 +30,7 @@ inline Subject improved_subject(const std::vector<File>& files, const ImproveOpt
     REQUIRE(made);
     REQUIRE(made->is_near_back());
     const Mesh& mesh = made->improved.mesh;
-    std::vector<OutputRecord> outputs;
-    for (const std::string& format : formats) {
-        auto text = format_mesh(mesh, format_named(format).value(), {});
-        REQUIRE(text);
-        outputs.push_back(record_output(text.value(), "out." + format, format, mesh.surfaces));
-        s.contents.push_back(std::move(text).value());
-    }
+    const auto outputs = add_outputs(s, mesh, formats);
     s.certificate = Json::parse(
         to_improved_certificate({records, s.surfaces, exact.value(), &rounded.value(), outputs},
                                 mesh, made->improved.report.bound_of));

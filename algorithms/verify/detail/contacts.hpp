@@ -27,6 +27,9 @@ struct ExactMesh {
 ExactMesh make_exact_mesh(std::vector<Vector4> points, const mpz_class& scale,
                           std::span<const Triangle> triangles);
 
+/// Returns the centroid of a triangle.
+Vector4 centroid_of(const ExactMesh& mesh, std::uint32_t triangle);
+
 /// Tells whether two triangles with area, as closed sets, have exactly the convex hull of their
 /// shared corners in common: nothing, a corner or an edge. It is true if they share all three
 /// corners, which another rule judges.

@@ -68,6 +68,18 @@ bool has_even_edges(const Shell& shell) {
     return std::ranges::none_of(is_odd, [](const auto& edge) { return edge.second; });
 }
 
+/// Tells whether a closed shell faces outwards: its volume is positive.
+bool faces_outwards(const Shell& shell) {
+    const auto points = scale_to_integers(shell.vertices).points;
+    mpz_class volume;
+    for (const Triangle& t : shell.triangles) {
+        const Vector4 &a = points[t[0]], &b = points[t[1]], &c = points[t[2]];
+        volume += a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
+                  a[2] * (b[0] * c[1] - b[1] * c[0]);
+    }
+    return sgn(volume) > 0;
+}
+
 /// Returns what is wrong with a prism, or nothing.
 std::string prism_flaw(const VolumeClaim& volume, const Shell& shell) {
     const auto& corners = volume.corners;
@@ -128,10 +140,12 @@ std::string volume_flaw(const VolumeClaim& volume, std::span<const Surface> file
     }
     if (volume.shape == "prism") {
         if (auto flaw = prism_flaw(volume, shell); !flaw.empty()) return flaw;
-    } else if (volume.shape != "hexahedron" || shell.vertices.size() != 8) {
+    } else if (volume.shape != "hexahedron" || shell.vertices.size() != 8 ||
+               shell.triangles.size() != 12) {
         return "the boundary is no prism, no hexahedron and no surface";
     }
     if (!is_closed(shell)) return "the boundary is not closed";
+    if (!faces_outwards(shell)) return "the boundary faces inwards";
     return verify_conforming(shell.vertices, shell.triangles).empty()
                ? ""
                : "the boundary meets itself improperly";
@@ -208,16 +222,6 @@ private:
     const ExactMesh& mesh_;
     BoxTree tree_;
 };
-
-Vector4 centroid_of(const ExactMesh& mesh, std::uint32_t triangle) {
-    const auto& [i, j, k] = mesh.triangles[triangle];
-    const Vector4 &a = mesh.points[i], &b = mesh.points[j], &c = mesh.points[k];
-    const mpz_class bc = b[3] * c[3], ca = c[3] * a[3], ab = a[3] * b[3];
-    Vector4 point{0, 0, 0, mpz_class(3 * a[3] * bc)};
-    for (std::size_t x = 0; x < 3; ++x) point[x] = a[x] * bc + b[x] * ca + c[x] * ab;
-    make_primitive(point);
-    return point;
-}
 
 /// Returns the triangles at each edge.
 std::map<Edge, Numbers> triangles_at_edges(const std::vector<Triangle>& triangles) {

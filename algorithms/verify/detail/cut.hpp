@@ -18,8 +18,10 @@ namespace terrane::verifier {
 ///     all of these are vertices. Each triangle is at one of the heights, or in the wall on an edge of
 ///     the polygon. The boundary is closed, each edge has two triangles in opposite directions, and
 ///     triangles meet in shared vertices and edges only. So the horizontal sections of what it bounds
-///     are bounded by edges of the polygon; they are all of it, and the volume is the prism.
-/// (2) hexahedron: it has eight vertices, and is closed and meets itself in the same sense.
+///     are bounded by edges of the polygon; they are all of it, and the volume is the prism. Its
+///     triangles face outwards.
+/// (2) hexahedron: it has eight vertices and twelve triangles, and is closed, meets itself and faces
+///     outwards in the same sense.
 /// (3) surface: it has the vertices and triangles of the files, to the bit, and an even number of
 ///     triangles at each edge.
 void check_volume(const VolumeClaim& volume, std::span<const Surface> files, Violations& found);

@@ -90,6 +90,10 @@ void judge_cut(std::span<const Surface> files, const Certificate& certificate,
                const VerifyOptions& options, Verdict& verdict) {
     Violations& found = verdict.violations;
     const CutClaim& cut = *certificate.cut;
+    if (cut.volume.files > certificate.inputs.size()) {
+        found.push_back({Rule::R50_volume, {}, "there are fewer input files"});
+        return;
+    }
     const std::size_t own = arranged_surfaces(certificate);
     check_volume(cut.volume, files.subspan(own), found);
     const auto& dropped = cut.dropped;

@@ -32,17 +32,6 @@ struct Query {
     Box box{};
 };
 
-/// Returns the centroid of a triangle.
-Vector4 centroid(const ExactMesh& mesh, std::uint32_t triangle) {
-    const auto& [i, j, k] = mesh.triangles[triangle];
-    const Vector4 &a = mesh.points[i], &b = mesh.points[j], &c = mesh.points[k];
-    const mpz_class bc = b[3] * c[3], ca = c[3] * a[3], ab = a[3] * b[3];
-    Vector4 point{0, 0, 0, mpz_class(3 * a[3] * bc)};
-    for (std::size_t x = 0; x < 3; ++x) point[x] = a[x] * bc + b[x] * ca + c[x] * ab;
-    make_primitive(point);
-    return point;
-}
-
 /// Casts rays along one axis, in its direction.
 class Rays {
 public:
@@ -161,7 +150,7 @@ private:
                 closed.push_back(t);
         std::array<std::vector<Query>, 3> queries; // per axis
         for (const auto& [triangle, count] : shell_count) {
-            const Vector4 point = centroid(mesh_, triangle);
+            const Vector4 point = centroid_of(mesh_, triangle);
             queries[projection_axis(mesh_.planes[triangle]).value_or(2)].push_back(
                 {triangle, point, enclose(point, mesh_.scale)});
         }

@@ -5,10 +5,7 @@
 #include "support/forged.hpp"
 #include "support/paths.hpp"
 
-#include <charconv>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 
 #include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/algorithms/reconstruction/fill.hpp>
@@ -52,14 +49,8 @@ std::vector<File> holed() {
 Subject filled_subject(const std::vector<File>& files, const std::vector<std::string>& formats,
                        FillMethod method = FillMethod::kriging) {
     Subject s;
-    s.inputs = input_files(files);
-    std::vector<InputRecord> records;
+    const auto records = add_inputs(s, files);
     std::vector<FillTask> tasks;
-    for (std::size_t i = 0; i < files.size(); ++i) {
-        const InputFile& file = s.inputs[i];
-        records.push_back({files[i].name, file.sha256, file.bytes, file.surfaces.size()});
-        s.surfaces.insert(s.surfaces.end(), file.surfaces.begin(), file.surfaces.end());
-    }
     FillOptions options;
     options.method = method;
     for (std::uint32_t i = 0; i < s.surfaces.size(); ++i) tasks.push_back({SurfaceId(i), options});
@@ -100,15 +91,6 @@ Forgery filled(const std::string& name, const std::function<void(Json&)>& change
     return {name, [change](Json& c) { change(c["filled"]); }, rule};
 }
 
-void set_number(Json& number, double value) {
-    char buffer[64];
-    number = std::string(buffer, std::to_chars(buffer, buffer + 64, value).ptr);
-}
-
-double number_in(const Json& text) {
-    return std::stod(text.get<std::string>());
-}
-
 std::size_t given_triangles() {
     return right_filled().surfaces[0].triangles.size() +
            right_filled().surfaces[1].triangles.size();
@@ -127,9 +109,9 @@ void add_triangle(Json& f, const Json& corners) {
 
 void add_vertex(Json& f, double x, double y, double z) {
     Json point = Json::array({"", "", ""});
-    set_number(point[0], x);
-    set_number(point[1], y);
-    set_number(point[2], z);
+    point[0] = decimal_text(x);
+    point[1] = decimal_text(y);
+    point[2] = decimal_text(z);
     f["vertices"].push_back(point);
     f["surfaces"][1]["vertices"] = f["surfaces"][1]["vertices"].get<std::size_t>() + 1;
 }
@@ -163,7 +145,7 @@ TEST_CASE("filled certificates: what was given is changed") {
                 "a given vertex moved by the last digit",
                 [=](Json& f) {
                     Json& z = f["vertices"][second + 3][2];
-                    set_number(z, std::nextafter(number_in(z), 100));
+                    z = decimal_text(std::nextafter(number_in(z), 100));
                 },
                 "R29"),
             filled(
@@ -230,12 +212,12 @@ TEST_CASE("filled certificates: forged fillings") {
                 "a closed body that crosses the surface", [](Json& f) { add_tetrahedron(f, -0.5); },
                 "R36"),
             filled(
-                "a new vertex far away", [](Json& f) { set_number(f["vertices"].back()[2], 1e6); },
-                "R26"),
+                "a new vertex far away",
+                [](Json& f) { f["vertices"].back()[2] = decimal_text(1e6); }, "R26"),
             filled(
                 "a new vertex far away, with a limit as large",
                 [](Json& f) {
-                    set_number(f["vertices"].back()[2], 1e6);
+                    f["vertices"].back()[2] = decimal_text(1e6);
                     f["surfaces"][1]["limit"] = "1e+300";
                 },
                 "R26"),
@@ -251,10 +233,7 @@ TEST_CASE("filled certificates: forged fillings") {
                 "a new vertex at the place of another",
                 [](Json& f) { f["vertices"].back() = *(f["vertices"].end() - 2); }, "R36"),
             filled(
-                "a smaller limit",
-                [](Json& f) {
-                    set_number(f["vertices"].back()[2], number_in(f["vertices"].back()[2]) + 2);
-                },
+                "a smaller limit", [](Json& f) { shift_number(f["vertices"].back()[2], 2); },
                 "R26"),
         });
 }
@@ -286,12 +265,5 @@ TEST_CASE("filled certificates: forged numbers") {
 }
 
 TEST_CASE("filled certificates: an output file with one digit changed") {
-    Subject wrong = right_filled();
-    const auto digit = wrong.contents[0].find_first_of("123456789", wrong.contents[0].find("\nv "));
-    REQUIRE(digit != std::string::npos);
-    char& c = wrong.contents[0][digit];
-    c = c == '9' ? '8' : static_cast<char>(c + 1);
-    CHECK(judged(wrong) == "R21");
-    seal(wrong); // with its new SHA-256 in the certificate
-    CHECK(judged(wrong) == "R21");
+    check_changed_digits(right_filled(), first_vertex);
 }
