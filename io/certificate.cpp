@@ -61,10 +61,8 @@ bool has_exact_triangles(const Arrangement& a, const Mesh& mesh) {
            a.parents_of == mesh.parents_of;
 }
 
-/// The verifier shows the stated bounds without knowing how the mesh was rounded. With other
-/// triangles than those of the arrangement its bound is up to 5/2 times the sum of all moves.
-void write_report(CertificateWriter& out, const RoundingReport& report, bool exact_triangles) {
-    constexpr double proof_slack = 4;
+void write_report(CertificateWriter& out, const RoundingReport& report, bool exact_triangles,
+                  double deviation) {
     out.raw(",\n\"clean\":");
     out.raw(report.clean ? "true" : "false");
     out.raw(",\"max_move\":");
@@ -73,7 +71,7 @@ void write_report(CertificateWriter& out, const RoundingReport& report, bool exa
     else
         out.raw("null");
     out.raw(",\"deviation\":");
-    out.quote(exact_triangles ? report.deviation : proof_slack * report.deviation);
+    out.quote(deviation);
     out.raw(",\"vanished\":");
     out.numbers(report.vanished);
 }
@@ -90,11 +88,20 @@ void write_rounded(CertificateWriter& out, const Arrangement& exact, const Round
     out.arrays(mesh.intersection_edges);
     out.raw(",\n\"regions\":");
     out.lists(mesh.regions_of);
-    write_report(out, rounded.report, has_exact_triangles(exact, mesh));
+    write_report(out, rounded.report, has_exact_triangles(exact, mesh),
+                 stated_deviation(exact, rounded));
     out.raw("}");
 }
 
 } // namespace
+
+double stated_deviation(const Arrangement& exact, const RoundedMesh& rounded) {
+    // With other triangles than those of the arrangement the verifier's bound is up to 5/2 times the
+    // sum of all moves.
+    constexpr double proof_slack = 4;
+    const double deviation = rounded.report.deviation;
+    return has_exact_triangles(exact, rounded.mesh) ? deviation : proof_slack * deviation;
+}
 
 void detail::write_arrangement(CertificateWriter& out, const Certified& certified, const Run& run) {
     const Arrangement& all = certified.whole == nullptr ? certified.exact : *certified.whole;

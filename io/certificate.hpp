@@ -110,6 +110,11 @@ struct Certified {
 /// Precondition: the sum of files[].surfaces is the number of surfaces.
 std::string to_certificate(const Certified& certified, const Run& run = {});
 
+/// Returns the deviation that a certificate states of a rounded arrangement, or of layers: more than
+/// `report.deviation`, as the verifier shows it without knowing how the mesh was made.
+double stated_deviation(const Arrangement& exact, const RoundedMesh& rounded);
+double stated_deviation(const Layered& layered);
+
 /// A volume of interest, as it was asked for.
 struct VolumeRecord {
     std::string shape = "prism"; ///< "prism", "hexahedron" or "surface": see verify_certificate.hpp

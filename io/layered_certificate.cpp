@@ -10,12 +10,9 @@ namespace terrane {
 
 using namespace detail;
 
-namespace {
-
-/// Returns a bound of how far triangles of a stack are from where they must be. Their vertices were
-/// rounded twice: to the nearest doubles, and after the final arrangement. What the verifier shows
-/// is up to four times as large.
-double deviation_of(const Layered& layered) {
+double stated_deviation(const Layered& layered) {
+    // Vertices were rounded twice: to the nearest doubles, and after the final arrangement. What the
+    // verifier shows is up to four times as large.
     constexpr double slack = 4;
     double largest = 0;
     for (const Point3& p : layered.rounded.mesh->vertices)
@@ -24,8 +21,6 @@ double deviation_of(const Layered& layered) {
         std::nextafter(largest, std::numeric_limits<double>::infinity()) - largest;
     return slack * (layered.rounded.report.deviation + spacing);
 }
-
-} // namespace
 
 std::string to_layered_certificate(std::span<const InputRecord> files,
                                    std::span<const Surface> surfaces,
@@ -44,7 +39,7 @@ std::string to_layered_certificate(std::span<const InputRecord> files,
         out.raw("}");
     });
     out.raw(",\n\"deviation\":");
-    out.quote(deviation_of(layered));
+    out.quote(stated_deviation(layered));
     out.raw(",\n\"vertices\":");
     write_points(out, mesh.vertices);
     out.raw(",\n\"triangles\":");

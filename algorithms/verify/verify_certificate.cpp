@@ -5,6 +5,7 @@
 
 #include <terrane/algorithms/verify/detail/inputs.hpp>
 #include <terrane/algorithms/verify/detail/kinds.hpp>
+#include <terrane/algorithms/verify/detail/rounded_parts.hpp>
 #include <terrane/algorithms/verify/detail/sha256.hpp>
 
 namespace terrane {
@@ -51,6 +52,11 @@ void check_inputs(std::span<const InputFile> files, const std::vector<CertifiedI
 InputFile input_file(std::string_view contents, std::vector<Surface> surfaces) {
     return {verifier::in_hexadecimal(verifier::hash_of(contents)), contents.size(),
             std::move(surfaces)};
+}
+
+double default_max_deviation(std::span<const Surface> inputs) {
+    Violations not_judged;
+    return verifier::default_max_deviation(verifier::join_inputs(inputs, not_judged));
 }
 
 Verdict verify_certificate(std::span<const InputFile> files, const Certificate& certificate,

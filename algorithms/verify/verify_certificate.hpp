@@ -144,6 +144,10 @@ struct VerifyOptions {
     std::optional<double> max_change{};
 };
 
+/// Returns the largest deviation from these surfaces, those of all inputs, that is accepted where
+/// none is given.
+double default_max_deviation(std::span<const Surface> inputs);
+
 /// The verifier's own measure of the mesh of doubles.
 struct Measured {
     double deviation = 0;     ///< upper bound, both ways; unit of the input

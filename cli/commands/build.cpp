@@ -399,6 +399,9 @@ private:
                              const Result<std::string>& text) {
         if (!text) return text.error();
         written_.emplace_back(name);
+        const Arranged& arranged = built_.arranged;
+        warn_of_deviation(name, stated_deviation(arranged.exact, arranged.rounded),
+                          arranged.surfaces);
         return write_file(to / name, *text);
     }
 

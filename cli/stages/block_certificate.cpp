@@ -70,7 +70,11 @@ Status write(const BlockProof& proof, const Make& make, Session& session) {
     if (!text) return text.error();
     auto written = write_file(proof.path, text.value());
     session.end_stage();
-    if (written) print(summary_stream(proof.files), "wrote " + proof.path + "\n");
+    if (!written) return written;
+    print(summary_stream(proof.files), "wrote " + proof.path + "\n");
+    const Arranged& arranged = proof.arranged;
+    warn_of_deviation(proof.path, stated_deviation(arranged.exact, arranged.rounded),
+                      arranged.surfaces);
     return written;
 }
 

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/verify/verify_certificate.hpp>
 #include <terrane/cli/session/console.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/certificate.hpp>
@@ -124,6 +125,16 @@ void add_proof(CLI::App& command, ProofOptions& options) {
         ->type_name("FILE");
 }
 
+void warn_of_deviation(const std::string& certificate, double deviation,
+                       std::span<const Surface> inputs) {
+    const double accepted = default_max_deviation(inputs);
+    if (!(deviation > accepted)) return;
+    warn(fmt::format(
+        "{} states a deviation of {}, and terrane verify accepts at most {:.3g} unless it "
+        "is given --max-deviation {}",
+        certificate, deviation, accepted, deviation));
+}
+
 Status plan_proof(const ProofOptions& options, const FileOptions& files) {
     if (options.certificate == "-" || options.exact == "-")
         return Error{ErrorCode::bad_option, "standard output is for the mesh: name a file", "-"};
@@ -164,6 +175,8 @@ Status write_proof(const ProofOptions& options, const ProofFiles& files, const I
         if (!text) return text.error();
         if (auto status = write(options.certificate, text.value(), files.told, session); !status)
             return status;
+        warn_of_deviation(options.certificate, stated_deviation(arranged.exact, arranged.rounded),
+                          arranged.surfaces);
     }
     if (options.exact.empty()) return Done{};
     return write(options.exact, to_text(to_exact(arranged.exact, session.run())), files.told,
@@ -180,7 +193,10 @@ Status write_improved_certificate(const std::string& path, const ProofFiles& fil
     const auto text = to_improved_certificate(
         {records.value(), before.surfaces, before.exact, &before.rounded, outputs.value()},
         improved.mesh, improved.report.bound_of, session.run());
-    return write(path, text, files.told, session);
+    auto status = write(path, text, files.told, session);
+    if (status)
+        warn_of_deviation(path, stated_deviation(before.exact, before.rounded), before.surfaces);
+    return status;
 }
 
 Status write_filled_certificate(const std::string& path, const ProofFiles& files,
@@ -207,7 +223,9 @@ Status write_layered_certificate(const std::string& path, const ProofFiles& file
     if (!outputs) return outputs.error();
     const auto text =
         to_layered_certificate(records.value(), inputs.surfaces, outputs.value(), order, layered);
-    return write(path, text, files.told, session);
+    auto status = write(path, text, files.told, session);
+    if (status) warn_of_deviation(path, stated_deviation(layered), inputs.surfaces);
+    return status;
 }
 
 } // namespace terrane::cli

@@ -29,6 +29,11 @@ void add_proof(CLI::App& command, ProofOptions& options);
 /// Adds --certificate only.
 void add_certificate(CLI::App& command, std::string& certificate);
 
+/// Warns if `terrane verify` refuses a certificate unless an option allows its deviation. `inputs` are
+/// all surfaces that it is about.
+void warn_of_deviation(const std::string& certificate, double deviation,
+                       std::span<const Surface> inputs);
+
 /// Checks the file names before any work is done. Errors: bad_option, cannot_open.
 Status plan_proof(const ProofOptions& options, const FileOptions& files);
 
