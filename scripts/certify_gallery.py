@@ -11,8 +11,10 @@ processors together; the status is 1 if a certificate was refused or a forged fi
 (default ../shared/data); those that are missing are left out and named. KIND chooses among the kinds (default: all).
 """
 import argparse
+import base64
 import hashlib
 import json
+import lzma
 import os
 import pathlib
 import re
@@ -20,10 +22,12 @@ import resource
 import subprocess
 import sys
 import tempfile
+import zlib
 from dataclasses import dataclass, field
 
 RING, PYTOOLS = "ringmesh+RINGMesh", "xaliphostes+xali-pytools/data/models"
 ARCH, CGAL = "xaliphostes+arch-platform/public/models", "debian+libcgal-demo/data/meshes"
+DROGON = "equinor+xtgeo-testdata/surfaces/drogon/1"
 MODELS = {
     "modelA1": f"{RING}/modelA1.ml",
     "modelA2": f"{RING}/modelA2.ml",
@@ -43,16 +47,24 @@ MODELS = {
     "three blobs": f"{CGAL}/blobby_3cc.off",
     "bull": f"{CGAL}/bull.off",
     "horizons": f"{CGAL}/horizons.off",
+    "modelA4": f"{RING}/modelA4.ml.xz",
+    "Drogon": [f"{DROGON}/02_toptherys.gri", f"{DROGON}/03_topvolon.gri"],
 }
 
 
 @dataclass
 class Kind:
-    """How to make a certificate of one kind: the words before and after the input file, the outputs, the models."""
+    """How to make a certificate of one kind: the words before and after the input files, the outputs, the models.
+    Where these are a dictionary, it has the words behind those for all."""
     command: list
     outputs: list
-    models: list
+    models: list | dict
     options: list = field(default_factory=list)
+
+
+def stack(*names):
+    """The options for horizons from the top down: the lowest is the hardest."""
+    return [word for hardness, name in enumerate(names, 1) for word in ("--layer", f"{name}={hardness}")]
 
 
 SURFACES = ["out.obj", "out.vtp", "out.ply"]
@@ -68,7 +80,21 @@ KINDS = {
     "filled": Kind(["fill"], SURFACES,
                    ["elephant with holes", "shark with holes", "mesh with border", "mask", "patch"],
                    ["--method", "rbf"]),
-    # The kinds cut, sealed and layered get their entries here.
+    "cut": Kind(["arrange"], SURFACES, {
+        "modelA1": ["--box", "-3000,-2000,-1500,8000,4000,0"],
+        "modelA2": ["--rotated-box", "3000,1000,-800,8000,5000,1500,30,5,3"],
+        "gom": ["--box", "560000,10000,-9000,600000,50000,-4000"],
+        "tindel": ["--polygon", "-1000,-1000,4000,-500,2000,1500,3500,5500,-500,5000", "--between", "-2900,-1400"],
+        "horizons": ["--within", f"{{data}}/{CGAL}/elephant.off"],
+        "mannequin-devil": ["--box", "-8,-10,-12,9,11,13"]}),
+    # What is out of order gives way, which is much of these models.
+    "layered": Kind(["layer"], SURFACES, {
+        "modelA1": stack("h3_model1", "h2_model1", "h1_model1"),
+        "modelA2": stack("h3_model3", "h2_model3", "h1_model3"),
+        "modelA4": stack("H3b_horizon", "H2b_horizon", "H1b_horizon"),
+        "tindel": stack("Main_6", "Main_4", "Main_7"),
+        "Drogon": stack("03_topvolon", "02_toptherys")}),
+    # The kind sealed gets its entry here.
 }
 
 
@@ -104,6 +130,33 @@ def place_in(places, share):
     return places[min(int(share * len(places)), len(places) - 1)]
 
 
+def numbers_in(text):
+    """Unpacks blocks of numbers; returns the text itself if it is damaged, or not packed."""
+    try:
+        packed = base64.b64decode(text + b"=" * (-len(text) % 4))
+        numbers = b""
+        while packed:
+            block = zlib.decompressobj()
+            numbers += block.decompress(packed) + block.flush()
+            if not block.eof:
+                return text
+            packed = block.unused_data
+        return numbers
+    except (ValueError, zlib.error):
+        return text
+
+
+def forged_vtk(data, share):
+    """Changes one byte of packed numbers so that these change: of a run of zeros there are many packed forms."""
+    found = place_in(list(re.finditer(rb"[A-Za-z0-9+/]{40,}", data)), share)
+    right = numbers_in(found.group())
+    for at in range((found.start() + found.end()) // 2, found.end()):
+        wrong = data[:at] + (b"B" if data[at:at + 1] != b"B" else b"C") + data[at + 1:]
+        if numbers_in(wrong[found.start():found.end()]) != right:
+            return wrong
+    raise ValueError("no byte of these numbers matters")
+
+
 def forged(name, data, share):
     """Changes one byte of a number, at about this share of the file."""
     if name.endswith(".ply"):
@@ -111,10 +164,7 @@ def forged(name, data, share):
         at = start + int(share * (len(data) - start - 1))
         return data[:at] + bytes([data[at] ^ 1]) + data[at + 1:]
     if name.endswith((".vtp", ".vtu")):  # numbers are compressed and in base64
-        numbers = list(re.finditer(rb"[A-Za-z0-9+/]{40,}", data))
-        found = place_in(numbers, share)
-        at = (found.start() + found.end()) // 2
-        return data[:at] + (b"B" if data[at:at + 1] != b"B" else b"C") + data[at + 1:]
+        return forged_vtk(data, share)
     pattern = {".obj": rb"(?m)^[vf] [^\n]*?(\d)[^\d\n]*$", ".json": rb'"volume_written":-?(\d)|"volumes":\[(\d)'}
     if name.endswith(".msh"):
         pattern[".msh"] = rb"(?m)^-?[\d.e-]+ -?[\d.e-]+ -?\d*?(\d)[\d.e-]*$"
@@ -152,11 +202,28 @@ def triangles_of(certificate):
     return sum(s["triangles"] for i in certificate["inputs"] for s in i["surfaces"])
 
 
-def judge(options, name, kind, model, source):
+def unpacked(source, folder):
+    """Returns the file, or what it becomes in the folder if it is packed."""
+    if source.suffix != ".xz":
+        return source
+    target = folder / source.stem
+    target.write_bytes(lzma.decompress(source.read_bytes()))
+    return target
+
+
+def files_of(options, model):
+    names = MODELS[model] if isinstance(MODELS[model], list) else [MODELS[model]]
+    return [(options.data / name).resolve() for name in names]
+
+
+def judge(options, name, kind, model):
     """Judges one model; returns the cells of its row, and what is wrong."""
     with tempfile.TemporaryDirectory(dir=options.scratch) as scratch:
         folder = pathlib.Path(scratch)
-        base = [options.terrane, *kind.command, source, *kind.options]
+        own = kind.models[model] if isinstance(kind.models, dict) else []
+        sources = [unpacked(source, folder) for source in files_of(options, model)]
+        base = [options.terrane, *kind.command, *sources, *kind.options,
+                *(word.replace("{data}", str(options.data.resolve())) for word in own)]
         outputs = [word for output in kind.outputs for word in ("-o", output)]
         plain_folder = folder / "plain"
         plain_folder.mkdir()
@@ -193,11 +260,11 @@ def main():
     flaws = []
     for name in options.kinds or KINDS:
         for model in KINDS[name].models:
-            source = (options.data / MODELS[model]).resolve()
-            if not source.exists():
-                print(f"certify_gallery: {source} is missing", file=sys.stderr)
+            missing = [source for source in files_of(options, model) if not source.exists()]
+            if missing:
+                print(f"certify_gallery: {missing[0]} is missing", file=sys.stderr)
                 continue
-            row, wrong = judge(options, name, KINDS[name], model, source)
+            row, wrong = judge(options, name, KINDS[name], model)
             if row:
                 print("| " + " | ".join(row) + " |", flush=True)
             if wrong:
