@@ -5,6 +5,7 @@
 // still means the same. There is a target for each kind, named by forge_kind. The bytes are a list
 // of changes, then the input as an OBJ file; for other kinds than arrangements one byte that chooses
 // a model.
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -48,7 +49,9 @@ bool judge_original(Subject& s) {
             fuzz::fail("a right file is refused: " + v.sentence);
     if (!verdict.measured) return true;
     s.deviation = verdict.measured->deviation;
-    require(s.deviation <= s.certificate.rounded->deviation, "the deviation is above the stated");
+    if (s.certificate.rounded)
+        require(s.deviation <= s.certificate.rounded->deviation,
+                "the deviation is above the stated");
     const auto what = fuzz::difference_in_meaning(s, s.certificate, s.deviation);
     if (!what.empty()) fuzz::fail("a right certificate differs from itself in " + what);
     return true;
@@ -61,10 +64,14 @@ void seal(const Subject& s, Certificate& certificate, const fuzz::Contents& cont
         certificate.outputs[i].sha256 = file.sha256;
         certificate.outputs[i].bytes = file.bytes;
     }
-    if (certificate.kind == CertificateKind::filled) return; // it has no digest
-    for (const Violation& v : verify_arrangement(s.surfaces, certificate.exact))
+    if (certificate.filled || certificate.layered) return; // they have no digest
+    const auto surfaces = fuzz::arranged_surfaces(s, certificate);
+    for (const Surface& surface : surfaces)
+        for (const Point3& p : surface.vertices)
+            if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) return;
+    for (const Violation& v : verify_arrangement(surfaces, certificate.exact))
         if (v.rule <= Rule::R2_vertices) return;
-    if (const auto digest = verifier::digest_of(s.surfaces, certificate.exact))
+    if (const auto digest = verifier::digest_of(surfaces, certificate.exact))
         certificate.digest = *digest;
 }
 

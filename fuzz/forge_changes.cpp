@@ -14,14 +14,43 @@ namespace terrane::fuzz {
 
 namespace {
 
-Part exact_part(Certificate& c) {
-    return {c.exact.triangles, c.exact.parents_of, nullptr, &c.exact.intersection_edges,
-            c.exact.vertices.size()};
-}
+/// The exact part. What is dropped of it stays dropped when the triangles get other numbers.
+class ExactPart {
+public:
+    explicit ExactPart(Certificate& c) :
+        certificate_(c), part{c.exact.triangles, c.exact.parents_of, nullptr,
+                              &c.exact.intersection_edges, c.exact.vertices.size()} {
+        if (!c.cut) return;
+        for (std::uint32_t t = 0; t < c.exact.triangles.size(); ++t)
+            is_dropped_.push_back(std::array{std::ranges::count(c.cut->dropped, t) > 0 ? 1U : 0U});
+        part.regions_of = &is_dropped_;
+    }
+    ~ExactPart() {
+        if (!certificate_.cut || !changed) return;
+        auto& dropped = certificate_.cut->dropped;
+        dropped.clear();
+        for (std::uint32_t t = 0; t < is_dropped_.size(); ++t)
+            if (is_dropped_[t].front() == 1) dropped.push_back(t);
+    }
+    ExactPart(const ExactPart&) = delete;
+    ExactPart& operator=(const ExactPart&) = delete;
+
+private:
+    Certificate& certificate_;
+    IndexLists<std::uint32_t> is_dropped_; ///< per triangle: 1 or 0
+
+public:
+    Part part;
+    bool changed = false; ///< to be set where the part is changed
+};
 
 Part rounded_part(RoundedClaim& r) {
     return {r.triangles,           r.parents_of,      &r.regions_of,
             &r.intersection_edges, r.vertices.size(), &r.vertices};
+}
+
+Part layered_part(LayeredClaim& m) {
+    return {m.triangles, m.surfaces_of, nullptr, nullptr, m.vertices.size(), &m.vertices};
 }
 
 Part improved_part(ImprovedClaim& m) {
@@ -148,9 +177,11 @@ void add_vertex(Certificate& c, const Arguments& n) {
     how.kind = static_cast<Construction::Kind>(1 + n.d % 3);
     for (std::size_t i = 0; i < 9; ++i) how.v[i] = (how.v[i] + n.d * static_cast<unsigned>(i)) % 8;
     c.exact.vertices.push_back(how);
-    Part exact = exact_part(c), rounded = rounded_part(r);
-    if (!is_regular(exact) || !is_regular(rounded)) return;
-    divide(exact, n, static_cast<std::uint32_t>(exact.vertices - 1), at_side);
+    ExactPart exact(c);
+    Part rounded = rounded_part(r);
+    if (!is_regular(exact.part) || !is_regular(rounded)) return;
+    exact.changed = true;
+    divide(exact.part, n, static_cast<std::uint32_t>(exact.part.vertices - 1), at_side);
     divide(rounded, n, static_cast<std::uint32_t>(rounded.vertices - 1), at_side);
 }
 
@@ -171,9 +202,10 @@ void add_exact_vertex(Certificate& c, const Arguments& n) {
                            Axis::x,
                            {u.v[0], v.v[0], input(n.c), input(n.d), input(n.c + n.d + 1)}};
     vertices.push_back(how);
-    Part exact = exact_part(c);
-    if (!is_regular(exact)) return;
-    divide(exact, n, static_cast<std::uint32_t>(exact.vertices - 1), true);
+    ExactPart exact(c);
+    if (!is_regular(exact.part)) return;
+    exact.changed = true;
+    divide(exact.part, n, static_cast<std::uint32_t>(exact.part.vertices - 1), true);
     c.rounded->max_move.reset();
 }
 
@@ -257,18 +289,44 @@ bool change_filled(FilledClaim& filled, const PartChange& made, const Arguments&
     return true;
 }
 
+/// Changes one side of the boundary of a volume of interest.
+bool change_side(VolumeClaim& volume, const PartChange& made, const Arguments& n) {
+    if (volume.boundary.empty()) return false;
+    Surface& side = volume.boundary[pick(n.a, volume.boundary.size())];
+    IndexLists<std::uint32_t> parents_of;
+    for (std::size_t t = 0; t < side.triangles.size(); ++t) parents_of.push_back(std::array{0U});
+    Part p{side.triangles, parents_of, nullptr, nullptr, side.vertices.size(), &side.vertices};
+    if (!is_regular(p)) return false;
+    made.make(p, n);
+    return true;
+}
+
+/// Changes the triangles of layers; what the certificate says about their regions and parents, it
+/// may leave out.
+bool change_layered(LayeredClaim& layered, const PartChange& made, const Arguments& n) {
+    Part p = layered_part(layered);
+    if (!is_regular(p)) return false;
+    made.make(p, n);
+    layered.regions_of = layered.parents_of = {};
+    return true;
+}
+
 std::string change_parts(Certificate& c, unsigned parts, const PartChange& made,
                          const Arguments& n) {
     std::string name = made.name;
     if (c.filled) return change_filled(*c.filled, made, n) ? name : "nothing";
+    if (c.layered) return change_layered(*c.layered, made, n) ? name : "nothing";
+    if (c.cut && parts % 5 == 4)
+        return change_side(c.cut->volume, made, n) ? name + ", boundary" : "nothing";
     if (c.improved && parts % 4 == 3) {
         Part p = improved_part(*c.improved);
         if (!is_regular(p)) return "nothing";
         made.make(p, n);
         return name + ", improved";
     }
-    if (Part p = exact_part(c); parts % 3 != 0 && is_regular(p)) {
-        made.make(p, n);
+    if (ExactPart p(c); parts % 3 != 0 && is_regular(p.part)) {
+        p.changed = true;
+        made.make(p.part, n);
         name += ", exact";
     }
     if (!c.rounded) return name;

@@ -248,6 +248,10 @@ std::span<const Change> changes_of(CertificateKind kind) {
         return tetrahedra_changes;
     case CertificateKind::filled:
         return filled_changes;
+    case CertificateKind::layered:
+        return changes_of_layers();
+    case CertificateKind::cut:
+        return changes_of_cuts();
     default:
         return {};
     }

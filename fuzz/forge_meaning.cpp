@@ -84,21 +84,6 @@ bool same_bits(const std::vector<Point3>& a, const std::vector<Point3>& b) {
     });
 }
 
-/// Tells whether a triangle of one part has the vertices of a triangle of the other, but faces the
-/// other side. The digest does not know sides.
-bool has_turned(const ArrangementClaim& a, const ArrangementClaim& b) {
-    if (a.vertices != b.vertices) return false;
-    const auto from_lowest = [](Triangle t) {
-        std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-        return t;
-    };
-    std::set<Triangle> known;
-    for (const Triangle& t : a.triangles) known.insert(from_lowest(t));
-    return std::ranges::any_of(b.triangles, [&](const Triangle& t) {
-        return known.contains(from_lowest({t[1], t[0], t[2]}));
-    });
-}
-
 bool same_doubles(const RoundedClaim& x, const RoundedClaim& y) {
     return same_bits(x.vertices, y.vertices) && x.triangles == y.triangles &&
            x.parents_of == y.parents_of && x.regions_of.offsets == y.regions_of.offsets &&
@@ -134,26 +119,78 @@ struct NamingTriangle {
     bool first = false;
 };
 
-/// Compares an input triangle with the triangles that name it: their areas add up, they lie within
-/// it, and they face its side.
+using PartsOfInputs = std::vector<std::vector<NamingTriangle>>; ///< per input triangle
+
+PartsOfInputs parts_of_inputs(const Subject& s, const RoundedClaim& claim) {
+    PartsOfInputs parts(surface_of_inputs(s).size());
+    for (std::uint32_t t = 0; t < claim.triangles.size(); ++t)
+        for (const std::uint32_t p : claim.parents_of[t])
+            parts[p].push_back({t, p == claim.parents_of[t].front()});
+    return parts;
+}
+
+void add_moments(std::array<double, 4>& sum, const std::array<Point3, 3>& t) {
+    const double area = length(area_vector(t));
+    sum[0] += area;
+    for (const Point3& p : t) {
+        sum[1] += area * p.x / 3;
+        sum[2] += area * p.y / 3;
+        sum[3] += area * p.z / 3;
+    }
+}
+
+/// Sums the areas of triangles, and their centroids times the areas.
+std::array<double, 4> moments_of(const RoundedClaim& claim,
+                                 const std::vector<NamingTriangle>& parts) {
+    std::array<double, 4> sum{};
+    for (const NamingTriangle& part : parts)
+        add_moments(sum, corners(claim.vertices, claim.triangles[part.triangle]));
+    return sum;
+}
+
+std::array<double, 4> moments_of_triangle(const std::array<Point3, 3>& t) {
+    std::array<double, 4> sum{};
+    add_moments(sum, t);
+    return sum;
+}
+
+/// Compares an input triangle with the triangles that name it: they lie within it and face its
+/// side, and their areas are those that `moments` has.
 std::string parts_flaw(const std::array<Point3, 3>& whole, const RoundedClaim& claim,
-                       const std::vector<NamingTriangle>& parts, double accepted) {
+                       const std::vector<NamingTriangle>& parts,
+                       const std::array<double, 4>& moments, double accepted) {
     const Point3 normal = area_vector(whole);
     const double area = length(normal), around = perimeter(whole);
     const double slack = 8 * accepted * around + 1e-9 * area;
-    double sum = 0;
     for (const auto& [t, first] : parts) {
         const auto part = corners(claim.vertices, claim.triangles[t]);
-        sum += length(area_vector(part));
         if (first && dot(area_vector(part), normal) < -slack * area) return "a side";
         for (const Point3& p : part)
             if (distance(p, whole) > 1.001 * accepted + 1e-12 * (around + length(p)))
                 return "a corner outside of its parent";
     }
-    return std::abs(sum - area) > slack ? "the area of an input triangle" : "";
+    const auto sums = moments_of(claim, parts);
+    const double size = 1 + length(whole[0]) + around; // for the centroid
+    for (std::size_t i = 0; i < 4; ++i)
+        if (std::abs(sums[i] - moments[i]) > (i == 0 ? slack : 4 * size * slack))
+            return "the area of an input triangle";
+    return "";
 }
 
 } // namespace
+
+bool has_turned(const ArrangementClaim& a, const ArrangementClaim& b) {
+    if (a.vertices != b.vertices) return false;
+    const auto from_lowest = [](Triangle t) {
+        std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+        return t;
+    };
+    std::set<Triangle> known;
+    for (const Triangle& t : a.triangles) known.insert(from_lowest(t));
+    return std::ranges::any_of(b.triangles, [&](const Triangle& t) {
+        return known.contains(from_lowest({t[1], t[0], t[2]}));
+    });
+}
 
 bool is_conforming(const std::vector<Point3>& vertices, const std::vector<Triangle>& triangles) {
     const std::vector<std::uint32_t> labels(triangles.size());
@@ -163,8 +200,13 @@ bool is_conforming(const std::vector<Point3>& vertices, const std::vector<Triang
 std::optional<Mesh> mesh_of(const Subject& s, const Certificate& c) {
     Mesh mesh;
     mesh.surfaces = c.outputs.empty() ? infos_of(s) : c.outputs[0].surfaces;
-    if (mesh.surfaces.size() != s.surfaces.size()) return std::nullopt;
-    if (c.improved) {
+    if (mesh.surfaces.size() != (c.layered ? c.layered->order.size() : s.surfaces.size()))
+        return std::nullopt;
+    if (c.layered) {
+        mesh.vertices = c.layered->vertices;
+        mesh.triangles = c.layered->triangles;
+        mesh.surfaces_of = c.layered->surfaces_of;
+    } else if (c.improved) {
         mesh.vertices = c.improved->vertices;
         mesh.triangles = c.improved->triangles;
         mesh.surfaces_of = c.improved->surfaces_of;
@@ -237,6 +279,10 @@ bool writes_the_same(const Certificate& a, const Certificate& b) {
                        a.improved->triangles != b.improved->triangles ||
                        a.improved->surfaces_of != b.improved->surfaces_of))
         return false;
+    if (a.layered && (!same_bits(a.layered->vertices, b.layered->vertices) ||
+                      a.layered->triangles != b.layered->triangles ||
+                      a.layered->surfaces_of != b.layered->surfaces_of))
+        return false;
     return !a.filled || (same_bits(a.filled->vertices, b.filled->vertices) &&
                          a.filled->triangles == b.filled->triangles);
 }
@@ -247,17 +293,19 @@ std::string difference_of_doubles(const Subject& s, const RoundedClaim& claim, d
     if (!surfaces) return "a parent that does not exist";
     if (claim.clean != is_conforming(claim.vertices, claim.triangles))
         return "whether the doubles are conforming";
-    std::vector<std::vector<NamingTriangle>> parts(surface_of_inputs(s).size());
-    for (std::uint32_t t = 0; t < claim.triangles.size(); ++t)
-        for (const std::uint32_t p : claim.parents_of[t])
-            parts[p].push_back({t, p == claim.parents_of[t].front()});
-    auto of_triangle = parts.begin();
+    const auto parts = parts_of_inputs(s, claim), right_parts = parts_of_inputs(s, right);
+    std::size_t input = 0;
     for (const Surface& surface : s.surfaces)
-        for (const Triangle& t : surface.triangles)
-            if (auto flaw =
-                    parts_flaw(corners(surface.vertices, t), claim, *of_triangle++, accepted);
+        for (const Triangle& t : surface.triangles) {
+            const auto whole = corners(surface.vertices, t);
+            // Of a triangle that was cut, the rest is left.
+            const auto moments = s.certificate.cut ? moments_of(right, right_parts[input])
+                                                   : moments_of_triangle(whole);
+            if (auto flaw = parts_flaw(whole, claim, parts[input], moments, accepted);
                 !flaw.empty())
                 return flaw;
+            ++input;
+        }
     const Totals was = totals_of(s, right), is = totals_of(s, claim);
     if (was.regions != is.regions && right.vanished == claim.vanished) return "the regions";
     if (std::abs(was.length - is.length) >
@@ -302,6 +350,8 @@ std::string difference_of_tetrahedra(const Subject& s, const Certificate& change
 
 std::string difference_in_meaning(const Subject& s, const Certificate& changed, double accepted) {
     if (changed.filled) return difference_of_filled(s, *changed.filled);
+    if (changed.layered) return difference_of_layers(s, *changed.layered, accepted);
+    if (changed.cut) return difference_of_cut(s, changed, accepted);
     const Certificate& right = s.certificate;
     if (right.digest != changed.digest) return "the digest";
     if (has_turned(right.exact, changed.exact)) return "a side";

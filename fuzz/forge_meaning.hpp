@@ -30,6 +30,10 @@ std::string difference_in_meaning(const Subject& subject, const Certificate& cha
 /// Tells whether both certificates name the same mesh (and tetrahedra), to the last bit.
 bool writes_the_same(const Certificate& a, const Certificate& b);
 
+/// Tells whether a triangle of one part has the vertices of a triangle of the other, but faces the
+/// other side. The digest does not know sides.
+bool has_turned(const ArrangementClaim& a, const ArrangementClaim& b);
+
 /// Tells whether triangles form a conforming mesh, by the library's own check.
 bool is_conforming(const std::vector<Point3>& vertices, const std::vector<Triangle>& triangles);
 
@@ -40,6 +44,9 @@ std::string difference_of_doubles(const Subject& subject, const RoundedClaim& cl
 std::string difference_of_blocks(const Subject& subject, const Certificate& changed,
                                  double accepted);
 std::string difference_of_improved(const Subject& subject, const Certificate& changed);
+std::string difference_of_layers(const Subject& subject, const LayeredClaim& claim,
+                                 double accepted);
+std::string difference_of_cut(const Subject& subject, const Certificate& changed, double accepted);
 std::string difference_of_filled(const Subject& subject, const FilledClaim& claim);
 
 } // namespace terrane::fuzz

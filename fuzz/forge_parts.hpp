@@ -38,10 +38,10 @@ void erase_at(std::vector<Item>& items, std::size_t i) {
 }
 void erase_at(IndexLists<std::uint32_t>& lists, std::size_t i);
 
-/// What the sections "exact", "rounded", "improved" and "filled" have in common.
+/// What the sections "exact", "rounded", "improved", "filled" and "layered" have in common.
 struct Part {
     std::vector<Triangle>& triangles;
-    IndexLists<std::uint32_t>& parents_of; ///< of improved and filled ones: surfaces
+    IndexLists<std::uint32_t>& parents_of; ///< of changed surfaces: surfaces
     IndexLists<std::uint32_t>* regions_of; ///< nullptr: it has none
     std::vector<Edge>* intersection_edges; ///< nullptr: it has none
     std::size_t vertices;                  ///< their number

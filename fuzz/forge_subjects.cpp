@@ -7,12 +7,15 @@
 #include <utility>
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>
+#include <terrane/algorithms/layers/layers.hpp>
 #include <terrane/algorithms/mesh/submesh.hpp>
+#include <terrane/algorithms/model/arrange_within.hpp>
 #include <terrane/algorithms/model/model.hpp>
 #include <terrane/algorithms/quality/improve_measured.hpp>
 #include <terrane/algorithms/reconstruction/fill.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
 #include <terrane/algorithms/tetgen/fill_blocks.hpp>
+#include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
 #include <terrane/io/block_certificate.hpp>
 #include <terrane/io/certificate.hpp>
 #include <terrane/io/files.hpp>
@@ -187,13 +190,22 @@ Subject improved_subject(const Model3& surfaces, const ImproveOptions& options) 
     return std::move(a->subject);
 }
 
-Subject filled_subject(const Model3& surfaces, FillMethod method) {
+/// Returns surfaces as a file; there is no certificate yet.
+Subject file_subject(const Model3& surfaces) {
     Subject s;
     const std::string obj = obj_text(surfaces);
     s.surfaces = needed(parse_surfaces(obj, "input.obj", Format::obj));
     s.files = {input_file(obj, s.surfaces)};
-    const std::vector<InputRecord> records{
-        {"input.obj", s.files[0].sha256, s.files[0].bytes, s.surfaces.size()}};
+    return s;
+}
+
+InputRecord record_of(const InputFile& file, const std::string& name) {
+    return {name, file.sha256, file.bytes, file.surfaces.size()};
+}
+
+Subject filled_subject(const Model3& surfaces, FillMethod method) {
+    Subject s = file_subject(surfaces);
+    const std::vector<InputRecord> records{record_of(s.files[0], "input.obj")};
     std::vector<FillTask> tasks;
     for (std::uint32_t i = 0; i < s.surfaces.size(); ++i) {
         tasks.push_back({SurfaceId(i), {}});
@@ -211,6 +223,88 @@ Subject filled_subject(const Model3& surfaces, FillMethod method) {
         add_output(s, "out.obj", "obj", needed(format_mesh(mesh, Format::obj)), mesh.surfaces)};
     parse(s, to_filled_certificate(records, s.surfaces, outputs, parts));
     return s;
+}
+
+// --- Layers and volumes of interest -------------------------------------------------------------
+
+/// Moves a surface, and tilts it along x.
+Surface placed(Surface s, const Point3& by, double slope) {
+    for (Point3& p : s.vertices) p = {p.x + by.x, p.y + by.y, p.z + by.z + slope * p.x};
+    return s;
+}
+
+/// Three horizons: the middle one is the softest and crosses both others, the hardest ends before
+/// them. A fourth surface is in no order.
+Model3 crossing_horizons() {
+    return {placed(grid("top", 3, 0, 3, 3), {0, 0, 1.25}, 0.125),
+            placed(grid("middle", 3, 1.75, 3, 3), {0, 0, 0.5}, 0),
+            placed(grid("base", 2, 0.25, 2, 2), {-0.625, 0.375, 0.25}, 0.0625),
+            triangle("apart", {5, 5, 0}, {6, 5, 0}, {5, 6, 1})};
+}
+
+/// Horizons of which one faces down, and one covers a small part of the others.
+Model3 partial_horizons() {
+    Surface below = grid("below", 2, 0.5, 2, 2);
+    for (Triangle& t : below.triangles) std::swap(t[0], t[1]);
+    return {triangle("small", {0.5, 0.25, 0.75}, {1.5, 0.375, -0.5}, {0.75, 1.5, 0.5}), below,
+            placed(grid("flat", 2, 0, 2, 2), {0.25, 0.125, 0.125}, 0)};
+}
+
+Subject layered_subject(const Model3& surfaces, const std::vector<double>& hardness) {
+    Subject s = file_subject(surfaces);
+    std::vector<Layer> order;
+    for (const double h : hardness)
+        order.push_back({SurfaceId(static_cast<std::uint32_t>(order.size())), h});
+    const Layered layered = needed(stack_layers(s.surfaces, order));
+    require(layered.is_stack(), "no base model: the layers are not in order");
+    const Mesh& mesh = layered.rounded.mesh;
+    const std::vector<OutputRecord> outputs{
+        add_output(s, "out.obj", "obj", needed(format_mesh(mesh, Format::obj)), mesh.surfaces)};
+    const std::vector<InputRecord> records{record_of(s.files[0], "input.obj")};
+    parse(s, to_layered_certificate(records, s.surfaces, outputs, order, layered));
+    return s;
+}
+
+/// Cuts the surfaces of a subject, and certifies that.
+std::optional<Subject> cut_by(Subject s, const std::vector<Surface>& boundary,
+                              const VolumeRecord& volume) {
+    auto within = arrange_within(s.surfaces, boundary);
+    if (!within) return std::nullopt;
+    s.surfaces = within->surfaces;
+    const Mesh& mesh = *within->rounded.mesh;
+    const std::vector<OutputRecord> outputs{
+        add_output(s, "out.obj", "obj", needed(format_mesh(mesh, Format::obj)), mesh.surfaces)};
+    const std::vector<InputRecord> records{record_of(s.files[0], "input.obj")};
+    parse(s, needed(to_cut_certificate(
+                 {records, within->surfaces, within->exact, &within->rounded, outputs}, volume,
+                 boundary.size(), {})));
+    return s;
+}
+
+/// Two horizons that cross, and a wall.
+Model3 cut_surfaces() {
+    return {placed(grid("first", 2, 0.5, 2, 2), {0, 0, 0}, 0.25),
+            placed(grid("second", 2, 0, 2, 2), {0.125, 0, 0.5}, -0.125),
+            triangle("wall", {0.75, -1, -2}, {1, 3, -2}, {0.875, 1, 3})};
+}
+
+Subject prism_subject(const std::vector<Point2>& corners, double low, double high) {
+    const auto boundary = needed(polygon_boundary(corners, low, high));
+    return *cut_by(file_subject(cut_surfaces()), boundary, {"prism", corners, {low, high}});
+}
+
+Subject rotated_box_subject(const RotatedBox& box) {
+    const auto boundary = needed(rotated_box_boundary(box));
+    return *cut_by(file_subject(cut_surfaces()), boundary, {"hexahedron", {}, {}});
+}
+
+/// The inside of surfaces in a file of their own.
+Subject body_subject(const Model3& bodies) {
+    const Subject file = file_subject(bodies);
+    Subject s = file_subject(cut_surfaces());
+    VolumeRecord volume{"surface", {}, {}, {record_of(file.files[0], "volume.obj")}, file.surfaces};
+    s.files.push_back(file.files[0]);
+    return *cut_by(std::move(s), needed(closed_boundary(file.surfaces)), volume);
 }
 
 } // namespace
@@ -249,9 +343,35 @@ std::vector<Subject> subjects_of(CertificateKind kind) {
                 filled_subject({triangle("whole", {0, 0, 9}, {5, 0, 9}, {0, 5, 9}),
                                 grid("holed", 4, 0.25, 1, 3)},
                                FillMethod::kriging)};
+    case CertificateKind::layered:
+        return {layered_subject(crossing_horizons(), {2, 1, 3}),
+                layered_subject(partial_horizons(), {3, 1, 2})};
+    case CertificateKind::cut:
+        return {prism_subject({{0.25, 0.5}, {1.75, 0.5}, {1.75, 1.5}, {0.25, 1.5}}, -0.5, 0.75),
+                prism_subject({{0.5, 0.25}, {1.75, 1.25}, {0.25, 1.5}, {0.625, 0.875}}, -1, 0.5),
+                rotated_box_subject({{1, 1, 0.25}, false, {1.25, 1, 1.5}, 20, 5, 3}),
+                body_subject({corner("a", {0.25, 0.25, -0.5}, 1.5),
+                              corner("b", {0.375, 0.375, -0.375}, 0.25)})};
     default:
         return {};
     }
+}
+
+std::vector<Surface> arranged_surfaces(const Subject& subject, const Certificate& certificate) {
+    std::vector<Surface> surfaces = subject.surfaces;
+    if (!certificate.cut) return surfaces;
+    surfaces.resize(surfaces.size() - subject.certificate.cut->volume.boundary.size());
+    const auto& boundary = certificate.cut->volume.boundary;
+    surfaces.insert(surfaces.end(), boundary.begin(), boundary.end());
+    return surfaces;
+}
+
+std::optional<Subject> cut_again(const Subject& subject, const std::vector<Surface>& boundary) {
+    Subject s{{subject.files[0]}, subject.surfaces, {}, {}, 0, {}, {}};
+    s.surfaces.resize(s.surfaces.size() - subject.certificate.cut->volume.boundary.size());
+    auto again = cut_by(std::move(s), boundary, {"hexahedron", {}, {}});
+    if (again) again->deviation = again->certificate.rounded->deviation;
+    return again;
 }
 
 bool write_outputs(const Subject& subject, const Certificate& certificate, Contents& contents) {

@@ -18,7 +18,7 @@ namespace terrane::fuzz {
 /// A certificate with the files that it is about.
 struct Subject {
     std::vector<InputFile> files;
-    std::vector<Surface> surfaces; ///< of all files
+    std::vector<Surface> surfaces; ///< of all files; then the boundary of a volume of interest
     Certificate certificate;
     Contents contents;        ///< of the output files
     double deviation = 0;     ///< as the verifier measured it
@@ -32,6 +32,14 @@ std::optional<Subject> arrangement_subject(std::string_view obj);
 
 /// Returns the small models of a kind; none for arrangements, which are made of any OBJ file.
 std::vector<Subject> subjects_of(CertificateKind kind);
+
+/// Returns the surfaces that the exact part of a certificate is about: those of the files, and the
+/// boundary of a volume of interest as the certificate has it.
+std::vector<Surface> arranged_surfaces(const Subject& subject, const Certificate& certificate);
+
+/// Returns what the producer makes of the surfaces of a subject and another boundary of a volume of
+/// interest; none if it refuses that.
+std::optional<Subject> cut_again(const Subject& subject, const std::vector<Surface>& boundary);
 
 /// Writes the output files anew from the certificate, as far as it names one mesh for all of them,
 /// and tells whether it did.

@@ -50,6 +50,17 @@ void change_item(double& item, const Arguments& n) {
     item = n.b % 2 == 0 ? moved(item, n.c, n.d) : item * (n.c + 1.0) / 16;
 }
 
+void change_item(std::array<double, 2>& item, const Arguments& n) {
+    change_item(item[n.b / 2 % 2], n);
+}
+
+void change_item(CertifiedLayer& item, const Arguments& n) {
+    if (n.b % 2 == 0)
+        change_number(item.surface, n);
+    else
+        change_item(item.hardness, n);
+}
+
 void change_item(Point3& item, const Arguments& n) {
     double& x = n.b % 3 == 0 ? item.x : n.b % 3 == 1 ? item.y : item.z;
     x = moved(x, n.c, n.d);
@@ -79,6 +90,13 @@ void change_item(std::string& item, const Arguments& n) {
     }
     value.canonicalize();
     item = value.get_str();
+}
+
+void change_item(Surface& item, const Arguments& n) {
+    if (n.b % 2 == 0 && !item.vertices.empty())
+        change_item(item.vertices[pick(n.a, item.vertices.size())], n);
+    else if (!item.triangles.empty())
+        change_item(item.triangles[pick(n.a, item.triangles.size())], n);
 }
 
 void change_item(Construction& item, const Arguments& n) {
@@ -172,6 +190,22 @@ void add_tetrahedra(TetrahedraClaim& t, std::vector<Table>& tables) {
     tables.push_back({"twins", {column(t.twins)}});
 }
 
+void add_cut(CutClaim& c, std::vector<Table>& tables) {
+    tables.push_back({"dropped", {column(c.dropped)}});
+    tables.push_back({"corners", {column(c.volume.corners)}});
+    tables.push_back({"heights", {column(c.volume.between)}});
+    tables.push_back({"sides", {column(c.volume.boundary)}});
+}
+
+void add_layered(LayeredClaim& m, std::vector<Table>& tables) {
+    tables.push_back({"layers", {column(m.order)}});
+    tables.push_back({"layered vertices", {column(m.vertices)}});
+    std::vector<Column> columns{column(m.triangles), column(m.surfaces_of)};
+    if (m.regions_of.size() != 0) columns.push_back(column(m.regions_of));
+    if (m.parents_of.size() != 0) columns.push_back(column(m.parents_of));
+    tables.push_back({"layered triangles", std::move(columns)});
+}
+
 /// Returns the lists of a certificate, those of its kind first.
 std::vector<Table> tables_of(Certificate& c) {
     std::vector<Table> tables;
@@ -185,7 +219,10 @@ std::vector<Table> tables_of(Certificate& c) {
         tables.push_back({"improved intersection edges", {column(m.intersection_edges)}});
         tables.push_back({"limits", {column(m.limits)}});
     }
-    if (c.filled) {
+    if (c.cut) add_cut(*c.cut, tables);
+    if (c.layered) {
+        add_layered(*c.layered, tables);
+    } else if (c.filled) {
         tables.push_back({"filled vertices", {column(c.filled->vertices)}});
         tables.push_back({"filled triangles", {column(c.filled->triangles)}});
         tables.push_back({"filled surfaces", {column(c.filled->surfaces)}});

@@ -22,6 +22,9 @@ void change_number(std::uint32_t& number, const Arguments& arguments);
 /// Returns the changes that only certificates of a kind have.
 std::span<const Change> changes_of(CertificateKind kind);
 
+std::span<const Change> changes_of_layers();
+std::span<const Change> changes_of_cuts();
+
 /// Changes one of the lists of a certificate, together with those that are parallel to it or not:
 /// drops, repeats or exchanges elements, changes a number, empties it.
 std::string change_table(Certificate& certificate, unsigned which, const Arguments& arguments);
