@@ -62,6 +62,7 @@
 #include <terrane/algorithms/layers/layers.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
+#include <terrane/algorithms/model/arrange_within.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
 
 namespace terrane {
@@ -137,6 +138,29 @@ struct VolumeRecord {
 Result<std::string> to_cut_certificate(const Certified& cut, const VolumeRecord& volume,
                                        std::size_t boundary_count, const ArrangeOptions& options,
                                        const Run& run = {});
+
+/// What was left out of surfaces, and added to them.
+struct CutRecord {
+    const VolumeRecord* volume = nullptr; ///< what was cut out; nullptr: nothing
+    std::size_t boundary_count = 0;       ///< number of the last surfaces, which bound the volume
+    std::span<const SurfaceGrowth> growth{}; ///< per surface before these; empty: nothing was sealed
+                                             ///< or extended
+};
+
+/// Returns the text of a certificate of the kind "cut" or, with `growth`, "sealed". This one has the
+/// keys of the kind "cut" and one more. "volume" is null where there is none, and "dropped" lists what
+/// was trimmed, too, and unused parts of what was added.
+///
+///   "sealed": [                    per surface of the files
+///     { "limit": "0.25",           the surface as given and as kept are nowhere farther apart
+///       "extended": [[[x, y, z], [x, y, z], [x, y, z]]],   triangles that were added to reach the
+///                                  boundary, each number as text
+///       "sealed": [...] }]         and those that close gaps, likewise
+///
+/// Added triangles count as input triangles of their surface, after the given ones, and have three
+/// vertices of their own.
+Result<std::string> to_cut_certificate(const Certified& cut, const CutRecord& record,
+                                       const ArrangeOptions& options, const Run& run = {});
 
 /// A surface whose holes were filled.
 struct FilledRecord {

@@ -2,6 +2,7 @@
 #include <terrane/cli/stages/certificate_output.hpp>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -149,12 +150,18 @@ Result<std::string> certificate_text(const std::string& path, const ProofFiles& 
     const Certified certified{records.value(), arranged.surfaces, arranged.exact, &arranged.rounded,
                               outputs.value()};
     if (files.cut == nullptr) return to_certificate(certified, session.run());
-    const auto volume = record_of(files.cut->volume, path);
-    if (!volume) return volume.error();
-    std::size_t own = 0;
-    for (const std::size_t count : inputs.surfaces_of_file) own += count;
-    return to_cut_certificate(certified, volume.value(), arranged.surfaces.size() - own,
-                              {.search = files.cut->search}, session.run());
+    CutRecord record{nullptr, 0, arranged.growth};
+    std::optional<VolumeRecord> volume;
+    if (files.cut->volume.wanted()) {
+        auto asked = record_of(files.cut->volume, path);
+        if (!asked) return asked.error();
+        volume = std::move(asked).value();
+        std::size_t own = 0;
+        for (const std::size_t count : inputs.surfaces_of_file) own += count;
+        record.volume = &*volume;
+        record.boundary_count = arranged.surfaces.size() - own;
+    }
+    return to_cut_certificate(certified, record, {.search = files.cut->search}, session.run());
 }
 
 Status write_proof(const ProofOptions& options, const ProofFiles& files, const Inputs& inputs,

@@ -61,7 +61,8 @@ struct ProofFiles {
     std::vector<Output> outputs;          ///< those that were written
     bool ascii = false;                   ///< STL was written as text
     std::FILE* told = stdout;             ///< where people are told what is written
-    const ArrangeSettings* cut = nullptr; ///< with the volume of interest; nullptr: there is none
+    const ArrangeSettings* cut = nullptr; ///< what surfaces were cut, sealed or extended by; nullptr:
+                                          ///< nothing
 };
 
 /// Makes the certificate of a result whose inputs are exactly these files, to be written to `path`.

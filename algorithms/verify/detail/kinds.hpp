@@ -64,6 +64,7 @@ const Kind& improved_kind();
 const Kind& filled_kind();
 const Kind& layered_kind();
 const Kind& cut_kind();
+const Kind& sealed_kind();
 
 // --- For kinds that contain an arrangement ------------------------------------------------------
 
@@ -73,6 +74,11 @@ void parse_arrangement_sections(const Node& node, Certificate& certificate);
 void judge_arrangement(std::span<const Surface> surfaces, const Certificate& certificate,
                        const VerifyOptions& options, Verdict& verdict);
 std::optional<WrittenMesh> rounded_mesh(const Certificate& certificate);
+
+/// Returns the surfaces that the exact part is about: those of the files, with what was added to them,
+/// then the boundary of a volume of interest. Precondition: R53 holds.
+std::vector<Surface> surfaces_of_exact(std::span<const Surface> files,
+                                       const Certificate& certificate);
 
 /// Returns the largest limit of a change that is accepted where none is given; VerifyOptions defines
 /// it.
