@@ -108,9 +108,9 @@ std::vector<Surface> surfaces_in_files(const Certified& cut, const CutRecord& re
 
 } // namespace
 
-Result<std::string> to_cut_certificate(const Certified& cut, const CutRecord& record,
-                                       const ArrangeOptions& options, const Run& run) {
-    const auto whole = arrange(cut.surfaces, options, run);
+Result<CutSections> cut_sections(const Certified& cut, const CutRecord& record,
+                                 const ArrangeOptions& options, const Run& run) {
+    auto whole = arrange(cut.surfaces, options, run);
     if (!whole) return whole.error();
     auto dropped = dropped_triangles(whole.value(), cut.exact);
     if (!dropped) return dropped.error();
@@ -120,16 +120,25 @@ Result<std::string> to_cut_certificate(const Certified& cut, const CutRecord& re
         if (!limits) return limits.error();
         parts.limits = std::move(limits).value();
     }
-    std::vector<InputRecord> files(cut.files.begin(), cut.files.end());
+    CutSections sections{std::move(whole).value(), "", {cut.files.begin(), cut.files.end()}};
     if (record.volume != nullptr)
-        files.insert(files.end(), record.volume->files.begin(), record.volume->files.end());
-    const auto surfaces = surfaces_in_files(cut, record);
+        sections.files.insert(sections.files.end(), record.volume->files.begin(),
+                              record.volume->files.end());
+    sections.surfaces = surfaces_in_files(cut, record);
+    CertificateWriter out(sections.text);
+    write_cut(out, cut, record, parts);
+    return sections;
+}
+
+Result<std::string> to_cut_certificate(const Certified& cut, const CutRecord& record,
+                                       const ArrangeOptions& options, const Run& run) {
+    const auto sections = cut_sections(cut, record, options, run);
+    if (!sections) return sections.error();
+    Certified certified = cut;
+    certified.cut = &sections.value();
     std::string text;
     CertificateWriter out(text);
-    write_head(out, record.growth.empty() ? "cut" : "sealed", {files, surfaces, cut.outputs});
-    write_cut(out, cut, record, parts);
-    Certified certified = cut;
-    certified.whole = &whole.value();
+    write_head(out, record.growth.empty() ? "cut" : "sealed", certified);
     write_arrangement(out, certified, run);
     out.raw("}\n");
     return text;

@@ -75,7 +75,7 @@ Result<ExitStatus> arrange_files(const ArrangeCommand& command, Session& session
                           " written (see --keep-unverified)\n");
     const ProofFiles certified{files.inputs, keep ? outputs.value() : std::vector<Output>(),
                                files.ascii, summary_stream(files),
-                               is_changed(command.settings) ? &command.settings : nullptr};
+                               cut_request(command.settings)};
     const auto proved =
         write_proof(command.proof, certified, inputs.value(), arranged.value(), session);
     if (!proved) return proved.error();

@@ -104,7 +104,8 @@ Result<ExitStatus> find_blocks(const VolumeCommand& command, Session& session) {
         print(summary_stream(files), "wrote " + command.folder + "\n");
         if (!command.certificate.empty()) {
             const auto proved = write_certificate(
-                {command.certificate, files, inputs.value(), roles, arranged.value()},
+                {command.certificate, files, inputs.value(), roles, arranged.value(),
+                 cut_request(command.settings)},
                 model.value(), command.folder, command.part_format, session);
             if (!proved) return proved.error();
         }

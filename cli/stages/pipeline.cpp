@@ -99,10 +99,6 @@ Point3 narrowed(const Point3& p) {
 
 } // namespace
 
-bool is_changed(const ArrangeSettings& settings) {
-    return settings.volume.wanted() || settings.seal > 0;
-}
-
 void add_settings(CLI::App& command, ArrangeSettings& settings) {
     static const std::map<std::string, Search> methods = [] {
         std::map<std::string, Search> all;

@@ -27,9 +27,6 @@ struct ArrangeSettings {
     bool blocks = false; ///< whether blocks are wanted, so that surfaces should close some
 };
 
-/// Tells whether something is cut out of surfaces or added to them.
-bool is_changed(const ArrangeSettings& settings);
-
 void add_settings(CLI::App& command, ArrangeSettings& settings);
 
 /// Arranges and rounds the surfaces of `inputs`, which are moved into the result. Adds to

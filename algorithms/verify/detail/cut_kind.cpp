@@ -68,13 +68,7 @@ SealedPart sealed_part(const Node& node) {
 
 void parse_cut(const Node& node, Certificate& certificate) {
     parse_arrangement_sections(node, certificate);
-    certificate.cut = cut_of(node["cut"], certificate.inputs.size(), true);
-}
-
-void parse_sealed(const Node& node, Certificate& certificate) {
-    parse_arrangement_sections(node, certificate);
-    certificate.cut = cut_of(node["cut"], certificate.inputs.size(), false);
-    certificate.sealed = SealedClaim{each(node["sealed"], sealed_part)};
+    parse_cut_sections(node, certificate);
 }
 
 /// Returns the number of surfaces in the input files that do not hold the boundary.
@@ -99,7 +93,7 @@ void judge_doubles(std::span<const Surface> surfaces, const Certificate& certifi
     std::size_t inputs = 0;
     for (const Surface& s : surfaces) inputs += s.triangles.size();
     const RoundedClaim& claim = *certificate.rounded;
-    const auto kept = without(certificate.exact, certificate.cut->dropped);
+    const auto kept = kept_part(certificate);
     const auto is_cut = cut_inputs(certificate, inputs);
     auto rounded = verify_rounded_part(surfaces, kept, claim, options, is_cut);
     verdict.measured = rounded.measured;
@@ -125,7 +119,7 @@ void judge_lists(std::span<const Surface> files, const Certificate& certificate,
     const CutClaim& cut = *certificate.cut;
     const std::size_t own = arranged_surfaces(certificate);
     if (certificate.sealed) {
-        const double accepted = options.max_change.value_or(default_max_change(files.first(own)));
+        const double accepted = accepted_change(files, certificate, options);
         check_sealed_lists(*certificate.sealed, own, accepted, verdict.violations);
         double limit = 0;
         for (const SealedPart& part : certificate.sealed->surfaces)
@@ -153,8 +147,14 @@ VerifyOptions with_deviation(const std::vector<Surface>& surfaces, std::span<con
     return options;
 }
 
-void judge_cut(std::span<const Surface> files, const Certificate& certificate,
-               const VerifyOptions& options, Verdict& verdict) {
+} // namespace
+
+void judge_surfaces(std::span<const Surface> files, const Certificate& certificate,
+                    const VerifyOptions& options, Verdict& verdict) {
+    if (!certificate.cut) {
+        judge_arrangement(files, certificate, options, verdict);
+        return;
+    }
     Violations& found = verdict.violations;
     judge_lists(files, certificate, options, verdict);
     if (!found.empty()) return;
@@ -175,7 +175,26 @@ void judge_cut(std::span<const Surface> files, const Certificate& certificate,
         judge_doubles(surfaces, certificate, with_deviation(surfaces, own, options), verdict);
 }
 
-} // namespace
+void parse_cut_sections(const Node& node, Certificate& certificate) {
+    if (node.has("cut"))
+        certificate.cut =
+            cut_of(node["cut"], certificate.inputs.size(), !node.has("sealed"));
+    if (!node.has("sealed")) return;
+    node.expect_key("cut");
+    certificate.sealed = SealedClaim{each(node["sealed"], sealed_part)};
+}
+
+ArrangementClaim kept_part(const Certificate& certificate) {
+    return certificate.cut ? without(certificate.exact, certificate.cut->dropped)
+                           : certificate.exact;
+}
+
+double accepted_change(std::span<const Surface> files, const Certificate& certificate,
+                       const VerifyOptions& options) {
+    if (options.max_change) return *options.max_change;
+    return default_max_change(certificate.cut ? files.first(arranged_surfaces(certificate))
+                                              : files);
+}
 
 std::vector<Surface> surfaces_of_exact(std::span<const Surface> files,
                                        const Certificate& certificate) {
@@ -190,7 +209,7 @@ std::vector<Surface> surfaces_of_exact(std::span<const Surface> files,
 
 const Kind& cut_kind() {
     static constexpr std::array<std::string_view, 4> keys{"exact", "rounded", "digest", "cut"};
-    static constexpr Kind kind{CertificateKind::cut, "cut", keys, parse_cut, judge_cut,
+    static constexpr Kind kind{CertificateKind::cut, "cut", keys, parse_cut, judge_surfaces,
                                rounded_mesh};
     return kind;
 }
@@ -198,7 +217,7 @@ const Kind& cut_kind() {
 const Kind& sealed_kind() {
     static constexpr std::array<std::string_view, 5> keys{"exact", "rounded", "digest", "cut",
                                                           "sealed"};
-    static constexpr Kind kind{CertificateKind::sealed, "sealed", keys, parse_sealed, judge_cut,
+    static constexpr Kind kind{CertificateKind::sealed, "sealed", keys, parse_cut, judge_surfaces,
                                rounded_mesh};
     return kind;
 }
