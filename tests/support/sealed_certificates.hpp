@@ -42,11 +42,11 @@ inline void certify(Subject& s, const std::vector<File>& files, const Arranged& 
         outputs.push_back(record_output(text.value(), "out." + format, format, mesh.surfaces));
         s.contents.push_back(std::move(text).value());
     }
-    const auto text = to_cut_certificate(
-        {records, arranged.surfaces, arranged.exact, &arranged.rounded, outputs},
-        {volume == nullptr ? nullptr : &volume->record,
-         volume == nullptr ? 0 : volume->boundary.size(), arranged.growth},
-        {});
+    const auto text =
+        to_cut_certificate({records, arranged.surfaces, arranged.exact, &arranged.rounded, outputs},
+                           {volume == nullptr ? nullptr : &volume->record,
+                            volume == nullptr ? 0 : volume->boundary.size(), arranged.growth},
+                           {});
     REQUIRE(text);
     s.certificate = Json::parse(text.value());
 }
@@ -151,8 +151,9 @@ inline std::string sheet_text(const std::string& name, double low, double high, 
     std::string text;
     for (int i = 0; i <= 6; ++i)
         for (int j = 0; j <= 5; ++j)
-            text += "v " + std::to_string(low + (high - low) * i / 6) + " " + std::to_string(2 * j) +
-                    " " + std::to_string(height + slope * 2 * j + 0.1 * ((i * j) % 3)) + "\n";
+            text += "v " + std::to_string(low + (high - low) * i / 6) + " " +
+                    std::to_string(2 * j) + " " +
+                    std::to_string(height + slope * 2 * j + 0.1 * ((i * j) % 3)) + "\n";
     text += "g " + name + "\n";
     for (int i = 0; i < 6; ++i)
         for (int j = 0; j < 5; ++j) {
@@ -172,7 +173,7 @@ inline std::vector<File> gaping() {
 }
 
 inline Volume gaping_box() {
-    return box_volume({1.3, 1.1, -1.3}, {7.3, 8.7, 3.4});
+    return box_volume({1.3, 1.1, -1.3}, {5.5, 8.7, 3.4});
 }
 
 } // namespace forged
