@@ -110,8 +110,9 @@ struct VolumeRecord {
 struct CutRecord {
     const VolumeRecord* volume = nullptr; ///< what was cut out; nullptr: nothing
     std::size_t boundary_count = 0;       ///< number of the last surfaces, which bound the volume
-    std::span<const SurfaceGrowth> growth{}; ///< per surface before these; empty: nothing was sealed
-                                             ///< or extended
+    std::span<const SurfaceGrowth>
+        growth{}; ///< per surface before these; empty: nothing was sealed
+                  ///< or extended
 };
 
 /// What certificates say about surfaces that were cut, sealed or extended: the keys "cut" and, if
@@ -130,8 +131,9 @@ struct Certified {
     const Arrangement& exact;                ///< of these surfaces
     const RoundedMesh* rounded = nullptr;    ///< nullptr: "rounded" is null
     std::span<const OutputRecord> outputs{}; ///< the files that hold the rounded mesh
-    const CutSections* cut = nullptr; ///< with a volume of interest, or sealed or extended surfaces;
-                                      ///< nullptr: nothing was changed
+    const CutSections* cut =
+        nullptr; ///< with a volume of interest, or sealed or extended surfaces;
+                 ///< nullptr: nothing was changed
 };
 
 /// Returns the text of a certificate. Cost: linear; a second for 200 000 triangles.

@@ -64,9 +64,10 @@ private:
                                         [](const ProjectSurfaces& s) { return s.depth; });
         const bool changed = turned || !project.fill.empty() || project.layers || project.improve;
         if (project.outputs.certificate && changed)
-            in_.fail("outputs.certificate",
-                     "must be false with fill, layers, improve or depth: a certificate is about whole "
-                     "surfaces as their files have them");
+            in_.fail(
+                "outputs.certificate",
+                "must be false with fill, layers, improve or depth: a certificate is about whole "
+                "surfaces as their files have them");
     }
 
     unsigned threads(const Json& value) {

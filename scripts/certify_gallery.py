@@ -68,7 +68,12 @@ KINDS = {
     "filled": Kind(["fill"], SURFACES,
                    ["elephant with holes", "shark with holes", "mesh with border", "mask", "patch"],
                    ["--method", "rbf"]),
-    # The kinds cut, sealed and layered get their entries here.
+    "sealed": Kind(["arrange"], SURFACES, ["modelA1", "modelA2", "tindel", "gom"], ["--seal", "30"]),
+    "sealed, small": Kind(["arrange"], SURFACES, ["cube, not sealed", "NashPoint joints"], ["--seal", "0.4"]),
+    "sealed and cut": Kind(["arrange"], SURFACES, ["modelA1", "modelA2", "tindel"],
+                           ["--seal", "30", "--extend", "300", "--box", "0,0,-3000,4000,4000,0"]),
+    "sealed volumes": Kind(["volume"], ["model"], ["cube, not sealed"], ["--parts", "obj", "--seal", "0.4"]),
+    # The kinds cut and layered get their entries here.
 }
 
 

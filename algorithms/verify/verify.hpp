@@ -98,9 +98,9 @@ enum class Rule : std::uint8_t {
     // Sealed and extended surfaces: see detail/sealed.hpp.
     R53_sealed_lists, ///< a list about sealed surfaces is too long or short, or a number is not finite
     R54_attached,     ///< an added part is not attached along the border of its surface
-    R55_ends,         ///< an added part ends free elsewhere than at a lateral side, or meets nothing
-    R56_trimmed,      ///< what is missing of a surface is not a whole part beyond another surface
-    R57_only_kept,    ///< doubles lie where nothing was kept
+    R55_ends,      ///< an added part ends free elsewhere than at a lateral side, or meets nothing
+    R56_trimmed,   ///< what is missing of a surface is not a whole part beyond another surface
+    R57_only_kept, ///< doubles lie where nothing was kept
     // Layers: see detail/layered.hpp.
     R60_layer_lists = 59, ///< as R1, in layers, or a number is not finite
     R61_layer_mesh,       ///< the mesh of the layers is not conforming

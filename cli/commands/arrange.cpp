@@ -74,8 +74,7 @@ Result<ExitStatus> arrange_files(const ArrangeCommand& command, Session& session
         print(stderr, std::string("terrane: ") + (proves ? "the mesh is not" : "nothing") +
                           " written (see --keep-unverified)\n");
     const ProofFiles certified{files.inputs, keep ? outputs.value() : std::vector<Output>(),
-                               files.ascii, summary_stream(files),
-                               cut_request(command.settings)};
+                               files.ascii, summary_stream(files), cut_request(command.settings)};
     const auto proved =
         write_proof(command.proof, certified, inputs.value(), arranged.value(), session);
     if (!proved) return proved.error();

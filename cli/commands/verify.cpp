@@ -252,9 +252,11 @@ std::string change_text(const Judgement& judged) {
     const auto& change = judged.verdict.change;
     const auto& improved = judged.certificate.improved;
     if (!change || !improved) return "";
+    const auto& limits = improved->limits;
     return fmt::format("\nimproved: {}, conforming; the same regions, curves and corners, at most "
                        "{:.3g} away, both ways",
-                       counted(improved->triangles.size(), "triangle"), change->limit);
+                       counted(improved->triangles.size(), "triangle"),
+                       limits.empty() ? 0 : *std::ranges::max_element(limits));
 }
 
 /// Says that layers are in their order: "2 layers: shale, salt".
@@ -311,11 +313,11 @@ std::string cut_text(const Certificate& certificate) {
         for (const CertifiedInput& input : std::span(certificate.inputs).last(volume.files))
             text += " " + input.name;
     }
-    return text + fmt::format(": all that is inside, and nothing else; {} of {} exact triangles "
-                              "{}",
-                              certificate.cut->dropped.size(), certificate.exact.triangles.size(),
-                              certificate.sealed ? "are outside, trimmed or not needed"
-                                                 : "are outside");
+    return text +
+           fmt::format(": all that is inside, and nothing else; {} of {} exact triangles "
+                       "{}",
+                       certificate.cut->dropped.size(), certificate.exact.triangles.size(),
+                       certificate.sealed ? "are outside, trimmed or not needed" : "are outside");
 }
 
 /// Says what a valid certificate states.

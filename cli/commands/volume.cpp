@@ -103,10 +103,10 @@ Result<ExitStatus> find_blocks(const VolumeCommand& command, Session& session) {
         if (!written) return written.error();
         print(summary_stream(files), "wrote " + command.folder + "\n");
         if (!command.certificate.empty()) {
-            const auto proved = write_certificate(
-                {command.certificate, files, inputs.value(), roles, arranged.value(),
-                 cut_request(command.settings)},
-                model.value(), command.folder, command.part_format, session);
+            const auto proved =
+                write_certificate({command.certificate, files, inputs.value(), roles,
+                                   arranged.value(), cut_request(command.settings)},
+                                  model.value(), command.folder, command.part_format, session);
             if (!proved) return proved.error();
         }
         statistics["seconds"]["write"] = writing.lap();

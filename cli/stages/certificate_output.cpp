@@ -75,8 +75,8 @@ Result<ChangeRecord> change_of(const CutRequest& request, const std::string& pat
 
 Result<std::optional<CutSections>> sections_of(const std::optional<CutRequest>& request,
                                                const std::string& path, const Inputs& inputs,
-                                               const Certified& certified,
-                                               const Arranged& arranged, const Session& session) {
+                                               const Certified& certified, const Arranged& arranged,
+                                               const Session& session) {
     if (!request) return std::optional<CutSections>();
     const auto change = change_of(*request, path, inputs, arranged);
     if (!change) return change.error();
@@ -216,8 +216,8 @@ Status write_improved_certificate(const std::string& path, const ProofFiles& fil
     const auto sections = sections_of(files.cut, path, inputs, certified, before, session);
     if (!sections) return sections.error();
     if (sections.value()) certified.cut = &*sections.value();
-    const auto text = to_improved_certificate(certified, improved.mesh, improved.report.bound_of,
-                                              session.run());
+    const auto text =
+        to_improved_certificate(certified, improved.mesh, improved.report.bound_of, session.run());
     return write(path, text, files.told, session);
 }
 

@@ -85,16 +85,17 @@ Result<ChangeRecord> change_of(const CutRequest& request, const std::string& pat
 /// Makes the sections of a certificate about what was changed; none without a request.
 Result<std::optional<CutSections>> sections_of(const std::optional<CutRequest>& request,
                                                const std::string& path, const Inputs& inputs,
-                                               const Certified& certified,
-                                               const Arranged& arranged, const Session& session);
+                                               const Certified& certified, const Arranged& arranged,
+                                               const Session& session);
 
 /// The files that a certificate is about.
 struct ProofFiles {
     std::vector<std::string> inputs;
-    std::vector<Output> outputs;          ///< those that were written
-    bool ascii = false;                   ///< STL was written as text
-    std::FILE* told = stdout;             ///< where people are told what is written
-    std::optional<CutRequest> cut{}; ///< what surfaces were cut, sealed or extended by; none: nothing
+    std::vector<Output> outputs; ///< those that were written
+    bool ascii = false;          ///< STL was written as text
+    std::FILE* told = stdout;    ///< where people are told what is written
+    std::optional<CutRequest>
+        cut{}; ///< what surfaces were cut, sealed or extended by; none: nothing
 };
 
 /// Makes the certificate of a result whose inputs are exactly these files, to be written to `path`.

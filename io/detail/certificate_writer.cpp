@@ -83,8 +83,7 @@ void write_head(CertificateWriter& out, std::string_view kind, const Certified& 
     if (certified.cut == nullptr)
         write_head(out, kind, {certified.files, certified.surfaces, certified.outputs});
     else
-        write_head(out, kind,
-                   {certified.cut->files, certified.cut->surfaces, certified.outputs});
+        write_head(out, kind, {certified.cut->files, certified.cut->surfaces, certified.outputs});
 }
 
 void write_points(CertificateWriter& out, std::span<const Point3> points) {

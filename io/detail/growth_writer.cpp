@@ -19,8 +19,8 @@ class Growth {
 public:
     Growth(const Arrangement& whole, const std::vector<std::uint32_t>& dropped,
            std::span<const SurfaceGrowth> growth) :
-        whole_(whole), growth_(growth), is_dropped_(whole.triangles.size()),
-        is_outside_(whole.triangles.size()) {
+        whole_(whole),
+        growth_(growth), is_dropped_(whole.triangles.size()), is_outside_(whole.triangles.size()) {
         for (const std::uint32_t t : dropped) is_dropped_[t] = true;
         for (const PointIndex v : whole.vertices) places_.push_back(whole.state->points.nearest(v));
     }

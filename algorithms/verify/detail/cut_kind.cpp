@@ -177,8 +177,7 @@ void judge_surfaces(std::span<const Surface> files, const Certificate& certifica
 
 void parse_cut_sections(const Node& node, Certificate& certificate) {
     if (node.has("cut"))
-        certificate.cut =
-            cut_of(node["cut"], certificate.inputs.size(), !node.has("sealed"));
+        certificate.cut = cut_of(node["cut"], certificate.inputs.size(), !node.has("sealed"));
     if (!node.has("sealed")) return;
     node.expect_key("cut");
     certificate.sealed = SealedClaim{each(node["sealed"], sealed_part)};
@@ -209,16 +208,16 @@ std::vector<Surface> surfaces_of_exact(std::span<const Surface> files,
 
 const Kind& cut_kind() {
     static constexpr std::array<std::string_view, 4> keys{"exact", "rounded", "digest", "cut"};
-    static constexpr Kind kind{CertificateKind::cut, "cut", keys, parse_cut, judge_surfaces,
-                               rounded_mesh};
+    static constexpr Kind kind{CertificateKind::cut, "cut",       keys, parse_cut,
+                               judge_surfaces,       rounded_mesh};
     return kind;
 }
 
 const Kind& sealed_kind() {
     static constexpr std::array<std::string_view, 5> keys{"exact", "rounded", "digest", "cut",
                                                           "sealed"};
-    static constexpr Kind kind{CertificateKind::sealed, "sealed", keys, parse_cut, judge_surfaces,
-                               rounded_mesh};
+    static constexpr Kind kind{CertificateKind::sealed, "sealed",    keys, parse_cut,
+                               judge_surfaces,          rounded_mesh};
     return kind;
 }
 

@@ -33,11 +33,11 @@ std::uint32_t count_of(std::size_t n) {
     return static_cast<std::uint32_t>(n);
 }
 
-/// Returns the integers nearest to the coordinates of a point.
-Vector4 rounded_point(const Vector4& point) {
+/// Returns the integers nearest to the coordinates of a point, multiplied by a factor.
+Vector4 rounded_point(const Vector4& point, const mpz_class& factor) {
     Vector4 result{0, 0, 0, 1};
     for (std::size_t i = 0; i < 3; ++i)
-        mpz_fdiv_q(result[i].get_mpz_t(), mpz_class(2 * point[i] + point[3]).get_mpz_t(),
+        mpz_fdiv_q(result[i].get_mpz_t(), mpz_class(2 * factor * point[i] + point[3]).get_mpz_t(),
                    mpz_class(2 * point[3]).get_mpz_t());
     return result;
 }
@@ -174,8 +174,8 @@ private:
                 if (base.contains(inputs_.vertices[a]) == base.contains(inputs_.vertices[b]))
                     continue;
                 if (std::ranges::all_of(edge, [&](std::uint32_t v) {
-                        return sgn(turn(input_points_[a], input_points_[b], mesh_.points[v], axis)) ==
-                               0;
+                        return sgn(turn(input_points_[a], input_points_[b], mesh_.points[v],
+                                        axis)) == 0;
                     }))
                     return true;
             }
@@ -246,8 +246,8 @@ private:
         Numbers at;
         for (const std::uint32_t t : all)
             if (is_given_[t] || is_strip(t)) at.push_back(t);
-        const auto left =
-            static_cast<std::size_t>(std::ranges::count_if(at, [&](auto t) { return !is_trimmed(t); }));
+        const auto left = static_cast<std::size_t>(
+            std::ranges::count_if(at, [&](auto t) { return !is_trimmed(t); }));
         for (const std::uint32_t t : at)
             for (const std::uint32_t u : at)
                 if (is_trimmed(t) && !is_trimmed(u) && go_on(t, u)) is_beside[t] = true;
@@ -266,15 +266,22 @@ private:
 
     // --- R26 --------------------------------------------------------------------------------------
 
-    /// Makes the points of the inputs, then those of the exact part, taken to integers.
+    /// Makes the points of the inputs, then those of the exact part, taken to integers that are fine
+    /// enough for each limit.
     void make_points() {
+        mpz_class factor = 1;
+        for (const SealedPart& part : parts_.sealed.surfaces)
+            while (part.limit > 0 && mpq_class(part.limit) * mpq_class(mesh_.scale * factor) <
+                                         mpq_class(mpz_class(1) << 40))
+                factor *= 2;
+        scale_ = mesh_.scale * factor;
         doubles_ = inputs_.vertices;
-        exact_ = input_points_;
+        for (const Vector4& point : input_points_) exact_.push_back(rounded_point(point, factor));
         for (const Vector4& point : mesh_.points) {
-            exact_.push_back(rounded_point(point));
-            doubles_.push_back({near_double(exact_.back()[0], mesh_.scale),
-                                near_double(exact_.back()[1], mesh_.scale),
-                                near_double(exact_.back()[2], mesh_.scale)});
+            exact_.push_back(rounded_point(point, factor));
+            const Vector4& p = exact_.back();
+            doubles_.push_back(
+                {near_double(p[0], scale_), near_double(p[1], scale_), near_double(p[2], scale_)});
         }
     }
 
@@ -316,7 +323,7 @@ private:
                     const std::string& otherwise) {
         const double limit = parts_.sealed.surfaces[surface].limit;
         // Points are less than a unit from their integers.
-        mpz_class units = mpz_class(mpq_class(limit) * mpq_class(mesh_.scale));
+        mpz_class units = mpz_class(mpq_class(limit) * mpq_class(scale_));
         units = units > 2 ? mpz_class(units - 2) : mpz_class(0);
         const Nearness near({doubles_, exact_, rounding_of(doubles_)}, std::move(targets));
         for (const std::uint32_t t : changed)
@@ -333,6 +340,7 @@ private:
     std::vector<bool> is_given_, is_dropped_;
     std::map<std::pair<std::uint32_t, bool>, std::set<Point3>> bases_;
     std::vector<Vector4> input_points_; ///< in the scale of the mesh
+    mpz_class scale_;                   ///< of the next two
     std::vector<Point3> doubles_;
     std::vector<Vector4> exact_;
 };

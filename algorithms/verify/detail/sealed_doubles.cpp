@@ -81,14 +81,13 @@ void check_only_kept(std::span<const Surface> surfaces, const ArrangementClaim& 
         for (const std::uint32_t t : exact_children[p]) {
             std::array<Vector4, 3> corners;
             for (std::size_t i = 0; i < 3; ++i)
-                corners[i] =
-                    construct(kept.vertices[kept.triangles[t][i]], input_points).value();
+                corners[i] = construct(kept.vertices[kept.triangles[t][i]], input_points).value();
             before.add(corners[0], corners[1], corners[2]);
         }
         // Where each point is moved by the deviation, twice the area grows by at most twice the
         // deviation per length, and by that of the corners; triangles can be turned over.
-        const mpq_class corners = 64 * deviation * deviation *
-                                  mpq_class(children[p].size() + exact_children[p].size());
+        const mpq_class corners =
+            64 * deviation * deviation * mpq_class(children[p].size() + exact_children[p].size());
         const mpq_class slack = 8 * deviation * (now.length + before.length) + corners;
         if (now.twice_area > before.twice_area + slack)
             found.push_back({Rule::R57_only_kept,

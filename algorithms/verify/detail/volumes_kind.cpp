@@ -108,7 +108,7 @@ const Kind& volumes_kind() {
     static constexpr std::array<std::string_view, 4> keys{"exact", "rounded", "blocks", "digest"};
     static constexpr Kind kind{
         CertificateKind::volumes, "volumes", keys, parse_volumes, judge_volumes, rounded_mesh,
-        compare_block_file, true};
+        compare_block_file,       true};
     return kind;
 }
 
