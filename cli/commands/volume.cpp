@@ -7,6 +7,7 @@
 #include <terrane/cli/stages/block_certificate.hpp>
 #include <terrane/cli/stages/blocks.hpp>
 #include <terrane/cli/stages/certificate_output.hpp>
+#include <terrane/cli/stages/plausibility.hpp>
 #include <terrane/io/atomic/atomic_folder.hpp>
 
 namespace terrane::cli {
