@@ -159,14 +159,14 @@ Result<std::string> to_cut_certificate(const Certified& cut, const VolumeRecord&
                                        std::size_t boundary_count, const ArrangeOptions& options,
                                        const Run& run = {});
 
-/// Returns the sections of any kind of certificate about surfaces that were changed. Errors: those of
-/// arrange() and locate().
+/// Returns the sections of any kind of certificate about surfaces that were changed. Errors: those
+/// of arrange() and locate().
 Result<CutSections> cut_sections(const Certified& cut, const CutRecord& record,
                                  const ArrangeOptions& options, const Run& run = {});
 
-/// Returns the text of a certificate of the kind "cut" or, with `growth`, "sealed". This one has the
-/// keys of the kind "cut" and one more. "volume" is null where there is none, and "dropped" lists what
-/// was trimmed, too, and unused parts of what was added.
+/// Returns the text of a certificate of the kind "cut" or, with `growth`, "sealed". This one has
+/// the keys of the kind "cut" and one more. "volume" is null where there is none, and "dropped"
+/// lists what was trimmed, too, and unused parts of what was added.
 ///
 ///   "sealed": [                    per surface of the files
 ///     { "limit": "0.25",           the surface as given and as kept are nowhere farther apart

@@ -96,7 +96,8 @@ enum class Rule : std::uint8_t {
     R51_dropped,     ///< a triangle outside is not listed as dropped, or another one is
     R52_inside,      ///< a triangle of the mesh of doubles is outside
     // Sealed and extended surfaces: see detail/sealed.hpp.
-    R53_sealed_lists, ///< a list about sealed surfaces is too long or short, or a number is not finite
+    R53_sealed_lists, ///< a list about sealed surfaces has another length than it must have, or a
+                      ///< number is not finite
     R54_attached,     ///< an added part is not attached along the border of its surface
     R55_ends,      ///< an added part ends free elsewhere than at a lateral side, or meets nothing
     R56_trimmed,   ///< what is missing of a surface is not a whole part beyond another surface

@@ -24,10 +24,10 @@
 // (8) Layers are the pointwise stack of the surfaces that they were made of (R60 to R65).
 // (9) The mesh of a volume of interest is what is inside of it, all of that and nothing else (R50 to
 //     R52); (3) and (4) hold for the parts inside.
-// (10) Sealed and extended surfaces differ from those of the files by added triangles and by whole parts
-//     beyond other surfaces only, and by no more than their limits (R26, R53 to R57).
-// (11) Each output file that was given holds this mesh (R21): all coordinates and all triangles, bit
-//     for bit; with the numbers rounded to float32 where this is what the file holds.
+// (10) Sealed and extended surfaces differ from those of the files by added triangles and by whole
+//      parts beyond other surfaces only, and by no more than their limits (R26, R53 to R57).
+// (11) Each output file that was given holds this mesh (R21): all coordinates and all triangles,
+//      bit for bit; with the numbers rounded to float32 where this is what the file holds.
 #pragma once
 
 #include <any>

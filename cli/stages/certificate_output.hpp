@@ -64,7 +64,8 @@ struct CutRequest {
     Search search = Search::automatic; ///< for arranging again what was left out
 };
 
-/// Returns what the settings ask for, which must outlive the result; none: surfaces stay as they are.
+/// Returns what the settings ask for, which must outlive the result; none: surfaces stay as they
+/// are.
 std::optional<CutRequest> cut_request(const ArrangeSettings& settings);
 
 /// What was changed, for a certificate.

@@ -74,8 +74,8 @@ inline Subject sealed_subject(const std::vector<File>& files, const Growing& how
 
 using Corners = std::array<Point3, 3>;
 
-/// Returns the certificate that a producer would write who adds these triangles to surfaces, by their
-/// numbers, and keeps the exact triangles for which keep(corners, parents) is true.
+/// Returns the certificate that a producer would write who adds these triangles to surfaces, by
+/// their numbers, and keeps the exact triangles for which keep(corners, parents) is true.
 inline Subject
 self_made(const std::vector<File>& files, const std::map<std::size_t, std::vector<Corners>>& added,
           const std::function<bool(const Corners&, const std::set<std::uint32_t>&)>& keep) {
@@ -242,8 +242,8 @@ inline std::vector<std::size_t> exact_triangles(const Json& c, bool dropped, boo
     return found;
 }
 
-/// Lists exact triangles as dropped, and takes those with the same numbers out of the doubles, which have
-/// the triangles of the exact part.
+/// Lists exact triangles as dropped, and takes those with the same numbers out of the doubles,
+/// which have the triangles of the exact part.
 inline void drop_exact(Json& c, const std::vector<std::size_t>& more) {
     const std::set<std::size_t> gone(more.begin(), more.end());
     std::set<std::size_t> dropped(c["cut"]["dropped"].begin(), c["cut"]["dropped"].end());
@@ -308,8 +308,8 @@ inline std::vector<int> doubles_of_exact(const Json& c) {
     return number;
 }
 
-/// Exchanges the diagonal of two triangles of one input triangle, and says that the doubles have other
-/// triangles than the exact part. This is still valid.
+/// Exchanges the diagonal of two triangles of one input triangle, and says that the doubles have
+/// other triangles than the exact part. This is still valid.
 inline Subject with_diagonal(Subject s) {
     Json& mesh = s.certificate["rounded"];
     const Json before = mesh["triangles"];

@@ -26,19 +26,19 @@ namespace terrane::verifier {
 ///     triangles at each edge.
 void check_volume(const VolumeClaim& volume, std::span<const Surface> files, Violations& found);
 
-/// Returns the exact part of a claim as a mesh. `surfaces` are all that it is about. Precondition: R1
-/// and R2 hold.
+/// Returns the exact part of a claim as a mesh. `surfaces` are all that it is about. Precondition:
+/// R1 and R2 hold.
 ExactMesh exact_mesh_of(std::span<const Surface> surfaces, const ArrangementClaim& exact);
 
 /// The triangles at each edge, by its vertices, the lower first.
 using EdgeTriangles = std::map<Edge, Numbers>;
 EdgeTriangles triangles_at_edges(const std::vector<Triangle>& triangles);
 
-/// Tells which exact triangles are outside of a volume. `surfaces` are the inputs and the boundary, of
-/// which there are `boundary_count` surfaces; none: nothing is outside.
-/// A triangle without a parent in the boundary is inside iff a ray from a point in it meets triangles of the
-/// boundary an odd number of times. Triangles that have an edge in common at which there is no
-/// triangle of the boundary are on the same side. Precondition: R1 to R8 hold.
+/// Tells which exact triangles are outside of a volume. `surfaces` are the inputs and the boundary,
+/// of which there are `boundary_count` surfaces; none: nothing is outside. A triangle without a
+/// parent in the boundary is inside iff a ray from a point in it meets triangles of the boundary an
+/// odd number of times. Triangles that have an edge in common at which there is no triangle of the
+/// boundary are on the same side. Precondition: R1 to R8 hold.
 std::vector<bool> find_outside(std::span<const Surface> surfaces, std::size_t boundary_count,
                                const ArrangementClaim& exact);
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // Certificates of the kind "cut", which are about an arrangement of which a volume of interest was
-// cut out, and of the kind "sealed", whose surfaces were sealed or extended before that. The exact part
-// is the arrangement of all surfaces, with what was added to them, and the boundary of the volume, with
-// what was left out; the mesh of doubles is what was kept.
+// cut out, and of the kind "sealed", whose surfaces were sealed or extended before that. The exact
+// part is the arrangement of all surfaces, with what was added to them, and the boundary of the
+// volume, with what was left out; the mesh of doubles is what was kept.
 #include <terrane/algorithms/verify/detail/kinds.hpp>
 
 #include <algorithm>

@@ -74,8 +74,8 @@ const Kind& sealed_kind();
 void parse_arrangement_sections(const Node& node, Certificate& certificate);
 /// Reads "cut" and "sealed", as far as they are there.
 void parse_cut_sections(const Node& node, Certificate& certificate);
-/// Judges all these sections: judge_arrangement() where nothing was cut or sealed, else the rules for that,
-/// too (R26, R50 to R57).
+/// Judges all these sections: judge_arrangement() where nothing was cut or sealed, else the rules
+/// for that, too (R26, R50 to R57).
 void judge_surfaces(std::span<const Surface> files, const Certificate& certificate,
                     const VerifyOptions& options, Verdict& verdict);
 /// Returns the exact part without what was left out.
@@ -88,8 +88,8 @@ void judge_arrangement(std::span<const Surface> surfaces, const Certificate& cer
                        const VerifyOptions& options, Verdict& verdict);
 std::optional<WrittenMesh> rounded_mesh(const Certificate& certificate);
 
-/// Returns the surfaces that the exact part is about: those of the files, with what was added to them,
-/// then the boundary of a volume of interest. Precondition: R53 holds.
+/// Returns the surfaces that the exact part is about: those of the files, with what was added to
+/// them, then the boundary of a volume of interest. Precondition: R53 holds.
 std::vector<Surface> surfaces_of_exact(std::span<const Surface> files,
                                        const Certificate& certificate);
 

@@ -293,8 +293,8 @@ private:
         follower.expect(",\"gaps\":[").rest("]}");
     }
 
-    /// Passes the leaks, and the gaps that were sealed, if there is such a list. They are the last keys,
-    /// and not compared.
+    /// Passes the leaks, and the gaps that were sealed, if there is such a list. They are the last
+    /// keys, and not compared.
     void leaks() {
         std::string_view line = in_.next();
         if (line == "\"leaks\": [") {

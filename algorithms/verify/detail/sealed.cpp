@@ -86,7 +86,7 @@ public:
     }
 
 private:
-    // --- Names ------------------------------------------------------------------------------------
+    // --- Names -----------------------------------------------------------------------------------
 
     /// Tells whether an input triangle was added.
     [[nodiscard]] bool is_new(std::uint32_t input) const {
@@ -114,7 +114,7 @@ private:
         found_.push_back({rule, {t}, "exact triangle " + text(t) + what});
     }
 
-    // --- R54 --------------------------------------------------------------------------------------
+    // --- R54 -------------------------------------------------------------------------------------
 
     /// Tells whether exactly one given triangle of the surface is at an edge, and is not trimmed.
     [[nodiscard]] bool is_border(const Numbers& at, std::uint32_t surface) const {
@@ -150,7 +150,7 @@ private:
                        " was added, but is not attached along the border of its surface");
     }
 
-    // --- R55 --------------------------------------------------------------------------------------
+    // --- R55 -------------------------------------------------------------------------------------
 
     /// Returns the vertices on which added triangles of a surface were built.
     [[nodiscard]] const std::set<Point3>& base_of(std::uint32_t surface, bool sealed) {
@@ -214,7 +214,7 @@ private:
                 report(Rule::R55_ends, t, " was added, and meets no other surface");
     }
 
-    // --- R56 --------------------------------------------------------------------------------------
+    // --- R56 -------------------------------------------------------------------------------------
 
     void check_trimmed() {
         JoinedSets sets(is_given_.size());
@@ -264,10 +264,10 @@ private:
         }
     }
 
-    // --- R26 --------------------------------------------------------------------------------------
+    // --- R26 -------------------------------------------------------------------------------------
 
-    /// Makes the points of the inputs, then those of the exact part, taken to integers that are fine
-    /// enough for each limit.
+    /// Makes the points of the inputs, then those of the exact part, taken to integers that are
+    /// fine enough for each limit.
     void make_points() {
         mpz_class factor = 1;
         for (const SealedPart& part : parts_.sealed.surfaces)

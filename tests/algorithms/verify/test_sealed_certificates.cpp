@@ -9,7 +9,8 @@ namespace {
 
 using namespace forged;
 
-// --- Forgers who arrange by themselves ------------------------------------------------------------
+// --- Forgers who arrange by themselves
+// ------------------------------------------------------------
 
 /// Triangles between the border of the short sheet, moved by `from` along x, and x = `to`.
 std::vector<Corners> strip(double from, double to) {
