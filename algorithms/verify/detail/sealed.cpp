@@ -162,8 +162,9 @@ private:
         return bases;
     }
 
-    /// Tells whether an edge of a triangle lies on a lateral side of an added triangle.
-    [[nodiscard]] bool is_lateral(std::uint32_t t, const Edge& edge) {
+    /// Tells whether an edge of a triangle lies on a side of an added triangle that contains it, or on
+    /// a lateral one of these sides.
+    [[nodiscard]] bool is_on_side(std::uint32_t t, const Edge& edge, bool lateral) {
         const auto axis = projection_axis(mesh_.planes[t]).value();
         for (const std::uint32_t p : parts_.exact.parents_of[t]) {
             const std::uint32_t surface = inputs_.surface_of[p];
@@ -171,7 +172,8 @@ private:
             const Triangle& corners = inputs_.triangles[p];
             for (std::size_t i = 0; i < 3; ++i) {
                 const std::uint32_t a = corners[i], b = corners[(i + 1) % 3];
-                if (base.contains(inputs_.vertices[a]) == base.contains(inputs_.vertices[b]))
+                if (lateral &&
+                    base.contains(inputs_.vertices[a]) == base.contains(inputs_.vertices[b]))
                     continue;
                 if (std::ranges::all_of(edge, [&](std::uint32_t v) {
                         return sgn(turn(input_points_[a], input_points_[b], mesh_.points[v],
@@ -183,35 +185,41 @@ private:
         return false;
     }
 
-    /// Tells whether a kept triangle belongs to another surface than an added one.
-    [[nodiscard]] bool is_other(std::uint32_t strip, std::uint32_t t) const {
-        return !is_dropped_[t] &&
-               std::ranges::any_of(surfaces_of_[strip], [&](std::uint32_t surface) {
-                   return !is_in(t, surface) || (is_given_[t] && !is_given_for(t, surface));
-               });
+    /// Tells whether an added triangle meets a kept one at an edge that it does not continue: one of
+    /// another surface, a given one of its own that does not end there, or an added one by which it
+    /// was cut.
+    [[nodiscard]] bool meets(std::uint32_t strip, std::uint32_t t, const Edge& edge,
+                             const Numbers& at) {
+        if (t == strip || is_dropped_[t]) return false;
+        if (is_strip(t) && share_surface(strip, t))
+            return !is_on_side(strip, edge, false) && !is_on_side(t, edge, false) &&
+                   parts_.exact.parents_of[strip].front() != parts_.exact.parents_of[t].front();
+        return std::ranges::any_of(surfaces_of_[strip], [&](std::uint32_t surface) {
+            return !is_given_for(t, surface) || !is_border(at, surface);
+        });
     }
 
     void check_ends() {
         JoinedSets sets(is_given_.size());
-        std::vector<bool> meets(is_given_.size());
+        std::vector<bool> is_closing(is_given_.size());
         for (const auto& [edge, at] : at_edge_) {
             const auto kept = std::ranges::count_if(at, [&](auto t) { return !is_dropped_[t]; });
             for (const std::uint32_t t : at) {
                 if (!is_strip(t)) continue;
-                if (kept == 1 && !is_lateral(t, edge))
+                if (kept == 1 && !is_on_side(t, edge, true))
                     report(Rule::R55_ends, t, " was added, and ends free");
                 for (const std::uint32_t u : at) {
                     if (u != t && is_strip(u) && share_surface(t, u)) sets.join(t, u);
-                    if (is_other(t, u)) meets[t] = true;
+                    if (meets(t, u, edge, at)) is_closing[t] = true;
                 }
             }
         }
         std::set<std::uint32_t> closing;
-        for (std::uint32_t t = 0; t < meets.size(); ++t)
-            if (meets[t]) closing.insert(sets.find(t));
+        for (std::uint32_t t = 0; t < is_closing.size(); ++t)
+            if (is_closing[t]) closing.insert(sets.find(t));
         for (std::uint32_t t = 0; t < is_given_.size(); ++t)
             if (is_strip(t) && !closing.contains(sets.find(t)))
-                report(Rule::R55_ends, t, " was added, and meets no other surface");
+                report(Rule::R55_ends, t, " was added, and meets nothing");
     }
 
     // --- R56 -------------------------------------------------------------------------------------

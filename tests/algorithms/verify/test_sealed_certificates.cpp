@@ -9,8 +9,7 @@ namespace {
 
 using namespace forged;
 
-// --- Forgers who arrange by themselves
-// ------------------------------------------------------------
+// --- Forgers who arrange by themselves -----------------------------------------------------------
 
 /// Triangles between the border of the short sheet, moved by `from` along x, and x = `to`.
 std::vector<Corners> strip(double from, double to) {
@@ -101,7 +100,7 @@ TEST_CASE("sealed certificates: accepted for models", "[sealing]") {
     };
     for (const auto& [name, distance] : std::vector<Model>{{"ringmesh/modelA1.ml", 30},
                                                            {"ringmesh/split_cube.ml", 0.5},
-                                                           {"arch-platform/faults.ts", 0.002},
+                                                           {"manifold/Havocglass8_left.obj", 0.1},
                                                            {"manifold/Cray_left.obj", 0.1}}) {
         INFO(name);
         const File file{"model.obj", as_obj(test_support::test_data() + "/" + name)};
