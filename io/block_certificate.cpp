@@ -67,7 +67,7 @@ std::string text_of(std::string_view kind, const Certified& certified,
                     const Run& run) {
     std::string text;
     CertificateWriter out(text);
-    write_head(out, kind, {certified.files, certified.surfaces, certified.outputs});
+    write_head(out, kind, certified);
     write_blocks(out, certified.rounded->mesh, blocks);
     if (tetrahedra != nullptr) write_tetrahedra(out, *tetrahedra);
     write_arrangement(out, certified, run);

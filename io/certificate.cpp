@@ -104,7 +104,8 @@ double stated_deviation(const Arrangement& exact, const RoundedMesh& rounded) {
 }
 
 void detail::write_arrangement(CertificateWriter& out, const Certified& certified, const Run& run) {
-    const Arrangement& all = certified.whole == nullptr ? certified.exact : *certified.whole;
+    const Arrangement& all = certified.cut == nullptr ? certified.exact : certified.cut->whole;
+    if (certified.cut != nullptr) out.raw(certified.cut->text);
     out.raw(",\n\"exact\":");
     write_exact(out, all);
     out.raw(",\n\"rounded\":");
@@ -143,7 +144,7 @@ std::string to_certificate(const Certified& certified, const Run& run) {
     std::string text;
     text.reserve(200 * certified.exact.triangles.size() + 4096);
     CertificateWriter out(text);
-    write_head(out, "arrangement", {certified.files, certified.surfaces, certified.outputs});
+    write_head(out, "arrangement", certified);
     write_arrangement(out, certified, run);
     out.raw("}\n");
     return text;
@@ -153,7 +154,7 @@ std::string to_improved_certificate(const Certified& before, const Mesh& improve
                                     std::span<const double> limits, const Run& run) {
     std::string text;
     CertificateWriter out(text);
-    write_head(out, "improved", {before.files, before.surfaces, before.outputs});
+    write_head(out, "improved", before);
     write_arrangement(out, before, run);
     out.raw(",\n\"improved\":{\"vertices\":");
     write_points(out, improved.vertices);

@@ -62,6 +62,7 @@
 #include <terrane/algorithms/layers/layers.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
+#include <terrane/algorithms/model/arrange_within.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
 
 namespace terrane {
@@ -96,6 +97,33 @@ OutputRecord record_output(std::string_view contents, std::string name, std::str
 std::string certified_name(const std::filesystem::path& path,
                            const std::filesystem::path& certificate);
 
+/// A volume of interest, as it was asked for.
+struct VolumeRecord {
+    std::string shape = "prism"; ///< "prism", "hexahedron" or "surface": see verify_certificate.hpp
+    std::vector<std::array<double, 2>> corners{}; ///< of a prism: its polygon, in order
+    std::vector<double> between{};                ///< of a prism: its two heights, the lower first
+    std::vector<InputRecord> files{};             ///< of a surface
+    std::vector<Surface> surfaces{};              ///< of a surface: of these files, in order
+};
+
+/// What was left out of surfaces, and added to them.
+struct CutRecord {
+    const VolumeRecord* volume = nullptr; ///< what was cut out; nullptr: nothing
+    std::size_t boundary_count = 0;       ///< number of the last surfaces, which bound the volume
+    std::span<const SurfaceGrowth>
+        growth{}; ///< per surface before these; empty: nothing was sealed
+                  ///< or extended
+};
+
+/// What certificates say about surfaces that were cut, sealed or extended: the keys "cut" and, if
+/// something can have been added, "sealed".
+struct CutSections {
+    Arrangement whole;               ///< of all surfaces, which `Certified::exact` is a part of
+    std::string text;                ///< the keys
+    std::vector<InputRecord> files;  ///< all input files, with those of the volume
+    std::vector<Surface> surfaces{}; ///< in these files, without what was added
+};
+
 /// The contents of a certificate, by reference: the values must outlive it.
 struct Certified {
     std::span<const InputRecord> files;      ///< in the order in which they were read
@@ -103,7 +131,8 @@ struct Certified {
     const Arrangement& exact;                ///< of these surfaces
     const RoundedMesh* rounded = nullptr;    ///< nullptr: "rounded" is null
     std::span<const OutputRecord> outputs{}; ///< the files that hold the rounded mesh
-    const Arrangement* whole = nullptr; ///< what `exact` was cut out of; nullptr: nothing was cut
+    /// With a volume of interest, or sealed or extended surfaces; nullptr: nothing was changed.
+    const CutSections* cut = nullptr;
 };
 
 /// Returns the text of a certificate. Cost: linear; a second for 200 000 triangles.
@@ -114,15 +143,6 @@ std::string to_certificate(const Certified& certified, const Run& run = {});
 /// `report.deviation`, as the verifier shows it without knowing how the mesh was made.
 double stated_deviation(const Arrangement& exact, const RoundedMesh& rounded);
 double stated_deviation(const Layered& layered);
-
-/// A volume of interest, as it was asked for.
-struct VolumeRecord {
-    std::string shape = "prism"; ///< "prism", "hexahedron" or "surface": see verify_certificate.hpp
-    std::vector<std::array<double, 2>> corners{}; ///< of a prism: its polygon, in order
-    std::vector<double> between{};                ///< of a prism: its two heights, the lower first
-    std::vector<InputRecord> files{};             ///< of a surface
-    std::vector<Surface> surfaces{};              ///< of a surface: of these files, in order
-};
 
 /// Returns the text of a certificate of the kind "cut". It has the keys of a certificate of an
 /// arrangement, of which "exact" and "digest" are about all surfaces with the boundary of the volume
@@ -142,6 +162,26 @@ struct VolumeRecord {
 Result<std::string> to_cut_certificate(const Certified& cut, const VolumeRecord& volume,
                                        std::size_t boundary_count, const ArrangeOptions& options,
                                        const Run& run = {});
+
+/// Returns the sections of any kind of certificate about surfaces that were changed. Errors: those
+/// of arrange() and locate().
+Result<CutSections> cut_sections(const Certified& cut, const CutRecord& record,
+                                 const ArrangeOptions& options, const Run& run = {});
+
+/// Returns the text of a certificate of the kind "cut" or, with `growth`, "sealed". This one has
+/// the keys of the kind "cut" and one more. "volume" is null where there is none, and "dropped"
+/// lists what was trimmed, too, and unused parts of what was added.
+///
+///   "sealed": [                    per surface of the files
+///     { "limit": "0.25",           the surface as given and as kept are nowhere farther apart
+///       "extended": [[[x, y, z], [x, y, z], [x, y, z]]],   triangles that were added to reach the
+///                                  boundary, each number as text
+///       "sealed": [...] }]         and those that close gaps, likewise
+///
+/// Added triangles count as input triangles of their surface, after the given ones, and have three
+/// vertices of their own.
+Result<std::string> to_cut_certificate(const Certified& cut, const CutRecord& record,
+                                       const ArrangeOptions& options, const Run& run = {});
 
 /// A surface whose holes were filled.
 struct FilledRecord {

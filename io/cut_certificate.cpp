@@ -6,6 +6,7 @@
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/io/certificate.hpp>
 #include <terrane/io/detail/certificate_writer.hpp>
+#include <terrane/io/detail/growth_writer.hpp>
 
 namespace terrane {
 
@@ -35,6 +36,12 @@ Result<std::vector<std::uint32_t>> dropped_triangles(const Arrangement& whole,
     return dropped;
 }
 
+/// What the parts of a certificate need beside the arrangement.
+struct CutParts {
+    std::vector<std::uint32_t> dropped; ///< triangles of the whole
+    std::vector<double> limits;         ///< per surface that grew
+};
+
 void write_boundary(CertificateWriter& out, std::span<const Surface> boundary) {
     out.array(
         boundary,
@@ -52,7 +59,7 @@ void write_boundary(CertificateWriter& out, std::span<const Surface> boundary) {
 
 void write_volume(CertificateWriter& out, const VolumeRecord& volume,
                   std::span<const Surface> boundary) {
-    out.raw(",\n\"cut\":{\"volume\":{\"shape\":");
+    out.raw("{\"shape\":");
     out.quote(volume.shape);
     out.raw(",\"corners\":");
     out.array(volume.corners, [&](const std::array<double, 2>& corner) {
@@ -64,34 +71,83 @@ void write_volume(CertificateWriter& out, const VolumeRecord& volume,
     out.number(volume.files.size());
     out.raw(",\n\"boundary\":");
     write_boundary(out, boundary);
-    out.raw("},\n\"dropped\":");
+    out.raw("}");
+}
+
+/// Writes the keys "cut", and "sealed" if surfaces were sealed or extended.
+void write_cut(CertificateWriter& out, const Certified& cut, const CutRecord& record,
+               const CutParts& parts) {
+    out.raw(",\n\"cut\":{\"volume\":");
+    if (record.volume == nullptr)
+        out.raw("null");
+    else
+        write_volume(out, *record.volume, cut.surfaces.last(record.boundary_count));
+    out.raw(",\n\"dropped\":");
+    out.numbers(parts.dropped);
+    out.raw("}");
+    if (record.growth.empty()) return;
+    out.raw(",\n\"sealed\":");
+    write_growth(out, cut.surfaces, record.growth, parts.limits);
+}
+
+/// Returns the surfaces of the input files, without what was added to them.
+std::vector<Surface> surfaces_in_files(const Certified& cut, const CutRecord& record) {
+    const auto own = cut.surfaces.first(cut.surfaces.size() - record.boundary_count);
+    std::vector<Surface> surfaces(own.begin(), own.end());
+    for (std::size_t s = 0; s < record.growth.size(); ++s) {
+        const std::size_t given = record.growth[s].given;
+        surfaces[s].vertices.resize(surfaces[s].vertices.size() -
+                                    3 * (surfaces[s].triangles.size() - given));
+        surfaces[s].triangles.resize(given);
+    }
+    if (record.volume != nullptr)
+        surfaces.insert(surfaces.end(), record.volume->surfaces.begin(),
+                        record.volume->surfaces.end());
+    return surfaces;
 }
 
 } // namespace
 
-Result<std::string> to_cut_certificate(const Certified& cut, const VolumeRecord& volume,
-                                       std::size_t boundary_count, const ArrangeOptions& options,
-                                       const Run& run) {
-    const auto whole = arrange(cut.surfaces, options, run);
+Result<CutSections> cut_sections(const Certified& cut, const CutRecord& record,
+                                 const ArrangeOptions& options, const Run& run) {
+    auto whole = arrange(cut.surfaces, options, run);
     if (!whole) return whole.error();
-    const auto dropped = dropped_triangles(whole.value(), cut.exact);
+    auto dropped = dropped_triangles(whole.value(), cut.exact);
     if (!dropped) return dropped.error();
-    std::vector<InputRecord> files(cut.files.begin(), cut.files.end());
-    files.insert(files.end(), volume.files.begin(), volume.files.end());
-    const auto own = cut.surfaces.first(cut.surfaces.size() - boundary_count);
-    std::vector<Surface> surfaces(own.begin(), own.end());
-    surfaces.insert(surfaces.end(), volume.surfaces.begin(), volume.surfaces.end());
+    CutParts parts{std::move(dropped).value(), {}};
+    if (!record.growth.empty()) {
+        auto limits = growth_limits(whole.value(), parts.dropped, record, run);
+        if (!limits) return limits.error();
+        parts.limits = std::move(limits).value();
+    }
+    CutSections sections{std::move(whole).value(), "", {cut.files.begin(), cut.files.end()}};
+    if (record.volume != nullptr)
+        sections.files.insert(sections.files.end(), record.volume->files.begin(),
+                              record.volume->files.end());
+    sections.surfaces = surfaces_in_files(cut, record);
+    CertificateWriter out(sections.text);
+    write_cut(out, cut, record, parts);
+    return sections;
+}
+
+Result<std::string> to_cut_certificate(const Certified& cut, const CutRecord& record,
+                                       const ArrangeOptions& options, const Run& run) {
+    const auto sections = cut_sections(cut, record, options, run);
+    if (!sections) return sections.error();
+    Certified certified = cut;
+    certified.cut = &sections.value();
     std::string text;
     CertificateWriter out(text);
-    write_head(out, "cut", {files, surfaces, cut.outputs});
-    write_volume(out, volume, cut.surfaces.last(boundary_count));
-    out.numbers(dropped.value());
-    out.raw("}");
-    Certified certified = cut;
-    certified.whole = &whole.value();
+    write_head(out, record.growth.empty() ? "cut" : "sealed", certified);
     write_arrangement(out, certified, run);
     out.raw("}\n");
     return text;
+}
+
+Result<std::string> to_cut_certificate(const Certified& cut, const VolumeRecord& volume,
+                                       std::size_t boundary_count, const ArrangeOptions& options,
+                                       const Run& run) {
+    return to_cut_certificate(cut, {&volume, boundary_count, {}}, options, run);
 }
 
 } // namespace terrane

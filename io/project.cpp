@@ -62,12 +62,12 @@ private:
         if (const Json* v = in_.find(json, "tetrahedra")) project.tetrahedra = tetrahedra(*v);
         const bool turned = std::any_of(project.surfaces.begin(), project.surfaces.end(),
                                         [](const ProjectSurfaces& s) { return s.depth; });
-        const bool changed = turned || !project.fill.empty() || project.layers ||
-                             project.volume.index() != 0 || project.seal || project.improve;
+        const bool changed = turned || !project.fill.empty() || project.layers || project.improve;
         if (project.outputs.certificate && changed)
-            in_.fail("outputs.certificate",
-                     "must be false with fill, layers, volume_of_interest, seal, improve or depth: "
-                     "a certificate is about whole surfaces as their files have them");
+            in_.fail(
+                "outputs.certificate",
+                "must be false with fill, layers, improve or depth: a certificate is about whole "
+                "surfaces as their files have them");
     }
 
     unsigned threads(const Json& value) {

@@ -94,7 +94,11 @@ KINDS = {
         "modelA4": stack("H3b_horizon", "H2b_horizon", "H1b_horizon"),
         "tindel": stack("Main_6", "Main_4", "Main_7"),
         "Drogon": stack("03_topvolon", "02_toptherys")}),
-    # The kind sealed gets its entry here.
+    "sealed": Kind(["arrange"], SURFACES, ["modelA1", "modelA2", "tindel", "gom"], ["--seal", "30"]),
+    "sealed, small": Kind(["arrange"], SURFACES, ["cube, not sealed", "NashPoint joints"], ["--seal", "0.4"]),
+    "sealed and cut": Kind(["arrange"], SURFACES, ["modelA1", "modelA2", "tindel"],
+                           ["--seal", "30", "--extend", "300", "--box", "0,0,-3000,4000,4000,0"]),
+    "sealed volumes": Kind(["volume"], ["model"], ["cube, not sealed"], ["--parts", "obj", "--seal", "0.4"]),
 }
 
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/algorithms/model/arrange_within.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <iterator>
 #include <numeric>
@@ -48,8 +49,13 @@ Result<Arranged> arrange_within(std::vector<Surface> surfaces, std::vector<Surfa
     Arranged arranged;
     arranged.surfaces = std::move(surfaces);
     std::move(boundary.begin(), boundary.end(), std::back_inserter(arranged.surfaces));
+    if (options.extend != 0 || options.seal != 0)
+        for (std::size_t s = 0; s + sides.size() < arranged.surfaces.size(); ++s)
+            arranged.growth.push_back({arranged.surfaces[s].triangles.size()});
     if (options.extend != 0)
         if (auto done = extend(sides, options, run, arranged); !done) return done.error();
+    for (std::size_t s = 0; s < arranged.growth.size(); ++s)
+        arranged.growth[s].extended = arranged.surfaces[s].triangles.size();
     auto exact = arrange_or_seal(options, run, arranged);
     if (!exact) return exact.error();
     if (sides.empty()) {

@@ -34,6 +34,12 @@ struct SealReport {
     double left = 0;                   ///< see Sealed
 };
 
+/// Numbers of triangles of a surface. New ones follow the given ones.
+struct SurfaceGrowth {
+    std::size_t given = 0;    ///< of the input
+    std::size_t extended = 0; ///< given and extended
+};
+
 /// The arrangement, its rounded mesh, and the reports of all steps.
 struct Arranged {
     std::vector<Surface> surfaces; ///< the input with the triangles by which gaps were closed, then
@@ -43,6 +49,7 @@ struct Arranged {
     std::optional<VolumeReport> cut;                     ///< with a volume of interest
     std::optional<SealReport> sealed;                    ///< where asked for
     std::optional<std::vector<ExtendedBorder>> extended; ///< where asked for
+    std::vector<SurfaceGrowth> growth; ///< per surface of the input; with seal or extend
 };
 
 /// Arranges and rounds the surfaces. `boundary` is that of a volume of interest; empty: there is

@@ -71,8 +71,25 @@ struct VolumeClaim {
 
 /// The claims of a certificate about what was left out of an arrangement.
 struct CutClaim {
-    VolumeClaim volume;                 ///< what was cut out
-    std::vector<std::uint32_t> dropped; ///< triangles of the exact part that are outside, sorted
+    VolumeClaim
+        volume; ///< what was cut out; without a boundary: nothing was, as surfaces were only
+                ///< sealed
+    std::vector<std::uint32_t> dropped; ///< triangles of the exact part that were left out, sorted
+};
+
+/// What was added to a surface. Its triangles, given, then extended, then sealed, have the numbers
+/// of input triangles, with three vertices of their own each.
+struct SealedPart {
+    double limit = 0; ///< the surface as given and as kept are nowhere farther apart, unit of the
+                      ///< input
+    std::vector<std::array<Point3, 3>>
+        extended;                              ///< triangles that go on to the boundary of a volume
+    std::vector<std::array<Point3, 3>> sealed; ///< triangles that close gaps
+};
+
+/// The claims of a certificate about surfaces that were sealed or extended.
+struct SealedClaim {
+    std::vector<SealedPart> surfaces; ///< order of the inputs, without the boundary of a volume
 };
 
 } // namespace terrane

@@ -32,8 +32,8 @@ struct ArrangementClaim {
 };
 
 /// The rules that the verifier judges by. R22 to R29, R35 and R36 are for surfaces that were
-/// changed, R30 to R34 for volumes, R40 to R49 for tetrahedra, R50 to R59 for
-/// volumes of interest, R60 to R69 for layers.
+/// changed, R30 to R34 for volumes, R40 to R49 for tetrahedra, R50 to R52 for
+/// volumes of interest, R53 to R57 for sealed surfaces, R60 to R69 for layers.
 enum class Rule : std::uint8_t {
     R1_indices,   ///< an index is out of range, a list unsorted or empty
     R2_vertices,  ///< a construction is undefined (parallel line and plane, ...)
@@ -95,6 +95,13 @@ enum class Rule : std::uint8_t {
     R50_volume = 49, ///< the boundary is not that of the stated volume, or not closed
     R51_dropped,     ///< a triangle outside is not listed as dropped, or another one is
     R52_inside,      ///< a triangle of the mesh of doubles is outside
+    // Sealed and extended surfaces: see detail/sealed.hpp.
+    R53_sealed_lists, ///< a list about sealed surfaces has another length than it must have, or a
+                      ///< number is not finite
+    R54_attached,     ///< an added part is not attached along the border of its surface
+    R55_ends,      ///< an added part ends free elsewhere than at a lateral side, or meets nothing
+    R56_trimmed,   ///< what is missing of a surface is not a whole part beyond another surface
+    R57_only_kept, ///< doubles lie where nothing was kept
     // Layers: see detail/layered.hpp.
     R60_layer_lists = 59, ///< as R1, in layers, or a number is not finite
     R61_layer_mesh,       ///< the mesh of the layers is not conforming

@@ -24,8 +24,10 @@
 // (8) Layers are the pointwise stack of the surfaces that they were made of (R60 to R65).
 // (9) The mesh of a volume of interest is what is inside of it, all of that and nothing else (R50 to
 //     R52); (3) and (4) hold for the parts inside.
-// (10) Each output file that was given holds this mesh (R21): all coordinates and all triangles, bit
-//     for bit; with the numbers rounded to float32 where this is what the file holds.
+// (10) Sealed and extended surfaces differ from those of the files by added triangles and by whole
+//      parts beyond other surfaces only, and by no more than their limits (R26, R53 to R57).
+// (11) Each output file that was given holds this mesh (R21): all coordinates and all triangles,
+//      bit for bit; with the numbers rounded to float32 where this is what the file holds.
 #pragma once
 
 #include <any>
@@ -98,6 +100,7 @@ enum class CertificateKind : std::uint8_t {
     filled,      ///< the surfaces of the input files with triangles in their holes
     layered,     ///< horizons of the input files, put in order
     cut,         ///< an arrangement of which a volume of interest was cut out
+    sealed,      ///< an arrangement of surfaces that were sealed or extended, also cut
 };
 
 /// A certificate, parsed.
@@ -113,7 +116,8 @@ struct Certificate {
     std::optional<FilledClaim> filled;                   ///< of the kind filled
     std::string digest;                  ///< "sha256:" and 64 hexadecimal digits; see digest.hpp
     std::optional<LayeredClaim> layered; ///< of the kind layered
-    std::optional<CutClaim> cut;         ///< of the kind cut
+    std::optional<CutClaim> cut;         ///< of the kinds cut and sealed
+    std::optional<SealedClaim> sealed;   ///< of the kind sealed
 };
 
 /// Parses a certificate. Errors: bad_syntax with "source, line l, column c" if the text is not

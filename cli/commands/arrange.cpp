@@ -33,13 +33,8 @@ Examples:
 
 /// Checks before any work is done that a certificate can be made, if one is wanted.
 Status check_certificate(const ArrangeCommand& command) {
-    const bool is_changed = command.settings.seal != 0 || command.settings.volume.extend != 0;
     if (command.proof.certificate.empty()) return Done{};
-    if (!is_changed)
-        return check_certified_names(command.proof.certificate, command.settings.volume.within);
-    return Error{ErrorCode::bad_option,
-                 "there is no certificate of surfaces that were sealed or extended",
-                 "--certificate"};
+    return check_certified_names(command.proof.certificate, command.settings.volume.within);
 }
 
 Result<ExitStatus> arrange_files(const ArrangeCommand& command, Session& session) {
@@ -79,8 +74,7 @@ Result<ExitStatus> arrange_files(const ArrangeCommand& command, Session& session
         print(stderr, std::string("terrane: ") + (proves ? "the mesh is not" : "nothing") +
                           " written (see --keep-unverified)\n");
     const ProofFiles certified{files.inputs, keep ? outputs.value() : std::vector<Output>(),
-                               files.ascii, summary_stream(files),
-                               command.settings.volume.wanted() ? &command.settings : nullptr};
+                               files.ascii, summary_stream(files), cut_request(command.settings)};
     const auto proved =
         write_proof(command.proof, certified, inputs.value(), arranged.value(), session);
     if (!proved) return proved.error();

@@ -140,11 +140,15 @@ private:
                 return Error{ErrorCode::bad_option,
                              "a certificate is about whole files, not about some of their objects",
                              fmt::format("{}: surfaces[{}].objects", source_, i)};
-        if (project_.outputs.certificate)
+        if (project_.outputs.certificate) {
+            auto certified = files();
+            if (const auto* within = std::get_if<ProjectWithin>(&project_.volume))
+                for (const fs::path& file : within->files) certified.push_back(file.string());
             if (auto named =
-                    check_certified_names((folder_ / "certificate.json").string(), files());
+                    check_certified_names((folder_ / "certificate.json").string(), certified);
                 !named)
                 return named;
+        }
         if (!project_.outputs.tetrahedra.empty())
             if (const auto helper = find_tetgen_helper(); !helper)
                 return Error{helper.error().code, helper.error().message(),
@@ -368,8 +372,9 @@ private:
             arranged.surfaces[s].role = read_.as_read[s].role;
         }
         const auto path = [&](const char* name) { return (to / name).string(); };
+        const auto cut = request_of_cut();
         const ProofFiles certified{files(), outputs_in(to, "surfaces", project_.outputs.surfaces),
-                                   true};
+                                   true, stdout, cut};
         if (auto done = write_certificate(
                 to, "certificate.json",
                 certificate_text(path("certificate.json"), certified, inputs_, arranged, session_));
@@ -378,7 +383,7 @@ private:
         FileOptions files_of_inputs;
         files_of_inputs.inputs = files();
         const auto proof = [&](const char* name) {
-            return BlockProof{path(name), files_of_inputs, inputs_, {}, arranged};
+            return BlockProof{path(name), files_of_inputs, inputs_, {}, arranged, cut};
         };
         if (!project_.outputs.blocks.empty())
             if (auto done = write_certificate(to, blocks_certificate,
@@ -393,6 +398,36 @@ private:
             certificate_text(proof(tetrahedra_certificate), *built_.model,
                              built_.filled->tetrahedra,
                              outputs_in(to, "tetrahedra", project_.outputs.tetrahedra), session_));
+    }
+
+    /// Returns what the project cuts, seals and extends; none if it leaves surfaces as they are.
+    [[nodiscard]] std::optional<CutRequest> request_of_cut() const {
+        if (project_.volume.index() == 0 && !project_.seal) return std::nullopt;
+        CutRequest request;
+        if (project_.volume.index() != 0)
+            request.volume = [this](const std::string& path) { return record_of_volume(path); };
+        return request;
+    }
+
+    [[nodiscard]] Result<VolumeRecord> record_of_volume(const std::string& path) const {
+        VolumeRecord record;
+        if (const auto* box = std::get_if<ProjectBox>(&project_.volume)) {
+            const auto &low = box->low, &high = box->high;
+            record.corners = {{low.x, low.y}, {high.x, low.y}, {high.x, high.y}, {low.x, high.y}};
+            record.between = {low.z, high.z};
+        } else if (const auto* prism = std::get_if<ProjectPolygon>(&project_.volume)) {
+            record.corners = prism->corners;
+            if (record.corners.front() == record.corners.back()) record.corners.pop_back();
+            record.between = {std::min(prism->between[0], prism->between[1]),
+                              std::max(prism->between[0], prism->between[1])};
+        } else if (const auto* within = std::get_if<ProjectWithin>(&project_.volume)) {
+            std::vector<std::string> files;
+            for (const fs::path& file : within->files) files.push_back(file.string());
+            return record_of(files, path);
+        } else {
+            record.shape = "hexahedron";
+        }
+        return record;
     }
 
     Status write_certificate(const fs::path& to, const char* name,

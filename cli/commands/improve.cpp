@@ -104,7 +104,7 @@ Status write_all(const ImproveCommand& command, const Inputs& inputs, const Arra
     auto written = write_outputs(measured.improved.mesh, true, command.files, outputs, session);
     if (!written || command.proof.certificate.empty()) return written;
     const ProofFiles certified{command.files.inputs, outputs, command.files.ascii,
-                               summary_stream(command.files)};
+                               summary_stream(command.files), cut_request(command.settings)};
     return write_improved_certificate(command.proof.certificate, certified, inputs, arranged,
                                       measured.improved, session);
 }
@@ -115,11 +115,8 @@ Status check_improve(const ImproveCommand& command) {
         if (auto folder = check_folder(command.histogram); !folder) return folder;
     if (auto sound = check_volume_options(command.settings.volume); !sound) return sound;
     if (auto named = plan_proof(command.proof, command.files); !named) return named;
-    const bool whole = !command.settings.volume.wanted() && command.settings.seal == 0;
-    if (whole || command.proof.certificate.empty()) return Done{};
-    return Error{ErrorCode::bad_option,
-                 "there is no certificate of improved surfaces that were cut, sealed or extended",
-                 "--certificate"};
+    if (command.proof.certificate.empty()) return Done{};
+    return check_certified_names(command.proof.certificate, command.settings.volume.within);
 }
 
 Result<ExitStatus> improve_files(const ImproveCommand& command, Session& session) {

@@ -178,7 +178,8 @@ Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Se
         if (!written) return written.error();
         if (!command.certificate.empty()) {
             const auto proved = write_certificate(
-                {command.certificate, files, inputs.value(), roles, arranged.value()},
+                {command.certificate, files, inputs.value(), roles, arranged.value(),
+                 cut_request(command.settings)},
                 model.value(), filled.value().tetrahedra, outputs.value(), session);
             if (!proved) return proved.error();
         }

@@ -252,9 +252,11 @@ std::string change_text(const Judgement& judged) {
     const auto& change = judged.verdict.change;
     const auto& improved = judged.certificate.improved;
     if (!change || !improved) return "";
+    const auto& limits = improved->limits;
     return fmt::format("\nimproved: {}, conforming; the same regions, curves and corners, at most "
                        "{:.3g} away, both ways",
-                       counted(improved->triangles.size(), "triangle"), change->limit);
+                       counted(improved->triangles.size(), "triangle"),
+                       limits.empty() ? 0 : *std::ranges::max_element(limits));
 }
 
 /// Says that layers are in their order: "2 layers: shale, salt".
@@ -272,11 +274,27 @@ std::string layers_text(const Judgement& judged) {
                               counted(layered.triangles.size(), "triangle"), layered.deviation);
 }
 
+/// Says what was added to surfaces, with a line end before it; nothing if they were not changed.
+std::string sealed_text(const Certificate& certificate) {
+    if (!certificate.sealed) return "";
+    std::string text = "\nsealed or extended:";
+    std::size_t s = 0;
+    for (const CertifiedInput& input : certificate.inputs)
+        for (const CertifiedSurface& surface : input.surfaces) {
+            if (s == certificate.sealed->surfaces.size()) return text;
+            const SealedPart& part = certificate.sealed->surfaces[s++];
+            if (part.limit > 0)
+                text += fmt::format(" {} by at most {:.4g}", surface.name, part.limit);
+        }
+    return text;
+}
+
 /// Says what surfaces were cut by, with a line end before it; nothing if they were not.
 std::string cut_text(const Certificate& certificate) {
     if (!certificate.cut) return "";
     const VolumeClaim& volume = certificate.cut->volume;
-    std::string text = "\ncut by ";
+    if (volume.shape.empty()) return sealed_text(certificate);
+    std::string text = sealed_text(certificate) + "\ncut by ";
     if (volume.shape == "prism") {
         text += volume.corners.size() > 12
                     ? fmt::format("a polygon of {} corners", volume.corners.size())
@@ -295,9 +313,11 @@ std::string cut_text(const Certificate& certificate) {
         for (const CertifiedInput& input : std::span(certificate.inputs).last(volume.files))
             text += " " + input.name;
     }
-    return text + fmt::format(": all that is inside, and nothing else; {} of {} exact triangles "
-                              "are outside",
-                              certificate.cut->dropped.size(), certificate.exact.triangles.size());
+    return text +
+           fmt::format(": all that is inside, and nothing else; {} of {} exact triangles "
+                       "{}",
+                       certificate.cut->dropped.size(), certificate.exact.triangles.size(),
+                       certificate.sealed ? "are outside, trimmed or not needed" : "are outside");
 }
 
 /// Says what a valid certificate states.

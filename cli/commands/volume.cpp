@@ -7,6 +7,7 @@
 #include <terrane/cli/stages/block_certificate.hpp>
 #include <terrane/cli/stages/blocks.hpp>
 #include <terrane/cli/stages/certificate_output.hpp>
+#include <terrane/cli/stages/plausibility.hpp>
 #include <terrane/io/atomic/atomic_folder.hpp>
 
 namespace terrane::cli {
@@ -103,9 +104,10 @@ Result<ExitStatus> find_blocks(const VolumeCommand& command, Session& session) {
         if (!written) return written.error();
         print(summary_stream(files), "wrote " + command.folder + "\n");
         if (!command.certificate.empty()) {
-            const auto proved = write_certificate(
-                {command.certificate, files, inputs.value(), roles, arranged.value()},
-                model.value(), command.folder, command.part_format, session);
+            const auto proved =
+                write_certificate({command.certificate, files, inputs.value(), roles,
+                                   arranged.value(), cut_request(command.settings)},
+                                  model.value(), command.folder, command.part_format, session);
             if (!proved) return proved.error();
         }
         statistics["seconds"]["write"] = writing.lap();

@@ -209,15 +209,20 @@ Result<VolumeRecord> record_of(const VolumeOptions& options, const std::string& 
     } else if (!options.rotated_box.empty()) {
         record.shape = "hexahedron";
     } else {
-        record.shape = "surface";
-        for (const std::string& file : options.within) {
-            auto surfaces = read_surfaces(file);
-            if (!surfaces) return surfaces.error();
-            auto input = record_input(file, certified_name(file, path), surfaces->size());
-            if (!input) return input.error();
-            record.files.push_back(std::move(input).value());
-            std::ranges::move(surfaces.value(), std::back_inserter(record.surfaces));
-        }
+        return record_of(options.within, path);
+    }
+    return record;
+}
+
+Result<VolumeRecord> record_of(const std::vector<std::string>& files, const std::string& path) {
+    VolumeRecord record{"surface"};
+    for (const std::string& file : files) {
+        auto surfaces = read_surfaces(file);
+        if (!surfaces) return surfaces.error();
+        auto input = record_input(file, certified_name(file, path), surfaces->size());
+        if (!input) return input.error();
+        record.files.push_back(std::move(input).value());
+        std::ranges::move(surfaces.value(), std::back_inserter(record.surfaces));
     }
     return record;
 }

@@ -45,6 +45,8 @@ Result<std::vector<Surface>> boundary_of(const VolumeOptions& options, Session& 
 /// Returns the volume of interest as a certificate describes it; `path` is that of the certificate.
 /// Precondition: boundary_of() succeeded.
 Result<VolumeRecord> record_of(const VolumeOptions& options, const std::string& path);
+/// Does the same for the volume in closed surfaces of files.
+Result<VolumeRecord> record_of(const std::vector<std::string>& files, const std::string& path);
 
 /// Reports what the cut left of each surface, and where surfaces end inside.
 std::string text_of(const VolumeReport& report, const Inputs& inputs);

@@ -50,7 +50,8 @@ Result<std::vector<OutputRecord>> record(const std::string& certificate,
 /// Makes the text by make(certified).
 template <class Make>
 Result<std::string> make_text(const BlockProof& proof, const std::vector<WrittenFile>& files,
-                              const std::vector<SurfaceInfo>& surfaces, const Make& make) {
+                              const std::vector<SurfaceInfo>& surfaces, const Make& make,
+                              const Session& session) {
     const auto inputs = record_inputs(proof.path, proof.files.inputs, proof.inputs);
     if (!inputs) return inputs.error();
     const auto outputs = record(proof.path, files, surfaces);
@@ -58,8 +59,13 @@ Result<std::string> make_text(const BlockProof& proof, const std::vector<Written
     for (std::size_t s = 0; s < proof.roles.size(); ++s)
         proof.arranged.surfaces[s].role = proof.roles[s];
     const Arranged& arranged = proof.arranged;
-    return make(Certified{inputs.value(), arranged.surfaces, arranged.exact, &arranged.rounded,
-                          outputs.value()});
+    Certified certified{inputs.value(), arranged.surfaces, arranged.exact, &arranged.rounded,
+                        outputs.value()};
+    const auto sections =
+        sections_of(proof.cut, proof.path, proof.inputs, certified, arranged, session);
+    if (!sections) return sections.error();
+    if (sections.value()) certified.cut = &*sections.value();
+    return make(certified);
 }
 
 /// Makes the text by make() and writes it.
@@ -89,12 +95,7 @@ Status plan_certificate(const std::string& path, const FileOptions& files,
     if (std::ranges::count(files.inputs, "-") > 0)
         return Error{ErrorCode::bad_option, "a certificate is about files, not standard input",
                      "--certificate"};
-    if (settings.volume.wanted() || settings.seal > 0)
-        return Error{
-            ErrorCode::bad_option,
-            "there is no certificate of blocks of surfaces that were cut, sealed or extended",
-            "--certificate"};
-    for (const auto& names : {files.inputs, files.outputs})
+    for (const auto& names : {files.inputs, files.outputs, settings.volume.within})
         if (auto status = check_certified_names(path, names); !status) return status;
     return check_folder(path);
 }
@@ -112,7 +113,8 @@ Result<std::string> certificate_text(const BlockProof& proof, const Model& model
         proof, files_in(folder, model, part_format), model.mesh->surfaces,
         [&](const Certified& certified) {
             return to_certificate(certified, {model.volumes, model.block_count()}, session.run());
-        });
+        },
+        session);
 }
 
 Result<std::string> certificate_text(const BlockProof& proof, const Model& model,
@@ -121,10 +123,13 @@ Result<std::string> certificate_text(const BlockProof& proof, const Model& model
     std::vector<WrittenFile> files;
     for (const Output& output : outputs)
         files.push_back({output.path, certified_format(output.format, false)});
-    return make_text(proof, files, tetrahedra.surfaces, [&](const Certified& certified) {
-        return to_certificate(certified, {model.volumes, model.block_count()}, tetrahedra,
-                              session.run());
-    });
+    return make_text(
+        proof, files, tetrahedra.surfaces,
+        [&](const Certified& certified) {
+            return to_certificate(certified, {model.volumes, model.block_count()}, tetrahedra,
+                                  session.run());
+        },
+        session);
 }
 
 Status write_certificate(const BlockProof& proof, const Model& model,

@@ -4,10 +4,12 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <terrane/algorithms/model/model.hpp>
+#include <terrane/cli/stages/certificate_output.hpp>
 #include <terrane/cli/stages/pipeline.hpp>
 
 namespace terrane::cli {
@@ -24,6 +26,7 @@ struct BlockProof {
     const Inputs& inputs;
     std::vector<Role> roles; ///< of the surfaces as they are in the files; empty: as arranged
     Arranged& arranged;      ///< its surfaces get these roles
+    std::optional<CutRequest> cut{}; ///< none: nothing was cut, sealed or extended
 };
 
 /// Returns the roles of the surfaces.

@@ -2,6 +2,7 @@
 #include <terrane/cli/stages/certificate_output.hpp>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -50,6 +51,41 @@ Result<std::vector<OutputRecord>> record_outputs(const std::string& certificate,
 }
 
 } // namespace
+
+std::optional<CutRequest> cut_request(const ArrangeSettings& settings) {
+    const VolumeOptions& volume = settings.volume;
+    if (!volume.wanted() && settings.seal == 0) return std::nullopt;
+    CutRequest request{{}, settings.search};
+    if (volume.wanted())
+        request.volume = [&volume](const std::string& path) { return record_of(volume, path); };
+    return request;
+}
+
+Result<ChangeRecord> change_of(const CutRequest& request, const std::string& path,
+                               const Inputs& inputs, const Arranged& arranged) {
+    ChangeRecord change{std::nullopt, 0, arranged.growth};
+    if (!request.volume) return change;
+    auto volume = request.volume(path);
+    if (!volume) return volume.error();
+    change.volume = std::move(volume).value();
+    std::size_t own = 0;
+    for (const std::size_t count : inputs.surfaces_of_file) own += count;
+    change.boundary_count = arranged.surfaces.size() - own;
+    return change;
+}
+
+Result<std::optional<CutSections>> sections_of(const std::optional<CutRequest>& request,
+                                               const std::string& path, const Inputs& inputs,
+                                               const Certified& certified, const Arranged& arranged,
+                                               const Session& session) {
+    if (!request) return std::optional<CutSections>();
+    const auto change = change_of(*request, path, inputs, arranged);
+    if (!change) return change.error();
+    auto sections =
+        cut_sections(certified, change->record(), {.search = request->search}, session.run());
+    if (!sections) return sections.error();
+    return std::optional(std::move(sections).value());
+}
 
 Status check_certified_names(const std::string& certificate,
                              const std::vector<std::string>& files) {
@@ -159,13 +195,11 @@ Result<std::string> certificate_text(const std::string& path, const ProofFiles& 
     if (!outputs) return outputs.error();
     const Certified certified{records.value(), arranged.surfaces, arranged.exact, &arranged.rounded,
                               outputs.value()};
-    if (files.cut == nullptr) return to_certificate(certified, session.run());
-    const auto volume = record_of(files.cut->volume, path);
-    if (!volume) return volume.error();
-    std::size_t own = 0;
-    for (const std::size_t count : inputs.surfaces_of_file) own += count;
-    return to_cut_certificate(certified, volume.value(), arranged.surfaces.size() - own,
-                              {.search = files.cut->search}, session.run());
+    if (!files.cut) return to_certificate(certified, session.run());
+    const auto change = change_of(*files.cut, path, inputs, arranged);
+    if (!change) return change.error();
+    return to_cut_certificate(certified, change->record(), {.search = files.cut->search},
+                              session.run());
 }
 
 Status write_proof(const ProofOptions& options, const ProofFiles& files, const Inputs& inputs,
@@ -190,9 +224,13 @@ Status write_improved_certificate(const std::string& path, const ProofFiles& fil
     if (!records) return records.error();
     const auto outputs = record_outputs(path, files, improved.mesh);
     if (!outputs) return outputs.error();
-    const auto text = to_improved_certificate(
-        {records.value(), before.surfaces, before.exact, &before.rounded, outputs.value()},
-        improved.mesh, improved.report.bound_of, session.run());
+    Certified certified{records.value(), before.surfaces, before.exact, &before.rounded,
+                        outputs.value()};
+    const auto sections = sections_of(files.cut, path, inputs, certified, before, session);
+    if (!sections) return sections.error();
+    if (sections.value()) certified.cut = &*sections.value();
+    const auto text =
+        to_improved_certificate(certified, improved.mesh, improved.report.bound_of, session.run());
     auto status = write(path, text, files.told, session);
     if (status)
         warn_of_deviation(path, stated_deviation(before.exact, before.rounded), before.surfaces);

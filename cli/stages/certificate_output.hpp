@@ -4,6 +4,8 @@
 #pragma once
 
 #include <cstdio>
+#include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -60,13 +62,46 @@ Result<std::vector<InputRecord>> record_inputs(const std::string& certificate,
 /// Returns the name of the format of an output in a certificate; `ascii` is for STL.
 std::string certified_format(Format format, bool ascii);
 
+/// What surfaces were cut, sealed or extended by.
+struct CutRequest {
+    /// Returns the volume of interest for a certificate with this path; empty: there is none.
+    std::function<Result<VolumeRecord>(const std::string& path)> volume{};
+    Search search = Search::automatic; ///< for arranging again what was left out
+};
+
+/// Returns what the settings ask for, which must outlive the result; none: surfaces stay as they
+/// are.
+std::optional<CutRequest> cut_request(const ArrangeSettings& settings);
+
+/// What was changed, for a certificate.
+struct ChangeRecord {
+    std::optional<VolumeRecord> volume{};
+    std::size_t boundary_count = 0;
+    std::span<const SurfaceGrowth> growth{};
+
+    [[nodiscard]] CutRecord record() const {
+        return {volume ? &*volume : nullptr, boundary_count, growth};
+    }
+};
+
+/// Finds out what was changed. The result refers to `arranged`. Errors: those of reading files.
+Result<ChangeRecord> change_of(const CutRequest& request, const std::string& path,
+                               const Inputs& inputs, const Arranged& arranged);
+
+/// Makes the sections of a certificate about what was changed; none without a request.
+Result<std::optional<CutSections>> sections_of(const std::optional<CutRequest>& request,
+                                               const std::string& path, const Inputs& inputs,
+                                               const Certified& certified, const Arranged& arranged,
+                                               const Session& session);
+
 /// The files that a certificate is about.
 struct ProofFiles {
     std::vector<std::string> inputs;
-    std::vector<Output> outputs;          ///< those that were written
-    bool ascii = false;                   ///< STL was written as text
-    std::FILE* told = stdout;             ///< where people are told what is written
-    const ArrangeSettings* cut = nullptr; ///< with the volume of interest; nullptr: there is none
+    std::vector<Output> outputs; ///< those that were written
+    bool ascii = false;          ///< STL was written as text
+    std::FILE* told = stdout;    ///< where people are told what is written
+    std::optional<CutRequest>
+        cut{}; ///< what surfaces were cut, sealed or extended by; none: nothing
 };
 
 /// Makes the certificate of a result whose inputs are exactly these files, to be written to `path`.

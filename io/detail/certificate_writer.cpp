@@ -79,6 +79,13 @@ void write_head(CertificateWriter& out, std::string_view kind, const Certificate
     write_outputs(out, head.outputs);
 }
 
+void write_head(CertificateWriter& out, std::string_view kind, const Certified& certified) {
+    if (certified.cut == nullptr)
+        write_head(out, kind, {certified.files, certified.surfaces, certified.outputs});
+    else
+        write_head(out, kind, {certified.cut->files, certified.cut->surfaces, certified.outputs});
+}
+
 void write_points(CertificateWriter& out, std::span<const Point3> points) {
     const auto point = [&](const Point3& p) {
         out.array(std::array{p.x, p.y, p.z}, [&](double c) { out.quote(c); });

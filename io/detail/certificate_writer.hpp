@@ -81,7 +81,11 @@ struct CertificateHead {
 /// Writes the keys "format" to "outputs" and leaves the object open.
 void write_head(CertificateWriter& out, std::string_view kind, const CertificateHead& head);
 
-/// Writes the keys "exact", "rounded" and "digest" after other keys.
+/// Does the same for a certificate of an arrangement, or of one of which a part was left out.
+void write_head(CertificateWriter& out, std::string_view kind, const Certified& certified);
+
+/// Writes the keys "exact", "rounded" and "digest" after other keys, and those of
+/// Certified::cut.
 void write_arrangement(CertificateWriter& out, const Certified& certified, const Run& run);
 
 /// Writes points as lists of three numbers in quotes.

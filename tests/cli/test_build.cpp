@@ -245,9 +245,9 @@ TEST_CASE("cli: build: what is wrong is named by its key, and nothing is written
     refused(json, "missing.obj");
     json = boxed_project();
     json["outputs"]["certificate"] = true;
-    refused(json, "outputs.certificate: must be false with fill, layers, volume_of_interest, seal");
-    json.erase("volume_of_interest");
     refused(json, "in/p.json: surfaces[0].objects: a certificate is about whole files");
+    json["improve"]["edge_length"] = 0.5;
+    refused(json, "outputs.certificate: must be false with fill, layers, improve or depth");
     refused(boxed_project(), "not empty", 2, "-o in");
     CHECK(c.folder.run("build in/nothing.json -o out").status == 2);
 }

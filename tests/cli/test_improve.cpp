@@ -55,10 +55,6 @@ TEST_CASE("cli: improve writes a certificate that verify takes", "[cli]") {
     CHECK(verdict.at("change") == 0.02);
     CHECK(folder.run("verify c.json --max-change 0.01").status == 1);
     CHECK(folder.run("verify c.json --output in/two.obj").status == 1);
-    const Outcome cut = folder.run("improve in/two.obj -o no.obj --certificate no.json "
-                                   "--box -9,-9,-9,9,9,9");
-    CHECK(cut.status == 2);
-    CHECK(contains(cut.err, "--certificate"));
 }
 
 TEST_CASE("cli: improve refuses what makes no sense, and writes nothing", "[cli]") {

@@ -96,12 +96,50 @@ TEST_CASE("cli: --seal and --extend refuse what makes no sense", "[cli]") {
     const Folder folder;
     const auto in = folder.input("model.obj", gapped_model);
     for (const std::string options :
-         {"--seal -1", "--seal nan", "--seal x", "--extend 1", "--extend -1 --box 0,0,0,8,8,8",
-          "--seal 0.1 --certificate c.json"}) {
+         {"--seal -1", "--seal nan", "--seal x", "--extend 1", "--extend -1 --box 0,0,0,8,8,8"}) {
         const auto r = folder.run("arrange " + in + " -o a.obj " + options);
         INFO(options << "\n" << r.err);
         CHECK(r.status == 2);
         CHECK_FALSE(r.err.empty());
     }
     CHECK(folder.left().empty());
+}
+
+TEST_CASE("cli: certificates of sealed, extended and cut surfaces that verify takes", "[cli]") {
+    const Folder folder;
+    const auto in = folder.input("model.obj", model);
+    for (const std::string options : {std::string(" --seal 0.2"), " --seal 0.2" + box,
+                                      " --extend 5" + box, " --seal 0.2 --extend 5" + box, box}) {
+        for (const std::string command :
+             {"arrange " + in + " -o out.obj -o out.vtp",
+              "improve " + in + " -o out.obj -o out.vtp --edge-length 2 --max-deviation 0.02",
+              "volume " + in + " -o out"}) {
+            INFO(command << options);
+            const auto made = folder.run(command + " --certificate c.json" + options);
+            INFO(made.err);
+            REQUIRE(made.status == 0);
+            const auto valid = folder.run("verify c.json --max-change 5");
+            INFO(valid.out << valid.err);
+            CHECK(valid.status == 0);
+            const bool is_sealed = contains(options, "--seal") || contains(options, "--extend");
+            CHECK(contains(valid.out, "sealed or extended: horizon by at most ") == is_sealed);
+            CHECK(contains(valid.out, "cut by the polygon") == contains(options, "--box"));
+            if (is_sealed) CHECK(folder.run("verify c.json --max-change 0.05").status == 1);
+            REQUIRE(folder.shell("rm -r out* c.json").status == 0);
+        }
+    }
+}
+
+TEST_CASE("cli: certificates of tetrahedra in a sealed volume that verify takes", "[cli]") {
+    const Folder folder;
+    const auto in = folder.input("model.obj", model);
+    const auto made =
+        folder.run("tetrahedralize " + in + " -o m.vtu --certificate c.json --seal 0.2" + box);
+    INFO(made.err);
+    if (contains(made.err, "terrane-tetgen")) return; // TetGen was not built
+    REQUIRE(made.status == 0);
+    const auto valid = folder.run("verify c.json");
+    INFO(valid.out << valid.err);
+    CHECK(valid.status == 0);
+    CHECK(contains(valid.out, "m.vtu: holds these tetrahedra, bit for bit\n"));
 }

@@ -138,16 +138,6 @@ TEST_CASE("cli: arrange in a volume of interest writes a certificate that verify
         CHECK(contains(valid.out, named));
         CHECK(contains(valid.out, "out.vtp: holds these triangles, bit for bit"));
     }
-    const std::string box = " --box 0,0,0,8,8,8 --certificate no.json";
-    for (const std::string& refused :
-         {"arrange " + in + " -o no.obj --seal 0.1" + box,
-          "arrange " + in + " -o no.obj --extend 0.1" + box, "improve " + in + " -o no.obj" + box,
-          "volume " + in + " -o no" + box, "tetrahedralize " + in + " -o no.vtu" + box}) {
-        const Outcome r = folder.run(refused);
-        INFO(refused << r.err);
-        CHECK(r.status == 2);
-        CHECK(contains(r.err, "there is no certificate of "));
-    }
 }
 
 TEST_CASE("cli: volumes of interest that are none are refused by name", "[cli]") {

@@ -64,8 +64,7 @@ std::vector<json> samples() {
         all.back()["volume_of_interest"] = json::parse(volume);
     }
     all.push_back(full());
-    all.back().erase("volume_of_interest");
-    for (const char* key : {"extend", "seal", "improve", "fill", "layers"}) all.back().erase(key);
+    for (const char* key : {"improve", "fill", "layers"}) all.back().erase(key);
     all.back()["outputs"]["certificate"] = true;
     all.back()["surfaces"][1]["depth"] = false;
     all.push_back(json::parse(R"({"format": "terrane-project 1", "surfaces": [{"file": "a"}],

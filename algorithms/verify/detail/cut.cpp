@@ -223,19 +223,8 @@ private:
     BoxTree tree_;
 };
 
-/// Returns the triangles at each edge.
-std::map<Edge, Numbers> triangles_at_edges(const std::vector<Triangle>& triangles) {
-    std::map<Edge, Numbers> result;
-    for (std::uint32_t t = 0; t < triangles.size(); ++t)
-        for (std::size_t i = 0; i < 3; ++i) {
-            const std::uint32_t a = triangles[t][i], b = triangles[t][(i + 1) % 3];
-            result[{std::min(a, b), std::max(a, b)}].push_back(t);
-        }
-    return result;
-}
-
 /// Returns, for each triangle, whether it is inside or on the boundary.
-std::vector<bool> find_inside(const Located& located, const std::map<Edge, Numbers>& at_edge) {
+std::vector<bool> find_inside(const Located& located, const EdgeTriangles& at_edge) {
     const auto& triangles = located.mesh.triangles;
     JoinedSets sets(triangles.size());
     for (const auto& [edge, list] : at_edge)
@@ -267,20 +256,42 @@ void check_volume(const VolumeClaim& volume, std::span<const Surface> files, Vio
         found.push_back({Rule::R50_volume, {}, std::move(flaw)});
 }
 
-void check_dropped(std::span<const Surface> surfaces, std::size_t boundary_count,
-                   const ArrangementClaim& exact, const Numbers& dropped, Violations& found) {
+ExactMesh exact_mesh_of(std::span<const Surface> surfaces, const ArrangementClaim& exact) {
+    Violations found;
     const Inputs inputs = join_inputs(surfaces, found);
-    auto [input_points, scale] = scale_to_integers(inputs.vertices);
+    const auto [input_points, scale] = scale_to_integers(inputs.vertices);
     std::vector<Vector4> points;
     for (const Construction& how : exact.vertices)
         points.push_back(construct(how, input_points).value());
-    const auto mesh = make_exact_mesh(std::move(points), scale, exact.triangles);
-    const auto inside =
+    return make_exact_mesh(std::move(points), scale, exact.triangles);
+}
+
+EdgeTriangles triangles_at_edges(const std::vector<Triangle>& triangles) {
+    EdgeTriangles result;
+    for (std::uint32_t t = 0; t < triangles.size(); ++t)
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::uint32_t a = triangles[t][i], b = triangles[t][(i + 1) % 3];
+            result[{std::min(a, b), std::max(a, b)}].push_back(t);
+        }
+    return result;
+}
+
+std::vector<bool> find_outside(std::span<const Surface> surfaces, std::size_t boundary_count,
+                               const ArrangementClaim& exact) {
+    if (boundary_count == 0) return std::vector<bool>(exact.triangles.size(), false);
+    const auto mesh = exact_mesh_of(surfaces, exact);
+    auto outside =
         find_inside(located(mesh, exact.parents_of, first_triangle(surfaces, boundary_count)),
                     triangles_at_edges(exact.triangles));
-    for (std::uint32_t t = 0; t < inside.size(); ++t) {
+    outside.flip();
+    return outside;
+}
+
+void check_dropped(const std::vector<bool>& outside, const Numbers& dropped, bool inside_too,
+                   Violations& found) {
+    for (std::uint32_t t = 0; t < outside.size(); ++t) {
         const bool is_dropped = std::ranges::binary_search(dropped, t);
-        if (is_dropped != inside[t]) continue;
+        if (is_dropped == outside[t] || (is_dropped && inside_too)) continue;
         found.push_back({Rule::R51_dropped,
                          {t},
                          "exact triangle " + text(t) +

@@ -3,10 +3,12 @@
 // Rules R50 to R52 of the verifier: an arrangement of which a volume of interest was cut out.
 #pragma once
 
+#include <map>
 #include <span>
 #include <vector>
 
 #include <terrane/algorithms/mesh/surface.hpp>
+#include <terrane/algorithms/verify/detail/contacts.hpp>
 #include <terrane/algorithms/verify/detail/inputs.hpp>
 #include <terrane/algorithms/verify/verify_certificate.hpp>
 
@@ -26,13 +28,25 @@ namespace terrane::verifier {
 ///     triangles at each edge.
 void check_volume(const VolumeClaim& volume, std::span<const Surface> files, Violations& found);
 
-/// Checks that exactly those exact triangles are dropped that are outside of the volume (R51).
-/// `surfaces` are the inputs and the boundary, of which there are `boundary_count` surfaces.
-/// A triangle without a parent in the boundary is inside iff a ray from a point in it meets triangles of the
-/// boundary an odd number of times. Triangles that have an edge in common at which there is no
-/// triangle of the boundary are on the same side. Precondition: R1 to R8 hold.
-void check_dropped(std::span<const Surface> surfaces, std::size_t boundary_count,
-                   const ArrangementClaim& exact, const Numbers& dropped, Violations& found);
+/// Returns the exact part of a claim as a mesh. `surfaces` are all that it is about. Precondition:
+/// R1 and R2 hold.
+ExactMesh exact_mesh_of(std::span<const Surface> surfaces, const ArrangementClaim& exact);
+
+/// The triangles at each edge, by its vertices, the lower first.
+using EdgeTriangles = std::map<Edge, Numbers>;
+EdgeTriangles triangles_at_edges(const std::vector<Triangle>& triangles);
+
+/// Tells which exact triangles are outside of a volume. `surfaces` are the inputs and the boundary,
+/// of which there are `boundary_count` surfaces; none: nothing is outside. A triangle without a
+/// parent in the boundary is inside iff a ray from a point in it meets triangles of the boundary an
+/// odd number of times. Triangles that have an edge in common at which there is no triangle of the
+/// boundary are on the same side. Precondition: R1 to R8 hold.
+std::vector<bool> find_outside(std::span<const Surface> surfaces, std::size_t boundary_count,
+                               const ArrangementClaim& exact);
+
+/// Checks that all exact triangles outside are dropped, and others only if `inside_too` (R51).
+void check_dropped(const std::vector<bool>& outside, const Numbers& dropped, bool inside_too,
+                   Violations& found);
 
 /// Checks that no triangle of the mesh of doubles is outside of the boundary in doubles (R52).
 /// Precondition: R10 and R11 hold.

@@ -16,6 +16,7 @@ namespace {
 
 void parse_improved(const Node& node, Certificate& certificate) {
     parse_arrangement_sections(node, certificate);
+    parse_cut_sections(node, certificate);
     const Node claim = node["improved"];
     claim.expect_keys(
         {"vertices", "triangles", "surfaces", "regions", "intersection_edges", "limits"});
@@ -30,21 +31,24 @@ void parse_improved(const Node& node, Certificate& certificate) {
 
 void judge_improved(std::span<const Surface> surfaces, const Certificate& certificate,
                     const VerifyOptions& options, Verdict& verdict) {
-    judge_arrangement(surfaces, certificate, options, verdict);
+    judge_surfaces(surfaces, certificate, options, verdict);
     Violations& found = verdict.violations;
+    if (!found.empty()) return;
     if (!certificate.rounded || !certificate.rounded->clean)
         found.push_back(
             {Rule::R23_improved_conforming, {}, "there is no conforming mesh that was improved"});
-    const double accepted = options.max_change.value_or(default_max_change(surfaces));
-    check_improved_numbers(*certificate.improved, surfaces.size(), accepted, found);
+    const double accepted = accepted_change(surfaces, certificate, options);
+    check_improved_numbers(*certificate.improved, surfaces_of_mesh(certificate).size(), accepted,
+                           found);
     if (!found.empty()) return;
     const RoundedClaim& rounded = *certificate.rounded;
     const auto surfaces_of = surfaces_of_parents(certificate, rounded.parents_of);
     check_improved({rounded.vertices, rounded.triangles, surfaces_of, rounded.regions_of,
                     rounded.intersection_edges},
                    *certificate.improved, found);
-    const auto& limits = certificate.improved->limits;
-    verdict.change = SurfaceChange{limits.empty() ? 0 : std::ranges::max(limits), accepted};
+    double largest = verdict.change ? verdict.change->limit : 0;
+    for (const double limit : certificate.improved->limits) largest = std::max(largest, limit);
+    verdict.change = SurfaceChange{largest, accepted};
 }
 
 std::optional<WrittenMesh> written_improved(const Certificate& certificate) {
@@ -60,7 +64,7 @@ const Kind& improved_kind() {
     static constexpr std::array<std::string_view, 4> keys{"exact", "rounded", "digest", "improved"};
     static constexpr Kind kind{
         CertificateKind::improved, "improved", keys, parse_improved, judge_improved,
-        written_improved};
+        written_improved,          nullptr,    true};
     return kind;
 }
 

@@ -16,7 +16,7 @@ namespace {
 const auto& all_kinds() {
     static const std::array kinds{&arrangement_kind(), &volumes_kind(), &tetrahedra_kind(),
                                   &improved_kind(),    &filled_kind(),  &layered_kind(),
-                                  &cut_kind()};
+                                  &cut_kind(),         &sealed_kind()};
     return kinds;
 }
 
@@ -66,6 +66,13 @@ std::vector<CertifiedSurface> surfaces_of_mesh(const Certificate& certificate) {
         certificate.inputs.size() - (certificate.cut ? certificate.cut->volume.files : 0);
     for (const CertifiedInput& input : std::span(certificate.inputs).first(files))
         all.insert(all.end(), input.surfaces.begin(), input.surfaces.end());
+    if (certificate.sealed)
+        for (std::size_t s = 0; s < all.size(); ++s) {
+            const SealedPart& part = certificate.sealed->surfaces.at(s);
+            const std::size_t added = part.extended.size() + part.sealed.size();
+            all[s].vertices += 3 * added;
+            all[s].triangles += added;
+        }
     if (certificate.cut)
         for (const Surface& s : certificate.cut->volume.boundary)
             all.push_back({s.name, s.role, s.vertices.size(), s.triangles.size()});

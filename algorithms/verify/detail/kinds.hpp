@@ -50,6 +50,8 @@ struct Kind {
     std::string (*compare)(std::string_view contents, const Certificate& certificate,
                            const CertifiedOutput& output, std::any& computed,
                            OutputVerdict& verdict) = nullptr;
+    /// It can have the keys "cut" and "sealed", too, which parse() and judge() look for.
+    bool can_be_cut = false;
 };
 
 /// Returns the kind with this name; nullptr if there is none.
@@ -64,15 +66,32 @@ const Kind& improved_kind();
 const Kind& filled_kind();
 const Kind& layered_kind();
 const Kind& cut_kind();
+const Kind& sealed_kind();
 
 // --- For kinds that contain an arrangement ------------------------------------------------------
 
 /// Reads "exact", "rounded" and "digest".
 void parse_arrangement_sections(const Node& node, Certificate& certificate);
-/// Judges these sections (R1 to R8, R10 to R20).
+/// Reads "cut" and "sealed", as far as they are there.
+void parse_cut_sections(const Node& node, Certificate& certificate);
+/// Judges all these sections: judge_arrangement() where nothing was cut or sealed, else the rules
+/// for that, too (R26, R50 to R57).
+void judge_surfaces(std::span<const Surface> files, const Certificate& certificate,
+                    const VerifyOptions& options, Verdict& verdict);
+/// Returns the exact part without what was left out.
+ArrangementClaim kept_part(const Certificate& certificate);
+/// Returns the largest limit of a change that is accepted.
+double accepted_change(std::span<const Surface> files, const Certificate& certificate,
+                       const VerifyOptions& options);
+/// Judges "exact", "rounded" and "digest" (R1 to R8, R10 to R20).
 void judge_arrangement(std::span<const Surface> surfaces, const Certificate& certificate,
                        const VerifyOptions& options, Verdict& verdict);
 std::optional<WrittenMesh> rounded_mesh(const Certificate& certificate);
+
+/// Returns the surfaces that the exact part is about: those of the files, with what was added to
+/// them, then the boundary of a volume of interest. Precondition: R53 holds.
+std::vector<Surface> surfaces_of_exact(std::span<const Surface> files,
+                                       const Certificate& certificate);
 
 /// Returns the largest limit of a change that is accepted where none is given; VerifyOptions defines
 /// it.

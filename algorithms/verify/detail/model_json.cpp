@@ -293,13 +293,18 @@ private:
         follower.expect(",\"gaps\":[").rest("]}");
     }
 
-    /// Passes the leaks, which are not compared, and are the last key.
+    /// Passes the leaks, and the gaps that were sealed, if there is such a list. They are the last
+    /// keys, and not compared.
     void leaks() {
         std::string_view line = in_.next();
-        if (line == "\"leaks\": []") return;
-        if (line != "\"leaks\": [") in_.fail("the leaks are needed");
-        for (line = in_.next(); line != "]"; line = in_.next())
-            Follower(line, in_).expect("{\"from\":").rest("}");
+        if (line == "\"leaks\": [") {
+            for (line = in_.next(); line != "]" && line != "],"; line = in_.next())
+                Follower(line, in_).expect("{\"from\":").rest("}");
+        } else if (line != "\"leaks\": []" && line != "\"leaks\": [],") {
+            in_.fail("the leaks are needed");
+        }
+        if (line.ends_with(","))
+            Follower(in_.next(), in_).expect("\"seal\": {\"distance\":").rest("]}");
     }
 
     [[nodiscard]] std::string file(const std::string& start, std::uint32_t number) const {

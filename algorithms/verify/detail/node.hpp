@@ -37,6 +37,10 @@ public:
     }
     [[nodiscard]] bool is_null() const { return kind() == JsonKind::null; }
 
+    /// Tells whether the value is an object with this key.
+    [[nodiscard]] bool has(std::string_view key) const {
+        return kind() == JsonKind::object && json_.find(value_, key).has_value();
+    }
     /// Checks that the value is an object with this key.
     void expect_key(std::string_view key) const {
         if (kind() != JsonKind::object) fail("an object is needed");

@@ -68,6 +68,9 @@ void expect_string(const Node& node, std::string_view text, const std::string& o
 void expect_keys(const Node& node, const Kind& kind) {
     std::vector<std::string_view> keys{"format", "version", "kind", "inputs", "outputs"};
     keys.insert(keys.end(), kind.keys.begin(), kind.keys.end());
+    if (kind.can_be_cut)
+        for (const std::string_view key : {"cut", "sealed"})
+            if (node.has(key)) keys.push_back(key);
     node.expect_keys(keys);
 }
 

@@ -9,6 +9,7 @@
 
 #include <terrane/algorithms/verify/detail/block_outputs.hpp>
 #include <terrane/algorithms/verify/detail/check_blocks.hpp>
+#include <terrane/algorithms/verify/detail/cut.hpp>
 #include <terrane/algorithms/verify/detail/indices.hpp>
 #include <terrane/algorithms/verify/detail/kinds.hpp>
 #include <terrane/algorithms/verify/detail/tetrahedra.hpp>
@@ -47,6 +48,7 @@ TetrahedraClaim tetrahedra(const Node& node) {
 
 void parse_volumes(const Node& node, Certificate& certificate) {
     parse_arrangement_sections(node, certificate);
+    parse_cut_sections(node, certificate);
     certificate.blocks = blocks(node["blocks"]);
 }
 
@@ -57,16 +59,6 @@ void parse_tetrahedra(const Node& node, Certificate& certificate) {
 
 // --- Judging ------------------------------------------------------------------------------------
 
-ExactMesh exact_mesh(std::span<const Surface> surfaces, const ArrangementClaim& claim,
-                     Violations& found) {
-    const Inputs inputs = join_inputs(surfaces, found);
-    const auto [points, scale] = scale_to_integers(inputs.vertices);
-    std::vector<Vector4> constructed;
-    for (const Construction& how : claim.vertices)
-        constructed.push_back(construct(how, points).value_or(Vector4{0, 0, 0, 1}));
-    return make_exact_mesh(std::move(constructed), scale, claim.triangles);
-}
-
 ExactMesh mesh_of_doubles(const RoundedClaim& claim) {
     auto [points, scale] = scale_to_integers(claim.vertices);
     return make_exact_mesh(std::move(points), scale, claim.triangles);
@@ -76,15 +68,16 @@ ExactMesh mesh_of_doubles(const RoundedClaim& claim) {
 std::optional<NumberedBlocks> judge_blocks(std::span<const Surface> surfaces,
                                            const Certificate& certificate,
                                            const VerifyOptions& options, Verdict& verdict) {
-    judge_arrangement(surfaces, certificate, options, verdict);
+    judge_surfaces(surfaces, certificate, options, verdict);
     if (!verdict.violations.empty()) return std::nullopt;
     if (!certificate.rounded || !certificate.rounded->clean) {
         verdict.violations.push_back(
             {Rule::R30_block_lists, {}, "blocks need a conforming mesh of doubles"});
         return std::nullopt;
     }
-    auto truth = number_blocks(exact_mesh(surfaces, certificate.exact, verdict.violations),
-                               mesh_of_doubles(*certificate.rounded));
+    auto truth = number_blocks(
+        exact_mesh_of(surfaces_of_exact(surfaces, certificate), kept_part(certificate)),
+        mesh_of_doubles(*certificate.rounded));
     check_blocks(truth, certificate.blocks.value(), verdict.violations);
     verdict.blocks = MeasuredBlocks{truth.filled};
     return truth;
@@ -115,7 +108,7 @@ const Kind& volumes_kind() {
     static constexpr std::array<std::string_view, 4> keys{"exact", "rounded", "blocks", "digest"};
     static constexpr Kind kind{
         CertificateKind::volumes, "volumes", keys, parse_volumes, judge_volumes, rounded_mesh,
-        compare_block_file};
+        compare_block_file,       true};
     return kind;
 }
 
@@ -128,7 +121,8 @@ const Kind& tetrahedra_kind() {
                                parse_tetrahedra,
                                judge_tetrahedra,
                                rounded_mesh,
-                               compare_tetrahedra_file};
+                               compare_tetrahedra_file,
+                               true};
     return kind;
 }
 

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Rules R26 and R53 to R57 of the verifier: surfaces that were sealed or extended. The exact part
+// is the arrangement of all surfaces with the triangles that were added to them. Of these, and of
+// the given ones, some exact triangles were left out.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <terrane/algorithms/mesh/surface.hpp>
+#include <terrane/algorithms/verify/detail/inputs.hpp>
+#include <terrane/algorithms/verify/verify_certificate.hpp>
+
+namespace terrane::verifier {
+
+/// Checks that there is one part per surface, with finite numbers (R53), and that no limit is above
+/// the largest that is accepted (R26).
+void check_sealed_lists(const SealedClaim& sealed, std::size_t surfaces, double accepted,
+                        Violations& found);
+
+/// Returns the surfaces of the files with what was added to them: first the extended triangles,
+/// then those that seal, each with three vertices. Precondition: R53 holds.
+std::vector<Surface> grown_surfaces(std::span<const Surface> files, const SealedClaim& sealed);
+
+/// What the rules about the exact part need.
+struct SealedParts {
+    std::span<const Surface> surfaces; ///< grown, then the boundary of a volume
+    std::span<const Surface> files;    ///< as given, without the boundary
+    const SealedClaim& sealed;
+    const ArrangementClaim& exact;
+    const Numbers& dropped;           ///< exact triangles
+    const std::vector<bool>& outside; ///< per exact triangle: outside of the volume of interest
+};
+
+/// Checks the exact part. Call a triangle given for a surface if a given triangle of this contains
+/// it, and added if only added triangles contain it. What was dropped inside is trimmed, where it
+/// is given.
+/// (1) R26: each kept triangle that lies in a surface without being given for it is within the
+///     limit of the given triangles of this surface; each trimmed triangle is within it of what is
+///     given and not trimmed. So the surface as it was and as it is are nowhere farther apart.
+/// (2) R54: kept added triangles are connected, over edges and within their surface, to an edge
+///     that has exactly one given triangle of it, which is not trimmed: to its border. A way may
+///     lead through what is outside of the volume.
+/// (3) R55: an edge at which only an added triangle was kept lies on a lateral side of an added
+///     triangle: from a vertex of the border on which it was built to one that is none. Added
+///     triangles that are connected meet another surface, or their own where it does not end.
+/// (4) R56: no edge divides a trimmed triangle from one that was kept unless other triangles are
+///     there, of the given ones and the kept added ones. No edge has a single one of these left if
+///     it had more. Each connected part that was trimmed is beside a part of its surface that was
+///     not.
+/// Precondition: R1 to R8, R51 and R53 hold.
+void check_sealed(const SealedParts& parts, Violations& found);
+
+/// Checks that doubles with other triangles than those of the exact part lie only where something
+/// was kept (R57): the triangles that name an input triangle have at most the area of what was kept
+/// of it, up to the deviation times the lengths of all edges. Where the triangles are those of the
+/// exact part nothing is to be shown. `kept` is the exact part without what was dropped.
+void check_only_kept(std::span<const Surface> surfaces, const ArrangementClaim& kept,
+                     const RoundedClaim& rounded, const std::vector<bool>& is_cut,
+                     Violations& found);
+
+} // namespace terrane::verifier

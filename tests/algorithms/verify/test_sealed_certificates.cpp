@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Certificates of surfaces that were sealed or extended: the verifier accepts what the producer
+// writes, and refutes what a forger adds to surfaces or leaves out of them.
+#include "support/paths.hpp"
+#include "support/sealed_certificates.hpp"
+
+namespace {
+
+using namespace forged;
+
+// --- Forgers who arrange by themselves -----------------------------------------------------------
+
+/// Triangles between the border of the short sheet, moved by `from` along x, and x = `to`.
+std::vector<Corners> strip(double from, double to) {
+    std::vector<Corners> triangles;
+    const Surface sheet = input_files(gaping())[0].surfaces[0];
+    for (std::size_t j = 0; j < 5; ++j) {
+        Point3 a = sheet.vertices[36 + j], b = sheet.vertices[37 + j];
+        a.x += from;
+        b.x += from;
+        const Point3 c{to, a.y, a.z}, d{to, b.y, b.z};
+        triangles.push_back({b, a, c});
+        triangles.push_back({b, c, d});
+    }
+    return triangles;
+}
+
+bool is_right_of_fault(const Corners& corners) {
+    return std::ranges::all_of(corners, [](const Point3& p) { return p.x > 5 - 1e-9; }) &&
+           std::ranges::any_of(corners, [](const Point3& p) { return p.x > 5 + 1e-9; });
+}
+
+bool keep_left(const Corners& corners, const std::set<std::uint32_t>&) {
+    return !is_right_of_fault(corners);
+}
+
+std::string judged_widely(const Subject& s) {
+    VerifyOptions options;
+    options.max_change = 100;
+    return judged(s, options);
+}
+
+bool has_rule(const std::string& rules, const std::string& rule) {
+    return (" " + rules + " ").find(" " + rule + " ") != std::string::npos;
+}
+
+} // namespace
+
+TEST_CASE("sealed certificates: accepted", "[sealing]") {
+    CHECK(judged(right_sealed()) == "");
+    CHECK(right_sealed().certificate["kind"] == "sealed");
+    CHECK(judged(right_extended()) == "");
+    CHECK(judged(sealed_subject(gaping(), {std::nullopt, 0.3, 0},
+                                {"obj", "off", "ply", "vtp", "ts", "stl"})) == "");
+    CHECK(judged(sealed_subject(gaping(), {gaping_box(), 0, 2.5})) == "");
+    CHECK(judged(sealed_subject(gaping(), {gaping_box(), 0.3, 0})) == "");
+    // Nothing to seal.
+    const Subject idle = sealed_subject(crossing(), {std::nullopt, 1e-9, 0});
+    CHECK(judged(idle) == "");
+    for (const Json& part : idle.certificate["sealed"]) CHECK(part["limit"] == "0");
+}
+
+TEST_CASE("sealed certificates: what was changed", "[sealing]") {
+    const Json& c = right_sealed().certificate;
+    CHECK_FALSE(c["sealed"][0]["sealed"].empty());
+    CHECK(c["sealed"][1]["sealed"].empty());
+    CHECK(number_in(c["sealed"][0]["limit"]) == Approx(0.1).epsilon(0.15));
+    CHECK(number_in(c["sealed"][1]["limit"]) == Approx(0.15).epsilon(0.15));
+    CHECK(number_in(c["sealed"][2]["limit"]) == 0);
+    CHECK_FALSE(right_extended().certificate["sealed"][0]["extended"].empty());
+    const auto parsed = parse_certificate(c.dump(), "c");
+    REQUIRE(parsed);
+    const auto verdict = verify_certificate(right_sealed().inputs, parsed.value());
+    REQUIRE(verdict.change);
+    CHECK(verdict.change->limit == Approx(0.15).epsilon(0.15));
+}
+
+TEST_CASE("sealed certificates: other triangles than those of the exact part", "[sealing]") {
+    CHECK(judged(with_diagonal(right_sealed())) == "");
+    CHECK(judged(with_diagonal(right_extended())) == "");
+}
+
+TEST_CASE("sealed certificates: accepted for real surfaces", "[sealing]") {
+    const std::string data = test_support::source_dir() + "/docs/data/";
+    std::vector<File> files;
+    for (const std::string name : {"top", "base", "fault"})
+        files.push_back({name + ".obj", as_obj(data + name + ".ts")});
+    const Volume box = box_volume({0, 0, -1700}, {2000, 1500, -700});
+    const Subject all = sealed_subject(files, {box, 20, 60});
+    CHECK(judged(all) == "");
+    CHECK(number_in(all.certificate["sealed"][0]["limit"]) > 0);
+    CHECK(judged(sealed_subject(files, {std::nullopt, 20, 0})) == "");
+}
+
+TEST_CASE("sealed certificates: accepted for models", "[sealing]") {
+    struct Model {
+        std::string file;
+        double seal;
+    };
+    for (const auto& [name, distance] : std::vector<Model>{{"ringmesh/modelA1.ml", 30},
+                                                           {"ringmesh/split_cube.ml", 0.5},
+                                                           {"manifold/Havocglass8_left.obj", 0.1},
+                                                           {"manifold/Cray_left.obj", 0.1}}) {
+        INFO(name);
+        const File file{"model.obj", as_obj(test_support::test_data() + "/" + name)};
+        CHECK(judged(sealed_subject({file}, {std::nullopt, distance, 0})) == "");
+    }
+}
+
+TEST_CASE("sealed certificates: a hole must stay open", "[sealing]") {
+    const std::vector<File> files{
+        {"plate.obj", "v 0 0 0\nv 9 0 1\nv 0 9 2\ng plate\nf 1 2 3\n"},
+        {"tube.obj", "v 1 1 -3\nv 2 1 -3\nv 2 2 -3\nv 1 2 -3\nv 1 1 3\nv 2 1 3\nv 2 2 3\nv 1 2 3\n"
+                     "g tube\nf 1 2 6\nf 1 6 5\nf 2 3 7\nf 2 7 6\nf 3 4 8\nf 3 8 7\nf 4 1 5\n"
+                     "f 4 5 8\n"}};
+    const auto hole = self_made(files, {}, [](const Corners& corners, const auto& parents) {
+        return *parents.begin() != 0 || std::ranges::any_of(corners, [](const Point3& p) {
+            return p.x < 0.99 || p.x > 2.01 || p.y < 0.99 || p.y > 2.01;
+        });
+    });
+    REQUIRE_FALSE(hole.certificate["cut"]["dropped"].empty());
+    VerifyOptions options;
+    options.max_change = 2;
+    CHECK(judged(hole, options) == "");
+    Subject other = with_diagonal(hole);
+    CHECK(judged(other, options) == "");
+    put_back(other.certificate);
+    seal_grown(other);
+    CHECK(judged(other, options) == "R57");
+}
+
+TEST_CASE("sealed certificates: what a forger adds is refused", "[sealing]") {
+    const auto right = self_made(gaping(), {{0, strip(0, 5.4)}}, keep_left);
+    CHECK(judged(right) == "");
+    const auto all = [](const Corners&, const std::set<std::uint32_t>&) { return true; };
+    const auto not_added = [](const Corners& corners, const std::set<std::uint32_t>& parents) {
+        return !is_right_of_fault(corners) || *parents.begin() < 60 || *parents.begin() >= 70;
+    };
+    const auto rules = [&](const std::map<std::size_t, std::vector<Corners>>& added,
+                           const auto& keep) {
+        return judged_widely(self_made(gaping(), added, keep));
+    };
+    // Beside the border.
+    CHECK(has_rule(rules({{0, strip(0.03, 5.4)}}, keep_left), "R54"));
+    // At the border of another surface.
+    CHECK(has_rule(rules({{1, strip(0, 5.4)}}, keep_left), "R54"));
+    CHECK(has_rule(rules({{2, strip(0, 5.4)}}, keep_left), "R54"));
+    // In the middle of its surface: a wall below an inner line of edges, down to nothing.
+    std::vector<Corners> wall;
+    const Surface sheet = input_files(gaping())[0].surfaces[0];
+    for (std::size_t j = 0; j < 5; ++j) {
+        const Point3 &a = sheet.vertices[18 + j], &b = sheet.vertices[19 + j];
+        wall.push_back({b, a, {a.x, a.y, a.z + 4}});
+        wall.push_back({b, {a.x, a.y, a.z + 4}, {b.x, b.y, b.z + 4}});
+    }
+    const auto below = [](const Corners& corners, const std::set<std::uint32_t>& parents) {
+        const bool is_wall = *parents.begin() >= 60 && *parents.rbegin() < 70;
+        const double top = std::max({corners[0].z, corners[1].z, corners[2].z});
+        return is_wall ? top < 2.4 : !is_right_of_fault(corners) || *parents.begin() < 60;
+    };
+    CHECK(has_rule(rules({{0, wall}}, below), "R54"));
+    // It ends before the fault, goes on beyond it, or is all that was asked for and more.
+    CHECK(has_rule(rules({{0, strip(0, 4.95)}}, keep_left), "R55"));
+    CHECK(has_rule(rules({{0, strip(0, 5.4)}}, all), "R55"));
+    // Half of it: the free side is a diagonal, but nothing is met.
+    CHECK(has_rule(rules({{0, {strip(0, 4.95)[0]}}}, keep_left), "R55"));
+    // The strip is good, and what was to be trimmed was kept: nothing is wrong with that.
+    CHECK(rules({{0, strip(0, 5.4)}}, [&](const Corners& corners, const auto& parents) {
+              return not_added(corners, parents);
+          }) == "");
+}
+
+TEST_CASE("sealed certificates: what is added and left out again widens no bound", "[sealing]") {
+    auto triangles = strip(0, 5.4);
+    triangles.push_back({Point3{1e12, 0, 0}, Point3{1e12, 1e12, 0}, Point3{1e12, 0, 1e12}});
+    const auto near = self_made(gaping(), {{0, strip(0, 5.4)}}, keep_left);
+    const auto far = self_made(gaping(), {{0, triangles}}, keep_left);
+    const auto accepted = [](const Subject& s) {
+        const auto certificate = parse_certificate(s.certificate.dump(), "c");
+        REQUIRE(certificate);
+        const auto verdict = verify_certificate(s.inputs, certificate.value());
+        CHECK(verdict.violations.empty());
+        REQUIRE(verdict.measured);
+        REQUIRE(verdict.change);
+        return std::array{verdict.measured->max_deviation, verdict.change->max_limit};
+    };
+    CHECK(accepted(near) == accepted(far));
+}
+
+TEST_CASE("sealed certificates: what a forger leaves out is refused", "[sealing]") {
+    // Input triangles: 60 of the short sheet and 10 more, 60 of the long one, two of the fault.
+    const std::map<std::size_t, std::vector<Corners>> added{{0, strip(0, 5.4)}};
+    const auto with = [&](const auto& is_left_out) {
+        return self_made(gaping(), added,
+                         [&](const Corners& corners, const std::set<std::uint32_t>& parents) {
+                             return keep_left(corners, parents) &&
+                                    !is_left_out(corners, *parents.begin(), *parents.rbegin());
+                         });
+    };
+    const auto between = [](const Corners& corners, std::size_t axis, double low, double high) {
+        return std::ranges::all_of(corners, [&](const Point3& p) {
+            const std::array<double, 3> at{p.x, p.y, p.z};
+            return at[axis] > low - 1e-9 && at[axis] < high + 1e-9;
+        });
+    };
+    CHECK(judged(with([](const auto&...) { return false; })) == "");
+    // One cell of the long sheet; its end along the fault; half of it.
+    CHECK(has_rule(
+        judged_widely(with([](const Corners&, std::uint32_t p, std::uint32_t) { return p == 90; })),
+        "R56"));
+    CHECK(has_rule(judged_widely(with([&](const Corners& c, std::uint32_t p, std::uint32_t) {
+                       return p >= 70 && p < 130 && between(c, 0, 4.2, 5);
+                   })),
+                   "R56"));
+    CHECK(has_rule(judged_widely(with([&](const Corners& c, std::uint32_t p, std::uint32_t) {
+                       return p >= 70 && p < 130 && between(c, 1, 0, 4);
+                   })),
+                   "R56"));
+    // All of the strip: then nothing was added.
+    CHECK(judged(with([](const Corners&, std::uint32_t p, std::uint32_t q) {
+              return p >= 60 && q <= 69;
+          })) == "");
+    // The part of the fault below the sheets, a whole one, is too far from the rest.
+    const auto below = with([&](const Corners& c, std::uint32_t p, std::uint32_t) {
+        return p >= 130 && between(c, 2, -3, 0.55);
+    });
+    CHECK(has_rule(judged(below), "R26"));
+}
