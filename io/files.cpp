@@ -54,11 +54,20 @@ std::string place_of(const fs::path& path, bool reading) {
     return reading ? "standard input" : "standard output";
 }
 
+/// Returns the extensions of formats that are read: "ts, ml, ...".
+std::string extensions_read() {
+    std::string list;
+    for (const auto& [name, format] : names)
+        if (is_read(format)) list += (list.empty() ? "" : ", ") + std::string(name);
+    return list;
+}
+
 Error unknown_format(const fs::path& path, bool reading) {
     std::string sentence = path == "-" ? "the format must be given"
                            : path.extension().empty()
                                ? "the file name has no extension that tells the format"
                                : "unknown format " + shown(path.extension().string());
+    if (reading) sentence += "; read are " + extensions_read();
     return {ErrorCode::unknown_format, std::move(sentence), place_of(path, reading)};
 }
 
@@ -100,7 +109,8 @@ Result<std::vector<Surface>> parse_as_stated(std::string_view contents, std::str
     default:
         break;
     }
-    return Error{ErrorCode::unsupported, "this format is written, not read", place};
+    return Error{ErrorCode::unsupported,
+                 "this format is written, not read; read are " + extensions_read(), place};
 }
 
 Result<std::vector<Surface>> parse(std::string_view contents, std::string_view source,
