@@ -100,9 +100,10 @@ TEST_CASE("files: reading what can't be read", "[io][files]") {
     fs::create_directory(folder / "folder.obj");
     check(read_surfaces(folder / "folder.obj"), cannot_open,
           (folder / "folder.obj").string() + ": cannot be read: Is a directory");
-    const std::string readable = "; read are ts, ml, gp, mx, obj, off, stl, ply, irap, gri, fgr, "
-                                 "zmap, zycor, cps3, cps, asc, agr, xyz, csv, txt, dat, poi, pol, "
-                                 "vs, pl";
+    const std::string readable =
+        "; read are ts, ml, gp, mx, obj, off, stl, ply, vtp, msh, irap, gri, fgr, "
+        "zmap, zycor, cps3, cps, asc, agr, xyz, csv, txt, dat, poi, pol, "
+        "vs, pl, vtk, dxf";
     check(read_surfaces("a.abc"), unknown_format, "a.abc: unknown format \".abc\"" + readable);
     check(read_surfaces("a"), unknown_format,
           "a: the file name has no extension that tells the format" + readable);
