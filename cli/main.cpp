@@ -36,10 +36,11 @@ ExitStatus run(int argc, char** argv) {
     program.require_subcommand(1);
     program.footer(main_footer);
     const std::array commands{
-        arrange_command(program), bench_command(program),   build_command(program),
-        check_command(program),   convert_command(program), fill_command(program),
-        improve_command(program), layer_command(program),   tetrahedralize_command(program),
-        verify_command(program),  volume_command(program)};
+        // as --help lists them: what people use most comes first
+        arrange_command(program), volume_command(program), tetrahedralize_command(program),
+        improve_command(program), build_command(program),  check_command(program),
+        fill_command(program),    layer_command(program),  convert_command(program),
+        verify_command(program),  bench_command(program)};
     try {
         program.parse(argc, argv);
     } catch (const CLI::ParseError& stop) {

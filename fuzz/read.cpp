@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <bit>
 #include <cctype>
+#include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <set>
 #include <string>
 #include <string_view>
@@ -15,6 +17,7 @@
 #include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/io/files.hpp>
+#include <terrane/io/points/outline.hpp>
 
 #include "report.hpp"
 
@@ -110,7 +113,8 @@ std::string difference(const std::vector<Surface>& a, const std::vector<Surface>
         if (a[s].triangles != b[s].triangles) return "triangles";
         if (!same_points(a[s].vertices, b[s].vertices)) return "vertices";
         if (plain_names(a) && format_name != "off" && a[s].name != b[s].name) return "names";
-        const bool has_roles = format_name != "obj" && format_name != "off" && format_name != "stl";
+        const bool has_roles = format_name != "obj" && format_name != "off" &&
+                               format_name != "stl" && format_name != "msh";
         if (has_roles && a[s].role != b[s].role) return "roles";
     }
     return "";
@@ -130,14 +134,39 @@ void check_round_trip(const std::vector<Surface>& surfaces) {
     require(written(mesh_of(again.value())) == text, "written again, it is another text");
 }
 
+void check_error(const Error& error) {
+    require(!error.sentence.empty(), "an error without a sentence");
+    require(!error.place.empty(), "an error without a place");
+    require(error.code != ErrorCode::internal, "an internal error");
+}
+
+/// Checks an outline, which is no surface. Lines with its corners are read as the same outline.
+void check_outline(std::string_view contents) {
+    const auto corners = read_outline(contents, "fuzz.geojson");
+    if (!corners) return check_error(corners.error());
+    std::string lines;
+    for (const auto& [x, y] : *corners) {
+        require(std::isfinite(x) && std::isfinite(y), "a corner that is not finite");
+        char line[64];
+        std::snprintf(line, sizeof line, "%.17g %.17g\n", x, y);
+        lines += line;
+    }
+    if (corners->empty()) return;
+    const auto again = read_outline(lines, "fuzz.txt");
+    require(again && *again == *corners, "the corners differ after writing and reading");
+}
+
 } // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    const auto surfaces = read({reinterpret_cast<const char*>(data), size});
+    const std::string_view contents(reinterpret_cast<const char*>(data), size);
+    if (format_name == "geojson") {
+        check_outline(contents);
+        return 0;
+    }
+    const auto surfaces = read(contents);
     if (!surfaces) {
-        require(!surfaces.error().sentence.empty(), "an error without a sentence");
-        require(!surfaces.error().place.empty(), "an error without a place");
-        require(surfaces.error().code != ErrorCode::internal, "an internal error");
+        check_error(surfaces.error());
         return 0;
     }
     require(validate(surfaces.value()).ok(), "surfaces that no stage may be given");

@@ -365,6 +365,22 @@ def forge_kind(models=2):
                bytes(change * (most - 1)) + bytes([kind % models]))
 
 
+def other_programs():
+    """Small files that VTK, gmsh and meshio wrote, by format, and DXF and GeoJSON as others write them."""
+    data = pathlib.Path(__file__).parent.parent / "tests" / "data" / "other_programs"
+    files = {fmt: {path.stem: path.read_bytes() for path in sorted(data.glob("*." + fmt))}
+             for fmt in ("vtp", "vtk", "msh")}
+    corners = [(0, 0, 0), (2, 0, 0), (2, 1, 0.5), (0, 1, 0.5)]
+    face = "".join(f"1{k}\n{x}\n2{k}\n{y}\n3{k}\n{z}\n" for k, (x, y, z) in enumerate(corners))
+    files["dxf"] = {"face": "0\nSECTION\n2\nENTITIES\n0\n3DFACE\n8\ntop\n" + face +
+                            "0\nENDSEC\n0\nEOF\n"}
+    polygon = '{"type": "Polygon", "coordinates": [[[0, 0], [4, 0], [4, 3.5], [0, 0]]]}'
+    files["geojson"] = {"polygon": polygon,
+                        "feature": '{"type": "FeatureCollection", "features": [{"type": "Feature", '
+                                   '"geometry": ' + polygon + "}]}"}
+    return files
+
+
 def main():
     folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else
                           pathlib.Path(__file__).parent / "corpus")
@@ -374,7 +390,7 @@ def main():
                "forge_layered": forge_kind, "forge_cut": lambda: forge_kind(4),
                "arrange": soups, "rounding": soups, "regions": soups, "volumes": soups, "tetrahedra": soups}
     seeds = {t: dict(make()) for t, make in targets.items()}
-    for fmt, files in FILES.items():
+    for fmt, files in (FILES | other_programs()).items():
         seeds["read_" + fmt] = {n: f if isinstance(f, bytes) else f.encode()
                                 for n, f in files.items()}
     for target, cases in seeds.items():

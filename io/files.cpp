@@ -14,10 +14,14 @@
 #include <terrane/io/meshes/abaqus.hpp>
 #include <terrane/io/meshes/gmsh.hpp>
 #include <terrane/io/meshes/gmsh22.hpp>
+#include <terrane/io/meshes/gmsh_reader.hpp>
+#include <terrane/io/meshes/legacy_vtk.hpp>
 #include <terrane/io/meshes/medit.hpp>
 #include <terrane/io/meshes/poly.hpp>
 #include <terrane/io/meshes/vtk.hpp>
+#include <terrane/io/meshes/vtp_reader.hpp>
 #include <terrane/io/points/points.hpp>
+#include <terrane/io/surfaces/dxf.hpp>
 #include <terrane/io/surfaces/obj.hpp>
 #include <terrane/io/surfaces/off.hpp>
 #include <terrane/io/surfaces/ply.hpp>
@@ -35,7 +39,7 @@ namespace {
 /// The largest file that is read. It has at least 3 bytes per vertex, so 32-bit indices suffice.
 constexpr std::uint64_t max_bytes = 3 * (std::uint64_t(1) << 32) - 3;
 
-constexpr std::array<std::pair<std::string_view, Format>, 33> names{{
+constexpr std::array<std::pair<std::string_view, Format>, 35> names{{
     {"ts", Format::gocad},    {"ml", Format::gocad},   {"gp", Format::gocad},
     {"mx", Format::gocad},    {"obj", Format::obj},    {"off", Format::off},
     {"stl", Format::stl},     {"ply", Format::ply},    {"vtp", Format::vtp},
@@ -47,6 +51,7 @@ constexpr std::array<std::pair<std::string_view, Format>, 33> names{{
     {"agr", Format::esri},    {"xyz", Format::xyz},    {"csv", Format::xyz},
     {"txt", Format::xyz},     {"dat", Format::xyz},    {"poi", Format::xyz},
     {"pol", Format::xyz},     {"vs", Format::vset},    {"pl", Format::vset},
+    {"vtk", Format::vtk},     {"dxf", Format::dxf},
 }};
 
 std::string place_of(const fs::path& path, bool reading) {
@@ -54,11 +59,20 @@ std::string place_of(const fs::path& path, bool reading) {
     return reading ? "standard input" : "standard output";
 }
 
+/// Returns the extensions of formats that are read: "ts, ml, ...".
+std::string extensions_read() {
+    std::string list;
+    for (const auto& [name, format] : names)
+        if (is_read(format)) list += (list.empty() ? "" : ", ") + std::string(name);
+    return list;
+}
+
 Error unknown_format(const fs::path& path, bool reading) {
     std::string sentence = path == "-" ? "the format must be given"
                            : path.extension().empty()
                                ? "the file name has no extension that tells the format"
                                : "unknown format " + shown(path.extension().string());
+    if (reading) sentence += "; read are " + extensions_read();
     return {ErrorCode::unknown_format, std::move(sentence), place_of(path, reading)};
 }
 
@@ -85,6 +99,14 @@ Result<std::vector<Surface>> parse_as_stated(std::string_view contents, std::str
         return read_stl(contents, source, name);
     case Format::ply:
         return read_ply(contents, source, name);
+    case Format::vtp:
+        return read_vtp(contents, source, name);
+    case Format::msh:
+        return read_msh(contents, source, name);
+    case Format::vtk:
+        return read_vtk(contents, source, name);
+    case Format::dxf:
+        return read_dxf(contents, source, name);
     case Format::irap:
         return surfaces_of(read_irap(contents, source, name), source, options);
     case Format::zmap:
@@ -100,7 +122,8 @@ Result<std::vector<Surface>> parse_as_stated(std::string_view contents, std::str
     default:
         break;
     }
-    return Error{ErrorCode::unsupported, "this format is written, not read", place};
+    return Error{ErrorCode::unsupported,
+                 "this format is written, not read; read are " + extensions_read(), place};
 }
 
 Result<std::vector<Surface>> parse(std::string_view contents, std::string_view source,
@@ -190,6 +213,8 @@ bool is_read(Format format) {
     case Format::off:
     case Format::stl:
     case Format::ply:
+    case Format::vtp:
+    case Format::msh:
         return true;
     default:
         return format >= Format::irap;

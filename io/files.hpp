@@ -26,9 +26,9 @@ enum class Format {
     off,   ///< .off
     stl,   ///< .stl (float32)
     ply,   ///< .ply
-    vtp,   ///< .vtp, written only
+    vtp,   ///< .vtp
     vtu,   ///< .vtu, written only: tetrahedra
-    msh,   ///< .msh, written only: MSH 4.1
+    msh,   ///< .msh: MSH 4.1; also MSH 2.2 where it is read
     msh22, ///< written only: MSH 2.2; no extension selects it, only its name
     inp,   ///< .inp, written only: Abaqus
     medit, ///< .mesh, written only
@@ -40,6 +40,8 @@ enum class Format {
     esri,  ///< .asc .agr, read only: a grid
     xyz,   ///< .xyz .csv .txt .dat .poi .pol, read only: points
     vset,  ///< .vs .pl, read only: points of GOCAD's VSet and PLine
+    vtk,   ///< .vtk, read only: legacy VTK, POLYDATA
+    dxf,   ///< .dxf, read only: 3DFACE
 };
 
 /// Tells whether surfaces can be read from this format.

@@ -5,6 +5,8 @@
 #include <map>
 #include <set>
 
+#include <terrane/algorithms/core/spelling.hpp>
+
 namespace terrane {
 namespace {
 
@@ -58,6 +60,19 @@ std::vector<std::uint32_t> surfaces_called(std::string_view name,
         if (surfaces[s].name == name || (s < labels.size() && labels[s] == name))
             found.push_back(s);
     return found;
+}
+
+std::string not_called(std::string_view kind, std::string_view name,
+                       std::span<const std::string> labels) {
+    constexpr std::size_t most = 10;
+    std::string text = "no " + std::string(kind) + " is called " + std::string(name);
+    if (const auto near = nearest_name(name, labels)) return text + "; did you mean " + *near + "?";
+    if (labels.empty()) return text;
+    const std::size_t listed = std::min(labels.size(), most);
+    text += labels.size() == 1 ? "; there is " : "; there are ";
+    for (std::size_t i = 0; i < listed; ++i) text += (i == 0 ? "" : ", ") + labels[i];
+    if (listed < labels.size()) text += " and " + std::to_string(labels.size() - listed) + " more";
+    return text;
 }
 
 } // namespace terrane

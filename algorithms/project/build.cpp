@@ -99,7 +99,7 @@ private:
             const auto found = surfaces_called(name, surfaces, built_.labels);
             if (found.empty())
                 return at_key(project_, "improve.edge_length_of." + name,
-                              "no surface is called " + name);
+                              not_called("surface", name, built_.labels));
             for (const std::uint32_t s : found) options.edge_length_of[s] = length;
         }
         auto improved = improve_and_measure(rounded(), options, run_);

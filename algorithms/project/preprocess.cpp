@@ -49,8 +49,9 @@ Result<std::vector<FillTask>> tasks_of(const Project& project, const Names& name
                 if (names.infos[s].role == Role::horizon) found.push_back(s);
         if (found.empty())
             return at_key(project, key,
-                          entry.surface == "horizon" ? "no surface has the role horizon"
-                                                     : "no surface is called " + entry.surface);
+                          entry.surface == "horizon"
+                              ? "no surface has the role horizon"
+                              : not_called("surface", entry.surface, names.labels));
         for (const std::uint32_t s : found) {
             if (std::any_of(tasks.begin(), tasks.end(),
                             [&](const FillTask& t) { return t.surface == s; }))
@@ -68,7 +69,7 @@ Result<std::vector<Layer>> order_of(const Project& project, const Names& names) 
         const std::string& name = project.layers->order[i].surface;
         const auto key = fmt::format("layers.order[{}].surface", i);
         const auto found = names.called(name);
-        if (found.empty()) return at_key(project, key, "no surface is called " + name);
+        if (found.empty()) return at_key(project, key, not_called("surface", name, names.labels));
         if (found.size() > 1)
             return at_key(project, key,
                           fmt::format("{} surfaces are called {}; set a name where they are read",

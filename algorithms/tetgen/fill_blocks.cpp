@@ -22,15 +22,14 @@ namespace {
 
 using SurfaceLabels = std::vector<std::string>; // per surface of the mesh
 
-Error nothing_called(const char* what, const GivenName& named) {
-    return {ErrorCode::bad_option, fmt::format("no {} is called {}", what, named.name),
-            named.place};
+Error nothing_called(const char* what, const GivenName& named, std::span<const std::string> names) {
+    return {ErrorCode::bad_option, not_called(what, named.name, names), named.place};
 }
 
 Result<std::vector<std::uint32_t>> surfaces_of(const Model& model, const SurfaceLabels& labels,
                                                const GivenName& named) {
     auto found = surfaces_called(named.name, model.mesh->surfaces, labels);
-    if (found.empty()) return nothing_called("surface", named);
+    if (found.empty()) return nothing_called("surface", named, labels);
     return found;
 }
 
@@ -43,7 +42,11 @@ Result<std::uint32_t> block_of(const Model& model, const GivenName& named) {
     if (failed == std::errc() && after == end && number < all.size()) return number;
     const auto at = std::find_if(all.begin(), all.end(),
                                  [&](const ModelBlock& block) { return block.name == named.name; });
-    if (at == all.end()) return nothing_called("block", named);
+    if (at == all.end()) {
+        SurfaceLabels names;
+        for (const ModelBlock& block : all) names.push_back(block.name);
+        return nothing_called("block", named, names);
+    }
     return static_cast<std::uint32_t>(at - all.begin());
 }
 
@@ -84,7 +87,7 @@ Result<std::vector<std::uint32_t>> surfaces_to_split(const Model& model,
         if (found.empty())
             return named.name == "fault"
                        ? Error{ErrorCode::bad_option, "no surface has the role fault", named.place}
-                       : nothing_called("surface", named);
+                       : nothing_called("surface", named, labels);
         all.insert(all.end(), found.begin(), found.end());
     }
     sort_unique(all);

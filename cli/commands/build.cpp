@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <array>
 #include <cstdint>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -158,8 +159,7 @@ private:
 
     Status read() {
         StageTimer timer(session_.run(), "read");
-        journal_.note("read");
-        session_.begin("read", Phase::computing);
+        begin_stage("read", Phase::computing);
         auto inputs = terrane::read_inputs(project_, session_.run());
         session_.end_stage();
         if (!inputs) return inputs.error();
@@ -202,9 +202,25 @@ private:
 
     void begins(BuildStage stage) {
         static constexpr std::array names{"mend", "arrange", "improve", "blocks", "tetrahedra"};
-        const char* const name = names.at(static_cast<std::size_t>(stage));
-        journal_.note(name);
-        session_.begin(name, Phase::computing);
+        begin_stage(names.at(static_cast<std::size_t>(stage)), Phase::computing);
+    }
+
+    /// Counts the stages of the project: reading, those that are wanted, and writing.
+    [[nodiscard]] std::size_t stage_count() const {
+        const bool mends = !project_.fill.empty() || project_.layers;
+        return 4 + std::size_t{mends} + std::size_t{project_.improve.has_value()} +
+               std::size_t{!project_.outputs.tetrahedra.empty()};
+    }
+
+    /// Says which stage begins, in log.txt and on standard output at once, so that whoever follows the
+    /// output in a file sees how far the run is.
+    void begin_stage(const char* name, Phase phase) {
+        const auto text = fmt::format("stage {} of {}: {}", ++stages_begun_, stage_count(), name);
+        journal_.note(text);
+        print(stdout, text + "\n");
+        std::fflush(stdout);
+        session_.number(stages_begun_, stage_count());
+        session_.begin(name, phase);
     }
 
     /// Prints what a stage did and adds it to the statistics.
@@ -266,8 +282,7 @@ private:
 
     Status write() {
         Stopwatch watch;
-        journal_.note("write");
-        session_.begin("write", Phase::computing);
+        begin_stage("write", Phase::folder);
         auto folder = NewFolder::create(folder_);
         if (!folder) return folder.error();
         const fs::path& to = folder.value().temporary();
@@ -457,8 +472,9 @@ private:
     Session& session_;
     Journal journal_;
     Json statistics_;
-    Inputs inputs_;               ///< names and counts; the surfaces are in built_
-    ProjectInputs read_;          ///< its surfaces move into the build
+    Inputs inputs_;      ///< names and counts; the surfaces are in built_
+    ProjectInputs read_; ///< its surfaces move into the build
+    std::size_t stages_begun_ = 0;
     std::optional<Error> doubts_; ///< about the blocks, with --strict
     std::string refused_;         ///< why nothing is written; empty: all is well
     Built built_;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <terrane/algorithms/core/stopwatch.hpp>
+#include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/quality/deviation.hpp>
 #include <terrane/algorithms/quality/improve_measured.hpp>
 #include <terrane/cli/commands/command.hpp>
@@ -74,7 +75,8 @@ Status set_length_of(const std::string& text, const Inputs& inputs, std::vector<
         found = true;
     }
     if (found) return Done{};
-    return Error{ErrorCode::bad_option, "no surface is called " + name, "--edge-length-of"};
+    return Error{ErrorCode::bad_option, not_called("surface", name, inputs.labels),
+                 "--edge-length-of"};
 }
 
 Status set_lengths(const ImproveCommand& command, const Inputs& inputs, ImproveOptions& options) {

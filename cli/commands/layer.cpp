@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <terrane/algorithms/core/stopwatch.hpp>
+#include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/options/files.hpp>
 #include <terrane/cli/options/statistics.hpp>
@@ -76,7 +77,7 @@ Result<Layer> layer_named(const std::string& text, const Inputs& inputs) {
     std::vector<std::uint32_t> found;
     for (std::uint32_t s = 0; s < inputs.surfaces.size(); ++s)
         if (inputs.labels[s] == name || inputs.surfaces[s].name == name) found.push_back(s);
-    if (found.empty()) return usage("no surface is called " + name, "--layer");
+    if (found.empty()) return usage(not_called("surface", name, inputs.labels), "--layer");
     if (found.size() > 1) // labels are unique
         std::erase_if(found, [&](std::uint32_t s) { return inputs.labels[s] != name; });
     return Layer{SurfaceId(found.at(0)), hardness};

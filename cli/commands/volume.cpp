@@ -54,7 +54,7 @@ Examples:
 
 Status write_folder(const VolumeCommand& command, const Arranged& arranged, const Model& model,
                     Session& session) {
-    session.begin("write", Phase::computing);
+    session.begin("write", Phase::folder);
     auto folder = NewFolder::create(command.folder);
     if (!folder) return folder.error();
     if (auto done = write_model(model, arranged.sealed, command.part_format,

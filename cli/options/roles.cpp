@@ -4,6 +4,8 @@
 #include <charconv>
 #include <map>
 
+#include <terrane/algorithms/mesh/labels.hpp>
+
 namespace terrane::cli {
 namespace {
 
@@ -23,7 +25,7 @@ Status set_role(const std::string& text, Inputs& inputs) {
         found = true;
     }
     if (found) return Done{};
-    return Error{ErrorCode::bad_option, "no surface is called " + name, "--role"};
+    return Error{ErrorCode::bad_option, not_called("surface", name, inputs.labels), "--role"};
 }
 
 } // namespace

@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include <terrane/cli/session/console.hpp>
-#include <terrane/io/text/text.hpp>
+#include <terrane/io/points/outline.hpp>
 
 namespace terrane::cli {
 namespace {
@@ -39,28 +39,13 @@ Error bad(const char* option, const std::string& sentence) {
     return {ErrorCode::bad_option, sentence, option};
 }
 
-/// Lines with two numbers or more; the first two are x and y. '#' starts a comment.
 Result<std::vector<Point2>> read_polygon(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
     if (!file)
         return Error{ErrorCode::cannot_open, "is neither numbers x,y,x,y,... nor a file: " + path,
                      "--polygon"};
     const std::string text{std::istreambuf_iterator<char>(file), {}};
-    std::vector<Point2> corners;
-    detail::LineParser lines(text, path);
-    while (lines.next()) {
-        std::string line(lines.line().substr(0, lines.line().find('#')));
-        std::replace(line.begin(), line.end(), ',', ' ');
-        detail::Tokens tokens(line);
-        const auto first = tokens.next();
-        if (first.empty()) continue;
-        const auto second = tokens.next();
-        Point2& p = corners.emplace_back();
-        if (second.empty()) return lines.error(ErrorCode::bad_syntax, "a corner needs two numbers");
-        if (auto flaw = lines.read_number(first, p[0])) return *flaw;
-        if (auto flaw = lines.read_number(second, p[1])) return *flaw;
-    }
-    return corners;
+    return read_outline(text, path);
 }
 
 Result<std::vector<Point2>> polygon_of(const std::string& text) {
@@ -139,8 +124,8 @@ void add_volume_options(CLI::App& command, VolumeOptions& options) {
         ->group(group);
     command
         .add_option("--polygon", options.polygon,
-                    "The same for a polygon between two depths: x,y,x,y,..., or a file with x and "
-                    "y on each line")
+                    "The same for a polygon between two depths: x,y,x,y,..., or a file: GeoJSON, "
+                    "or x and y on each line")
         ->type_name("POLYGON")
         ->group(group);
     command.add_option("--between", options.between, "The two depths of the polygon: z0,z1")

@@ -17,6 +17,10 @@ namespace {
 /// Ends the watcher's sleep. By default the signal is ignored, so no other program is disturbed.
 constexpr int wake_signal = SIGURG;
 
+/// How long a stage may go on after an interrupt. Stages look for stop requests between steps, some
+/// of which are long: the solution of a dense system, say.
+constexpr std::chrono::milliseconds patience{700};
+
 /// Returns the signals that the watcher waits for; all threads block them.
 sigset_t watched_signals() {
     sigset_t set;
@@ -58,6 +62,11 @@ void Session::begin(std::string_view stage, Phase phase) {
     share_ = 0;
 }
 
+void Session::number(std::size_t stage, std::size_t stages) {
+    const std::lock_guard lock(mutex_);
+    number_ = fmt::format("stage {} of {}: ", stage, stages);
+}
+
 void Session::end_stage() {
     phase_ = Phase::idle;
     const std::lock_guard lock(mutex_);
@@ -71,13 +80,25 @@ void Session::watch(const std::stop_token& over) {
     while (!over.stop_requested()) {
         const int received = sigtimedwait(&set, nullptr, &tick);
         if (received == SIGINT || received == SIGTERM) on_interrupt();
+        end_if_overdue();
         if (terminal_) show();
     }
 }
 
 void Session::on_interrupt() {
     const bool again = !source_.request_stop();
-    if (phase_ == Phase::writing || (phase_ == Phase::computing && !again)) return;
+    if (!again) interrupted_ = std::chrono::steady_clock::now();
+    const Phase phase = phase_;
+    if (phase == Phase::writing || (phase != Phase::idle && !again)) return;
+    end_at_once();
+}
+
+void Session::end_if_overdue() {
+    if (!stopped() || phase_ != Phase::computing) return;
+    if (std::chrono::steady_clock::now() - interrupted_ > patience) end_at_once();
+}
+
+void Session::end_at_once() {
     clear_line();
     fail({ErrorCode::interrupted, "", ""});
     _exit(static_cast<int>(ExitStatus::bad_input));
@@ -89,7 +110,8 @@ void Session::show() {
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started_;
     if (stage_.empty() || elapsed.count() < 1) return;
     const auto share = share_ > 0 ? fmt::format(" {:.0f} %", 100 * share_) : std::string();
-    print(stderr, fmt::format("\r\033[K{}{} ({:.0f} s)", stage_, share, elapsed.count()));
+    print(stderr,
+          fmt::format("\r\033[K{}{}{} ({:.0f} s)", number_, stage_, share, elapsed.count()));
     std::fflush(stderr);
     shown_ = true;
 }

@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstddef>
 #include <mutex>
 #include <stop_token>
 #include <string>
@@ -19,8 +20,11 @@ namespace terrane::cli {
 /// Phases of a command, each with its own answer to an interrupt (Ctrl-C, SIGTERM).
 enum class Phase {
     idle,      ///< reading, or writing to a pipe: the program ends at once
-    computing, ///< the stage is asked to stop; a second interrupt ends the program
-    writing,   ///< writing a file, which is completed first
+    computing, ///< the stage is asked to stop; if it has not soon, or at a second interrupt, the
+               ///< program ends: nothing is written yet
+    folder,  ///< writing a folder: it is asked to stop between two files and to remove the folder;
+             ///< a second interrupt ends the program
+    writing, ///< writing a file, which is completed first
 };
 
 /// Handles interrupts and progress for one command. It must be made before any other thread, as the
@@ -39,12 +43,16 @@ public:
 
     /// Shows the name of a stage and sets the phase, which decides what an interrupt does.
     void begin(std::string_view stage, Phase phase);
+    /// Shows "stage 2 of 5: " before the names of the stages that follow.
+    void number(std::size_t stage, std::size_t stages);
     /// Removes the progress line until the next stage.
     void end_stage();
 
 private:
     void watch(const std::stop_token& over);
     void on_interrupt();
+    void end_if_overdue();
+    [[noreturn]] void end_at_once();
     void show();
     void clear_line();
 
@@ -56,9 +64,12 @@ private:
     bool terminal_;                                 ///< whether standard error is a terminal
     std::chrono::steady_clock::time_point started_; ///< guarded by mutex_, like all below
     std::mutex mutex_;
-    std::string stage_; ///< empty: nothing to show
+    std::string stage_;  ///< empty: nothing to show
+    std::string number_; ///< "stage 2 of 5: ", or empty
     double share_ = 0;
     bool shown_ = false;
+
+    std::chrono::steady_clock::time_point interrupted_; ///< when; the watcher's alone
 
     std::jthread watcher_; ///< last: it uses the others
 };

@@ -2,28 +2,11 @@
 #include <terrane/cli/session/spelling.hpp>
 
 #include <algorithm>
-#include <utility>
+
+#include <terrane/algorithms/core/spelling.hpp>
 
 namespace terrane::cli {
 namespace {
-
-/// Returns the number of changes that make one word of the other (restricted Damerau-Levenshtein).
-std::size_t changes_between(std::string_view a, std::string_view b) {
-    std::vector<std::vector<std::size_t>> least(a.size() + 1,
-                                                std::vector<std::size_t>(b.size() + 1));
-    for (std::size_t i = 0; i <= a.size(); ++i)
-        for (std::size_t j = 0; j <= b.size(); ++j) {
-            if (i == 0 || j == 0) {
-                least[i][j] = i + j;
-                continue;
-            }
-            least[i][j] = std::min({least[i - 1][j] + 1, least[i][j - 1] + 1,
-                                    least[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
-            const bool exchanged = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
-            if (exchanged) least[i][j] = std::min(least[i][j], least[i - 2][j - 2] + 1);
-        }
-    return least[a.size()][b.size()];
-}
 
 std::string suggested(const std::string& sentence, std::string_view word,
                       std::span<const std::string> names, const std::string& dashes) {
@@ -32,19 +15,6 @@ std::string suggested(const std::string& sentence, std::string_view word,
 }
 
 } // namespace
-
-std::optional<std::string> nearest_name(std::string_view word, std::span<const std::string> names) {
-    const std::size_t most = std::min<std::size_t>(2, word.size() / 3);
-    std::optional<std::string> nearest;
-    std::size_t least = most + 1;
-    for (const std::string& name : names) {
-        const auto changes = changes_between(word, name);
-        if (changes >= least) continue;
-        least = changes;
-        nearest = name;
-    }
-    return nearest;
-}
 
 std::optional<std::string> misspelt(const CLI::App& program, std::span<char* const> words) {
     if (words.size() < 2) return std::nullopt;

@@ -2,7 +2,6 @@
 #include <terrane/cli/stages/blocks.hpp>
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <system_error>
 
@@ -173,8 +172,7 @@ private:
 
     Status write_json() {
         extras_.exact_volumes = model_.exact_volumes;
-        extras_.exact_volumes.resize(model_.structure.blocks.size(),
-                                     std::numeric_limits<double>::quiet_NaN());
+        extras_.exact_volumes.resize(model_.structure.blocks.size(), 0); // what rounding made
         extras_.free_borders = model_.borders;
         return write_file(folder_ / "model.json", to_json(model_.mesh, model_.structure, extras_));
     }

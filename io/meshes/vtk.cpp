@@ -80,6 +80,7 @@ public:
     explicit VtkWriter(bool compress) : compress_(compress) {}
 
     void begin_file(std::string_view type) {
+        has_strings_ = type == "PolyData";
         out_ = fmt::format("<?xml version=\"1.0\"?>\n<VTKFile type=\"{}\" version=\"1.0\" "
                            "byte_order=\"LittleEndian\" header_type=\"UInt64\"{}>\n<{}>\n",
                            type, compress_ ? " compressor=\"vtkZLibDataCompressor\"" : "", type);
@@ -99,17 +100,28 @@ public:
         out_ += "\n</DataArray>\n";
     }
 
-    /// Writes strings as VTK does: the codes of their characters, each string ended by a 0.
+    /// Writes strings as VTK does: the codes of their characters, each string ended by a 0. In grids
+    /// they are arrays of codes, as meshio reads no grid with arrays of strings.
     void strings(std::string_view name, const std::vector<std::string_view>& values) {
-        out_ += fmt::format("<Array type=\"String\" Name=\"{}\" NumberOfTuples=\"{}\" "
-                            "format=\"ascii\">\n",
-                            name, values.size());
+        std::string lines;
+        std::size_t count = 0;
         for (const auto value : values) {
             for (const char c : value)
-                if (c != '\0') out_ += fmt::format("{} ", static_cast<unsigned char>(c));
-            out_ += "0\n";
+                if (c != '\0') {
+                    lines += fmt::format("{} ", static_cast<unsigned char>(c));
+                    ++count;
+                }
+            lines += "0\n";
+            ++count;
         }
-        out_ += "</Array>\n";
+        if (has_strings_)
+            out_ += fmt::format("<Array type=\"String\" Name=\"{}\" NumberOfTuples=\"{}\" "
+                                "format=\"ascii\">\n{}</Array>\n",
+                                name, values.size(), lines);
+        else
+            out_ += fmt::format("<DataArray type=\"UInt8\" Name=\"{}\" NumberOfTuples=\"{}\" "
+                                "format=\"ascii\">\n{}</DataArray>\n",
+                                name, count, lines);
     }
 
     void field(const std::vector<SurfaceInfo>& surfaces,
@@ -164,6 +176,7 @@ private:
     std::string out_;
     bool compress_;
     bool in_field_ = false;
+    bool has_strings_ = true; ///< whether strings are arrays of strings
 };
 
 /// Appends the first value of each list; -1 for an empty list.

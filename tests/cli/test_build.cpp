@@ -101,7 +101,9 @@ TEST_CASE("cli: build makes blocks in a box, in one folder", "[cli]") {
         at = log.find(r.out.substr(line, end - line), at);
         CHECK(at != std::string::npos);
     }
-    CHECK(contains(log, "s] arrange\n"));
+    CHECK(contains(log, "s] stage 2 of 4: arrange\n"));
+    CHECK(r.out.starts_with("stage 1 of 4: read\nstage 2 of 4: arrange\n"));
+    CHECK(contains(r.out, "\nstage 4 of 4: write\nwrote out:\n"));
 }
 
 TEST_CASE("cli: build takes paths from the folder of the project", "[cli]") {

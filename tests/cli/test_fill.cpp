@@ -208,3 +208,45 @@ TEST_CASE("cli: fill names holes that kriging can't fill, leaves them open, and 
     CHECK(rbf.status == 0);
     CHECK(folder.run("check rbf.obj").status == 0);
 }
+
+TEST_CASE("cli: fill hears a stop request within a second, whatever it computes", "[cli]") {
+    // 2239 points round a hole: the radial basis functions take much longer than the test waits.
+    const Folder folder;
+    constexpr int count = 2239, rings = 8;
+    std::string text;
+    for (int k = 0; k < rings; ++k)
+        for (int i = 0; i < count; ++i) {
+            const double angle = 2 * 3.14159265358979 * (i + 0.5 * (k % 2)) / count;
+            const double radius = 1000 + 2.8 * k;
+            const double x = radius * std::cos(angle), y = radius * std::sin(angle);
+            text += "v " + std::to_string(x) + " " + std::to_string(y) + " " +
+                    std::to_string(wave(x, y)) + "\n";
+        }
+    const auto face = [&](int a, int b, int c) {
+        text += "f " + std::to_string(a + 1) + " " + std::to_string(b + 1) + " " +
+                std::to_string(c + 1) + "\n";
+    };
+    for (int k = 0; k + 1 < rings; ++k)
+        for (int i = 0; i < count; ++i) {
+            const int j = (i + 1) % count, a = k * count + i, b = k * count + j;
+            const int c = a + count, d = b + count;
+            face(a, k % 2 == 0 ? c : d, k % 2 == 0 ? b : c);
+            face(k % 2 == 0 ? b : a, k % 2 == 0 ? c : b, d);
+        }
+    folder.input("ring.obj", text);
+    for (const std::string wait : {"1.5", "3"}) {
+        const auto r =
+            folder.shell("timeout --preserve-status -s TERM -k 60 " + wait +
+                         " $T fill in/ring.obj -o out.obj --method rbf & p=$!; sleep " + wait +
+                         "; s=$(date +%s%N); wait $p; status=$?; "
+                         "echo took $(( ($(date +%s%N) - s) / 1000000 )); "
+                         "exit $status");
+        INFO(r.out << r.err);
+        CHECK(r.status == 2);
+        CHECK(contains(r.err, "terrane: interrupted, nothing written"));
+        const auto at = r.out.find("took ");
+        REQUIRE(at != std::string::npos);
+        CHECK(std::stoi(r.out.substr(at + 5)) < 1500); // a second, and what the shell takes
+        CHECK(folder.left().empty());
+    }
+}

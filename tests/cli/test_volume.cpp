@@ -165,3 +165,22 @@ TEST_CASE("cli: volume fills an empty folder", "[cli]") {
     CHECK(folder.shell("test -f out/model.json -a -f out/blocks/block_1.vtp").status == 0);
     CHECK(folder.left() == std::set<std::string>{"out"});
 }
+
+TEST_CASE("cli: volume: a block that only rounding made has the exact volume 0", "[cli]") {
+    // f0 and f1 cross along an edge that ends at a third of no power of two. f2 ends at the doubles
+    // nearest to that place, so the exact surfaces leave a gap, which rounding closes.
+    const Folder folder;
+    folder.input("made.obj", "v 7 5 1\nv 8 0 8\nv 6 0 2\nv 6 3 1\nv 1 7 3\n"
+                             "v 6.169491525423729 2.7457627118644066 1.5932203389830508\n"
+                             "o f0\nf 2 3 4\no f1\nf 1 3 5\no f2\nf 1 2 6\no f3\nf 1 2 3\n");
+    const Outcome made = folder.run("volume in/made.obj -o out");
+    INFO(made.err);
+    REQUIRE(made.status == 0);
+    CHECK(contains(made.out, "doubles: 1 block that the exact surfaces do not enclose"));
+    const auto blocks = Json::parse(folder.read("out/model.json"))["blocks"];
+    REQUIRE(blocks.size() == 2);
+    for (const auto& block : blocks) {
+        CHECK(block["volume"] == 0.0); // null is not equal to it
+        CHECK(block["volume_written"] > 2);
+    }
+}

@@ -200,3 +200,22 @@ TEST_CASE("cli: tetrahedra only inside the volume of interest", "[cli]") {
     CHECK(tetrahedra == json["tetrahedra"].get<std::size_t>());
 }
 #endif
+
+TEST_CASE("cli: a polygon of GeoJSON", "[cli]") {
+    const Folder folder;
+    folder.input("top.obj", "v -1 -1 5\nv 9 -1 5\nv 9 9 5\nv -1 9 5\nf 1 2 3 4\n");
+    const std::string ring = "[[0, 0], [8, 0], [8, 8], [0, 8], [0, 0]]";
+    folder.input("licence.geojson",
+                 R"({"type": "Feature", "geometry": {"type": "Polygon", "coordinates": [)" + ring +
+                     "]}}");
+    const auto made =
+        folder.run("volume in/top.obj -o out --polygon in/licence.geojson --between 0,8");
+    INFO(made.err);
+    CHECK(made.status == 0);
+    CHECK(contains(made.out, "2 closed blocks, volume 512 in all"));
+    folder.input("two.json",
+                 R"({"type": "MultiPolygon", "coordinates": [[)" + ring + "], [" + ring + "]]}");
+    const auto two = folder.run("volume in/top.obj -o two --polygon in/two.json --between 0,8");
+    CHECK(two.status == 2);
+    CHECK(contains(two.err, "in/two.json: coordinates[1]: this is a second polygon"));
+}

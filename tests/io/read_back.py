@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Opens what Terrane writes with VTK, gmsh and meshio and compares it with what was meant.
 
-VTK reads VTP and VTU, gmsh MSH 4.1, MSH 2.2 and MEDIT, meshio Abaqus files; *SURFACE, which meshio
+VTK reads VTP and VTU, gmsh MSH 4.1, MSH 2.2 and MEDIT, meshio VTU and Abaqus files; *SURFACE, which meshio
 leaves out, is read by the few lines below, from Abaqus' description of the keywords. (TetGen's
 formats are tested in test_poly.cpp.)
 
@@ -77,9 +77,28 @@ def check_vtk(path, meant):
     field = grid.GetFieldData()
     names = field.GetAbstractArray("surface_name")
     found = [names.GetValue(i) for i in range(names.GetNumberOfValues())]
+    if path.endswith(".vtu"):
+        found = texts(found)
     check(found == meant["names"], f"{path}: names {found}")
     check_lists(field, meant["surfaces_of"], path)
     check_cell_data(path, grid.GetCellData(), meant)
+
+
+def texts(codes):
+    """The strings whose character codes these are, each ended by a 0."""
+    return [text.decode() for text in bytes(map(int, codes)).split(b"\0")[:-1]]
+
+
+def check_meshio_vtu(path, meant):
+    """meshio's view of a VTU: points, cells in their order, names and arrays."""
+    mesh = meshio.read(path)
+    check([same_numbers(list(p), wanted) for p, wanted in zip(mesh.points, meant["points"])]
+          == [True] * len(meant["points"]), f"{path}: meshio's points")
+    cells = [list(map(int, corners)) for block in mesh.cells for corners in block.data]
+    check(cells == meant["cells"] + meant["faces"], f"{path}: meshio's cells")
+    check(texts(mesh.field_data["surface_name"].ravel()) == meant["names"], f"{path}: meshio's names")
+    regions = [int(r) for block in mesh.cell_data["region"] for r in block.ravel()]
+    check(regions == meant["region_of"] + [-1] * len(meant["faces"]), f"{path}: meshio's regions")
 
 
 def check_cell_data(path, data, meant):
@@ -368,6 +387,9 @@ def main():
                 meant = json.load(file)
             check_vtk(base + extension, meant)
             check_vtk(base + "_plain" + extension, meant)
+            if extension == ".vtu":  # meshio does not know VTP
+                check_meshio_vtu(base + extension, meant)
+                check_meshio_vtu(base + "_plain" + extension, meant)
             check_gmsh(base + ".msh", meant)
             check_gmsh(base + "_22.msh", meant)
             check_medit(base + ".mesh", meant)

@@ -69,6 +69,7 @@ std::string type_name() {
 } // namespace
 
 void VtkScanner::begin(const std::string& type) {
+    has_strings_ = type == "PolyData";
     in_.expect("<?xml version=\"1.0\"?>");
     const std::string start = "<VTKFile type=\"" + type +
                               "\" version=\"1.0\" byte_order=\"LittleEndian\" "
@@ -114,17 +115,27 @@ void VtkScanner::points(const std::vector<Point3>& vertices) {
     in_.expect("</Points>");
 }
 
-/// Reads the codes of the characters of each string, ended by a 0; a string has none.
+/// Reads the codes of the characters of each string, ended by a 0; a string has none. PolyData has
+/// arrays of strings, a grid has arrays of their codes.
 void VtkScanner::strings(const std::string& name, const std::vector<std::string_view>& values) {
-    in_.expect("<Array type=\"String\" Name=\"" + name + "\" NumberOfTuples=\"" +
-               std::to_string(values.size()) + "\" format=\"ascii\">");
+    std::vector<std::string> lines;
+    std::size_t codes = 0;
     for (const std::string_view value : values) {
-        std::string line;
+        std::string& line = lines.emplace_back();
         for (const char c : value)
-            if (c != '\0') line += std::to_string(static_cast<unsigned char>(c)) + " ";
-        in_.expect(line + "0");
+            if (c != '\0') {
+                line += std::to_string(static_cast<unsigned char>(c)) + " ";
+                ++codes;
+            }
+        line += "0";
+        ++codes;
     }
-    in_.expect("</Array>");
+    const std::string element = has_strings_ ? "Array" : "DataArray";
+    in_.expect("<" + element + " type=\"" + (has_strings_ ? "String" : "UInt8") + "\" Name=\"" +
+               name + "\" NumberOfTuples=\"" +
+               std::to_string(has_strings_ ? values.size() : codes) + "\" format=\"ascii\">");
+    for (const std::string& line : lines) in_.expect(line);
+    in_.expect("</" + element + ">");
 }
 
 template <class T>

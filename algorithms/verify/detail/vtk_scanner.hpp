@@ -44,6 +44,7 @@ private:
     LineScanner in_;
     bool compressed_ = false;
     bool in_field_ = false;
+    bool has_strings_ = true; ///< whether strings are arrays of strings
 };
 
 /// Returns the first number of each list, as cell arrays have it; -1 for none.

@@ -153,3 +153,15 @@ TEST_CASE("volume of interest: invalid boundaries are refused", "[voi]") {
     const std::vector<std::uint32_t> all{0};
     CHECK(locate(a.value(), all).error().code == ErrorCode::not_closed);
 }
+
+TEST_CASE("volume of interest: a ring that repeats its first corner is the same polygon", "[voi]") {
+    using Ring = std::vector<Point2>;
+    const Ring ring{{0, 0}, {4, 0}, {4, 3}, {0, 4}}, closed{{0, 0}, {4, 0}, {4, 3}, {0, 4}, {0, 0}};
+    const auto once = polygon_boundary(ring, 0, 1), twice = polygon_boundary(closed, 0, 1);
+    REQUIRE((once && twice));
+    REQUIRE(once->size() == twice->size());
+    for (std::size_t s = 0; s < once->size(); ++s) {
+        CHECK((*once)[s].vertices == (*twice)[s].vertices);
+        CHECK((*once)[s].triangles == (*twice)[s].triangles);
+    }
+}

@@ -66,9 +66,10 @@ WideKernel wide_kernel(const Matrix& points) {
     return kernel;
 }
 
-/// Computes values - (kernel weights + polynomial), each entry summed in 128 bits.
+/// Computes values - (kernel weights + polynomial), each entry summed in 128 bits; something else if
+/// the run is stopped.
 Vector residual(const System& s, const WideKernel& kernel, const Vector& weights,
-                const Vector& polynomial) {
+                const Vector& polynomial, const Run& run) {
     const Eigen::Index n = s.values.size();
     std::vector<Wide> sums(static_cast<std::size_t>(n)), factors(static_cast<std::size_t>(n));
     const auto sum = [&](Eigen::Index i) -> Wide& { return sums[static_cast<std::size_t>(i)]; };
@@ -86,7 +87,7 @@ Vector residual(const System& s, const WideKernel& kernel, const Vector& weights
         }
     }
     auto pair = kernel.begin();
-    for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index i = 0; i < n && !run.stop.stop_requested(); ++i)
         for (Eigen::Index j = 0; j < i; ++j, ++pair) { // the kernel is symmetric
             mpfr_set_d(value, (*pair)[0], MPFR_RNDN);
             mpfr_add_d(value, value, (*pair)[1], MPFR_RNDN);
@@ -155,13 +156,13 @@ void solve(const System& system, const Solver& solver, Vector& weights, Vector& 
     solution.first_residual = solution.residual = std::numeric_limits<double>::quiet_NaN();
     if (most_refinements == 0) return;
     const WideKernel kernel = wide_kernel(system.points);
-    Vector left = residual(system, kernel, weights, polynomial);
+    Vector left = residual(system, kernel, weights, polynomial, run);
     solution.first_residual = solution.residual = left.cwiseAbs().maxCoeff();
     for (unsigned k = 0; k < most_refinements && !run.stop.stop_requested(); ++k) {
         if (solution.residual == 0) return;
         Vector better = weights, polynomial_better = polynomial;
         solver.add_solution(left, better, polynomial_better);
-        const Vector next = residual(system, kernel, better, polynomial_better);
+        const Vector next = residual(system, kernel, better, polynomial_better, run);
         const double largest = next.cwiseAbs().maxCoeff();
         if (!(largest < solution.residual)) return;
         const bool enough = largest > constants.least_refinement * solution.residual;

@@ -274,7 +274,8 @@ public:
     Thinning(DiskMesh& mesh, double least) :
         mesh_(mesh), least_(least), stays_(mesh.points().size(), false) {}
 
-    void operator()() {
+    /// Ends early if the run is stopped.
+    void operator()(const Run& run) {
         std::vector<std::uint32_t> inner;
         for (std::uint32_t v = 0; v < stays_.size(); ++v)
             if (mesh_.is_at_border(v))
@@ -284,6 +285,7 @@ public:
         for (std::uint32_t v = 0; v < stays_.size(); ++v)
             if (stays_[v] && mesh_.is_alive(v)) clear_round(v);
         for (const std::uint32_t v : inner) {
+            if (run.stop.stop_requested()) return;
             if (!mesh_.is_alive(v) || has_near(v)) continue;
             stays_[v] = true;
             clear_round(v);
@@ -330,10 +332,12 @@ Point3 onto_level(const SpaceFunction& function, Point3 p, double most, int step
 }
 
 /// Moves each inner vertex to the mean of its neighbours and to the level, unless that flips a
-/// triangle or makes one much worse.
-void smooth(DiskMesh& mesh, const SpaceFunction& function, double size, bool move_to_middle) {
+/// triangle or makes one much worse. Ends early if the run is stopped.
+void smooth(DiskMesh& mesh, const SpaceFunction& function, double size, bool move_to_middle,
+            const Run& run) {
     const auto n = static_cast<std::uint32_t>(mesh.points().size());
     for (std::uint32_t v = 0; v < n; ++v) {
+        if (run.stop.stop_requested()) return;
         if (!mesh.is_alive(v)) continue;
         Point3 p = mesh.points()[v];
         if (move_to_middle && !mesh.is_at_border(v)) {
@@ -376,16 +380,17 @@ Result<Surface> zero_level(const SpaceFunction& function, const ZeroLevelOptions
     auto marched = Marcher(function, options, run)();
     if (!marched) return marched;
     DiskMesh mesh(std::move(marched.value().vertices), std::move(marched.value().triangles));
-    Thinning(mesh, constants.thinning * options.size)();
+    Thinning(mesh, constants.thinning * options.size)(run);
     std::vector<std::uint32_t> all;
     for (std::uint32_t v = 0; v < mesh.points().size(); ++v)
         if (mesh.is_alive(v)) all.push_back(v);
     for (const bool move : {false, true, true, false}) {
         if (run.stop.stop_requested())
             return Error{ErrorCode::interrupted, "stopped on request", ""};
-        smooth(mesh, function, options.size, move);
-        mesh.improve(all);
+        smooth(mesh, function, options.size, move, run);
+        if (!run.stop.stop_requested()) mesh.improve(all);
     }
+    if (run.stop.stop_requested()) return Error{ErrorCode::interrupted, "stopped on request", ""};
     return compact(mesh);
 }
 

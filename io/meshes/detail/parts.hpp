@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// What the readers of meshes have in common: polygons become triangles, and triangles surfaces.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <terrane/algorithms/mesh/submesh.hpp>
+#include <terrane/algorithms/mesh/surface.hpp>
+
+namespace terrane::detail {
+
+/// A surface whose triangles name vertices of a whole file.
+struct FilePart {
+    std::string name;
+    Role role = Role::unknown;
+    std::vector<Triangle> triangles;
+};
+
+/// Appends the fan of a polygon round its first corner; fewer than three corners make none.
+inline void append_fan(std::span<const std::uint32_t> corners, std::vector<Triangle>& triangles) {
+    for (std::size_t i = 2; i < corners.size(); ++i)
+        triangles.push_back({corners[0], corners[i - 1], corners[i]});
+}
+
+/// Appends the triangles of a strip, all turned the same way.
+inline void append_strip(std::span<const std::uint32_t> corners, std::vector<Triangle>& triangles) {
+    for (std::size_t i = 2; i < corners.size(); ++i)
+        triangles.push_back(i % 2 == 0 ? Triangle{corners[i - 2], corners[i - 1], corners[i]}
+                                       : Triangle{corners[i - 1], corners[i - 2], corners[i]});
+}
+
+/// Makes a surface of each part that has triangles, with the vertices that they use.
+inline std::vector<Surface> surfaces_of_parts(std::span<const Point3> vertices,
+                                              std::vector<FilePart> parts) {
+    std::vector<Surface> surfaces;
+    Submesh subset(vertices);
+    for (FilePart& part : parts) {
+        if (part.triangles.empty()) continue;
+        Surface& surface = surfaces.emplace_back();
+        surface.name = std::move(part.name);
+        surface.role = part.role;
+        surface.triangles = std::move(part.triangles);
+        surface.vertices = subset.cut(surface.triangles);
+    }
+    return surfaces;
+}
+
+} // namespace terrane::detail

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/io/meshes/detail/vtk_data.hpp>
+
+#include <algorithm>
+#include <array>
+#include <type_traits>
+
+#include <zlib.h>
+
+#include <terrane/io/text/bytes.hpp>
+
+namespace terrane::detail {
+namespace {
+
+/// The most that zlib shrinks anything, with room for the header of a short stream.
+constexpr std::size_t most_growth = 1040;
+
+constexpr unsigned no_digit = 64;
+
+unsigned base64_digit(char c) {
+    if (c >= 'A' && c <= 'Z') return static_cast<unsigned>(c - 'A');
+    if (c >= 'a' && c <= 'z') return static_cast<unsigned>(c - 'a') + 26;
+    if (c >= '0' && c <= '9') return static_cast<unsigned>(c - '0') + 52;
+    return c == '+' ? 62 : c == '/' ? 63 : no_digit;
+}
+
+/// Bytes that are read from the front, raw or as base64.
+class ByteSource {
+public:
+    ByteSource(std::string_view text, bool base64, std::size_t at) :
+        text_(text), base64_(base64), at_(at) {}
+
+    /// Takes the next bytes; in base64 they are a stream of their own, padded at its end. Returns false
+    /// if there are not as many, or other characters.
+    bool take(std::size_t count, std::string& bytes) {
+        bytes.clear();
+        if (at_ > text_.size() || count > text_.size() - at_) return false;
+        if (!base64_) {
+            bytes = text_.substr(at_, count);
+            at_ += count;
+            return true;
+        }
+        const std::size_t letters = (count + 2) / 3 * 4;
+        if (letters > text_.size() - at_) return false;
+        bytes.reserve(letters / 4 * 3);
+        for (std::size_t i = at_; i < at_ + letters; i += 4)
+            if (!append_group(i, bytes)) return false;
+        at_ += letters;
+        if (bytes.size() < count) return false;
+        bytes.resize(count);
+        return true;
+    }
+
+    /// Tells whether the stream that was taken last ends with so much padding.
+    [[nodiscard]] bool was_padded(std::size_t count) const {
+        return base64_ && at_ >= count &&
+               text_.substr(at_ - count, count) == std::string(count, '=');
+    }
+    [[nodiscard]] bool is_base64() const { return base64_; }
+    [[nodiscard]] std::size_t at() const { return at_; }
+    void go_to(std::size_t at) { at_ = at; }
+
+private:
+    bool append_group(std::size_t at, std::string& bytes) const {
+        std::array<unsigned, 4> digits{};
+        std::size_t count = 4;
+        while (count > 2 && text_[at + count - 1] == '=') --count;
+        for (std::size_t k = 0; k < count; ++k) {
+            digits[k] = base64_digit(text_[at + k]);
+            if (digits[k] == no_digit) return false;
+        }
+        const unsigned group = digits[0] << 18U | digits[1] << 12U | digits[2] << 6U | digits[3];
+        for (std::size_t k = 0; k + 1 < count; ++k)
+            bytes += static_cast<char>(group >> (16 - 8 * k) & 255U);
+        return true;
+    }
+
+    std::string_view text_;
+    bool base64_;
+    std::size_t at_;
+};
+
+std::uint64_t header_word(const std::string& bytes, std::size_t index, const VtkEncoding& e) {
+    return e.wide_headers ? load<std::uint64_t>(bytes.data() + 8 * index, e.order)
+                          : load<std::uint32_t>(bytes.data() + 4 * index, e.order);
+}
+
+constexpr auto too_short = "the data of the array end too soon, or are not base64";
+
+std::optional<std::string> decode_plain(ByteSource& in, const VtkEncoding& e, std::string& bytes) {
+    const std::size_t word = e.wide_headers ? 8 : 4, start = in.at();
+    std::string header;
+    if (!in.take(word, header)) return too_short;
+    const std::uint64_t size = header_word(header, 0, e);
+    if (size > SIZE_MAX / 2) return too_short;
+    // Most programs encode the header and the data as one stream, some as two.
+    const bool apart = !in.is_base64() || in.was_padded(word == 4 ? 2 : 1);
+    if (!apart) in.go_to(start);
+    if (!in.take(apart ? size : word + size, bytes)) return too_short;
+    if (!apart) bytes.erase(0, word);
+    return std::nullopt;
+}
+
+bool inflate_to(std::string_view from, std::size_t size, std::string& bytes) {
+    if (size / most_growth > from.size()) return false;
+    const std::size_t start = bytes.size();
+    bytes.resize(start + size);
+    uLongf made = size;
+    const int code = uncompress(reinterpret_cast<Bytef*>(bytes.data() + start), &made,
+                                reinterpret_cast<const Bytef*>(from.data()), from.size());
+    return code == Z_OK && made == size;
+}
+
+std::optional<std::string> decode_compressed(ByteSource& in, const VtkEncoding& e,
+                                             std::string_view text, std::string& bytes) {
+    const std::size_t word = e.wide_headers ? 8 : 4, start = in.at();
+    std::string header, packed;
+    if (!in.take(word, header)) return too_short;
+    const std::uint64_t blocks = header_word(header, 0, e);
+    if (blocks == 0) return std::nullopt;
+    if (blocks > text.size()) return too_short;
+    in.go_to(start);
+    if (!in.take((3 + blocks) * word, header)) return too_short;
+    const std::uint64_t whole = header_word(header, 1, e), last = header_word(header, 2, e);
+    std::uint64_t size = 0;
+    for (std::uint64_t b = 0; b < blocks; ++b) {
+        const std::uint64_t part = header_word(header, 3 + b, e);
+        if (part > text.size() || (size += part) > text.size()) return too_short;
+    }
+    if (!in.take(size, packed)) return too_short;
+    std::size_t at = 0;
+    for (std::uint64_t b = 0; b < blocks; ++b) {
+        const std::uint64_t part = header_word(header, 3 + b, e);
+        const bool is_rest = b + 1 == blocks && last != 0;
+        if (!inflate_to(std::string_view(packed).substr(at, part), is_rest ? last : whole, bytes))
+            return "the data of the array cannot be decompressed";
+        at += part;
+    }
+    return std::nullopt;
+}
+
+template <class From, class To>
+void convert_all(std::string_view bytes, std::endian order, std::vector<To>& values) {
+    values.reserve(bytes.size() / sizeof(From));
+    for (std::size_t at = 0; at + sizeof(From) <= bytes.size(); at += sizeof(From)) {
+        const auto value = load<From>(bytes.data() + at, order);
+        if constexpr (std::is_same_v<From, std::uint64_t> && std::is_integral_v<To>)
+            values.push_back(value > std::uint64_t(INT64_MAX) ? To(-1) : static_cast<To>(value));
+        else
+            values.push_back(static_cast<To>(value));
+    }
+}
+
+template <class To>
+std::optional<std::string> convert_to(std::string_view bytes, std::string_view type,
+                                      std::endian order, std::vector<To>& values) {
+    values.clear();
+    const bool is_float = type == "Float32" || type == "Float64";
+    if (is_float && std::is_integral_v<To>) return "integers are needed";
+    if (type == "Float64")
+        convert_all<double>(bytes, order, values);
+    else if (type == "Float32")
+        convert_all<float>(bytes, order, values);
+    else if (type == "Int64")
+        convert_all<std::int64_t>(bytes, order, values);
+    else if (type == "UInt64")
+        convert_all<std::uint64_t>(bytes, order, values);
+    else if (type == "Int32")
+        convert_all<std::int32_t>(bytes, order, values);
+    else if (type == "UInt32")
+        convert_all<std::uint32_t>(bytes, order, values);
+    else if (type == "Int16")
+        convert_all<std::int16_t>(bytes, order, values);
+    else if (type == "UInt16")
+        convert_all<std::uint16_t>(bytes, order, values);
+    else if (type == "Int8")
+        convert_all<std::int8_t>(bytes, order, values);
+    else if (type == "UInt8")
+        convert_all<std::uint8_t>(bytes, order, values);
+    else
+        return "the type of the array is none of Float32, Float64, Int8 to Int64, UInt8 to UInt64";
+    return std::nullopt;
+}
+
+} // namespace
+
+std::optional<std::string> decode_vtk(std::string_view text, bool base64, std::size_t at,
+                                      const VtkEncoding& encoding, std::string& bytes,
+                                      std::size_t& used) {
+    bytes.clear();
+    ByteSource in(text, base64, at);
+    auto flaw = encoding.compressed ? decode_compressed(in, encoding, text, bytes)
+                                    : decode_plain(in, encoding, bytes);
+    used += in.at() > at ? in.at() - at : 0;
+    return flaw;
+}
+
+std::optional<std::string> convert_vtk(std::string_view bytes, std::string_view type,
+                                       std::endian order, std::vector<double>& values) {
+    return convert_to(bytes, type, order, values);
+}
+
+std::optional<std::string> convert_vtk(std::string_view bytes, std::string_view type,
+                                       std::endian order, std::vector<std::int64_t>& values) {
+    return convert_to(bytes, type, order, values);
+}
+
+} // namespace terrane::detail

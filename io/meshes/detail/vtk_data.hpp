@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// The data of arrays in VTK's XML files: numbers as text, or bytes as base64 or raw, as they are or
+// compressed by zlib.
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace terrane::detail {
+
+/// How a file stores the bytes of its arrays.
+struct VtkEncoding {
+    std::endian order = std::endian::little;
+    bool wide_headers = false; ///< 64 bits, not 32
+    bool compressed = false;   ///< by zlib
+};
+
+/// Decodes the bytes of an array, which begin with their header at `at`. `base64`: `text` is base64
+/// without blanks, else raw bytes. Adds the size of what it has read to `used`. Returns a sentence
+/// about the flaw, if there is one. The bytes are at most some 1040 times as many as those in `text`,
+/// which is the most that zlib achieves.
+std::optional<std::string> decode_vtk(std::string_view text, bool base64, std::size_t at,
+                                      const VtkEncoding& encoding, std::string& bytes,
+                                      std::size_t& used);
+
+/// Converts the bytes of numbers of VTK's type ("Float64", "Int32", ...) to doubles or integers.
+/// Returns a sentence about the flaw, if there is one; an unsigned number beyond int64 becomes -1.
+std::optional<std::string> convert_vtk(std::string_view bytes, std::string_view type,
+                                       std::endian order, std::vector<double>& values);
+std::optional<std::string> convert_vtk(std::string_view bytes, std::string_view type,
+                                       std::endian order, std::vector<std::int64_t>& values);
+
+} // namespace terrane::detail

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Reading VTP, legacy VTK and MSH: files of other programs (tests/data/other_programs), files that the
+// library wrote, and broken ones.
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+#include <terrane/algorithms/mesh/submesh.hpp>
+#include <terrane/io/atomic/atomic_file.hpp>
+#include <terrane/io/files.hpp>
+
+#include "support/paths.hpp"
+#include "support/samples.hpp"
+
+using namespace terrane;
+using namespace test_support;
+
+namespace {
+
+std::string other(const std::string& name) {
+    return test_data() + "/other_programs/" + name;
+}
+
+/// The corners of each triangle, which do not depend on numbers; triangles are in order.
+std::vector<std::array<Point3, 3>> places_of(const Surface& s) {
+    std::vector<std::array<Point3, 3>> all;
+    for (const Triangle& t : s.triangles)
+        all.push_back({s.vertices[t[0]], s.vertices[t[1]], s.vertices[t[2]]});
+    return all;
+}
+
+/// The roof that tests/data/other_programs/make.py writes.
+std::vector<std::array<Point3, 3>> roof() {
+    const Point3 a{0, 0, 0}, b{2, 0, 0}, c{2, 1, 0.5}, d{0, 1, 0.5}, e{0, 2, 0.1}, f{2, 2, 0.1};
+    return {{a, b, c}, {a, c, d}, {d, c, e}, {e, c, f}};
+}
+
+void check_error(const std::string& contents, Format format, ErrorCode code,
+                 const std::string& message) {
+    const auto read = parse_surfaces(contents, "a", format);
+    INFO(contents);
+    REQUIRE_FALSE(read);
+    CHECK(read.error().code == code);
+    CHECK(read.error().message() == message);
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+    const auto at = text.find(from);
+    REQUIRE(at != std::string::npos);
+    return text.replace(at, from.size(), to);
+}
+
+} // namespace
+
+TEST_CASE("VTP: files of VTK in every encoding", "[io][vtk]") {
+    for (const std::string name : {"ascii", "binary", "binary_zlib", "appended", "appended_raw",
+                                   "appended_raw_zlib", "appended_zlib", "big_endian"}) {
+        const auto read = read_surfaces(other("vtk_" + name + ".vtp"));
+        INFO(name);
+        if (!read) FAIL(read.error().message());
+        REQUIRE(read->size() == 1);
+        CHECK(read->front().name == "vtk_" + name);
+        CHECK(read->front().vertices.size() == 6);
+        CHECK(places_of(read->front()) == roof());
+    }
+}
+
+TEST_CASE("legacy VTK: files of VTK, text and binary, old and new", "[io][vtk]") {
+    for (const std::string name : {"ascii_42", "binary_42", "ascii_51", "binary_51_strip"}) {
+        const auto read = read_surfaces(other("vtk_" + name + ".vtk"));
+        INFO(name);
+        if (!read) FAIL(read.error().message());
+        REQUIRE(read->size() == 1);
+        CHECK(read->front().name == "vtk_" + name);
+        CHECK(places_of(read->front()) == roof()); // the second triangle of a strip is turned back
+    }
+}
+
+TEST_CASE("MSH: files of gmsh and meshio", "[io][msh]") {
+    for (const std::string name : {"gmsh_41.msh", "gmsh_22.msh"}) {
+        const auto read = read_surfaces(other(name));
+        INFO(name);
+        if (!read) FAIL(read.error().message());
+        REQUIRE(read->size() == 2);
+        CHECK(read->at(0).name == "west");
+        CHECK(read->at(1).name == "east flank");
+        CHECK(read->at(0).triangles.size() == 4);
+        CHECK(read->at(1).triangles.size() == 8);
+        double area = 0; // the west is a unit square in the plane z = 0
+        for (const auto& [a, b, c] : places_of(read->at(0))) {
+            CHECK((a.z == 0 && b.z == 0 && c.z == 0));
+            area += ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)) / 2;
+        }
+        CHECK(area == Approx(1));
+    }
+    const auto quads = read_surfaces(other("meshio_22.msh"));
+    REQUIRE(quads);
+    REQUIRE(quads->size() == 1);
+    CHECK(quads->front().name == "meshio_22");
+    CHECK(places_of(quads->front()) == roof());
+    const auto triangles = read_surfaces(other("meshio_41.msh"));
+    REQUIRE(triangles);
+    auto wanted = roof();
+    wanted.erase(wanted.begin(), wanted.begin() + 2);
+    CHECK(places_of(triangles->front()) == wanted);
+    CHECK(read_surfaces(other("gmsh_binary.msh")).error().message() ==
+          other("gmsh_binary.msh") + ":2: binary MSH is not read; save it as ASCII (gmsh -bin 0)");
+}
+
+TEST_CASE("VTP and MSH: what is written is read back", "[io][vtk][msh]") {
+    const Mesh mesh = awkward_mesh();
+    const auto meant = surfaces_of_mesh(mesh);
+    const std::vector<std::string> quotable{"top reservoir", "main 'A' fault", "top reservoir_2"};
+    for (const Format format : {Format::vtp, Format::msh, Format::msh22})
+        for (const bool compress : {false, true}) {
+            const auto text = format_mesh(mesh, format, {.compress = compress});
+            REQUIRE(text);
+            const auto read =
+                parse_surfaces(*text, "a", format == Format::vtp ? format : Format::msh);
+            if (!read) FAIL(read.error().message());
+            REQUIRE(read->size() == meant.size());
+            for (std::size_t s = 0; s < meant.size(); ++s) {
+                const Surface& found = (*read)[s];
+                auto there = places_of(found), wanted = places_of(meant[s]);
+                if (format == Format::vtp) {
+                    CHECK(found.name == meant[s].name);
+                    CHECK(found.role == meant[s].role);
+                    CHECK(found.vertices == meant[s].vertices);
+                } else {
+                    CHECK(found.name == quotable[s]);
+                    std::sort(there.begin(), there.end()); // groups change the order
+                    std::sort(wanted.begin(), wanted.end());
+                }
+                CHECK(there == wanted);
+            }
+        }
+}
+
+TEST_CASE("VTP: what can't be read is named with its line", "[io][vtk]") {
+    using enum ErrorCode;
+    const std::string good = read_file(other("vtk_ascii.vtp")).value();
+    REQUIRE(parse_surfaces(good, "a", Format::vtp));
+    const auto check = [&](const std::string& from, const std::string& to, ErrorCode code,
+                           const std::string& message) {
+        check_error(replaced(good, from, to), Format::vtp, code, message);
+    };
+    check_error("", Format::vtp, bad_syntax,
+                "a:1: this is not well-formed XML: No document "
+                "element found");
+    check_error("<a/>", Format::vtp, bad_syntax, "a:1: there is no element VTKFile");
+    check_error("<VTKFile type=\"UnstructuredGrid\"/>", Format::vtp, unsupported,
+                "a:1: the file has \"UnstructuredGrid\"; only PolyData is read");
+    check_error("<VTKFile type=\"PolyData\" compressor=\"vtkLZ4DataCompressor\"/>", Format::vtp,
+                unsupported,
+                "a:1: \"vtkLZ4DataCompressor\" is not read, only vtkZLibDataCompressor");
+    check_error("<VTKFile type=\"PolyData\"><PolyData/></VTKFile>", Format::vtp, nothing_to_do,
+                "a: there is no triangle");
+    check("NumberOfPoints=\"6\"", "NumberOfPoints=\"7\"", bad_syntax,
+          "a:10: 7 points call for 21 numbers, but there are 18");
+    check("0 2 0.1", "0 2 inf", bad_number,
+          "a:10: point 4 has a coordinate that is not a finite number");
+    check("0 1 2 3 3 2", "0 1 2 9 3 2", bad_index, "a:43: cell 0 names point 9, but there are 6");
+    check("4 7 10", "4 3 10", bad_index, "a:47: cell 1 ends at 3, which is not in its data");
+    const std::string appended = read_file(other("vtk_appended_raw_zlib.vtp")).value();
+    check_error(appended.substr(0, appended.size() - 80), Format::vtp, bad_syntax,
+                "a:24: the data of the array end too soon, or are not base64");
+}
+
+TEST_CASE("legacy VTK: what can't be read is named with its place", "[io][vtk]") {
+    using enum ErrorCode;
+    const std::string start = "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\n";
+    const std::string points = "POINTS 3 float\n0 0 0 1 0 0\n0 1 0\n";
+    REQUIRE(parse_surfaces(start + points + "POLYGONS 1 4\n3 0 1 2\n", "a", Format::vtk));
+    check_error("x", Format::vtk, bad_syntax,
+                "a:1: the first line is not \"# vtk DataFile Version\"");
+    check_error("# vtk DataFile Version 3.0\nt\nASCII\nDATASET STRUCTURED_GRID\n", Format::vtk,
+                unsupported, "a:4: the file has \"STRUCTURED_GRID\"; only POLYDATA is read");
+    check_error(start + points, Format::vtk, nothing_to_do, "a: there is no triangle");
+    check_error(start + "POINTS 99999 float\n", Format::vtk, bad_syntax,
+                "a:5: 99999 elements are more than the file has bytes");
+    check_error(start + "POINTS 3 float\n0 0 0 1 x 0\n", Format::vtk, bad_number,
+                "a:6: \"x\" is not such a number");
+    check_error(start + "POINTS 3 quad\n", Format::vtk, unsupported,
+                "a:5: \"quad\" is no type of number that is read");
+    check_error(start + points + "POLYGONS 1 4\n3 0 1 3\n", Format::vtk, bad_index,
+                "a:8: cell 0 names point 3, but there are 3");
+    check_error(start + points + "POLYGONS 2 4\n3 0 1 2\n", Format::vtk, bad_index,
+                "a:8: cell 1 is not within the 4 numbers");
+    check_error(start + "POINTS 3 float\n0 0", Format::vtk, bad_syntax,
+                "a:6: the file ends within its numbers");
+    const std::string binary = read_file(other("vtk_binary_42.vtk")).value();
+    const auto read = parse_surfaces(binary.substr(0, 150), "a", Format::vtk);
+    REQUIRE_FALSE(read);
+    CHECK(read.error().code == bad_syntax);
+    CHECK(read.error().place.starts_with("a, byte "));
+}
+
+TEST_CASE("MSH: what can't be read is named with its line", "[io][msh]") {
+    using enum ErrorCode;
+    const std::string start = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
+    const std::string nodes = "$Nodes\n3\n1 0 0 0\n2 1 0 0\n7 0 1 0\n$EndNodes\n";
+    REQUIRE(parse_surfaces(start + nodes + "$Elements\n1\n1 2 2 0 1 1 2 7\n$EndElements\n", "a",
+                           Format::msh));
+    check_error("", Format::msh, nothing_to_do, "a: the file is empty");
+    check_error("x", Format::msh, bad_syntax, "a:1: the first line is not $MeshFormat");
+    check_error("$MeshFormat\n4.0 0 8\n", Format::msh, unsupported,
+                "a:2: MSH \"4.0\" is not read, only 2.2 and 4.1");
+    check_error(start + nodes, Format::msh, nothing_to_do, "a: there is no triangle");
+    check_error(start + "$Nodes\n9999\n", Format::msh, bad_syntax,
+                "a:5: 9999 lines are more than the file has");
+    check_error(start + "$Nodes\n2\n1 0 0 0\n1 1 0 0\n$EndNodes\n", Format::msh, bad_index,
+                "a:7: there is a second node 1");
+    check_error(start + "$Nodes\n1\n1 0 0 nan\n$EndNodes\n", Format::msh, bad_number,
+                "a:6: \"nan\" is not a finite number");
+    check_error(start + nodes + "$Elements\n1\n1 2 2 0 1 1 2 3\n$EndElements\n", Format::msh,
+                bad_index, "a:12: the element names node 3, which does not exist");
+    check_error(start + nodes + "$Elements\n1\n1 9 2 0 1 1 2 7 1 2 7\n$EndElements\n", Format::msh,
+                unsupported,
+                "a:12: elements of type 9 have curved sides; only triangles and quadrilaterals of "
+                "the first order are read");
+    check_error(start + nodes + "$Elements\n2\n1 2 2 0 1 1 2 7\n$EndElements\n", Format::msh,
+                bad_syntax, "a:13: the end of the line is not an integer");
+    check_error(start + "$Nodes\n0\n$EndElements\n", Format::msh, bad_syntax,
+                "a:6: expected $EndNodes, found \"$EndElements\"");
+}
