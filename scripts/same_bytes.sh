@@ -53,8 +53,6 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 chosen=${CASES:-.}
 
-ln -s "$PWD/tests/data" "$work/data"
-ln -s "$PWD/docs/data" "$work/docs"
 cat >"$work/project.json" <<'END'
 {
   "format": "terrane-project 1",
@@ -71,31 +69,36 @@ cat >"$work/project.json" <<'END'
 }
 END
 
-# run_cases DIR PROGRAM THREADS: runs all cases; DIR/NAME gets what they print and write. Status 1
-# (findings, or rounding failed) is a result as well.
+# run_cases DIR PROGRAM THREADS: runs all cases in DIR; DIR/results/NAME gets what they print and write. Status
+# 1 (findings, or rounding failed) is a result as well.
 run_cases() {
     local case name status words
+    mkdir -p "$1/results"
+    ln -s "$PWD/tests/data" "$1/data"
+    ln -s "$PWD/docs/data" "$1/docs"
+    cp "$work/project.json" "$1/project.json"
     for case in "${cases[@]}"; do
         name=${case%% *}
         [[ $name =~ $chosen ]] || continue
-        rm -rf "$work/out" && mkdir "$work/out"
+        mkdir "$1/out"
         status=0
         read -ra words <<<"${case#* }"
         [[ ${words[0]} == convert ]] || words+=(--threads "$3")
         (
-            cd "$work"
+            cd "$1"
             "$2" "${words[@]}" >out/stdout 2>out/stderr
         ) || status=$?
         if [[ $status -gt 1 ]]; then
             echo "same_bytes: $name: exit status $status ($2)" >&2
-            cat "$work/out/stderr" >&2
+            cat "$1/out/stderr" >&2
             return 1
         fi
-        echo "$status" >"$work/out/status"
-        rm -f "$work/out/model/log.txt" # has times
-        without_times "$work/out/model/statistics.json"
-        mkdir -p "$1" && mv "$work/out" "$1/$name"
+        echo "$status" >"$1/out/status"
+        rm -f "$1/out/model/log.txt" # has times
+        without_times "$1/out/model/statistics.json"
+        mv "$1/out" "$1/results/$name"
     done
+    touch "$1/done"
 }
 
 # without_times FILE: takes times and memory out of statistics, if there are any.
@@ -109,19 +112,27 @@ json.dump(statistics, open(sys.argv[1], "w"), indent=1)
 END
 }
 
-differences=0
-run_cases "$work/expected" "${programs[0]}" 1
+# Each program runs all cases with one thread and with two; as many runs as there are processors go on at a time.
+runs=()
 for i in "${!programs[@]}"; do
     for threads in 1 2; do
-        [[ $i -gt 0 || $threads -gt 1 ]] || continue
-        run_cases "$work/results" "${programs[$i]}" "$threads"
-        if ! diff -rq "$work/expected" "$work/results"; then
-            echo "same_bytes: ${programs[$i]} with $threads threads differs from ${programs[0]} with one" >&2
-            differences=1
-            [[ -z ${KEEP:-} ]] || { mkdir -p "$KEEP" && cp -r "$work/expected" "$KEEP/" && cp -r "$work/results" "$KEEP/$i-$threads"; }
-        fi
-        rm -rf "$work/results"
+        runs+=("$i-$threads")
+        while [[ $(jobs -rp | wc -l) -ge $(nproc) ]]; do wait -n || true; done
+        run_cases "$work/$i-$threads" "${programs[$i]}" "$threads" &
     done
+done
+wait
+for run in "${runs[@]}"; do
+    [[ -e $work/$run/done ]] || exit 1
+done
+
+differences=0
+for run in "${runs[@]:1}"; do
+    if ! (cd "$work" && diff -rq "${runs[0]}/results" "$run/results"); then
+        echo "same_bytes: ${programs[${run%-*}]} with ${run#*-} threads differs from ${programs[0]} with one" >&2
+        differences=1
+        [[ -z ${KEEP:-} ]] || { mkdir -p "$KEEP" && cp -r "$work/${runs[0]}/results" "$KEEP/${runs[0]}" && cp -r "$work/$run/results" "$KEEP/$run"; }
+    fi
 done
 [[ $differences -eq 0 ]] || exit 1
 echo "same_bytes: ${#cases[@]} cases, ${#programs[@]} builds, 1 and 2 threads: all the same"

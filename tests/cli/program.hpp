@@ -15,12 +15,15 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <nlohmann/json.hpp>
+
 #include "support/files.hpp"
 #include "support/paths.hpp"
 
 namespace program_test {
 
 namespace fs = std::filesystem;
+using Json = nlohmann::json;
 
 struct Outcome {
     int status = -1;      ///< exit status, or 128 + signal if a signal ended it

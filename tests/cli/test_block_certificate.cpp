@@ -11,7 +11,6 @@
 #include "support/effort.hpp"
 
 using namespace program_test;
-using Json = nlohmann::json;
 
 namespace {
 

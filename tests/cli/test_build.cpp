@@ -13,7 +13,6 @@
 #include "program.hpp"
 
 using namespace program_test;
-using Json = nlohmann::json;
 
 namespace {
 
@@ -44,7 +43,7 @@ f 1 2 3 4
 )";
 
 /// Returns a project of the files in in/, with a box as volume of interest.
-Json project() {
+Json boxed_project() {
     return Json::parse(R"({
         "format": "terrane-project 1",
         "surfaces": [{"file": "layers.obj", "objects": ["base", "top"], "role": "horizon"},
@@ -75,7 +74,7 @@ struct Case {
 
 TEST_CASE("cli: build makes blocks in a box, in one folder", "[cli]") {
     const Case c;
-    const auto r = c.build(project());
+    const auto r = c.build(boxed_project());
     INFO(r.err);
     REQUIRE(r.status == 0);
     CHECK(r.err.empty());
@@ -107,7 +106,7 @@ TEST_CASE("cli: build makes blocks in a box, in one folder", "[cli]") {
 
 TEST_CASE("cli: build takes paths from the folder of the project", "[cli]") {
     const Case c;
-    auto json = project();
+    auto json = boxed_project();
     json["folder"] = "run";
     REQUIRE(c.build(json, "").status == 0);
     CHECK(c.files("in/run").starts_with("log.txt\nmodel\n"));
@@ -118,7 +117,7 @@ TEST_CASE("cli: build takes paths from the folder of the project", "[cli]") {
 TEST_CASE("cli: build: each kind of volume of interest", "[cli]") {
     const Case c;
     const auto volume_of = [&](const std::string& volume, const std::string& to) {
-        auto json = project();
+        auto json = boxed_project();
         json["volume_of_interest"] = Json::parse(volume);
         const auto r = c.build(json, "-o " + to);
         INFO(r.err);
@@ -136,7 +135,7 @@ TEST_CASE("cli: build: each kind of volume of interest", "[cli]") {
     c.folder.input("tetrahedron.obj", "v 0 0 0\nv 6 0 0\nv 0 6 0\nv 0 0 6\nf 1 3 2\nf 1 2 4\n"
                                       "f 2 3 4\nf 1 4 3\n");
     CHECK(volume_of(R"({"within": ["tetrahedron.obj"]})", "within") == 36);
-    auto json = project();
+    auto json = boxed_project();
     json["volume_of_interest"] = Json::parse(R"({"within": ["fault.obj"]})");
     const auto open = c.build(json, "-o open");
     CHECK(open.status == 1);
@@ -153,7 +152,7 @@ TEST_CASE("cli: build: gaps are closed, horizons extended, triangles made better
     c.folder.input("fault.obj", "v 4 -1 3.25\nv 4 9 3.25\nv 4 9 4.75\nv 4 -1 4.75\nf 1 2 3 4\n");
     c.folder.input("layers.obj", "o base\nv 1 1 3\nv 7 1 3\nv 7 7 3\nv 1 7 3\nf 1 2 3 4\n"
                                  "o top\nv 1 1 5\nv 7 1 5\nv 7 7 5\nv 1 7 5\nf 5 6 7 8\n");
-    auto json = project();
+    auto json = boxed_project();
     const auto blocks = [&](const std::string& to) {
         const auto r = c.build(json, "-o " + to);
         INFO(r.err);
@@ -185,7 +184,7 @@ TEST_CASE("cli: build: gaps are closed, horizons extended, triangles made better
 
 TEST_CASE("cli: build: a certificate that verify takes", "[cli]") {
     const Case c;
-    auto json = project();
+    auto json = boxed_project();
     json.erase("volume_of_interest");
     json["surfaces"][0].erase("objects");
     json["outputs"]["certificate"] = true;
@@ -209,15 +208,15 @@ TEST_CASE("cli: build: a certificate that verify takes", "[cli]") {
 TEST_CASE("cli: build: with --check full all pairs of boxes are tested, with the same result",
           "[cli]") {
     const Case c;
-    REQUIRE(c.build(project(), "-o bounds").status == 0);
-    const auto full = c.build(project(), "-o full --check full");
+    REQUIRE(c.build(boxed_project(), "-o bounds").status == 0);
+    const auto full = c.build(boxed_project(), "-o full --check full");
     INFO(full.err);
     REQUIRE(full.status == 0);
     CHECK(contains(
         full.out,
         "; 0 cleared by proven bounds (0 in injective patches, 0 by separation); 0 not moved"));
     CHECK(c.folder.read("full/surfaces.vtp") == c.folder.read("bounds/surfaces.vtp"));
-    CHECK(c.build(project(), "-o other --check some").status == 2);
+    CHECK(c.build(boxed_project(), "-o other --check some").status == 2);
 }
 
 TEST_CASE("cli: build: what is wrong is named by its key, and nothing is written", "[cli]") {
@@ -230,33 +229,33 @@ TEST_CASE("cli: build: what is wrong is named by its key, and nothing is written
         CHECK(contains(r.err, reason));
         CHECK(c.folder.left().empty());
     };
-    auto json = project();
+    auto json = boxed_project();
     refused(json, "in/p.json: the key folder is missing, and there is no -o", 2, "");
     json["surfaces"][1]["rolle"] = "fault";
     refused(json, "in/p.json: surfaces[1].rolle: unknown key; did you mean role?");
-    json = project();
+    json = boxed_project();
     json["surfaces"][0]["objects"][1] = "tpo";
     refused(json, "in/p.json: surfaces[0].objects[1]: in/layers.obj has no surface tpo; it has "
                   "base, top, spare");
-    json = project();
+    json = boxed_project();
     json["surfaces"][0]["name"] = "both";
     refused(json, "in/p.json: surfaces[0].name: is for one surface, but 2 are taken from");
-    json = project();
+    json = boxed_project();
     json["surfaces"][1]["file"] = "missing.obj";
     refused(json, "missing.obj");
-    json = project();
+    json = boxed_project();
     json["outputs"]["certificate"] = true;
     refused(json, "in/p.json: surfaces[0].objects: a certificate is about whole files");
     json["improve"]["edge_length"] = 0.5;
     refused(json, "outputs.certificate: must be false with fill, layers, improve or depth");
-    refused(project(), "not empty", 2, "-o in");
+    refused(boxed_project(), "not empty", 2, "-o in");
     CHECK(c.folder.run("build in/nothing.json -o out").status == 2);
 }
 
 TEST_CASE("cli: build without a conforming mesh writes nothing", "[cli]") {
     const Case c;
     c.folder.input("one.ts", "GOCAD TSurf 1\nTFACE\nVRTX 1 0 0 0\nVRTX 2 1 0 0\nEND\n");
-    auto json = project();
+    auto json = boxed_project();
     json["surfaces"] = Json::array({{{"file", "one.ts"}}});
     const auto r = c.build(json);
     CHECK(r.status != 0);
@@ -267,7 +266,7 @@ TEST_CASE("cli: build without a conforming mesh writes nothing", "[cli]") {
 
 TEST_CASE("cli: build: a certificate of tetrahedra that verify takes", "[cli]") {
     const Case c;
-    auto json = project();
+    auto json = boxed_project();
     json.erase("volume_of_interest");
     json["surfaces"][0].erase("objects");
     json["outputs"] = Json::parse(R"({"tetrahedra": ["vtu", "msh22"], "certificate": true})");
@@ -283,7 +282,7 @@ TEST_CASE("cli: build: a certificate of tetrahedra that verify takes", "[cli]") 
 
 TEST_CASE("cli: build: tetrahedra with sizes and cuts, by name", "[cli]") {
     const Case c;
-    auto json = project();
+    auto json = boxed_project();
     json["outputs"] = Json::parse(R"({"tetrahedra": ["vtu", "msh", "inp"]})");
     const auto counts = [&](const std::string& to) {
         const auto r = c.build(json, "-o " + to);
@@ -340,7 +339,7 @@ TEST_CASE("cli: tetrahedra are made whichever standard streams are closed", "[cl
 
 TEST_CASE("cli: build gives the same bytes for any number of threads", "[cli]") {
     const Case c;
-    auto json = project();
+    auto json = boxed_project();
     json["outputs"] = Json::parse(R"({"surfaces": ["obj"], "tetrahedra": ["vtu", "inp"],
                                       "blocks": "vtp"})");
     json["improve"] = {{"edge_length", 2}};
@@ -396,7 +395,7 @@ TEST_CASE("cli: tetrahedralize with sizes and cuts by name", "[cli]") {
 
 TEST_CASE("cli: without TetGen's helper, tetrahedra are refused before anything is read", "[cli]") {
     const Case c;
-    auto json = project();
+    auto json = boxed_project();
     json["outputs"]["tetrahedra"] = Json::array({"vtu"});
     json["surfaces"][0]["file"] = "nowhere.obj";
     c.folder.input("p.json", json.dump(2));

@@ -13,7 +13,6 @@
 #include "program.hpp"
 
 using namespace program_test;
-using Json = nlohmann::json;
 
 namespace {
 
@@ -45,7 +44,7 @@ Json grid_project(const std::string& method) {
 
 /// Shale rises through flat salt, so that the order is wrong in one half. A bore wall is in no
 /// layer.
-constexpr auto crossing = R"(o shale
+constexpr auto crossing_horizons = R"(o shale
 v 0 0 -4
 v 8 0 4
 v 8 8 4
@@ -72,13 +71,13 @@ Json layer_project(const char* upper, const char* lower) {
     return json;
 }
 
-struct Case {
+struct MendingCase {
     Folder folder;
 
-    Case() {
+    MendingCase() {
         folder.input("top.irap", holed_grid());
         folder.input("fold.obj", test_support::holed_fold_as_obj());
-        folder.input("stack.obj", crossing);
+        folder.input("stack.obj", crossing_horizons);
     }
     [[nodiscard]] Outcome build(const Json& json, const std::string& arguments) const {
         return folder.run("build " + folder.input("p.json", json.dump(2)) + " " + arguments);
@@ -100,7 +99,7 @@ std::vector<double> sorted_blocks(const Json& statistics) {
 } // namespace
 
 TEST_CASE("cli: build fills holes, so that what they let through becomes two blocks", "[cli]") {
-    const Case c;
+    const MendingCase c;
     auto open = grid_project("kriging");
     open.erase("fill");
     CHECK(c.built(open, "open")["volumes"]["blocks"].size() == 1);
@@ -130,7 +129,7 @@ TEST_CASE("cli: build fills holes, so that what they let through becomes two blo
 }
 
 TEST_CASE("cli: build with fill makes what fill and then build make", "[cli]") {
-    const Case c;
+    const MendingCase c;
     for (const std::string method : {"kriging", "rbf"}) {
         const auto filled =
             c.folder.run("fill --depth in/top.irap -o in/" + method + ".ts --method " + method);
@@ -147,7 +146,7 @@ TEST_CASE("cli: build with fill makes what fill and then build make", "[cli]") {
 }
 
 TEST_CASE("cli: build: holes that are not wanted stay open", "[cli]") {
-    const Case c;
+    const MendingCase c;
     auto json = grid_project("kriging");
     json["fill"][0]["max_area"] = 3000;
     json["fill"][0]["surface"] = "horizon"; // by its role
@@ -158,7 +157,7 @@ TEST_CASE("cli: build: holes that are not wanted stay open", "[cli]") {
 }
 
 TEST_CASE("cli: build puts layers in order, with the volumes that follow", "[cli][layer]") {
-    const Case c;
+    const MendingCase c;
     auto json = layer_project("shale", "salt");
     const auto stacked = c.built(json, "upper");
     // Salt stays flat, and shale becomes the higher of the two: a wedge over half of it.
@@ -186,7 +185,7 @@ TEST_CASE("cli: build puts layers in order, with the volumes that follow", "[cli
 
 TEST_CASE("cli: build fills first, then puts in order; the same for any number of threads",
           "[cli][layer]") {
-    const Case c;
+    const MendingCase c;
     // The filled sheet dips below a floor on one side.
     c.folder.input("floor.obj", "o floor\nv 0 0 60\nv 230 0 60\nv 230 230 60\nv 0 230 60\n"
                                 "f 1 2 3 4\n");
@@ -209,7 +208,7 @@ TEST_CASE("cli: build fills first, then puts in order; the same for any number o
 }
 
 TEST_CASE("cli: build: what can't be mended is named, and nothing is written", "[cli]") {
-    const Case c;
+    const MendingCase c;
     const auto refused = [&](const Json& json, const std::string& reason, int status) {
         const auto r = c.build(json, "-o out");
         INFO(r.err);

@@ -11,8 +11,6 @@ using namespace program_test;
 
 namespace {
 
-using Json = nlohmann::json;
-
 const std::string two_triangles = "v 0 0 0\nv 7 1 0\nv 1 9 0\nv 2 1 -3\nv 3 7 -1\nv 2.5 3 5\n"
                                   "g plane\nf 1 2 3\n";
 const std::string wrong_name = "b\xFF";

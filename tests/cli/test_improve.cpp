@@ -7,7 +7,6 @@
 #include "program.hpp"
 
 using namespace program_test;
-using Json = nlohmann::json;
 
 TEST_CASE("cli: improve writes a conforming mesh, its statistics and histograms", "[cli]") {
     const Folder folder;

@@ -13,7 +13,6 @@
 #include "program.hpp"
 
 using namespace program_test;
-using Json = nlohmann::json;
 
 namespace {
 

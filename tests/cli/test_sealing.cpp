@@ -11,12 +11,11 @@
 #include "program.hpp"
 
 using namespace program_test;
-using Json = nlohmann::json;
 
 namespace {
 
 /// A horizon that ends 0.1 short of a fault at x = 4, in the box from 0 to 8.
-constexpr auto model = R"(o horizon
+constexpr auto gapped_model = R"(o horizon
 v -1 -1 3
 v 3.9 -1 3
 v 3.9 9 3
@@ -30,19 +29,20 @@ v 4 -1 9
 f 5 6 7 8
 )";
 
-const std::string box = " --box 0,0,0,8,8,8 ";
+const std::string around_gap = " --box 0,0,0,8,8,8 ";
 
 } // namespace
 
 TEST_CASE("cli: --seal closes gaps up to its distance and lists what it did", "[cli]") {
     const Folder folder;
-    const auto in = folder.input("model.obj", model);
-    const auto open = folder.run("volume " + in + " -o open" + box);
+    const auto in = folder.input("model.obj", gapped_model);
+    const auto open = folder.run("volume " + in + " -o open" + around_gap);
     CHECK(contains(open.out, "2 closed blocks, volume 512 in all\n"));
     CHECK_FALSE(contains(open.out, "sealed"));
     CHECK_FALSE(Json::parse(folder.read("open/model.json")).contains("seal"));
 
-    const auto sealed = folder.run("volume " + in + " -o sealed --seal 0.11 --stats s.json" + box);
+    const auto sealed =
+        folder.run("volume " + in + " -o sealed --seal 0.11 --stats s.json" + around_gap);
     REQUIRE(sealed.status == 0);
     CHECK(contains(sealed.out, "sealed by at most 0.11: 1 change"));
     CHECK(contains(sealed.out, "horizon extended along"));
@@ -58,13 +58,13 @@ TEST_CASE("cli: --seal closes gaps up to its distance and lists what it did", "[
         CHECK(change["triangles"].get<int>() > 0);
     }
     // The other commands give the same result.
-    CHECK(folder.run("arrange " + in + " -o a.obj --seal 0.11" + box).status == 0);
+    CHECK(folder.run("arrange " + in + " -o a.obj --seal 0.11" + around_gap).status == 0);
     CHECK(contains(folder.run("volume a.obj -o again").out, "3 closed blocks, volume 512"));
 }
 
 TEST_CASE("cli: nothing moves where no gap is small enough: the same bytes", "[cli]") {
     const Folder folder;
-    const auto in = folder.input("model.obj", model);
+    const auto in = folder.input("model.obj", gapped_model);
     REQUIRE(folder.run("arrange " + in + " -o a.vtp -o a.obj").status == 0);
     const auto r = folder.run("arrange " + in + " -o b.vtp -o b.obj --seal 0.0999");
     REQUIRE(r.status == 0);
@@ -78,9 +78,10 @@ TEST_CASE("cli: nothing moves where no gap is small enough: the same bytes", "[c
 
 TEST_CASE("cli: --extend takes horizons to the boundary within its limit", "[cli]") {
     const Folder folder;
-    const auto in = folder.input("model.obj", model);
+    const auto in = folder.input("model.obj", gapped_model);
     const std::string roles = " --role fault=fault --role horizon=horizon";
-    const auto r = folder.run("volume " + in + " -o out --extend 5 --stats s.json" + roles + box);
+    const auto r =
+        folder.run("volume " + in + " -o out --extend 5 --stats s.json" + roles + around_gap);
     INFO(r.err);
     REQUIRE(r.status == 0);
     CHECK(contains(r.out, "horizon: along 8 at (3.9, 0, 3): extended\n"));
@@ -88,14 +89,14 @@ TEST_CASE("cli: --extend takes horizons to the boundary within its limit", "[cli
     const auto extended = Json::parse(folder.read("s.json"))["extended"];
     REQUIRE(extended.size() == 1);
     CHECK(extended[0]["reached"] == true);
-    const auto far = folder.run("volume " + in + " -o far --extend 4" + roles + box);
+    const auto far = folder.run("volume " + in + " -o far --extend 4" + roles + around_gap);
     CHECK(contains(far.out, "horizon: along 8 at (3.9, 0, 3): too far\n"));
     CHECK(contains(far.out, "2 closed blocks, volume 512 in all\n"));
 }
 
 TEST_CASE("cli: --seal and --extend refuse what makes no sense", "[cli]") {
     const Folder folder;
-    const auto in = folder.input("model.obj", model);
+    const auto in = folder.input("model.obj", gapped_model);
     for (const std::string options :
          {"--seal -1", "--seal nan", "--seal x", "--extend 1", "--extend -1 --box 0,0,0,8,8,8"}) {
         const auto r = folder.run("arrange " + in + " -o a.obj " + options);

@@ -11,12 +11,11 @@
 #include "program.hpp"
 
 using namespace program_test;
-using Json = nlohmann::json;
 
 namespace {
 
 /// A box, two horizons that reach beyond it, and a fault that ends inside it.
-constexpr auto model = R"(o box
+constexpr auto boxed_model = R"(o box
 v 0 0 0
 v 8 0 0
 v 8 8 0
@@ -64,7 +63,7 @@ std::map<std::string, int> kinds_of(const Json& lines) {
 
 TEST_CASE("cli: volume finds the blocks and writes them", "[cli]") {
     const Folder folder;
-    const auto in = folder.input("model.obj", model);
+    const auto in = folder.input("model.obj", boxed_model);
     const auto r = folder.run("volume " + in + " -o out --parts obj --stats s.json" + roles);
     INFO(r.err);
     REQUIRE(r.status == 0);
@@ -136,7 +135,7 @@ TEST_CASE("cli: volume: open surfaces are no error, and enclose nothing", "[cli]
 
 TEST_CASE("cli: volume refuses what it can't do, and leaves nothing", "[cli]") {
     const Folder folder;
-    const auto in = folder.input("model.obj", model);
+    const auto in = folder.input("model.obj", boxed_model);
     const auto refused = [&](const std::string& arguments, int status, const std::string& reason) {
         const auto r = folder.run("volume " + in + " " + arguments);
         INFO(r.err);
@@ -160,7 +159,7 @@ TEST_CASE("cli: volume refuses what it can't do, and leaves nothing", "[cli]") {
 
 TEST_CASE("cli: volume fills an empty folder", "[cli]") {
     const Folder folder;
-    const auto in = folder.input("model.obj", model);
+    const auto in = folder.input("model.obj", boxed_model);
     REQUIRE(folder.shell("mkdir out").status == 0);
     CHECK(folder.run("volume " + in + " -o out/").status == 0);
     CHECK(folder.shell("test -f out/model.json -a -f out/blocks/block_1.vtp").status == 0);

@@ -11,12 +11,11 @@
 #include "program.hpp"
 
 using namespace program_test;
-using Json = nlohmann::json;
 
 namespace {
 
 /// Two horizons and a fault that end inside a box from 0 to 8 on some sides and cross it on others.
-constexpr auto model = R"(o base
+constexpr auto cut_model = R"(o base
 v -1 -1 3
 v 9 -1 3
 v 9 9 3
@@ -61,7 +60,7 @@ f 4 1 5 8
 
 TEST_CASE("cli: all ways to name the same volume of interest give the same blocks", "[cli]") {
     const Folder folder;
-    const auto in = folder.input("model.obj", model);
+    const auto in = folder.input("model.obj", cut_model);
     folder.input("cube.obj", cube);
     folder.input("square.txt", "# the licence\n0 0\n8, 0 # metres\n\n8 8 17\n0 8\n");
     int number = 0;
@@ -94,7 +93,7 @@ TEST_CASE("cli: all ways to name the same volume of interest give the same block
 
 TEST_CASE("cli: faces of the boundary have names", "[cli]") {
     const Folder folder;
-    const auto in = folder.input("model.obj", model);
+    const auto in = folder.input("model.obj", cut_model);
     REQUIRE(folder.run("volume " + in + " -o out --box 0,0,0,8,8,8 --role base=horizon").status ==
             0);
     const auto json = Json::parse(folder.read("out/model.json"));
@@ -109,7 +108,7 @@ TEST_CASE("cli: faces of the boundary have names", "[cli]") {
 
 TEST_CASE("cli: arrange in a volume of interest is conforming", "[cli]") {
     const Folder folder;
-    const auto in = folder.input("model.obj", model);
+    const auto in = folder.input("model.obj", cut_model);
     const auto r = folder.run("arrange " + in + " -o a.obj --box 0,0,0,8,8,8");
     CHECK(r.status == 0);
     CHECK(folder.run("check a.obj").status == 0);
@@ -120,7 +119,7 @@ TEST_CASE("cli: arrange in a volume of interest is conforming", "[cli]") {
 
 TEST_CASE("cli: arrange in a volume of interest writes a certificate that verify takes", "[cli]") {
     const Folder folder;
-    const auto in = folder.input("model.obj", model);
+    const auto in = folder.input("model.obj", cut_model);
     folder.input("cube.obj", cube);
     for (const auto& [volume, named] :
          {std::pair("--box 0,0,0,8,8,8", "cut by the polygon (0, 0) (8, 0) (8, 8) (0, 8) between 0 "
@@ -143,7 +142,7 @@ TEST_CASE("cli: arrange in a volume of interest writes a certificate that verify
 
 TEST_CASE("cli: volumes of interest that are none are refused by name", "[cli]") {
     const Folder folder;
-    const auto in = folder.input("model.obj", model);
+    const auto in = folder.input("model.obj", cut_model);
     folder.input("open.obj", std::string(cube).substr(0, std::string(cube).rfind("f 4")));
     folder.input("one.txt", "0 0\n1\n");
     const auto refused = [&](const std::string& options, const std::string& reason) {
@@ -176,7 +175,7 @@ TEST_CASE("cli: volumes of interest that are none are refused by name", "[cli]")
 #ifdef TERRANE_HAS_TETGEN
 TEST_CASE("cli: tetrahedra only inside the volume of interest", "[cli]") {
     const Folder folder;
-    const auto in = folder.input("model.obj", model);
+    const auto in = folder.input("model.obj", cut_model);
     const auto r = folder.run("tetrahedralize " + in +
                               " -o a.msh --msh 2.2 -o a.vtu --box 0,0,0,8,8,8 --stats s.json");
     INFO(r.err);

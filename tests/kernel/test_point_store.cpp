@@ -160,12 +160,12 @@ TEST_CASE("point store law 1: permutations of constructed points") {
                   s.orient3d(upward, b, c, a, d) == volume &&
                   s.orient3d(upward, a, b, c, a) == Sign::Zero;
         for (const Axis axis : axes) {
-            const Sign turn = s.orient2d(upward, axis, a, b, c),
-                       circle = s.in_circle(upward, axis, a, b, c, d);
-            ok = ok && s.orient2d(upward, axis, b, c, a) == turn &&
-                 s.orient2d(upward, axis, c, b, a) == -turn &&
-                 s.in_circle(upward, axis, b, c, a, d) == circle &&
-                 s.in_circle(upward, axis, b, a, c, d) == -circle &&
+            const Sign turn_sign = s.orient2d(upward, axis, a, b, c),
+                       circle_sign = s.in_circle(upward, axis, a, b, c, d);
+            ok = ok && s.orient2d(upward, axis, b, c, a) == turn_sign &&
+                 s.orient2d(upward, axis, c, b, a) == -turn_sign &&
+                 s.in_circle(upward, axis, b, c, a, d) == circle_sign &&
+                 s.in_circle(upward, axis, b, a, c, d) == -circle_sign &&
                  s.in_circle(upward, axis, a, b, c, b) == Sign::Zero;
         }
         REQUIRE(ok);

@@ -274,10 +274,10 @@ TEST_CASE("predicates do not depend on the rounding mode, and keep it") {
             bool kept = std::fegetround() == mode;
             bool ok = volume == oracle::orient3d(q[0], q[1], q[2], q[3]);
             for (const Axis axis : all_axes) {
-                const Sign turn = orient2d(axis, p[0], p[1], p[2]);
-                const Sign circle = in_circle(axis, p[0], p[1], p[2], p[3]);
-                ok = ok && turn == oracle::orient2d(axis, q[0], q[1], q[2]) &&
-                     circle == oracle::in_circle(axis, q[0], q[1], q[2], q[3]);
+                const Sign turn_sign = orient2d(axis, p[0], p[1], p[2]);
+                const Sign circle_sign = in_circle(axis, p[0], p[1], p[2], p[3]);
+                ok = ok && turn_sign == oracle::orient2d(axis, q[0], q[1], q[2]) &&
+                     circle_sign == oracle::in_circle(axis, q[0], q[1], q[2], q[3]);
             }
             kept = kept && std::fegetround() == mode;
             std::fesetround(callers);

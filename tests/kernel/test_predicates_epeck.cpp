@@ -48,9 +48,9 @@ TEST_CASE("orient3d, orient2d, in_circle and collinear agree with CGAL's EPECK")
                 orient3d(p[0], p[1], p[2], p[3]) == sign(CGAL::orientation(e[0], e[1], e[2], e[3]));
             ok = ok && collinear(p[0], p[1], p[2]) == CGAL::collinear(e[0], e[1], e[2]);
             for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
-                const Sign turn = sign(CGAL::orientation(
+                const Sign turn_sign = sign(CGAL::orientation(
                     projected(axis, p[0]), projected(axis, p[1]), projected(axis, p[2])));
-                ok = ok && orient2d(axis, p[0], p[1], p[2]) == turn &&
+                ok = ok && orient2d(axis, p[0], p[1], p[2]) == turn_sign &&
                      in_circle(axis, p[0], p[1], p[2], p[3]) == epeck_in_circle(axis, p);
             }
             REQUIRE(ok);

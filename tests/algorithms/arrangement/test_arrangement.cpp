@@ -27,7 +27,7 @@ struct Counts {
 };
 
 /// Arranges the surfaces, has the result verified, and counts.
-Counts arranged(const std::vector<Surface>& surfaces) {
+Counts counts_of_arrangement(const std::vector<Surface>& surfaces) {
     const auto a = arrange(surfaces);
     REQUIRE(a);
     REQUIRE(flaws(surfaces, a.value()) == "");
@@ -40,51 +40,58 @@ const Surface floor_triangle = triangle({0, 0, 0}, {4, 0, 0}, {0, 4, 0});
 } // namespace
 
 TEST_CASE("arrange: nothing, one triangle, one and its neighbours") {
-    CHECK(arranged({}) == Counts{0, 0, 0});
-    CHECK(arranged({surface({}, {})}) == Counts{0, 0, 0});
-    CHECK(arranged({surface({{1, 2, 3}}, {})}) == Counts{0, 0, 0});
-    CHECK(arranged({floor_triangle}) == Counts{3, 1, 0});
-    CHECK(arranged({surface({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 5}},
-                            {{0, 1, 2}, {1, 3, 2}})}) == Counts{4, 2, 0});
-    CHECK(arranged({floor_triangle, triangle({0, 0, 9}, {4, 0, 9}, {0, 4, 9})}) == Counts{6, 2, 0});
+    CHECK(counts_of_arrangement({}) == Counts{0, 0, 0});
+    CHECK(counts_of_arrangement({surface({}, {})}) == Counts{0, 0, 0});
+    CHECK(counts_of_arrangement({surface({{1, 2, 3}}, {})}) == Counts{0, 0, 0});
+    CHECK(counts_of_arrangement({floor_triangle}) == Counts{3, 1, 0});
+    CHECK(counts_of_arrangement({surface({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 5}},
+                                         {{0, 1, 2}, {1, 3, 2}})}) == Counts{4, 2, 0});
+    CHECK(counts_of_arrangement({floor_triangle, triangle({0, 0, 9}, {4, 0, 9}, {0, 4, 9})}) ==
+          Counts{6, 2, 0});
 }
 
 TEST_CASE("arrange: shared vertex, shared edge, of two surfaces") {
-    CHECK(arranged({floor_triangle, triangle({0, 0, 0}, {-1, 0, 1}, {0, -1, 1})}) ==
+    CHECK(counts_of_arrangement({floor_triangle, triangle({0, 0, 0}, {-1, 0, 1}, {0, -1, 1})}) ==
           Counts{5, 2, 0});
-    CHECK(arranged({floor_triangle, triangle({0, 0, 0}, {4, 0, 0}, {0, 0, 4})}) == Counts{4, 2, 1});
+    CHECK(counts_of_arrangement({floor_triangle, triangle({0, 0, 0}, {4, 0, 0}, {0, 0, 4})}) ==
+          Counts{4, 2, 1});
 }
 
 TEST_CASE("arrange: vertex on edge, vertex on face") {
-    CHECK(arranged({floor_triangle, triangle({2, 0, 0}, {2, 0, 1}, {2, -1, 1})}) ==
+    CHECK(counts_of_arrangement({floor_triangle, triangle({2, 0, 0}, {2, 0, 1}, {2, -1, 1})}) ==
           Counts{6, 3, 0});
-    CHECK(arranged({floor_triangle, triangle({1, 1, 0}, {5, 5, 5}, {6, 5, 5})}) == Counts{6, 4, 0});
+    CHECK(counts_of_arrangement({floor_triangle, triangle({1, 1, 0}, {5, 5, 5}, {6, 5, 5})}) ==
+          Counts{6, 4, 0});
 }
 
 TEST_CASE("arrange: edges cross, an edge through a face, an edge on a face") {
-    CHECK(arranged({floor_triangle, triangle({2, 0, -1}, {2, 0, 1}, {2, -5, 0})}) ==
+    CHECK(counts_of_arrangement({floor_triangle, triangle({2, 0, -1}, {2, 0, 1}, {2, -5, 0})}) ==
           Counts{7, 4, 0});
-    CHECK(arranged({floor_triangle, triangle({1, 1, -1}, {1, 1, 1}, {2, 1, 1})}) ==
+    CHECK(counts_of_arrangement({floor_triangle, triangle({1, 1, -1}, {1, 1, 1}, {2, 1, 1})}) ==
           Counts{8, 8, 1});
-    CHECK(arranged({floor_triangle, triangle({1, 1, 0}, {2, 1, 0}, {1, 1, 3})}) == Counts{6, 6, 1});
-    CHECK(arranged({floor_triangle, triangle({2, 0, 0}, {6, 0, 0}, {1, 0, 3})}) == Counts{6, 4, 1});
+    CHECK(counts_of_arrangement({floor_triangle, triangle({1, 1, 0}, {2, 1, 0}, {1, 1, 3})}) ==
+          Counts{6, 6, 1});
+    CHECK(counts_of_arrangement({floor_triangle, triangle({2, 0, 0}, {6, 0, 0}, {1, 0, 3})}) ==
+          Counts{6, 4, 1});
 }
 
 TEST_CASE("arrange: a shared vertex and a crossing; folded over a shared edge") {
-    CHECK(arranged({floor_triangle, triangle({0, 0, 0}, {1, 1, -1}, {1, 1, 1})}) ==
+    CHECK(counts_of_arrangement({floor_triangle, triangle({0, 0, 0}, {1, 1, -1}, {1, 1, 1})}) ==
           Counts{6, 5, 1});
-    CHECK(
-        arranged({surface({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 0}}, {{0, 1, 2}, {1, 0, 3}})}) ==
-        Counts{4, 3, 2}); // the shared edge has one triangle
+    CHECK(counts_of_arrangement(
+              {surface({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 0}}, {{0, 1, 2}, {1, 0, 3}})}) ==
+          Counts{4, 3, 2}); // the shared edge has one triangle
 }
 
 TEST_CASE("arrange: coplanar overlap, of either orientation, in part and as a whole") {
     const Point3 a{1, 1, 0}, b{5, 1, 0}, c{1, 5, 0};
-    const Counts part = arranged({floor_triangle, triangle(a, b, c)});
+    const Counts part = counts_of_arrangement({floor_triangle, triangle(a, b, c)});
     CHECK(part == Counts{8, 7, 3});
-    CHECK(arranged({floor_triangle, triangle(a, c, b)}) == part);
-    CHECK(arranged({floor_triangle, triangle({1, 1, 0}, {2, 1, 0}, {1, 2, 0})}) == Counts{6, 7, 3});
-    const Counts star = arranged({floor_triangle, triangle({3, 3, 0}, {-1, 3, 0}, {3, -1, 0})});
+    CHECK(counts_of_arrangement({floor_triangle, triangle(a, c, b)}) == part);
+    CHECK(counts_of_arrangement({floor_triangle, triangle({1, 1, 0}, {2, 1, 0}, {1, 2, 0})}) ==
+          Counts{6, 7, 3});
+    const Counts star =
+        counts_of_arrangement({floor_triangle, triangle({3, 3, 0}, {-1, 3, 0}, {3, -1, 0})});
     CHECK(star.vertices == 12);
     CHECK(star.triangles == 6 + 4); // six tips, four within the hexagon
     CHECK(star.intersection_edges == 6);
@@ -123,11 +130,11 @@ TEST_CASE("arrange: three surfaces through one point, and four planes") {
     const std::vector<Surface> three{triangle({-4, -4, 0}, {4, -4, 0}, {0, 8, 0}),
                                      triangle({-4, 0, -4}, {4, 0, -4}, {0, 0, 8}),
                                      triangle({0, -4, -4}, {0, 4, -4}, {0, 0, 8})};
-    arranged(three);
+    counts_of_arrangement(three);
     auto four = three;
     four.push_back(triangle({-5, 5, 1}, {5, -5, 1}, {1, 1, -2})); // also through the origin
     for (auto& p : four.back().vertices) p.z = -p.x - p.y;
-    arranged(four);
+    counts_of_arrangement(four);
     const auto a = arrange(four);
     int origins = 0;
     for (const PointIndex p : a.value().vertices)
@@ -150,8 +157,9 @@ TEST_CASE("arrange: constraints cross within a triangle, in points of three plan
 }
 
 TEST_CASE("arrange: a surface that crosses itself, and one with a Moebius twist") {
-    arranged({surface({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, -1}, {1, 2, 1}, {2, 1, 1}},
-                      {{0, 1, 2}, {3, 4, 5}})});
+    counts_of_arrangement(
+        {surface({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, -1}, {1, 2, 1}, {2, 1, 1}},
+                 {{0, 1, 2}, {3, 4, 5}})});
     Surface strip;
     for (int i = 0; i < 9; ++i) {
         const double t = i * 0.75, c = std::cos(t), s = std::sin(t), h = t / 2;
@@ -163,7 +171,7 @@ TEST_CASE("arrange: a surface that crosses itself, and one with a Moebius twist"
         strip.triangles.push_back({k, k + 1, k + 2});
         strip.triangles.push_back({k + 1, k + 3, k + 2});
     }
-    arranged({strip, triangle({-9, -9, 0.1}, {9, -9, 0.1}, {0, 9, 0.1})});
+    counts_of_arrangement({strip, triangle({-9, -9, 0.1}, {9, -9, 0.1}, {0, 9, 0.1})});
 }
 
 TEST_CASE("arrange: an arrangement of doubles is its own arrangement") {

@@ -30,23 +30,23 @@ Surface height_field(int n, int m, const std::function<double(int, int)>& height
     return s;
 }
 
-enum class Model { two_horizons, horizon_and_fault, integer_heights, integer_fault, shifted };
+enum class PairModel { two_horizons, horizon_and_fault, integer_heights, integer_fault, shifted };
 
 /// Returns two surfaces, neither of which crosses itself: each is a graph over z = 0 or x = 0.
-std::array<Surface, 2> random_pair(Random& random, Model model) {
-    const bool integers = model == Model::integer_heights || model == Model::integer_fault;
+std::array<Surface, 2> random_pair(Random& random, PairModel model) {
+    const bool integers = model == PairModel::integer_heights || model == PairModel::integer_fault;
     const auto height = [&](int, int) {
         return integers ? double(random_int(random, -1, 1)) : random_real(random, -0.4, 0.4);
     };
     const int n = random_int(random, 1, 6), m = random_int(random, 1, 6);
     std::array<Surface, 2> pair{height_field(n, m, height), height_field(n, m, height)};
     Surface& second = pair[1];
-    if (model == Model::horizon_and_fault || model == Model::integer_fault) {
+    if (model == PairModel::horizon_and_fault || model == PairModel::integer_fault) {
         const double off = integers ? random_int(random, 0, n) : random_real(random, 0.2, n - 0.2);
         const double down = integers ? random_int(random, 0, n) : random_real(random, 0.2, n - 0.2);
         for (Point3& p : second.vertices) p = {p.z + off, p.y, p.x - down};
     }
-    if (model == Model::shifted)
+    if (model == PairModel::shifted)
         for (Point3& p : second.vertices) p = {p.x + 0.3, p.y - 0.7, p.z + 0.1};
     return pair;
 }
@@ -56,8 +56,9 @@ std::array<Surface, 2> random_pair(Random& random, Model model) {
 TEST_CASE("pairs of surfaces: the points, triangles and areas of CGAL's corefinement") {
     Random random(91);
     int crossing = 0;
-    for (const Model model : {Model::two_horizons, Model::horizon_and_fault, Model::integer_heights,
-                              Model::integer_fault, Model::shifted})
+    for (const PairModel model :
+         {PairModel::two_horizons, PairModel::horizon_and_fault, PairModel::integer_heights,
+          PairModel::integer_fault, PairModel::shifted})
         for (int i = 0; i < cases(160); ++i) {
             const auto pair = random_pair(random, model);
             const auto arranged = arrange(pair);

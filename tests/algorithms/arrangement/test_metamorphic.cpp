@@ -18,7 +18,7 @@ namespace {
 using namespace terrane;
 using namespace test_support;
 
-std::string digest(std::span<const Surface> surfaces) {
+std::string digest_of(std::span<const Surface> surfaces) {
     return canonical_digest(surfaces, arranged(surfaces));
 }
 
@@ -26,7 +26,7 @@ std::string digest(std::span<const Surface> surfaces) {
 /// back.
 void check_same(const Surfaces& original, const ArrangementClaim& carried) {
     CHECK(carried.triangles.size() == arranged(original).triangles.size());
-    CHECK(verifier::digest_of(original, carried) == digest(original));
+    CHECK(verifier::digest_of(original, carried) == digest_of(original));
 }
 
 /// Returns triangles in general position: no three lines meet in a point, no four points lie on a
@@ -50,7 +50,7 @@ TEST_CASE("metamorphic: order and orientation do not change the digest") {
     std::mt19937 random(1);
     for (const Model& model : certified_inputs()) {
         INFO(model.name);
-        CHECK(digest(shuffled(model.surfaces, random)) == digest(model.surfaces));
+        CHECK(digest_of(shuffled(model.surfaces, random)) == digest_of(model.surfaces));
     }
 }
 
@@ -77,7 +77,7 @@ TEST_CASE("metamorphic: scaling by a power of two commutes with arranging") {
             const auto other = scaled(model.surfaces, k);
             if (other.empty()) continue;
             CHECK(verifier::digest_of(model.surfaces, claim_of(arranged(other))) ==
-                  digest(model.surfaces));
+                  digest_of(model.surfaces));
         }
 }
 

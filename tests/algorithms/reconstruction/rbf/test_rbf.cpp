@@ -13,6 +13,7 @@
 #include <catch2/catch.hpp>
 
 #include "support/effort.hpp"
+#include "support/loops.hpp"
 #include "support/shapes.hpp"
 #include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/reconstruction/joining/join.hpp>
@@ -22,13 +23,6 @@ using namespace terrane;
 using namespace test_support;
 
 namespace {
-
-std::vector<BorderLoop> holes_of(const Surface& s) {
-    auto loops = find_border_loops(s);
-    REQUIRE(loops);
-    std::erase_if(loops.value(), [](const BorderLoop& l) { return l.kind == LoopKind::outer; });
-    return loops.value();
-}
 
 /// Fills and joins the hole; checks that the result is conforming and has no hole left.
 Joined fill(const Surface& s, const BorderLoop& hole, const RbfOptions& options = {}) {
