@@ -2,17 +2,89 @@
 #include <terrane/io/detail/growth_writer.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <optional>
+#include <queue>
 #include <utility>
 
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
-#include <terrane/algorithms/quality/deviation.hpp>
+#include <terrane/algorithms/mesh/triangle_tree.hpp>
 #include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
 
 namespace terrane::detail {
 
 namespace {
+
+/// Bounds distances of triangles from a surface. The distance from one triangle is convex, so no
+/// point of a part of a triangle is farther from it than the part's farthest corner.
+class DistanceBound {
+public:
+    explicit DistanceBound(const Surface& to) : to_(to) {}
+
+    /// Returns a bound that exceeds the largest distance by a sixteenth at most; infinity, if there
+    /// are no triangles to be near.
+    double operator()(const Surface& from, const Run& run) {
+        constexpr double slack = 1.0 / 32;
+        if (from.triangles.empty()) return 0;
+        if (to_.triangles.empty()) return std::numeric_limits<double>::infinity();
+        tree_.emplace(to_.vertices, to_.triangles);
+        double largest = 0; // coordinate
+        std::priority_queue<Part> parts;
+        for (const auto& [a, b, c] : from.triangles) {
+            const Corners corners{from.vertices[a], from.vertices[b], from.vertices[c]};
+            for (const Point3& p : corners)
+                largest = std::max({largest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+            parts.push(part_of(corners));
+        }
+        const auto enough = [&] { return (1 + slack) * least_ + std::ldexp(largest, -30); };
+        while (parts.top().most > enough() && !run.stop.stop_requested()) {
+            const Corners c = parts.top().corners;
+            parts.pop();
+            const Corners m{middle(c[0], c[1]), middle(c[1], c[2]), middle(c[2], c[0])};
+            for (const Corners& quarter : {Corners{c[0], m[0], m[2]}, Corners{m[0], c[1], m[1]},
+                                           Corners{m[2], m[1], c[2]}, m})
+                parts.push(part_of(quarter));
+        }
+        return (1 + slack / 2) * std::max(enough(), parts.top().most);
+    }
+
+private:
+    using Corners = std::array<Point3, 3>;
+    struct Part {
+        double most = 0; ///< no point of it is farther
+        Corners corners{};
+        friend bool operator<(const Part& a, const Part& b) { return a.most < b.most; }
+    };
+
+    static Point3 middle(const Point3& a, const Point3& b) {
+        return {a.x + (b.x - a.x) / 2, a.y + (b.y - a.y) / 2, a.z + (b.z - a.z) / 2};
+    }
+
+    [[nodiscard]] Part part_of(const Corners& c) {
+        constexpr double endless = std::numeric_limits<double>::infinity();
+        Part part{endless, c};
+        for (const Point3& p : {c[0], c[1], c[2], middle(c[0], middle(c[1], c[2]))}) {
+            const auto near = tree_->nearest(p, endless);
+            if (!near) continue;
+            least_ = std::max(least_, near->distance);
+            const auto& [i, j, k] = near->triangle;
+            double farthest = 0;
+            for (const Point3& q : c)
+                farthest =
+                    std::max(farthest, distance_to_triangle(q, to_.vertices[i], to_.vertices[j],
+                                                            to_.vertices[k]));
+            part.most = std::min(part.most, farthest);
+        }
+        return part;
+    }
+
+    const Surface& to_;
+    std::optional<TriangleTree> tree_;
+    double least_ = 0; ///< the largest distance of a point that was looked at
+};
 
 /// What became of the triangles of an arrangement of grown surfaces.
 class Growth {
@@ -50,7 +122,7 @@ public:
             const bool is_trimmed = is_dropped_[t] && !is_outside_[t];
             (is_trimmed ? trimmed : kept).triangles.push_back(whole_.triangles[t]);
         }
-        return std::max(bound(added, given, run), bound(trimmed, kept, run));
+        return std::max(DistanceBound(given)(added, run), DistanceBound(kept)(trimmed, run));
     }
 
 private:
@@ -61,20 +133,6 @@ private:
         return std::any_of(parents.begin(), parents.end(), [&](std::uint32_t p) {
             return p >= first && p < first + growth_[surface].given;
         });
-    }
-
-    static double bound(const Surface& from, const Surface& to, const Run& run) {
-        constexpr double slack = 1.0 / 32;
-        if (from.triangles.empty()) return 0;
-        double largest = 0;
-        for (const Triangle& t : from.triangles)
-            for (const std::uint32_t v : t)
-                for (const double c : {from.vertices[v].x, from.vertices[v].y, from.vertices[v].z})
-                    largest = std::max(largest, std::fabs(c));
-        const double sampled = sampled_distance(from, to, run);
-        if (!std::isfinite(sampled)) return sampled;
-        const double tolerance = std::max(slack * sampled, std::ldexp(largest, -30));
-        return (1 + slack) * distance_bound(from, to, tolerance, run);
     }
 
     const Arrangement& whole_;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // Tests --seal and --extend from outside.
+#include <functional>
 #include <string>
+#include <vector>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -127,6 +129,46 @@ TEST_CASE("cli: certificates of sealed, extended and cut surfaces that verify ta
             if (is_sealed) CHECK(folder.run("verify c.json --max-change 0.05").status == 1);
             REQUIRE(folder.shell("rm -r out* c.json").status == 0);
         }
+    }
+}
+
+TEST_CASE("cli: forged certificates of sealed blocks are refused", "[cli]") {
+    const Folder folder;
+    const auto in = folder.input("model.obj", model);
+    REQUIRE(folder.run("volume " + in + " -o out --certificate c.json --seal 0.2" + box).status ==
+            0);
+    const Json right = Json::parse(folder.read("c.json"));
+    struct Forged {
+        std::string name;
+        std::function<void(Json&)> change;
+        std::string rule;
+    };
+    const std::vector<Forged> all{
+        {"a smaller limit", [](Json& c) { c["sealed"][0]["limit"] = "0.05"; }, "R26"},
+        {"one surface only", [](Json& c) { c["sealed"].erase(1); }, "R53"},
+        {"nothing was added", [](Json& c) { c["sealed"][0]["sealed"] = Json::array(); }, "R1"},
+        {"as if nothing was sealed", [](Json& c) { c.erase("sealed"); }, "R1"},
+        {"as if nothing was changed",
+         [](Json& c) {
+             c.erase("sealed");
+             c.erase("cut");
+         },
+         "R1"},
+        {"all was kept", [](Json& c) { c["cut"]["dropped"] = Json::array(); }, "R51"},
+        {"another box", [](Json& c) { c["cut"]["volume"]["between"][1] = "9"; }, "R50"},
+        {"another volume", [](Json& c) { c["blocks"]["volumes"][1] = "1"; }, "R34"},
+        {"another number of blocks", [](Json& c) { c["blocks"]["exact"] = 2; }, "R33"},
+        {"a file less", [](Json& c) { c["outputs"].erase(2); }, "R21"}};
+    for (const Forged& forged : all) {
+        INFO(forged.name);
+        Json wrong = right;
+        forged.change(wrong);
+        folder.input("f.json", wrong.dump());
+        REQUIRE(folder.shell("mv in/f.json f.json").status == 0);
+        const auto refused = folder.run("verify f.json");
+        INFO(refused.out);
+        CHECK(refused.status == 1);
+        CHECK(contains(refused.out, "  " + forged.rule + ": "));
     }
 }
 
