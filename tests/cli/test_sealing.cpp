@@ -109,10 +109,11 @@ TEST_CASE("cli: --seal and --extend refuse what makes no sense", "[cli]") {
 
 TEST_CASE("cli: certificates of sealed, extended and cut surfaces that verify takes", "[cli]") {
     const Folder folder;
-    const auto in = folder.input("model.obj", model);
-    for (const std::string options : {std::string(" --seal 0.2"), " --seal 0.2" + box,
-                                      " --extend 5" + box, " --seal 0.2 --extend 5" + box, box}) {
-        for (const std::string command :
+    const auto in = folder.input("model.obj", gapped_model);
+    for (const std::string& options :
+         {std::string(" --seal 0.2"), " --seal 0.2" + around_gap, " --extend 5" + around_gap,
+          " --seal 0.2 --extend 5" + around_gap, around_gap}) {
+        for (const std::string& command :
              {"arrange " + in + " -o out.obj -o out.vtp",
               "improve " + in + " -o out.obj -o out.vtp --edge-length 2 --max-deviation 0.02",
               "volume " + in + " -o out"}) {
@@ -134,9 +135,9 @@ TEST_CASE("cli: certificates of sealed, extended and cut surfaces that verify ta
 
 TEST_CASE("cli: forged certificates of sealed blocks are refused", "[cli]") {
     const Folder folder;
-    const auto in = folder.input("model.obj", model);
-    REQUIRE(folder.run("volume " + in + " -o out --certificate c.json --seal 0.2" + box).status ==
-            0);
+    const auto in = folder.input("model.obj", gapped_model);
+    REQUIRE(folder.run("volume " + in + " -o out --certificate c.json --seal 0.2" + around_gap)
+                .status == 0);
     const Json right = Json::parse(folder.read("c.json"));
     struct Forged {
         std::string name;
@@ -174,9 +175,9 @@ TEST_CASE("cli: forged certificates of sealed blocks are refused", "[cli]") {
 
 TEST_CASE("cli: certificates of tetrahedra in a sealed volume that verify takes", "[cli]") {
     const Folder folder;
-    const auto in = folder.input("model.obj", model);
-    const auto made =
-        folder.run("tetrahedralize " + in + " -o m.vtu --certificate c.json --seal 0.2" + box);
+    const auto in = folder.input("model.obj", gapped_model);
+    const auto made = folder.run("tetrahedralize " + in +
+                                 " -o m.vtu --certificate c.json --seal 0.2" + around_gap);
     INFO(made.err);
     if (contains(made.err, "terrane-tetgen")) return; // TetGen was not built
     REQUIRE(made.status == 0);
