@@ -17,6 +17,7 @@
 #include <terrane/algorithms/tetgen/tetgen_helper.hpp>
 #include <terrane/algorithms/volumes/region_points.hpp>
 #include <terrane/cli/commands/command.hpp>
+#include <terrane/cli/options/volume_options.hpp>
 #include <terrane/cli/reports/fill_report.hpp>
 #include <terrane/cli/reports/improve_report.hpp>
 #include <terrane/cli/reports/pair_report.hpp>
@@ -420,29 +421,8 @@ private:
         if (project_.volume.index() == 0 && !project_.seal) return std::nullopt;
         CutRequest request;
         if (project_.volume.index() != 0)
-            request.volume = [this](const std::string& path) { return record_of_volume(path); };
+            request.volume = [this](const std::string& path) { return record_of(project_, path); };
         return request;
-    }
-
-    [[nodiscard]] Result<VolumeRecord> record_of_volume(const std::string& path) const {
-        VolumeRecord record;
-        if (const auto* box = std::get_if<ProjectBox>(&project_.volume)) {
-            const auto &low = box->low, &high = box->high;
-            record.corners = {{low.x, low.y}, {high.x, low.y}, {high.x, high.y}, {low.x, high.y}};
-            record.between = {low.z, high.z};
-        } else if (const auto* prism = std::get_if<ProjectPolygon>(&project_.volume)) {
-            record.corners = prism->corners;
-            if (record.corners.front() == record.corners.back()) record.corners.pop_back();
-            record.between = {std::min(prism->between[0], prism->between[1]),
-                              std::max(prism->between[0], prism->between[1])};
-        } else if (const auto* within = std::get_if<ProjectWithin>(&project_.volume)) {
-            std::vector<std::string> files;
-            for (const fs::path& file : within->files) files.push_back(file.string());
-            return record_of(files, path);
-        } else {
-            record.shape = "hexahedron";
-        }
-        return record;
     }
 
     Status write_certificate(const fs::path& to, const char* name,

@@ -2,12 +2,16 @@
 #include <terrane/cli/options/volume_options.hpp>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <optional>
 #include <string_view>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -178,28 +182,26 @@ Result<std::vector<Surface>> boundary_of(const VolumeOptions& options, Session& 
     return error;
 }
 
-Result<VolumeRecord> record_of(const VolumeOptions& options, const std::string& path) {
+namespace {
+
+VolumeRecord record_of_box(const Point3& low, const Point3& high) {
     VolumeRecord record;
-    if (!options.box.empty()) {
-        const auto n = *numbers_in(options.box);
-        record.corners = {{n[0], n[1]}, {n[3], n[1]}, {n[3], n[4]}, {n[0], n[4]}};
-        record.between = {n[2], n[5]};
-    } else if (!options.polygon.empty()) {
-        const auto corners = polygon_of(options.polygon);
-        if (!corners) return corners.error();
-        record.corners = corners.value();
-        if (record.corners.front() == record.corners.back()) record.corners.pop_back();
-        record.between = *numbers_in(options.between);
-        std::ranges::sort(record.between);
-    } else if (!options.rotated_box.empty()) {
-        record.shape = "hexahedron";
-    } else {
-        return record_of(options.within, path);
-    }
+    record.corners = {{low.x, low.y}, {high.x, low.y}, {high.x, high.y}, {low.x, high.y}};
+    record.between = {low.z, high.z};
     return record;
 }
 
-Result<VolumeRecord> record_of(const std::vector<std::string>& files, const std::string& path) {
+VolumeRecord record_of_prism(const std::vector<std::array<double, 2>>& corners,
+                             const std::array<double, 2>& between) {
+    VolumeRecord record;
+    record.corners = corners;
+    if (record.corners.front() == record.corners.back()) record.corners.pop_back();
+    record.between = {std::min(between[0], between[1]), std::max(between[0], between[1])};
+    return record;
+}
+
+Result<VolumeRecord> record_of_files(const std::vector<std::string>& files,
+                                     const std::string& path) {
     VolumeRecord record{"surface"};
     for (const std::string& file : files) {
         auto surfaces = read_surfaces(file);
@@ -210,6 +212,36 @@ Result<VolumeRecord> record_of(const std::vector<std::string>& files, const std:
         std::ranges::move(surfaces.value(), std::back_inserter(record.surfaces));
     }
     return record;
+}
+
+} // namespace
+
+Result<VolumeRecord> record_of(const VolumeOptions& options, const std::string& path) {
+    if (!options.box.empty()) {
+        const auto n = *numbers_in(options.box);
+        return record_of_box({n[0], n[1], n[2]}, {n[3], n[4], n[5]});
+    }
+    if (!options.polygon.empty()) {
+        const auto corners = polygon_of(options.polygon);
+        if (!corners) return corners.error();
+        const auto between = *numbers_in(options.between);
+        return record_of_prism(corners.value(), {between[0], between[1]});
+    }
+    if (!options.rotated_box.empty()) return VolumeRecord{"hexahedron"};
+    return record_of_files(options.within, path);
+}
+
+Result<VolumeRecord> record_of(const Project& project, const std::string& path) {
+    if (const auto* box = std::get_if<ProjectBox>(&project.volume))
+        return record_of_box(box->low, box->high);
+    if (const auto* prism = std::get_if<ProjectPolygon>(&project.volume))
+        return record_of_prism(prism->corners, prism->between);
+    if (const auto* within = std::get_if<ProjectWithin>(&project.volume)) {
+        std::vector<std::string> files;
+        for (const std::filesystem::path& file : within->files) files.push_back(file.string());
+        return record_of_files(files, path);
+    }
+    return VolumeRecord{"hexahedron"};
 }
 
 std::string text_of(const VolumeReport& report, const Inputs& inputs) {

@@ -9,6 +9,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <terrane/algorithms/project/project.hpp>
 #include <terrane/algorithms/volume_of_interest/extension.hpp>
 #include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
 #include <terrane/cli/options/files.hpp>
@@ -45,8 +46,8 @@ Result<std::vector<Surface>> boundary_of(const VolumeOptions& options, Session& 
 /// Returns the volume of interest as a certificate describes it; `path` is that of the certificate.
 /// Precondition: boundary_of() succeeded.
 Result<VolumeRecord> record_of(const VolumeOptions& options, const std::string& path);
-/// Does the same for the volume in closed surfaces of files.
-Result<VolumeRecord> record_of(const std::vector<std::string>& files, const std::string& path);
+/// Does the same for the volume of a project. Precondition: it has one.
+Result<VolumeRecord> record_of(const Project& project, const std::string& path);
 
 /// Reports what the cut left of each surface, and where surfaces end inside.
 std::string text_of(const VolumeReport& report, const Inputs& inputs);

@@ -89,7 +89,7 @@ inline std::string wave_text(const std::string& name, double z, double slope) {
 }
 
 /// Two horizons that cross, and a fault.
-inline std::vector<File> crossing() {
+inline std::vector<File> crossing_sheets() {
     return {{"first.obj", wave_text("first", 0, 0.3)},
             {"second.obj", wave_text("second", 1, -0.2)},
             {"fault.obj", "v 4 -1 -3\nv 5 12 -3\nv 7 12 4\nv 6 -1 4\ng fault\nf 1 2 3\nf 1 3 4\n"}};

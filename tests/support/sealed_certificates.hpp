@@ -260,12 +260,7 @@ inline void drop_exact(Json& c, const std::vector<std::size_t>& more) {
 }
 
 inline void set_number(Json& number, double value) {
-    char buffer[64];
-    number = std::string(buffer, std::to_chars(buffer, buffer + 64, value).ptr);
-}
-
-inline double number_in(const Json& number) {
-    return std::stod(number.get<std::string>());
+    number = decimal_text(value);
 }
 
 /// Returns the surfaces of a file as OBJ.

@@ -9,7 +9,7 @@ namespace terrane::verifier {
 
 namespace {
 
-constexpr unsigned most_levels = 16;      ///< levels of values within values; a certificate has 5
+constexpr unsigned most_levels = 16;  ///< levels of values within values; a certificate has 5
 constexpr std::size_t most_keys = 64; ///< of an object; a certificate has 9
 constexpr std::size_t most_values = std::numeric_limits<std::uint32_t>::max() - 1;
 

@@ -13,7 +13,7 @@ namespace {
 using namespace forged;
 
 const Subject& right_cut() {
-    static const Subject subject = cut_subject(crossing(), the_box());
+    static const Subject subject = cut_subject(crossing_sheets(), the_box());
     return subject;
 }
 
@@ -122,15 +122,15 @@ Forgery cut_doubles(const std::string& name, const std::function<void(Json&)>& c
 } // namespace
 
 TEST_CASE("cut certificates: accepted with each shape and format", "[volume_of_interest]") {
-    CHECK(judged(cut_subject(crossing(), the_box(), {"obj", "off", "ply", "vtp", "ts", "stl"})) ==
-          "");
-    CHECK(judged(cut_subject(crossing(), the_prism())) == "");
-    CHECK(judged(cut_subject(crossing(),
+    CHECK(judged(cut_subject(crossing_sheets(), the_box(),
+                             {"obj", "off", "ply", "vtp", "ts", "stl"})) == "");
+    CHECK(judged(cut_subject(crossing_sheets(), the_prism())) == "");
+    CHECK(judged(cut_subject(crossing_sheets(),
                              rotated_volume({{5, 5, 0.5}, false, {5, 4, 3}, 20, 5, 3}))) == "");
-    CHECK(judged(cut_subject(crossing(), file_volume(octahedron()))) == "");
+    CHECK(judged(cut_subject(crossing_sheets(), file_volume(octahedron()))) == "");
     // A box around all, and one that nothing meets.
-    CHECK(judged(cut_subject(crossing(), box_volume({-5, -5, -9}, {20, 20, 9}))) == "");
-    CHECK(judged(cut_subject(crossing(), box_volume({30, 30, 30}, {31, 31, 31}))) == "");
+    CHECK(judged(cut_subject(crossing_sheets(), box_volume({-5, -5, -9}, {20, 20, 9}))) == "");
+    CHECK(judged(cut_subject(crossing_sheets(), box_volume({30, 30, 30}, {31, 31, 31}))) == "");
 }
 
 TEST_CASE("cut certificates: accepted for real surfaces", "[volume_of_interest]") {
@@ -237,7 +237,7 @@ TEST_CASE("cut certificates: forged volumes", "[volume_of_interest]") {
 
 TEST_CASE("cut certificates: forged rotated boxes", "[volume_of_interest]") {
     const Subject right =
-        cut_subject(crossing(), rotated_volume({{5, 5, 0.5}, false, {5, 4, 3}, 20, 5, 3}));
+        cut_subject(crossing_sheets(), rotated_volume({{5, 5, 0.5}, false, {5, 4, 3}, 20, 5, 3}));
     check_forgeries(
         right,
         {{"turned over, with all triangles on it", turn_volume_over, "R50"},
@@ -447,7 +447,7 @@ TEST_CASE("cut certificates: forged doubles with other triangles", "[volume_of_i
 }
 
 TEST_CASE("cut certificates: surfaces of files", "[volume_of_interest]") {
-    const Subject right = cut_subject(crossing(), file_volume(octahedron()));
+    const Subject right = cut_subject(crossing_sheets(), file_volume(octahedron()));
     check_forgeries(
         right,
         {cut(
@@ -470,7 +470,7 @@ TEST_CASE("cut certificates: surfaces of files", "[volume_of_interest]") {
 }
 
 TEST_CASE("cut certificates: output files", "[volume_of_interest]") {
-    const Subject right = cut_subject(crossing(), the_box(), {"obj", "ply", "vtp", "ts"});
+    const Subject right = cut_subject(crossing_sheets(), the_box(), {"obj", "ply", "vtp", "ts"});
     check_changed_digits(right, middle_of);
     Subject wrong = right;
     wrong.certificate["outputs"][0]["surfaces"].erase(8);

@@ -56,7 +56,7 @@ TEST_CASE("sealed certificates: accepted", "[sealing]") {
     CHECK(judged(sealed_subject(gaping(), {gaping_box(), 0, 2.5})) == "");
     CHECK(judged(sealed_subject(gaping(), {gaping_box(), 0.3, 0})) == "");
     // Nothing to seal.
-    const Subject idle = sealed_subject(crossing(), {std::nullopt, 1e-9, 0});
+    const Subject idle = sealed_subject(crossing_sheets(), {std::nullopt, 1e-9, 0});
     CHECK(judged(idle) == "");
     for (const Json& part : idle.certificate["sealed"]) CHECK(part["limit"] == "0");
 }
