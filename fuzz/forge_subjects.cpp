@@ -216,7 +216,8 @@ Subject filled_subject(const Model3& surfaces, FillMethod method) {
     std::vector<FilledRecord> parts;
     for (const HoledSurface& surface : work.surfaces) {
         filled.push_back(surface.filled);
-        parts.push_back({&surface.filled, surface.given_vertices, surface.given_triangles});
+        parts.push_back({&surface.filled, surface.given_vertices, surface.given_triangles,
+                         surface.invented, surface.deviation});
     }
     const Mesh mesh = concatenate(filled);
     const std::vector<OutputRecord> outputs{

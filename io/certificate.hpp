@@ -185,9 +185,11 @@ Result<std::string> to_cut_certificate(const Certified& cut, const CutRecord& re
 
 /// A surface whose holes were filled.
 struct FilledRecord {
-    const Surface* filled = nullptr; ///< what was given, then what is new
-    std::size_t given_vertices = 0;  ///< its first ones
-    std::size_t given_triangles = 0; ///< its first ones
+    const Surface* filled = nullptr;          ///< what was given, then what is new
+    std::size_t given_vertices = 0;           ///< its first ones
+    std::size_t given_triangles = 0;          ///< its first ones
+    std::span<const std::int32_t> invented{}; ///< per triangle: the number of its hole, or 0
+    std::span<const double> deviation{};      ///< per vertex: its expected error; NaN: unknown
 };
 
 /// Returns the text of a certificate of the kind "filled". It has the keys "format" to "outputs" of
@@ -198,7 +200,9 @@ struct FilledRecord {
 ///     "triangles": [[u, v, w]],              likewise
 ///     "surfaces": [                          per surface: the number of its vertices and
 ///       { "vertices": 4, "triangles": 2,     triangles; no filling reaches farther out of the
-///         "limit": "0.25" }] }               box around the border of its hole
+///         "limit": "0.25" }],                box around the border of its hole
+///     "invented": [0, 1],                    per triangle: the number of its hole; 0: it was given
+///     "deviation": ["0", "0.5", null] }      per vertex: its expected error; null: unknown
 ///
 /// `surfaces` are those of the files, and there is one record for each.
 std::string to_filled_certificate(std::span<const InputRecord> files,

@@ -77,6 +77,24 @@ double limit_of(const FilledRecord& record) {
     return most == 0 ? 0 : std::nextafter(most, std::numeric_limits<double>::infinity());
 }
 
+void write_expected_errors(CertificateWriter& out, std::span<const FilledRecord> filled) {
+    std::vector<std::uint32_t> invented;
+    std::vector<double> deviation;
+    for (const FilledRecord& record : filled) {
+        invented.insert(invented.end(), record.invented.begin(), record.invented.end());
+        deviation.insert(deviation.end(), record.deviation.begin(), record.deviation.end());
+    }
+    out.raw(",\n\"invented\":");
+    out.numbers(invented);
+    out.raw(",\n\"deviation\":");
+    out.array(deviation, [&](double error) {
+        if (std::isnan(error))
+            out.raw("null");
+        else
+            out.quote(error);
+    });
+}
+
 } // namespace
 
 std::string to_filled_certificate(std::span<const InputRecord> files,
@@ -104,6 +122,7 @@ std::string to_filled_certificate(std::span<const InputRecord> files,
         out.raw("}");
     };
     out.array(filled, part, ",\n");
+    write_expected_errors(out, filled);
     out.raw("}}\n");
     return text;
 }

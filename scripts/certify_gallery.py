@@ -151,14 +151,8 @@ def numbers_in(text):
 
 
 def forged_vtk(data, share):
-    """Changes one byte of packed numbers so that these change: of a run of zeros there are many packed forms.
-    It leaves out the arrays that the verifier does not judge (docs/reference/certificate.md, Filled surfaces)."""
-    def name_before(at):
-        return data[:at].rpartition(b'Name="')[2].partition(b'"')[0]
-
-    runs = [run for run in re.finditer(rb"[A-Za-z0-9+/]{40,}", data)
-            if name_before(run.start()) not in (b"invented", b"deviation")]
-    found = place_in(runs, share)
+    """Changes one byte of packed numbers so that these change: of a run of zeros there are many packed forms."""
+    found = place_in(list(re.finditer(rb"[A-Za-z0-9+/]{40,}", data)), share)
     right = numbers_in(found.group())
     for at in range((found.start() + found.end()) // 2, found.end()):
         wrong = data[:at] + (b"B" if data[at:at + 1] != b"B" else b"C") + data[at + 1:]

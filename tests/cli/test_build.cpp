@@ -172,7 +172,7 @@ TEST_CASE("cli: build: gaps are closed, horizons extended, triangles made better
     CHECK_FALSE(model["seal"].empty());
     json["improve"] = {{"edge_length", 1}, {"edge_length_of", {{"F1", 0.5}}}};
     CHECK(blocks("better") == 4);
-    CHECK(contains(c.folder.read("better/log.txt"), "s] improve\n"));
+    CHECK(contains(c.folder.read("better/log.txt"), ": improve\n"));
     const auto before = Json::parse(c.folder.read("sealed/statistics.json"));
     const auto after = Json::parse(c.folder.read("better/statistics.json"));
     CHECK(int(after["output"]["triangles"]) > int(before["output"]["triangles"]));

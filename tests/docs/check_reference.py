@@ -211,7 +211,9 @@ def write_json_files(program, folder):
     run("layer", "--hard", "salt.ts", "--soft", "shale.ts", "--keep", "upper", "-o", "l.vtp",
         "--certificate", "layered.json")
     run("arrange", *model, "-o", "v.vtp", "--box", "0,0,-1700,2000,1500,-700", "--certificate", "cut.json")
-    certificates += ["improved.json", "filled.json", "layered.json", "cut.json"]
+    run("arrange", *model, "-o", "s.vtp", "--box", "0,0,-1700,2000,1500,-700", "--seal", "20",
+        "--certificate", "sealed.json")
+    certificates += ["improved.json", "filled.json", "layered.json", "cut.json", "sealed.json"]
     with (folder / "top.ts").open("a") as changed:
         changed.write("\n")
     run("verify", "certificate.json", "--json", out="refuted.json")

@@ -100,17 +100,18 @@ TEST_CASE("files: reading what can't be read", "[io][files]") {
     fs::create_directory(folder / "folder.obj");
     check(read_surfaces(folder / "folder.obj"), cannot_open,
           (folder / "folder.obj").string() + ": cannot be read: Is a directory");
-    const std::string readable =
+    const std::string list_of_readable =
         "; read are ts, ml, gp, mx, obj, off, stl, ply, vtp, msh, irap, gri, fgr, "
         "zmap, zycor, cps3, cps, asc, agr, xyz, csv, txt, dat, poi, pol, "
         "vs, pl, vtk, dxf";
-    check(read_surfaces("a.abc"), unknown_format, "a.abc: unknown format \".abc\"" + readable);
+    check(read_surfaces("a.abc"), unknown_format,
+          "a.abc: unknown format \".abc\"" + list_of_readable);
     check(read_surfaces("a"), unknown_format,
-          "a: the file name has no extension that tells the format" + readable);
+          "a: the file name has no extension that tells the format" + list_of_readable);
     check(read_surfaces("-"), unknown_format,
-          "standard input: the format must be given" + readable);
+          "standard input: the format must be given" + list_of_readable);
     check(parse_surfaces("x", "a.vtu", Format::vtu), unsupported,
-          "a.vtu: this format is written, not read" + readable);
+          "a.vtu: this format is written, not read" + list_of_readable);
     check(parse_surfaces("", "b/a.off", Format::off), nothing_to_do, "b/a.off: the file is empty");
 }
 

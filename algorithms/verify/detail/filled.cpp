@@ -270,6 +270,32 @@ void check_numbers(const FilledClaim& filled, std::size_t surfaces, double accep
     }
     if (vertices != filled.vertices.size() || triangles != filled.triangles.size())
         found.push_back({rule, {}, "the filled surfaces do not have all vertices and triangles"});
+    if (filled.invented.size() != filled.triangles.size() ||
+        filled.deviation.size() != filled.vertices.size())
+        found.push_back({rule, {}, "there are other numbers of holes or expected errors"});
+}
+
+/// Checks the numbers of holes and the expected errors of a surface whose fillings are right.
+void check_expected_errors(const Surface& given, const FilledClaim& filled, std::size_t number,
+                           std::array<std::size_t, 2> first, Violations& found) {
+    constexpr Rule rule = Rule::R28_filled_indices;
+    const FilledPart& part = filled.surfaces[number];
+    for (std::size_t t = 0; t < part.triangles; ++t)
+        if ((filled.invented[first[1] + t] == 0) != (t < given.triangles.size()))
+            found.push_back({rule,
+                             {static_cast<std::uint32_t>(first[1] + t)},
+                             "triangle " + text(first[1] + t) +
+                                 " is given with the number of a hole, or new without one"});
+    for (std::size_t v = 0; v < part.vertices; ++v) {
+        const double error = filled.deviation[first[0] + v];
+        const bool is_right =
+            v < given.vertices.size() ? error == 0 : std::isnan(error) || error >= 0;
+        if (is_right && !std::isinf(error)) continue;
+        found.push_back({rule,
+                         {static_cast<std::uint32_t>(first[0] + v)},
+                         "the expected error of vertex " + text(first[0] + v) +
+                             " is negative, infinite, or that of a given vertex and not 0"});
+    }
 }
 
 } // namespace
@@ -282,6 +308,7 @@ void check_filled(std::span<const Surface> surfaces, const FilledClaim& filled, 
     std::array<std::size_t, 2> first{0, 0};
     for (std::size_t s = 0; s < surfaces.size(); ++s) {
         FilledSurface(surfaces[s], filled, s, first, found).check();
+        check_expected_errors(surfaces[s], filled, s, first, found);
         first[0] += filled.surfaces[s].vertices;
         first[1] += filled.surfaces[s].triangles;
     }

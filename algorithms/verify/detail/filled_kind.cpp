@@ -16,14 +16,18 @@ namespace {
 
 void parse_filled(const Node& node, Certificate& certificate) {
     const Node claim = node["filled"];
-    claim.expect_keys({"vertices", "triangles", "surfaces"});
+    claim.expect_keys({"vertices", "triangles", "surfaces", "invented", "deviation"});
     const auto part = [](const Node& s) {
         s.expect_keys({"vertices", "triangles", "limit"});
         return FilledPart{s["vertices"].index(), s["triangles"].index(), s["limit"].number()};
     };
+    const auto expected_error = [](const Node& error) {
+        return error.is_null() ? std::numeric_limits<double>::quiet_NaN() : error.number();
+    };
     certificate.filled =
         FilledClaim{each(claim["vertices"], point), each(claim["triangles"], indices<3>),
-                    each(claim["surfaces"], part)};
+                    each(claim["surfaces"], part), each(claim["invented"], index),
+                    each(claim["deviation"], expected_error)};
 }
 
 void judge_filled(std::span<const Surface> surfaces, const Certificate& certificate,
@@ -42,8 +46,8 @@ std::optional<WrittenMesh> written_filled(const Certificate& certificate) {
     for (std::uint32_t s = 0; s < filled.surfaces.size(); ++s)
         for (std::uint32_t t = 0; t < filled.surfaces[s].triangles; ++t)
             surfaces_of.push_back(std::array{s});
-    return WrittenMesh{
-        filled.vertices, filled.triangles, none, none, std::move(surfaces_of), false, true};
+    return WrittenMesh{filled.vertices, filled.triangles, none, none, std::move(surfaces_of),
+                       false,           &filled};
 }
 
 } // namespace

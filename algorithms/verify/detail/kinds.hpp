@@ -26,8 +26,8 @@ struct WrittenMesh {
     const IndexLists<std::uint32_t>& parents_of; ///< per triangle; empty: the files have none
     IndexLists<std::uint32_t> surfaces_of;       ///< per triangle: its surfaces, sorted, unique
     bool clean = false;                          ///< conforming, as was verified
-    bool filled = false; ///< VTP files have the arrays "invented" and "deviation", which are not
-                         ///< judged
+    const FilledClaim* filled =
+        nullptr; ///< its expected errors are in VTP files; nullptr: none are
 };
 
 /// What distinguishes a kind of certificate from the others.

@@ -159,13 +159,6 @@ template void VtkScanner::array(const std::string&, const std::vector<std::int32
 template void VtkScanner::array(const std::string&, const std::vector<std::int64_t>&, int);
 template void VtkScanner::array(const std::string&, const std::vector<std::uint8_t>&, int);
 
-void VtkScanner::skip_array(const std::string& name, const std::string& type) {
-    in_.expect("<DataArray type=\"" + type + "\" Name=\"" + name +
-               "\" NumberOfComponents=\"1\" format=\"binary\">");
-    in_.next();
-    in_.expect("</DataArray>");
-}
-
 std::string VtkScanner::plain(std::string_view text, std::size_t size) const {
     std::string bytes = decoded(text, in_);
     if (bytes.size() != 8 + size || number_at(bytes, 0) != size)

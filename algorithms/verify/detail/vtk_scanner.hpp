@@ -33,8 +33,6 @@ public:
     /// Reads an array, which must have these values, bit for bit.
     template <class T>
     void array(const std::string& name, const std::vector<T>& expected, int components = 1);
-    /// Reads an array of one number per cell, with any values. The type is "Int32" or "Float64".
-    void skip_array(const std::string& name, const std::string& type);
 
 private:
     void strings(const std::string& name, const std::vector<std::string_view>& values);

@@ -75,10 +75,10 @@ TEST_CASE("build: a name that no surface has is an error with its key", "[volume
         ProjectImprove{.edge_length = {}, .max_deviation = {}, .edge_length_of = {{"fourth", 1}}};
     const auto built = build(project, {.surfaces = sectors()});
     REQUIRE_FALSE(built);
-    CHECK(built.error().message() ==
-          "p.json: improve.edge_length_of.fourth: no surface is called fourth");
+    CHECK(built.error().message() == "p.json: improve.edge_length_of.fourth: no surface is called "
+                                     "fourth; there are box, first, second, third");
     project = {};
     project.fill.push_back({.surface = "fourth"});
     CHECK(build(project, {.surfaces = sectors()}).error().message() ==
-          "fill[0].surface: no surface is called fourth");
+          "fill[0].surface: no surface is called fourth; there are box, first, second, third");
 }

@@ -58,9 +58,16 @@ Subject filled_subject(const std::vector<File>& files, const std::vector<std::st
     REQUIRE(work);
     std::vector<Surface> surfaces;
     std::vector<FilledRecord> filled;
+    std::vector<std::int32_t> invented;
+    std::vector<double> means;
     for (const HoledSurface& surface : work->surfaces) {
         surfaces.push_back(surface.filled);
-        filled.push_back({&surface.filled, surface.given_vertices, surface.given_triangles});
+        filled.push_back({&surface.filled, surface.given_vertices, surface.given_triangles,
+                          surface.invented, surface.deviation});
+        invented.insert(invented.end(), surface.invented.begin(), surface.invented.end());
+        const auto& error = surface.deviation;
+        for (const auto& [a, b, c] : surface.filled.triangles)
+            means.push_back((error[a] + error[b] + error[c]) / 3);
     }
     const Mesh mesh = concatenate(surfaces);
     REQUIRE(mesh.triangles.size() >
@@ -68,9 +75,7 @@ Subject filled_subject(const std::vector<File>& files, const std::vector<std::st
     std::vector<OutputRecord> outputs;
     for (const std::string& format : formats) {
         WriteOptions written;
-        std::vector<std::int32_t> invented(mesh.triangles.size(), 1);
-        std::vector<double> deviation(mesh.triangles.size(), 0.5);
-        const std::vector<CellArray> cells{{"invented", invented}, {"deviation", deviation}};
+        const std::vector<CellArray> cells{{"invented", invented}, {"deviation", means}};
         if (format == "vtp") written.cells = cells;
         auto text = format_mesh(mesh, format_named(format).value(), written);
         REQUIRE(text);
@@ -99,11 +104,13 @@ std::size_t given_triangles() {
 /// Removes a triangle of the second surface.
 void erase_new(Json& f, std::size_t t) {
     f["triangles"].erase(t);
+    f["invented"].erase(t);
     f["surfaces"][1]["triangles"] = f["surfaces"][1]["triangles"].get<std::size_t>() - 1;
 }
 
 void add_triangle(Json& f, const Json& corners) {
     f["triangles"].push_back(corners);
+    f["invented"].push_back(1);
     f["surfaces"][1]["triangles"] = f["surfaces"][1]["triangles"].get<std::size_t>() + 1;
 }
 
@@ -113,6 +120,7 @@ void add_vertex(Json& f, double x, double y, double z) {
     point[1] = decimal_text(y);
     point[2] = decimal_text(z);
     f["vertices"].push_back(point);
+    f["deviation"].push_back("0");
     f["surfaces"][1]["vertices"] = f["surfaces"][1]["vertices"].get<std::size_t>() + 1;
 }
 
@@ -164,9 +172,14 @@ TEST_CASE("filled certificates: what was given is changed") {
             filled(
                 "all of a surface missing",
                 [=](Json& f) {
-                    for (std::size_t i = 0; i < second; ++i) f["vertices"].erase(0);
-                    for (std::size_t i = 0; i < right_filled().surfaces[0].triangles.size(); ++i)
+                    for (std::size_t i = 0; i < second; ++i) {
+                        f["vertices"].erase(0);
+                        f["deviation"].erase(0);
+                    }
+                    for (std::size_t i = 0; i < right_filled().surfaces[0].triangles.size(); ++i) {
                         f["triangles"].erase(0);
+                        f["invented"].erase(0);
+                    }
                     for (Json& t : f["triangles"])
                         for (Json& v : t) v = v.get<std::size_t>() - second;
                     f["surfaces"][0]["vertices"] = 0;
@@ -238,6 +251,23 @@ TEST_CASE("filled certificates: forged fillings") {
         });
 }
 
+TEST_CASE("filled certificates: VTP files with other expected errors") {
+    const Subject right = filled_subject(holed(), {"vtp"});
+    check_forgeries(
+        right,
+        {
+            filled(
+                "an expected error of one new vertex",
+                [](Json& f) { shift_number(f["deviation"].back(), 1); }, "R21"),
+            filled(
+                "an unknown expected error", [](Json& f) { f["deviation"].back() = nullptr; },
+                "R21"),
+            filled(
+                "another number of a hole",
+                [](Json& f) { f["invented"].back() = f["invented"].back().get<int>() + 1; }, "R21"),
+        });
+}
+
 TEST_CASE("filled certificates: forged numbers") {
     check_forgeries(
         right_filled(),
@@ -250,6 +280,24 @@ TEST_CASE("filled certificates: forged numbers") {
                 "R28"),
             filled(
                 "a surface is missing", [](Json& f) { f["surfaces"].erase(0); }, "R28"),
+            filled(
+                "a given triangle in a hole", [](Json& f) { f["invented"][0] = 1; }, "R28"),
+            filled(
+                "a new triangle in no hole", [](Json& f) { f["invented"].back() = 0; }, "R28"),
+            filled(
+                "a triangle without a number of a hole",
+                [](Json& f) { f["invented"].erase(f["invented"].size() - 1); }, "R28"),
+            filled(
+                "an expected error of a given vertex", [](Json& f) { f["deviation"][0] = "1"; },
+                "R28"),
+            filled(
+                "a given vertex of unknown error", [](Json& f) { f["deviation"][0] = nullptr; },
+                "R28"),
+            filled(
+                "a negative expected error", [](Json& f) { f["deviation"].back() = "-1"; }, "R28"),
+            filled(
+                "an expected error too many", [](Json& f) { f["deviation"].push_back("0"); },
+                "R28"),
             filled(
                 "another number of vertices", [](Json& f) { f["surfaces"][0]["vertices"] = 143; },
                 "R28"),
