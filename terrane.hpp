@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The whole library, all stages. The verifier (terrane/algorithms/verify/verify.hpp) is a library of
-// its own.
+// The whole library, all stages. The verifier (terrane/algorithms/verify/verify.hpp) is a library
+// of its own.
 #pragma once
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Property: the verifier accepts a certificate as it was written, and refuses it once it was changed
-// and sealed anew (the digest and the hashes of the output files are computed again), unless it
-// still means the same. There is a target for each kind, named by forge_kind. The bytes are a list
-// of changes, then the input as an OBJ file; for other kinds than arrangements one byte that chooses
-// a model.
+// Property: the verifier accepts a certificate as it was written, and refuses it once it was
+// changed and sealed anew (the digest and the hashes of the output files are computed again),
+// unless it still means the same. There is a target for each kind, named by forge_kind. The bytes
+// are a list of changes, then the input as an OBJ file; for other kinds than arrangements one byte
+// that chooses a model.
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -87,7 +87,8 @@ bool accepts_outputs(const Certificate& changed, const fuzz::Contents& contents)
     return true;
 }
 
-/// Returns what is compared of a file: in MSH not the names of blocks, which stand at its beginning.
+/// Returns what is compared of a file: in MSH not the names of blocks, which stand at its
+/// beginning.
 std::string_view compared_part(const std::string& contents, const std::string& format) {
     const std::size_t names = format == "msh" ? contents.find("$EndPhysicalNames") : 0;
     return std::string_view(contents).substr(names == std::string::npos ? 0 : names);

@@ -130,7 +130,8 @@ void drop_tetrahedra(Certificate& c, const Arguments& n) {
         }
 }
 
-/// Exchanges the inner face of two tetrahedra for three around the line between their other corners.
+/// Exchanges the inner face of two tetrahedra for three around the line between their other
+/// corners.
 void flip_faces(Certificate& c, const Arguments& n) {
     if (!c.tetrahedra || c.tetrahedra->tetrahedra.empty()) return;
     TetrahedraClaim& t = *c.tetrahedra;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What a certificate that the verifier accepted means, by other ways than those of the verifier: the
-// library's own checks, areas and distances in floating point.
+// What a certificate that the verifier accepted means, by other ways than those of the verifier:
+// the library's own checks, areas and distances in floating point.
 #pragma once
 
 #include <optional>
@@ -27,8 +27,8 @@ std::optional<TetrahedralMesh> tetrahedra_of(const Subject& subject,
 std::string difference_in_meaning(const Subject& subject, const Certificate& changed,
                                   double accepted);
 
-/// Tells whether both certificates name the same mesh (or tetrahedra) for their output files, to the
-/// last bit.
+/// Tells whether both certificates name the same mesh (or tetrahedra) for their output files, to
+/// the last bit.
 bool writes_the_same(const Certificate& a, const Certificate& b);
 
 /// Tells whether a triangle of one part has the vertices of a triangle of the other, but faces the

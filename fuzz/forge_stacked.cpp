@@ -258,8 +258,8 @@ void number_regions(Certificate& c) {
     r.regions_of = packed(regions);
 }
 
-/// Keeps an exact triangle that was dropped, or drops one, or all that have its parents; the doubles
-/// follow or not.
+/// Keeps an exact triangle that was dropped, or drops one, or all that have its parents; the
+/// doubles follow or not.
 void change_dropped(Certificate& c, const Arguments& n) {
     const auto& exact = c.exact;
     if (exact.triangles.empty() || exact.parents_of.size() != exact.triangles.size()) return;

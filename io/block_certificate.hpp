@@ -12,7 +12,8 @@
 //     "block_of_shell": [b, ...],    the block that a shell bounds; 0 is the outside
 //     "around": [s, ...],            the shell that bounds the same block from the outside; null if
 //                                    it is this one, and for the outside
-//     "volumes": ["125/6", ...] },   exact volumes in the mesh of doubles, by number; [0] is that of
+//     "volumes": ["125/6", ...] },   exact volumes in the mesh of doubles, by number; [0] is that
+//     of
 //                                    all blocks
 //   "tetrahedra": {
 //     "box": true,                   they fill a box, with the outside

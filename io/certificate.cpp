@@ -96,8 +96,8 @@ void write_rounded(CertificateWriter& out, const Arrangement& exact, const Round
 } // namespace
 
 double stated_deviation(const Arrangement& exact, const RoundedMesh& rounded) {
-    // With other triangles than those of the arrangement the verifier's bound is up to 5/2 times the
-    // sum of all moves.
+    // With other triangles than those of the arrangement the verifier's bound is up to 5/2 times
+    // the sum of all moves.
     constexpr double proof_slack = 4;
     const double deviation = rounded.report.deviation;
     return has_exact_triangles(exact, rounded.mesh) ? deviation : proof_slack * deviation;

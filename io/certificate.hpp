@@ -43,9 +43,9 @@
 //     "digest": "sha256:..." }       of the exact part; digest.hpp defines it
 //
 // Each object has these keys and no others. Numbers are whole and without sign.
-// Input vertices and triangles are counted from 0 through all surfaces of all files. JSON cannot state
-// names that are not UTF-8: each wrong byte becomes U+FFFD, and the verifier refuses the certificate.
-// The program refuses such names before the work.
+// Input vertices and triangles are counted from 0 through all surfaces of all files. JSON cannot
+// state names that are not UTF-8: each wrong byte becomes U+FFFD, and the verifier refuses the
+// certificate. The program refuses such names before the work.
 #pragma once
 
 #include <array>
@@ -110,9 +110,8 @@ struct VolumeRecord {
 struct CutRecord {
     const VolumeRecord* volume = nullptr; ///< what was cut out; nullptr: nothing
     std::size_t boundary_count = 0;       ///< number of the last surfaces, which bound the volume
-    std::span<const SurfaceGrowth>
-        growth{}; ///< per surface before these; empty: nothing was sealed
-                  ///< or extended
+    std::span<const SurfaceGrowth> growth{}; ///< per surface before these; empty: nothing was
+                                             ///< sealed or extended
 };
 
 /// What certificates say about surfaces that were cut, sealed or extended: the keys "cut" and, if
@@ -139,14 +138,14 @@ struct Certified {
 /// Precondition: the sum of files[].surfaces is the number of surfaces.
 std::string to_certificate(const Certified& certified, const Run& run = {});
 
-/// Returns the deviation that a certificate states of a rounded arrangement, or of layers: more than
-/// `report.deviation`, as the verifier shows it without knowing how the mesh was made.
+/// Returns the deviation that a certificate states of a rounded arrangement, or of layers: more
+/// than `report.deviation`, as the verifier shows it without knowing how the mesh was made.
 double stated_deviation(const Arrangement& exact, const RoundedMesh& rounded);
 double stated_deviation(const Layered& layered);
 
 /// Returns the text of a certificate of the kind "cut". It has the keys of a certificate of an
-/// arrangement, of which "exact" and "digest" are about all surfaces with the boundary of the volume
-/// as the last ones, and "rounded" about what was kept; and
+/// arrangement, of which "exact" and "digest" are about all surfaces with the boundary of the
+/// volume as the last ones, and "rounded" about what was kept; and
 ///
 ///   "cut": {
 ///     "volume": {
@@ -157,8 +156,8 @@ double stated_deviation(const Layered& layered);
 ///                      "vertices": [["0.5", "-1e-3", "7"]], "triangles": [[u, v, w]] }] },
 ///     "dropped": [t, ...] }        the triangles of "exact" that are outside
 ///
-/// `cut.exact` is a part of the arrangement of `cut.surfaces`, of which the last `boundary_count` are
-/// the boundary. It is arranged again for what was dropped. Errors: those of arrange().
+/// `cut.exact` is a part of the arrangement of `cut.surfaces`, of which the last `boundary_count`
+/// are the boundary. It is arranged again for what was dropped. Errors: those of arrange().
 Result<std::string> to_cut_certificate(const Certified& cut, const VolumeRecord& volume,
                                        std::size_t boundary_count, const ArrangeOptions& options,
                                        const Run& run = {});
@@ -210,8 +209,8 @@ std::string to_filled_certificate(std::span<const InputRecord> files,
                                   std::span<const OutputRecord> outputs,
                                   std::span<const FilledRecord> filled);
 
-/// Returns the text of a certificate of the kind "layered". It has the keys "format" to "outputs" of
-/// a certificate of an arrangement, and
+/// Returns the text of a certificate of the kind "layered". It has the keys "format" to "outputs"
+/// of a certificate of an arrangement, and
 ///
 ///   "layered": {
 ///     "order": [{ "surface": 1, "hardness": "2" }],  from the top down; surfaces of the files

@@ -18,8 +18,8 @@ std::array<PointIndex, 3> points_of(const Arrangement& a, const Triangle& t) {
     return {a.vertices[t[0]], a.vertices[t[1]], a.vertices[t[2]]};
 }
 
-/// Returns the triangles of the whole that a part of it lacks. Both have their triangles in the same
-/// order.
+/// Returns the triangles of the whole that a part of it lacks. Both have their triangles in the
+/// same order.
 Result<std::vector<std::uint32_t>> dropped_triangles(const Arrangement& whole,
                                                      const Arrangement& part) {
     std::vector<std::uint32_t> dropped;

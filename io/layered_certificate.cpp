@@ -11,8 +11,8 @@ namespace terrane {
 using namespace detail;
 
 double stated_deviation(const Layered& layered) {
-    // Vertices were rounded twice: to the nearest doubles, and after the final arrangement. What the
-    // verifier shows is up to four times as large.
+    // Vertices were rounded twice: to the nearest doubles, and after the final arrangement. What
+    // the verifier shows is up to four times as large.
     constexpr double slack = 4;
     double largest = 0;
     for (const Point3& p : layered.rounded.mesh->vertices)

@@ -14,7 +14,8 @@
 //     errs by 8 unit M^2. So does a lifted coordinate (two squares that err by 3 unit each, and a
 //     sum of size 2). Their product is at most 4 M^4 and errs by 36 unit M^4. Three products give
 //     108 and two additions 8 + 12: 128 unit M^4 in all.
-// (4) The bounds hold unless products overflow, or underflow by more than the bounds leave room for.
+// (4) The bounds hold unless products overflow, or underflow by more than the bounds leave room
+// for.
 //     All products of 2, 3, 4 numbers within range_of_degree2, 3, 4 are normal.
 // (5) Comparing two minors of size M^2: both err by 8 unit M^2, and the sum of one of them and the
 //     bound rounds by 2 unit M^2. 18 unit M^2 in all.

@@ -26,8 +26,9 @@ std::string_view name_of(PairCheck method);
 /// Options of all that proves a mesh conforming. The verdict depends on none of them.
 struct PairCheckOptions {
     PairCheck method = PairCheck::bounds; ///< which pairs are tested
-    /// What decided each pair is counted for meshes of at most so many triangles. This takes one more
-    /// box search, which proven bounds spare otherwise: for many narrow triangles as long as all else.
+    /// What decided each pair is counted for meshes of at most so many triangles. This takes one
+    /// more box search, which proven bounds spare otherwise: for many narrow triangles as long as
+    /// all else.
     std::size_t count_up_to = 0;
 
     /// Tells whether the pairs of so many triangles are counted.

@@ -14,9 +14,9 @@ struct Run {
     /// Receives the name of the stage and the share of it that is done, in [0, 1]. It is called
     /// between steps, in the calling thread.
     std::function<void(std::string_view stage, double share)> progress{};
-    /// Called when a stage, or a step of it, has ended, with its path ("arrange", "seal/arrange/search")
-    /// and its wall-clock time; steps count to their stage. Calls may come from several threads at a
-    /// time. StageTimes collects them.
+    /// Called when a stage, or a step of it, has ended, with its path ("arrange",
+    /// "seal/arrange/search") and its wall-clock time; steps count to their stage. Calls may come
+    /// from several threads at a time. StageTimes collects them.
     std::function<void(std::string_view stage, double seconds)> timing{};
 };
 

@@ -14,8 +14,8 @@
 //       one are dropped, and those of the harder one above (below) them are taken;
 //   (4) with a minimum thickness D, a soft horizon keeps this distance from harder ones, which take
 //       part as copies moved up or down by D. Where two harder ones leave less room than D, the
-//       soft one coincides with the upper one. Copies are rounded, so layers may come out of order by
-//       rounding errors; such a stack is made once more, of heights and a thickness rounded to
+//       soft one coincides with the upper one. Copies are rounded, so layers may come out of order
+//       by rounding errors; such a stack is made once more, of heights and a thickness rounded to
 //       multiples of a power of two, the spacing of doubles at the largest height or twice that;
 //   (5) the result is rounded to doubles and checked exactly (rounding.hpp);
 //   (6) other code checks the doubles exactly for layers above others that are higher in the order,
@@ -85,9 +85,8 @@ struct Layered {
     RoundedMesh rounded; ///< its surfaces are those of `order`, in that order. Triangles where
                          ///< layers coincide belong to several. Must not be used unless is_stack
     std::vector<LayerReport> reports; ///< in the order of `order`
-    double step_width =
-        0; ///< over strips of this width along steps the order is not claimed; a few
-           ///< spacings of the doubles, unit of the surfaces
+    double step_width = 0; ///< over strips of this width along steps the order is not claimed; a
+                           ///< few spacings of the doubles, unit of the surfaces
     std::vector<OutOfOrder> out_of_order; ///< pairs that are out of order in doubles elsewhere
 
     /// Tells whether the doubles are a conforming mesh of layers in their order, by exact checks.

@@ -122,8 +122,8 @@ struct Layers {
     double low = 0, high = 0;
 };
 
-/// Tells whether the whole polygon is within `width` of one border edge. A segment is convex, so the
-/// corners decide.
+/// Tells whether the whole polygon is within `width` of one border edge. A segment is convex, so
+/// the corners decide.
 bool is_beside(const std::vector<Place>& polygon, const Mesh& mesh, std::span<const Edge> borders,
                double width) {
     double x0 = HUGE_VAL, x1 = -x0, y0 = x0, y1 = x1;
@@ -174,8 +174,8 @@ Layers layers_of(const Mesh& mesh) {
     return layers;
 }
 
-/// Finds what is out of order between a layer and those that are lower in the order. The box of each
-/// triangle of the upper layer reaches up to the highest point of all, that of the others down
+/// Finds what is out of order between a layer and those that are lower in the order. The box of
+/// each triangle of the upper layer reaches up to the highest point of all, that of the others down
 /// to the lowest, so that exactly the pairs that may be out of order overlap.
 Result<std::vector<OutOfOrder>> below_of(const Mesh& mesh, const Layers& layers,
                                          std::uint32_t upper, double step_width, const Run& run) {

@@ -15,10 +15,10 @@
 
 namespace terrane {
 
-/// Finds the pairs of triangles that are out of order. The surfaces of the mesh are the layers, from
-/// the top down. Upright triangles cover no place and are skipped, and so are common polygons within
-/// `step_width` of a border edge of one of the two layers, where rounding moves the sides of a step
-/// across each other. Sorted by the layers, then by the triangles. Errors: interrupted.
+/// Finds the pairs of triangles that are out of order. The surfaces of the mesh are the layers,
+/// from the top down. Upright triangles cover no place and are skipped, and so are common polygons
+/// within `step_width` of a border edge of one of the two layers, where rounding moves the sides of
+/// a step across each other. Sorted by the layers, then by the triangles. Errors: interrupted.
 Result<std::vector<OutOfOrder>> find_out_of_order(const Mesh& mesh, double step_width,
                                                   const Run& run = {});
 

@@ -34,8 +34,8 @@ std::vector<std::uint32_t> surfaces_called(std::string_view name,
                                            std::span<const SurfaceInfo> surfaces,
                                            std::span<const std::string> labels);
 
-/// Returns a sentence for a name that nothing has: "no surface is called tpo; did you mean top?", or with
-/// the names that there are, at most 10.
+/// Returns a sentence for a name that nothing has: "no surface is called tpo; did you mean top?",
+/// or with the names that there are, at most 10.
 std::string not_called(std::string_view kind, std::string_view name,
                        std::span<const std::string> labels);
 

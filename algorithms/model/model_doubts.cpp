@@ -13,8 +13,8 @@
 namespace terrane {
 namespace {
 
-/// Share of the area that a surface without a role must show from above to count as a horizon: a mean dip
-/// of 37 degrees.
+/// Share of the area that a surface without a role must show from above to count as a horizon: a
+/// mean dip of 37 degrees.
 constexpr double horizon_footprint = 0.8;
 /// Patches at a line where two surfaces run through each other; where one ends there are 3.
 constexpr std::size_t crossing_patches = 4;

@@ -11,9 +11,9 @@
 
 namespace terrane {
 
-/// Returns a warning if surfaces enclose no block and `blocks` are wanted, and one for each pair of horizons that run through each
-/// other, which cuts layers into pieces. A surface without a role counts as a horizon if its footprint is
-/// most of its area. Cost: linear.
+/// Returns a warning if surfaces enclose no block and `blocks` are wanted, and one for each pair of
+/// horizons that run through each other, which cuts layers into pieces. A surface without a role
+/// counts as a horizon if its footprint is most of its area. Cost: linear.
 std::vector<PlausibilityWarning> find_model_doubts(const Model& model, bool blocks = true);
 
 /// Returns the thresholds of find_model_doubts.

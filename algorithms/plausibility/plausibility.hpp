@@ -2,9 +2,9 @@
 //
 // Looks for mistakes in what people pass: files that are valid, but do not fit together.
 //
-// Guarantee: surfaces are only looked at. Every warning rests on coordinates or on what the files state; the
-// rules and their thresholds are in docs/explanation/plausibility.md. Cost: linear in the number of vertices and
-// triangles, and n log n to compare surfaces with each other.
+// Guarantee: surfaces are only looked at. Every warning rests on coordinates or on what the files
+// state; the rules and their thresholds are in docs/explanation/plausibility.md. Cost: linear in
+// the number of vertices and triangles, and n log n to compare surfaces with each other.
 #pragma once
 
 #include <cstdint>

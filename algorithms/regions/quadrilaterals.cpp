@@ -17,8 +17,8 @@ struct Half {
     std::uint32_t first = no_index; ///< the lowest of them
 };
 
-/// Returns the quadrilateral of two triangles that share an edge that is no stop; nothing if they do
-/// not.
+/// Returns the quadrilateral of two triangles that share an edge that is no stop; nothing if they
+/// do not.
 std::optional<Quadrilateral> joined(const Triangle& s, const Triangle& t,
                                     std::span<const Edge> stops) {
     const auto is_in = [](const Triangle& c, std::uint32_t v) {

@@ -6,8 +6,8 @@
 //      edge, or nothing.
 // (2b) Diffusion: regions spread over the edges of the cells and stop at the curve.
 // Guarantee: a region of cells covers the same triangles as a region of find_regions().
-// Cost: linear in the triangles, and sorting their edges. Source: the paper, section 3, and its remark
-// that both steps extend to quadrilateral meshes.
+// Cost: linear in the triangles, and sorting their edges. Source: the paper, section 3, and its
+// remark that both steps extend to quadrilateral meshes.
 #pragma once
 
 #include <array>
@@ -48,11 +48,11 @@ struct QuadCells {
     std::uint32_t regions = 0;            ///< number of regions
 };
 
-/// Finds the cells of a surface of quadrilaterals in a mesh. The mesh is a rounded arrangement in which
-/// the surface took part as triangles_of() it; `inputs` is the numbering of that arrangement. Cells
-/// are in the order of their first triangles. Where two quadrilaterals coincide, the cells are those
-/// of the first. Errors: bad_index (there is no such surface); nothing_to_do (the mesh has no
-/// parents); unsupported (the surface has an odd number of triangles).
+/// Finds the cells of a surface of quadrilaterals in a mesh. The mesh is a rounded arrangement in
+/// which the surface took part as triangles_of() it; `inputs` is the numbering of that arrangement.
+/// Cells are in the order of their first triangles. Where two quadrilaterals coincide, the cells
+/// are those of the first. Errors: bad_index (there is no such surface); nothing_to_do (the mesh
+/// has no parents); unsupported (the surface has an odd number of triangles).
 Result<QuadCells> quad_cells(const Mesh& mesh, const InputTriangles& inputs, SurfaceId surface);
 
 } // namespace terrane

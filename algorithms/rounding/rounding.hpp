@@ -73,8 +73,8 @@ struct RoundedMesh {
 };
 
 /// Rounds an arrangement. Errors: interrupted, out_of_memory, bad_number (a constructed point is
-/// beyond the largest double), internal. Times: round, with the step regions (intersection edges and
-/// regions of the mesh, which are not rounding).
+/// beyond the largest double), internal. Times: round, with the step regions (intersection edges
+/// and regions of the mesh, which are not rounding).
 Result<RoundedMesh> round_to_doubles(const Arrangement& arrangement,
                                      const RoundingOptions& options = {}, const Run& run = {});
 

@@ -119,8 +119,8 @@ public:
 
 protected:
     /// Makes the tree of all boxes anew: each subtree is divided at the median of its own boxes by
-    /// the key of its level. Boxes with the same key are divided by their indices, so they may be on
-    /// both sides of a node; queries allow for that.
+    /// the key of its level. Boxes with the same key are divided by their indices, so they may be
+    /// on both sides of a node; queries allow for that.
     void divide_at_medians(std::span<const Box> boxes);
 
 private:
@@ -161,9 +161,9 @@ private:
 /// the boxes sorted by v[i mod 6]; for a box that is taken already, the next one that is not.
 std::vector<std::uint32_t> table_1_order(std::span<const Box> boxes);
 
-/// The balanced tree of paper 2.2, where Table 1 is taken for an order of insertion. On surfaces it is
-/// about twice as deep as the shallowest tree. If many boxes share all their keys, it degenerates to
-/// a list, too.
+/// The balanced tree of paper 2.2, where Table 1 is taken for an order of insertion. On surfaces it
+/// is about twice as deep as the shallowest tree. If many boxes share all their keys, it
+/// degenerates to a list, too.
 class BalancedAbTree : public AbTree {
 public:
     explicit BalancedAbTree(std::span<const Box> boxes) : AbTree(boxes, table_1_order(boxes)) {}

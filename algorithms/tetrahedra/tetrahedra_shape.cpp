@@ -44,7 +44,8 @@ private:
     std::size_t count_ = 0;
 };
 
-/// Scales a tetrahedron by a power of two to a size of about 1, so that no product overflows or underflows.
+/// Scales a tetrahedron by a power of two to a size of about 1, so that no product overflows or
+/// underflows.
 std::array<Point3, 4> of_unit_size(std::array<Point3, 4> corners) {
     double size = 0;
     for (const Point3& corner : corners) {

@@ -39,8 +39,8 @@ struct FaceInput {
     void clear();
 };
 
-/// Triangulates faces one after the other and reuses its arrays. It must not outlive the guard whose
-/// witness it is made with.
+/// Triangulates faces one after the other and reuses its arrays. It must not outlive the guard
+/// whose witness it is made with.
 class FaceTriangulation {
 public:
     explicit FaceTriangulation(UpwardWitness upward) : upward_(upward) {}

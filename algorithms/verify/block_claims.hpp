@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The claims of a certificate about blocks, and about tetrahedra that fill them. Triangles are those
-// of the mesh of doubles. A side is a number: 2 t is the front of triangle t, from which its corners
-// are counterclockwise, 2 t + 1 is its back.
+// The claims of a certificate about blocks, and about tetrahedra that fill them. Triangles are
+// those of the mesh of doubles. A side is a number: 2 t is the front of triangle t, from which its
+// corners are counterclockwise, 2 t + 1 is its back.
 #pragma once
 
 #include <array>

@@ -12,17 +12,20 @@
 // (3) Each point of a triangle of the mesh is within `deviation` of each of its parents, and each
 //     point of an input triangle is within `deviation` of the triangles that name it (R13, R18).
 //     An input triangle without any is listed as vanished, and within `deviation` of triangles that
-//     name input triangles that it meets (R12); so are thin parts of others that have vanished. The verifier computes the deviation itself, and
-//     refuses one that is larger than the largest that is accepted; see VerifyOptions.
+//     name input triangles that it meets (R12); so are thin parts of others that have vanished. The
+//     verifier computes the deviation itself, and refuses one that is larger than the largest that
+//     is accepted; see VerifyOptions.
 // (4) If the mesh has the triangles of the exact part, each vertex is within `max_move` of the
 //     exact vertex (R14).
 // (5) Its intersection edges, its regions and the digest are correct (R15 to R17).
-// (6) An improved mesh is conforming, has the regions, curves and corners of the mesh before, and is
+// (6) An improved mesh is conforming, has the regions, curves and corners of the mesh before, and
+// is
 //     within the stated limits of it, both ways (R22 to R27).
 // (7) Filled surfaces have all that was given, and new triangles close whole borders without
 //     meeting others (R28, R29, R35, R36).
 // (8) Layers are the pointwise stack of the surfaces that they were made of (R60 to R65).
-// (9) The mesh of a volume of interest is what is inside of it, all of that and nothing else (R50 to
+// (9) The mesh of a volume of interest is what is inside of it, all of that and nothing else (R50
+// to
 //     R52); (3) and (4) hold for the parts inside.
 // (10) Sealed and extended surfaces differ from those of the files by added triangles and by whole
 //      parts beyond other surfaces only, and by no more than their limits (R26, R53 to R57).

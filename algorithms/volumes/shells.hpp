@@ -12,9 +12,9 @@
 
 namespace terrane {
 
-/// Connected parts of the borders of volumes. Sides of triangles that face each other around an edge
-/// are in one shell. Side 2 t is the front of triangle t, side 2 t + 1 its back. Shells are numbered
-/// by their first sides.
+/// Connected parts of the borders of volumes. Sides of triangles that face each other around an
+/// edge are in one shell. Side 2 t is the front of triangle t, side 2 t + 1 its back. Shells are
+/// numbered by their first sides.
 struct Shells {
     IndexLists<std::uint32_t> sides;   ///< per shell: its sides, ascending, >= 1
     std::vector<std::uint32_t> volume; ///< per shell: the volume that it bounds

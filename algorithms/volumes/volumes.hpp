@@ -47,9 +47,9 @@ struct Volumes {
     }
 };
 
-/// Finds the volumes of an arrangement. Times: shells, nesting, numbers and measures, the four steps.
-/// Errors: interrupted, out_of_memory; internal if triangles
-/// are found to overlap, so that it is no arrangement.
+/// Finds the volumes of an arrangement. Times: shells, nesting, numbers and measures, the four
+/// steps. Errors: interrupted, out_of_memory; internal if triangles are found to overlap, so that
+/// it is no arrangement.
 Result<Volumes> find_volumes(const Arrangement& arrangement, const Run& run = {});
 
 /// Finds the volumes of a conforming mesh of doubles (see check.hpp, rounding.hpp).

@@ -139,8 +139,8 @@ std::string comparison(const PaperTable& table) {
     return text;
 }
 
-/// Lists, for each tree, its levels and the boxes that a query tests, and its time as a part of that of
-/// the unbalanced tree.
+/// Lists, for each tree, its levels and the boxes that a query tests, and its time as a part of
+/// that of the unbalanced tree.
 std::string tree_table(const PaperTable& table) {
     constexpr std::array names{"AB unbalanced", "AB by Table 1", "AB by medians"};
     auto text = fmt::format("{:<15}{:>8}", "trees", "least");

@@ -213,8 +213,8 @@ private:
                std::size_t{!project_.outputs.tetrahedra.empty()};
     }
 
-    /// Says which stage begins, in log.txt and on standard output at once, so that whoever follows the
-    /// output in a file sees how far the run is.
+    /// Says which stage begins, in log.txt and on standard output at once, so that whoever follows
+    /// the output in a file sees how far the run is.
     void begin_stage(const char* name, Phase phase) {
         const auto text = fmt::format("stage {} of {}: {}", ++stages_begun_, stage_count(), name);
         journal_.note(text);

@@ -14,8 +14,8 @@
 
 namespace terrane::cli {
 
-/// The columns: the paper's four methods, where Table 1 is read in two ways, then the default of this
-/// library.
+/// The columns: the paper's four methods, where Table 1 is read in two ways, then the default of
+/// this library.
 constexpr std::array paper_methods{Search::grid,      Search::ab,    Search::ab_balanced,
                                    Search::ab_median, Search::mixed, Search::bvh};
 

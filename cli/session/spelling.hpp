@@ -13,8 +13,8 @@
 
 namespace terrane::cli {
 
-/// Returns a sentence about the first word of the command line that is no command, or no option of the
-/// command; none if there is none.
+/// Returns a sentence about the first word of the command line that is no command, or no option of
+/// the command; none if there is none.
 std::optional<std::string> misspelt(const CLI::App& program, std::span<char* const> words);
 
 } // namespace terrane::cli

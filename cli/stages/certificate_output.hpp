@@ -31,8 +31,8 @@ void add_proof(CLI::App& command, ProofOptions& options);
 /// Adds --certificate only.
 void add_certificate(CLI::App& command, std::string& certificate);
 
-/// Warns if `terrane verify` refuses a certificate unless an option allows its deviation. `inputs` are
-/// all surfaces that it is about.
+/// Warns if `terrane verify` refuses a certificate unless an option allows its deviation. `inputs`
+/// are all surfaces that it is about.
 void warn_of_deviation(const std::string& certificate, double deviation,
                        std::span<const Surface> inputs);
 
@@ -43,13 +43,13 @@ Status plan_proof(const ProofOptions& options, const FileOptions& files);
 /// them relative to its folder. Errors: bad_option.
 Status check_certified_names(const std::string& certificate, const std::vector<std::string>& files);
 
-/// Checks before any work is done that a certificate can state the names of surfaces, which are those
-/// of their files. Errors: bad_option, with the file as its place.
+/// Checks before any work is done that a certificate can state the names of surfaces, which are
+/// those of their files. Errors: bad_option, with the file as its place.
 Status check_certified_surfaces(std::span<const std::string> names,
                                 std::span<const std::string> files);
 
-/// Reads all inputs; if `certificate` is not empty, their surfaces must have names that it can state.
-/// Errors: those of read_inputs; bad_option.
+/// Reads all inputs; if `certificate` is not empty, their surfaces must have names that it can
+/// state. Errors: those of read_inputs; bad_option.
 Result<Inputs> read_certified_inputs(const std::string& certificate, const FileOptions& options,
                                      Session& session);
 
@@ -111,8 +111,8 @@ Result<std::string> certificate_text(const std::string& path, const ProofFiles& 
                                      const Inputs& inputs, const Arranged& arranged,
                                      const Session& session);
 
-/// Writes both files, and says so on `files.told`. Rounded coordinates need not be conforming, as the
-/// exact result holds anyway.
+/// Writes both files, and says so on `files.told`. Rounded coordinates need not be conforming, as
+/// the exact result holds anyway.
 Status write_proof(const ProofOptions& options, const ProofFiles& files, const Inputs& inputs,
                    const Arranged& arranged, Session& session);
 
@@ -122,7 +122,8 @@ Status write_improved_certificate(const std::string& path, const ProofFiles& fil
                                   const Inputs& inputs, const Arranged& before,
                                   const Improved& improved, Session& session);
 
-/// Writes the certificate of surfaces whose holes were filled; `mesh` is what the output files hold.
+/// Writes the certificate of surfaces whose holes were filled; `mesh` is what the output files
+/// hold.
 Status write_filled_certificate(const std::string& path, const ProofFiles& files,
                                 const Inputs& inputs, const FillWork& work, const Mesh& mesh,
                                 Session& session);

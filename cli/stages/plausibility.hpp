@@ -20,8 +20,8 @@ Status report_doubts(const std::vector<PlausibilityWarning>& warnings,
 /// Looks for mistakes in the inputs and reports them, before any work is done on them.
 Status examine(const Inputs& inputs, const PlausibilityContext& context, Json& statistics);
 
-/// Looks for mistakes that show once blocks are found. That there is no block is said only if `blocks`
-/// are wanted and no warning about a missing top or base has said so.
+/// Looks for mistakes that show once blocks are found. That there is no block is said only if
+/// `blocks` are wanted and no warning about a missing top or base has said so.
 Status examine(const Model& model, const Inputs& inputs, bool blocks, Json& statistics);
 
 } // namespace terrane::cli

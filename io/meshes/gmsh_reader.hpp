@@ -14,12 +14,13 @@ namespace terrane {
 /// Reads the triangles and quadrilaterals of a file in text; quadrilaterals become two triangles.
 /// - Each physical surface with elements becomes a surface, by increasing tag, with its name from
 ///   $PhysicalNames. An element of several physical surfaces is in each of them.
-/// - Elements of no physical surface follow, one surface per entity: `name` if it is the only surface of
+/// - Elements of no physical surface follow, one surface per entity: `name` if it is the only
+/// surface of
 ///   the file, else "NAME entity TAG".
 /// - Points, lines and volumes are passed over. A surface has only the vertices that it uses.
-/// Errors: bad_syntax, bad_number, bad_index with "source:line"; unsupported (a binary file, another
-/// version, triangles and quadrilaterals of higher order); nothing_to_do if there is no triangle. Cost:
-/// n log n.
+/// Errors: bad_syntax, bad_number, bad_index with "source:line"; unsupported (a binary file,
+/// another version, triangles and quadrilaterals of higher order); nothing_to_do if there is no
+/// triangle. Cost: n log n.
 Result<std::vector<Surface>> read_msh(std::string_view contents, std::string_view source,
                                       std::string_view name);
 

@@ -100,8 +100,8 @@ public:
         out_ += "\n</DataArray>\n";
     }
 
-    /// Writes strings as VTK does: the codes of their characters, each string ended by a 0. In grids
-    /// they are arrays of codes, as meshio reads no grid with arrays of strings.
+    /// Writes strings as VTK does: the codes of their characters, each string ended by a 0. In
+    /// grids they are arrays of codes, as meshio reads no grid with arrays of strings.
     void strings(std::string_view name, const std::vector<std::string_view>& values) {
         std::string lines;
         std::size_t count = 0;

@@ -33,10 +33,10 @@ Result<std::string> to_vtp(const Mesh& mesh, bool compress = true,
 ///   twin     if nodes are split: the cell on the other side of the cut, with its corners in the
 ///            same order; -1 for any other cell
 ///   cut_side 1 in front of the cut, 2 behind it, 0 for any other cell
-/// followed by `cells`. The field arrays are those of to_vtp; their lists count faces only. Names and
-/// roles are arrays of character codes (UInt8), each string ended by a 0: meshio refuses grids with
-/// arrays of strings.
-/// Errors: bad_option if an array of `cells` does not have one value per tetrahedron and face.
+/// followed by `cells`. The field arrays are those of to_vtp; their lists count faces only. Names
+/// and roles are arrays of character codes (UInt8), each string ended by a 0: meshio refuses grids
+/// with arrays of strings. Errors: bad_option if an array of `cells` does not have one value per
+/// tetrahedron and face.
 Result<std::string> to_vtu(const TetrahedralMesh& mesh, bool compress = true,
                            std::span<const CellArray> cells = {});
 

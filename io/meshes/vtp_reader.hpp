@@ -11,16 +11,18 @@
 
 namespace terrane {
 
-/// Reads the polygons and triangle strips of all pieces; vertices and lines are passed over. Data may be
-/// text, base64 or appended (raw or base64), of either byte order, as they are or compressed by zlib.
+/// Reads the polygons and triangle strips of all pieces; vertices and lines are passed over. Data
+/// may be text, base64 or appended (raw or base64), of either byte order, as they are or compressed
+/// by zlib.
 /// - Polygons become fans round their first corner.
-/// - A file that to_vtp() wrote gives its surfaces back: the field arrays surface_name and surface_role
-///   name them, and the cell array surface, or surfaces and surfaces_offset, tells which polygons they
-///   have. Any other file becomes one surface, `name`.
+/// - A file that to_vtp() wrote gives its surfaces back: the field arrays surface_name and
+/// surface_role
+///   name them, and the cell array surface, or surfaces and surfaces_offset, tells which polygons
+///   they have. Any other file becomes one surface, `name`.
 /// - A surface has only the vertices that it uses, in file order.
-/// Errors: bad_syntax, bad_number, bad_index with "source:line", the line of the element; unsupported
-/// (another type of data, another compressor); nothing_to_do if there is no triangle. Cost: linear in the
-/// size of the data, decompressed.
+/// Errors: bad_syntax, bad_number, bad_index with "source:line", the line of the element;
+/// unsupported (another type of data, another compressor); nothing_to_do if there is no triangle.
+/// Cost: linear in the size of the data, decompressed.
 Result<std::vector<Surface>> read_vtp(std::string_view contents, std::string_view source,
                                       std::string_view name);
 

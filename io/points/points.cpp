@@ -83,7 +83,8 @@ private:
         return read_point(columns, name, surfaces);
     }
 
-    /// Tells whether a line has all columns of a heading that names surfaces or has cells, and is a point.
+    /// Tells whether a line has all columns of a heading that names surfaces or has cells, and is a
+    /// point.
     [[nodiscard]] bool fits_heading(std::string_view line) const {
         if (!heading_) return false;
         const auto cells = cells_under_heading(line);

@@ -13,18 +13,18 @@
 namespace terrane {
 
 /// Reads one Surface called `name` with all points as vertices, and connects them by
-/// connect_points. If lines begin with a text, or a heading names a column surface, formation, horizon,
-/// fault, unit or name, there is one Surface for each text in that column, called so; horizon and fault
-/// state its role.
+/// connect_points. If lines begin with a text, or a heading names a column surface, formation,
+/// horizon, fault, unit or name, there is one Surface for each text in that column, called so;
+/// horizon and fault state its role.
 /// - Columns are separated by blanks, tabs, commas or semicolons. Lines that begin with # ! @ or //
 ///   are comments, and so are lines before the first point that begin with a word. A line EOD or
 ///   EOB ends the points.
 /// - A heading, the last line of words before the points, names the columns x, y, z (or easting,
-///   northing, depth, elevation, tvdss; inline and crossline if there are no x and y), in any case. A unit
-///   may follow a name: depth_ft, "z (m)", x[m]. Columns of a heading with commas, semicolons or tabs are
-///   separated by these alone, so cells may be empty.
-///   Without a heading the coordinates are the first three numbers, or the last three if the first
-///   point has five numbers (inline, crossline, x, y, z).
+///   northing, depth, elevation, tvdss; inline and crossline if there are no x and y), in any case.
+///   A unit may follow a name: depth_ft, "z (m)", x[m]. Columns of a heading with commas,
+///   semicolons or tabs are separated by these alone, so cells may be empty. Without a heading the
+///   coordinates are the first three numbers, or the last three if the first point has five numbers
+///   (inline, crossline, x, y, z).
 /// - A point is skipped if its z is -99999, -9999, -999.25 or at least 1e29 in size, or if its
 ///   three numbers are 999, which end a line.
 /// Errors: bad_syntax, bad_number with "source:line"; nothing_to_do if there is no triangle; those

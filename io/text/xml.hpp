@@ -6,8 +6,8 @@
 
 namespace terrane {
 
-/// Returns the text as XML has it in an element or between the double quotes of an attribute. Control
-/// characters become spaces: XML 1.0 has no way to write most of them.
+/// Returns the text as XML has it in an element or between the double quotes of an attribute.
+/// Control characters become spaces: XML 1.0 has no way to write most of them.
 std::string xml_escaped(std::string_view text);
 
 } // namespace terrane

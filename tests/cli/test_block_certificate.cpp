@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Tests --certificate of `terrane volume` and `terrane tetrahedralize`, and `terrane verify` with it.
+// Tests --certificate of `terrane volume` and `terrane tetrahedralize`, and `terrane verify` with
+// it.
 #include <string>
 #include <vector>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Tests the everyday mistakes of users: each is warned of with a sentence that names it, and is status 2
-// with --strict, or is refused with status 2 at once.
+// Tests the everyday mistakes of users: each is warned of with a sentence that names it, and is
+// status 2 with --strict, or is refused with status 2 at once.
 #include <functional>
 #include <map>
 #include <vector>
@@ -263,7 +263,7 @@ bool takes_stats(const std::string& arguments) {
 
 } // namespace
 
-TEST_CASE("cli: mistakes that are warned of, and refused with --strict", "[cli][plausibility]") {
+TEST_CASE("cli: mistakes lead to warnings, and to status 2 with --strict", "[cli][plausibility]") {
     auto mistakes = heights_units_and_systems();
     for (Mistake& m : open_or_double()) mistakes.push_back(std::move(m));
     REQUIRE(mistakes.size() + refused().size() >= 60);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // Prints the constants of the static filters and of the proof of separation, as they are compiled:
-// a name and a number in Gappa's notation on each line. gappa_bounds.py puts them into the proofs of
-// kernel/proofs.
+// a name and a number in Gappa's notation on each line. gappa_bounds.py puts them into the proofs
+// of kernel/proofs.
 #include <terrane/algorithms/rounding/detail/separation_bounds.hpp>
 #include <terrane/kernel/ball_filter.hpp>
 #include <terrane/kernel/separation_filter.hpp>

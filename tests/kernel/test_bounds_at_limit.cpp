@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Static filters at their bounds: inputs whose exact or computed value lies within one percent of the
-// error bound, of both signs, with sizes from all of the admissible range, in all rounding modes.
-// Rationals judge.
+// Static filters at their bounds: inputs whose exact or computed value lies within one percent of
+// the error bound, of both signs, with sizes from all of the admissible range, in all rounding
+// modes. Rationals judge.
 #include "support/filter_limits.hpp"
 
 #include <catch2/catch.hpp>
@@ -17,8 +17,8 @@ double error_in_bounds(const Estimate& e, const mpq_class& exact) {
     return std::fabs(share.get_d());
 }
 
-/// Scales each axis by a power of two, so that sizes come from all of the range; the circle needs one
-/// for both. Sizes stay within it where they were between 2^-6 and 4.
+/// Scales each axis by a power of two, so that sizes come from all of the range; the circle needs
+/// one for both. Sizes stay within it where they were between 2^-6 and 4.
 Coordinates scaled(Random& random, const Filter& f, Coordinates x) {
     const int low = std::ilogb(f.range.low) + 7, high = std::ilogb(f.range.high) - 3;
     std::array<int, 3> shift{};
@@ -87,8 +87,8 @@ Tally judge_at_limit(const Filter& f, int count, std::uint64_t seed) {
     return tally;
 }
 
-/// Added to a number between 1 and 2, it is lost when sums are rounded towards minus infinity; taken
-/// away, it counts as twice that. It is almost a unit.
+/// Added to a number between 1 and 2, it is lost when sums are rounded towards minus infinity;
+/// taken away, it counts as twice that. It is almost a unit.
 constexpr double almost_unit = 0x1.fffff8p-53;
 
 } // namespace
@@ -148,7 +148,8 @@ TEST_CASE("filters at their bounds: half the bound of turn2d would give wrong si
     int wrong = 0;
     double largest = 0;
     for (int i = 0; i < 2'000; ++i) {
-        // Each difference errs by almost a unit, those of the second product towards larger numbers.
+        // Each difference errs by almost a unit, those of the second product towards larger
+        // numbers.
         const double a = 1 + (one_to_two(random) - 1) / 20, b = 1 + (one_to_two(random) - 1) / 20;
         const double c = 1 + (one_to_two(random) - 1) / 20;
         double d = b * c / a;

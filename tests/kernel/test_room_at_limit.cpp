@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Filters with room, for points within a radius and for a distance between triangles: inputs for which
-// that room just suffices, in all rounding modes. Rationals judge.
+// Filters with room, for points within a radius and for a distance between triangles: inputs for
+// which that room just suffices, in all rounding modes. Rationals judge.
 #include "support/filter_limits.hpp"
 
 #include <terrane/kernel/separation_filter.hpp>
@@ -31,7 +31,8 @@ mpq_class pushed(const Filter& f, const Coordinates& x, double radius, int towar
     return f.exact(y);
 }
 
-/// What a filter of points within a radius says, and whether points within it can have another sign.
+/// What a filter of points within a radius says, and whether points within it can have another
+/// sign.
 template <class Signed>
 void judge_balls(const Filter& f, int first_exponent, int last_exponent, std::uint64_t seed,
                  const Signed& sign_with_radius) {

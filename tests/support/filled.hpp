@@ -115,8 +115,8 @@ std::optional<std::uint32_t> add_node(TetrahedralMesh& mesh,
     return node;
 }
 
-/// The point of these corners with the weights 0.375, 0.34, ..., computed in doubles as TetGen does:
-/// from the first corner along the edges to the others.
+/// The point of these corners with the weights 0.375, 0.34, ..., computed in doubles as TetGen
+/// does: from the first corner along the edges to the others.
 template <std::size_t N>
 Point3 point_between(const TetrahedralMesh& m, const std::array<std::uint32_t, N>& nodes) {
     constexpr std::array weights{0.0, 0.375, 0.34, 0.15};

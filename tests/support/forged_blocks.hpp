@@ -29,8 +29,8 @@ inline std::string cube(const std::string& name, const std::string& low, const s
            "f 3 7 8\nf 3 8 4\nf 1 5 7\nf 1 7 3\nf 2 4 8\nf 2 8 6\n";
 }
 
-/// A box with a box inside, which holds a third one and a sheet; a horizon divides the outer one; and
-/// a box apart from all.
+/// A box with a box inside, which holds a third one and a sheet; a horizon divides the outer one;
+/// and a box apart from all.
 inline std::vector<File> nested() {
     return {{"outer.obj", cube("outer", "0", "9")},
             {"inner.obj", cube("inner", "1", "4")},

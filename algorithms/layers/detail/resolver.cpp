@@ -117,8 +117,8 @@ Result<LayerResolver::Replacement> LayerResolver::classify(const std::vector<Rel
     return change;
 }
 
-/// Step (3): replaces the parts of `soft` on the wrong side of the harder layers, which are moved up
-/// by `steps`, by these. At each place the first of them that exists there decides.
+/// Step (3): replaces the parts of `soft` on the wrong side of the harder layers, which are moved
+/// up by `steps`, by these. At each place the first of them that exists there decides.
 Result<Set> LayerResolver::replace(const Set& soft, std::span<const std::size_t> harder, int steps,
                                    Side kept, LayerReport* report) {
     Set result, rest = soft;

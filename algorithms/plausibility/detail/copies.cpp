@@ -30,8 +30,9 @@ double mean_edge(const Surface& surface) {
     return sum / (3 * static_cast<double>(surface.triangles.size()));
 }
 
-/// Returns the spacing of floats at the largest coordinate if all coordinates are floats and some use
-/// bits that the largest has lost: then they were not rounded on purpose, to metres for example.
+/// Returns the spacing of floats at the largest coordinate if all coordinates are floats and some
+/// use bits that the largest has lost: then they were not rounded on purpose, to metres for
+/// example.
 std::optional<double> spacing_of_floats(const Surface& surface, const Extent& extent) {
     double largest = 0;
     for (std::size_t i = 0; i < 3; ++i)

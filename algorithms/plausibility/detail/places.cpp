@@ -12,8 +12,8 @@
 namespace terrane::plausibility::detail {
 namespace {
 
-/// Returns groups of surfaces: two are in one if boxes lead from one to the other without a far gap.
-/// The first group is the one of most surfaces; of equal ones, the one of the first surface.
+/// Returns groups of surfaces: two are in one if boxes lead from one to the other without a far
+/// gap. The first group is the one of most surfaces; of equal ones, the one of the first surface.
 std::vector<std::vector<std::uint32_t>> groups_of(const Examination& e) {
     std::vector<std::uint32_t> left = e.used;
     std::vector<std::vector<std::uint32_t>> groups;

@@ -8,11 +8,14 @@ namespace terrane::plausibility::detail {
 struct Thresholds {
     /// A surface is far away if its gap to the others exceeds so many diagonals of the larger box.
     double far_apart = 1;
-    /// Heights above and below 0 are two groups if the gap between them exceeds so many of their sizes.
+    /// Heights above and below 0 are two groups if the gap between them exceeds so many of their
+    /// sizes.
     double height_gap = 1;
-    /// Turned over, a group of heights must come as near to the other, in shares of its distance from 0.
+    /// Turned over, a group of heights must come as near to the other, in shares of its distance
+    /// from 0.
     double turned_gap = 1;
-    /// Spacing of 24 bits at the largest coordinate, in shares of the mean edge, that is worth a warning.
+    /// Spacing of 24 bits at the largest coordinate, in shares of the mean edge, that is worth a
+    /// warning.
     double float32_spacing = 1e-4;
     /// A surface is a layer, not a wall, if its footprint is at least such a share of its area.
     double layer_footprint = 0.5;

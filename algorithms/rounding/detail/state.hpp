@@ -72,8 +72,8 @@ struct RoundingState {
     /// Returns the number of points that were merged with another one.
     [[nodiscard]] std::size_t merged() const;
 
-    /// Drops the points that no triangle uses, such as merged ones. All other lists of points are no
-    /// longer valid afterwards.
+    /// Drops the points that no triangle uses, such as merged ones. All other lists of points are
+    /// no longer valid afterwards.
     void drop_unused_points();
 
     /// Adds the largest move and the largest gap since the last call to the deviation.

@@ -13,7 +13,8 @@ namespace terrane::tetgen::detail {
 struct TetrahedraConstants {
     /// Least distance of the box from the mesh, in largest coordinates: room for doubles between.
     double least_margin = 0x1p-40;
-    /// Least ratio of circumradius to shortest edge that may be asked for: TetGen need not end below.
+    /// Least ratio of circumradius to shortest edge that may be asked for: TetGen need not end
+    /// below.
     double least_ratio = 1.1;
     /// Largest expected number of tetrahedra; TetGen counts in int.
     double most_tetrahedra = 5e8;

@@ -20,7 +20,8 @@ struct FaceResult {
 };
 
 /// Checks that
-///   - no face has two tetrahedra on one side, and each one with a single tetrahedron is on the box,
+///   - no face has two tetrahedra on one side, and each one with a single tetrahedron is on the
+///   box,
 ///     or on a triangle beyond which there is nothing to fill;
 ///   - each listed face is a face of a tetrahedron, is listed once, and has the surfaces of its
 ///     triangle;

@@ -5,8 +5,8 @@
 
 namespace terrane::tetrahedra::detail {
 
-/// Checks that all lists have their lengths, all indices are in range, all coordinates are finite and
-/// all triangles have an area; reports unusable_lists. Returns whether the rest can be checked.
+/// Checks that all lists have their lengths, all indices are in range, all coordinates are finite
+/// and all triangles have an area; reports unusable_lists. Returns whether the rest can be checked.
 bool check_lists(const Subject& subject);
 
 /// Checks the surfaces and the number of regions; reports wrong_attributes.

@@ -11,8 +11,8 @@ namespace terrane::triangulation::detail {
 
 /// They decide which triangles connect the points.
 struct PointConstants {
-    /// Share of the median edge to which edges must shrink in space for the plane of least squares to
-    /// replace z = 0. Smaller: fewer points are seen along another direction than z.
+    /// Share of the median edge to which edges must shrink in space for the plane of least squares
+    /// to replace z = 0. Smaller: fewer points are seen along another direction than z.
     double worth_tilting = 0.8;
     /// Least z component of a normal that counts as upright, squared: 45 degrees.
     double upright = 0.5;

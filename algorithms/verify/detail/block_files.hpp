@@ -52,7 +52,8 @@ struct PartMesh {
 PartMesh block_mesh(const WrittenMesh& mesh, const std::vector<BlockSides>& sides,
                     std::uint32_t block);
 
-/// Returns the triangles of an interface, so wound that the block with the higher number is in front.
+/// Returns the triangles of an interface, so wound that the block with the higher number is in
+/// front.
 PartMesh interface_mesh(const WrittenMesh& mesh, const std::vector<BlockSides>& sides,
                         const Interface& interface);
 

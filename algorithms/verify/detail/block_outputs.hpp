@@ -18,8 +18,8 @@ std::string compare_block_file(std::string_view contents, const Certificate& cer
                                const CertifiedOutput& output, std::any& computed,
                                OutputVerdict& verdict);
 
-/// Checks that the outputs are all files of one folder with these blocks, each once (R21). There may
-/// be no outputs at all. Precondition: the claims of the certificate hold.
+/// Checks that the outputs are all files of one folder with these blocks, each once (R21). There
+/// may be no outputs at all. Precondition: the claims of the certificate hold.
 void check_folder_files(const Certificate& certificate, Violations& found);
 
 /// All outputs hold all tetrahedra.

@@ -24,8 +24,8 @@ struct NumberedBlocks {
     std::vector<mpq_class> volumes; ///< per block; [0] of all; unit of the input, cubed
 };
 
-/// Finds the blocks of both meshes and matches them. Precondition: both are conforming, and `doubles`
-/// has integer points (w = 1).
+/// Finds the blocks of both meshes and matches them. Precondition: both are conforming, and
+/// `doubles` has integer points (w = 1).
 NumberedBlocks number_blocks(const ExactMesh& exact, const ExactMesh& doubles);
 
 /// Compares the claim with the truth.

@@ -172,8 +172,8 @@ Located located(const ExactMesh& mesh, const IndexLists<std::uint32_t>& parents_
     return result;
 }
 
-/// Tells which points are in a boundary: rays upwards, moved aside by e in x and e^2 in y for an e
-/// that is smaller than all else, so that none meets an edge.
+/// Tells which points are inside a boundary, by casting rays upwards. Each ray is moved aside by e in
+/// x and e^2 in y, where e is smaller than any length in the mesh, so that it meets no edge.
 class Rays {
 public:
     explicit Rays(const Located& located) : mesh_(located.mesh), tree_({}, {}) {

@@ -17,12 +17,13 @@ namespace terrane::verifier {
 /// Checks that the boundary of a volume is the stated one (R50). `files` are the surfaces of the
 /// input files that hold it, for a "surface".
 /// (1) prism: each vertex of the boundary is a corner of the polygon at one of the two heights, and
-///     all of these are vertices. Each triangle is at one of the heights, or in the wall on an edge of
-///     the polygon. The boundary is closed, each edge has two triangles in opposite directions, and
-///     triangles meet in shared vertices and edges only. So the horizontal sections of what it bounds
-///     are bounded by edges of the polygon; they are all of it, and the volume is the prism. Its
-///     triangles face outwards.
-/// (2) hexahedron: it has eight vertices and twelve triangles, and is closed, meets itself and faces
+///     all of these are vertices. Each triangle is at one of the heights, or in the wall on an edge
+///     of the polygon. The boundary is closed, each edge has two triangles in opposite directions,
+///     and triangles meet in shared vertices and edges only. So the horizontal sections of what it
+///     bounds are bounded by edges of the polygon; they are all of it, and the volume is the prism.
+///     Its triangles face outwards.
+/// (2) hexahedron: it has eight vertices and twelve triangles, and is closed, meets itself and
+/// faces
 ///     outwards in the same sense.
 /// (3) surface: it has the vertices and triangles of the files, to the bit, and an even number of
 ///     triangles at each edge.

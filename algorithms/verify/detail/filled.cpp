@@ -64,7 +64,8 @@ private:
         found_.push_back({rule, {v}, "vertex " + text(v) + " of its surface " + what});
     }
 
-    // --- R29 --------------------------------------------------------------------------------------
+    // --- R29
+    // --------------------------------------------------------------------------------------
 
     [[nodiscard]] bool keeps_given() {
         const bool enough = vertices_.size() >= given_.vertices.size() &&
@@ -87,7 +88,8 @@ private:
         return true;
     }
 
-    // --- R30 --------------------------------------------------------------------------------------
+    // --- R30
+    // --------------------------------------------------------------------------------------
 
     /// Names given vertices at one place by the first of them; new ones need places of their own.
     void merge_vertices() {
@@ -134,8 +136,8 @@ private:
         }
     }
 
-    /// Checks that the triangles round a new vertex form one ring, and that no ring is closed round a
-    /// given one.
+    /// Checks that the triangles round a new vertex form one ring, and that no ring is closed round
+    /// a given one.
     void check_rings() {
         std::map<std::uint32_t, std::map<std::uint32_t, std::uint32_t>> next;
         for (std::uint32_t t = new_from(); t < triangles_.size(); ++t)
@@ -176,7 +178,8 @@ private:
         });
     }
 
-    // --- R31 --------------------------------------------------------------------------------------
+    // --- R31
+    // --------------------------------------------------------------------------------------
 
     void check_contacts() {
         auto [points, scale] = scale_to_integers(vertices_);
@@ -189,7 +192,8 @@ private:
                        " other than in shared corners or edges");
     }
 
-    // --- R26 --------------------------------------------------------------------------------------
+    // --- R26
+    // --------------------------------------------------------------------------------------
 
     std::uint32_t root(std::uint32_t t) {
         while (joined_[t] != t) t = joined_[t] = joined_[joined_[t]];

@@ -13,7 +13,8 @@
 namespace terrane::verifier {
 
 /// Checks the fillings of all surfaces.
-/// (1) R28: indices are in range, numbers are finite, limits are accepted. Triangles have the number of
+/// (1) R28: indices are in range, numbers are finite, limits are accepted. Triangles have the
+/// number of
 ///     a hole iff they are new; expected errors are 0 where vertices are given, and not negative.
 /// (2) R29: the vertices and triangles of each input surface are the first ones of the filled
 ///     surface, to the bit.

@@ -76,7 +76,8 @@ private:
         found_.push_back({rule, std::move(elements), std::move(sentence)});
     }
 
-    // --- R24, R25 ---------------------------------------------------------------------------------
+    // --- R24, R25
+    // ---------------------------------------------------------------------------------
 
     void check_sheets() {
         constexpr Rule rule = Rule::R24_sheets;
@@ -118,7 +119,8 @@ private:
             }
     }
 
-    // --- R26: distances ---------------------------------------------------------------------------
+    // --- R26: distances
+    // ---------------------------------------------------------------------------
 
     /// Returns the least limit of the surfaces of a sheet.
     [[nodiscard]] const Bound& limit_of(std::uint32_t sheet) const {
@@ -135,8 +137,8 @@ private:
         return result;
     }
 
-    /// Returns the first triangle that is not near enough. One is enough to refuse, and each may cost as
-    /// much as all that are near.
+    /// Returns the first triangle that is not near enough. One is enough to refuse, and each may
+    /// cost as much as all that are near.
     static std::optional<std::uint32_t> first_beyond(const Numbers& which,
                                                      const std::vector<Triangle>& triangles,
                                                      const Nearness& other, const Bound& limit) {
@@ -185,7 +187,8 @@ private:
                        " of the mesh before is farther from its curve than the limit");
     }
 
-    // --- R27: sides -------------------------------------------------------------------------------
+    // --- R27: sides
+    // -------------------------------------------------------------------------------
 
     [[nodiscard]] Vector3 corner(std::uint32_t v) const {
         return {exact_[v][0], exact_[v][1], exact_[v][2]};

@@ -93,8 +93,8 @@ std::optional<WrittenMesh> rounded_mesh(const Certificate& certificate);
 std::vector<Surface> surfaces_of_exact(std::span<const Surface> files,
                                        const Certificate& certificate);
 
-/// Returns the largest limit of a change that is accepted where none is given; VerifyOptions defines
-/// it.
+/// Returns the largest limit of a change that is accepted where none is given; VerifyOptions
+/// defines it.
 double default_max_change(std::span<const Surface> surfaces);
 
 /// Returns the surfaces of the mesh as the inputs describe them.

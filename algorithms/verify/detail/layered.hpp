@@ -3,8 +3,8 @@
 // Rules R60 to R65 of the verifier: horizons that were put in order.
 //
 // The promise: at each place a layer has the height of its surface, except where this is above
-// (below) the nearest harder layer that exists there and is higher (lower) in the order; then it has
-// the height of that layer. The layers of the mesh are judged by it, seen along z. Let d be the
+// (below) the nearest harder layer that exists there and is higher (lower) in the order; then it
+// has the height of that layer. The layers of the mesh are judged by it, seen along z. Let d be the
 // stated deviation.
 #pragma once
 
@@ -19,7 +19,8 @@ namespace terrane::verifier {
 /// Checks layers.
 /// (1) R60: indices are in range, numbers are finite, d is not above what is accepted.
 /// (2) R61: the mesh is conforming.
-/// (3) R62: no layer is above one that is higher in the order. For two triangles of different layers
+/// (3) R62: no layer is above one that is higher in the order. For two triangles of different
+/// layers
 ///     heights are compared at the corners of the common part of their projections. Exempt is a
 ///     common part within 2 d of a border of a surface, where a step can be.
 /// (4) R63: each triangle of a layer is within d of its surface; or it belongs to a harder layer
@@ -27,17 +28,18 @@ namespace terrane::verifier {
 ///     (above) it, unless the triangle is within d of the surface there. For a triangle T of the
 ///     layer and S of the surface, the distance of a point of T from S is convex, and the places
 ///     where S is below T are a half-plane; so the corners of the common part decide.
-/// (5) R64: a layer exists where its surface does, and nowhere else, except in strips as wide as 4 d
-///     along borders of surfaces. Each edge of the layer without a triangle on both sides is within d
-///     of such borders. The borders divide each triangle of the surface into convex cells. Where a
-///     cell is more than d away from its border, the layer exists in all of it or nowhere; the mean
-///     of its corners tells which, if that is more than 2 d away from the border.
+/// (5) R64: a layer exists where its surface does, and nowhere else, except in strips as wide as 4
+/// d
+///     along borders of surfaces. Each edge of the layer without a triangle on both sides is within
+///     d of such borders. The borders divide each triangle of the surface into convex cells. Where
+///     a cell is more than d away from its border, the layer exists in all of it or nowhere; the
+///     mean of its corners tells which, if that is more than 2 d away from the border.
 /// (6) R65: each triangle faces the side that some surface faces that it is within d of.
 ///
 /// From (3) to (5) the promise follows up to d: by (4) a layer has the height of its surface, which
-/// is then between the nearest harder layers by (3); or that of a harder one, on whose wrong side the
-/// surface is, and by (3) no other harder one is in between.
-/// Cost: O(n log n + k) for k pairs of triangles of different layers near each other.
+/// is then between the nearest harder layers by (3); or that of a harder one, on whose wrong side
+/// the surface is, and by (3) no other harder one is in between. Cost: O(n log n + k) for k pairs
+/// of triangles of different layers near each other.
 void check_layered(std::span<const Surface> surfaces, const LayeredClaim& layered, double accepted,
                    Violations& found);
 

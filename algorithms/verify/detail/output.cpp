@@ -93,8 +93,8 @@ bool is_conforming_narrowed(const WrittenMesh& mesh) {
     return verify_conforming(vertices, triangles).empty();
 }
 
-/// Returns a bound of how far narrowing moves a vertex. The differences are exact: a double less the
-/// nearest float32 has no more digits than the double.
+/// Returns a bound of how far narrowing moves a vertex. The differences are exact: a double less
+/// the nearest float32 has no more digits than the double.
 double narrowing_move(const WrittenMesh& mesh) {
     double most = 0;
     for (const Point3& p : mesh.vertices) {

@@ -93,8 +93,8 @@ std::string ply_header(const ExpectedMesh& expected, const std::string& format) 
                   "property list uint int surfaces\nend_header\n";
 }
 
-/// Reads PLY as text. The header is that of the binary file but for its second line; each vertex and
-/// each face is a line.
+/// Reads PLY as text. The header is that of the binary file but for its second line; each vertex
+/// and each face is a line.
 void compare_ply_text(std::string_view contents, const ExpectedMesh& expected) {
     LineScanner in(contents);
     const std::string header = ply_header(expected, "ascii");

@@ -74,9 +74,9 @@ struct Distances {
 /// (3) Let c be a quarter of the stated deviation. A point of an input triangle that is not covered
 ///     along its normal is at most 3/2 c away from the triangle's border: at most c by R18, or the
 ///     centroid is at most c away from the border, which it is if the radius of the inscribed
-///     circle is at most 3/2 c (this is at most half of the smallest height, the centroid's distance
-///     is a third of it). The sides are at most c away from the triangles that name the input
-///     triangle. So all of it is at most 5/2 c away from these. Where the tip of a needle has
+///     circle is at most 3/2 c (this is at most half of the smallest height, the centroid's
+///     distance is a third of it). The sides are at most c away from the triangles that name the
+///     input triangle. So all of it is at most 5/2 c away from these. Where the tip of a needle has
 ///     vanished, its sides are at most c away from triangles that name what the needle meets.
 ///     Where a part of the input triangle was left out, the same is shown for each exact triangle
 ///     that was kept: the border of what is covered is at most c away from the border of what was

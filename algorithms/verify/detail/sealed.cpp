@@ -162,8 +162,8 @@ private:
         return bases;
     }
 
-    /// Tells whether an edge of a triangle lies on a side of an added triangle that contains it, or on
-    /// a lateral one of these sides.
+    /// Tells whether an edge of a triangle lies on a side of an added triangle that contains it, or
+    /// on a lateral one of these sides.
     [[nodiscard]] bool is_on_side(std::uint32_t t, const Edge& edge, bool lateral) {
         const auto axis = projection_axis(mesh_.planes[t]).value();
         for (const std::uint32_t p : parts_.exact.parents_of[t]) {
@@ -185,9 +185,9 @@ private:
         return false;
     }
 
-    /// Tells whether an added triangle meets a kept one at an edge that it does not continue: one of
-    /// another surface, a given one of its own that does not end there, or an added one by which it
-    /// was cut.
+    /// Tells whether an added triangle meets a kept one at an edge that it does not continue: one
+    /// of another surface, a given one of its own that does not end there, or an added one by which
+    /// it was cut.
     [[nodiscard]] bool meets(std::uint32_t strip, std::uint32_t t, const Edge& edge,
                              const Numbers& at) {
         if (t == strip || is_dropped_[t]) return false;

@@ -106,7 +106,8 @@ private:
             if (root(t) == t) ++found_.shapes[found_.sheet_of[t]].components;
     }
 
-    // --- Chains -----------------------------------------------------------------------------------
+    // --- Chains
+    // -----------------------------------------------------------------------------------
 
     void follow_chains() {
         for (std::uint32_t e = 0; e < edges_.size(); ++e)
@@ -147,7 +148,8 @@ private:
         all.insert(all.end(), edges.begin(), edges.end());
     }
 
-    /// Returns the number of a corner; no_corner if the vertex, where a closed chain begins, is none.
+    /// Returns the number of a corner; no_corner if the vertex, where a closed chain begins, is
+    /// none.
     std::uint32_t corner(std::uint32_t v) {
         return is_corner(at_[v]) ? numbers_.corners(mesh_.vertices[v]) : no_corner;
     }

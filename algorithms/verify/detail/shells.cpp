@@ -50,8 +50,8 @@ std::array<mpz_class, 3> towards(const Vector4& a, const Vector4& b) {
     return d;
 }
 
-/// Returns the direction from the edge to the apex, projected along the edge. Seen against the edge,
-/// its angles grow counterclockwise.
+/// Returns the direction from the edge to the apex, projected along the edge. Seen against the
+/// edge, its angles grow counterclockwise.
 Direction direction(const ExactMesh& mesh, const AtEdge& at) {
     const Vector4& start = mesh.points[at.edge[0]];
     const auto along = towards(start, mesh.points[at.edge[1]]);

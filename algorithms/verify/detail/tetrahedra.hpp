@@ -66,7 +66,8 @@ struct MeasuredVolumes {
 };
 
 /// Judges all rules about tetrahedra. After a violation of R40 no other one is judged. Cost:
-/// sorting the faces, and a determinant of integers per tetrahedron; rationals on divided triangles.
+/// sorting the faces, and a determinant of integers per tetrahedron; rationals on divided
+/// triangles.
 MeasuredVolumes check_tetrahedra(const TetrahedraClaim& claim, const FilledMesh& mesh,
                                  Violations& found);
 

@@ -6,8 +6,8 @@
 // one component there is exactly one of its shells, so a volume is bounded by the outer shells of
 // the components inside it and by one shell of the component around it, if any: statements (1) and
 // (2) of docs/explanation/shell-nesting.md. For each component a line along an axis passes through
-// the inside of one of its triangles, shifted by (epsilon, epsilon^2) so that it meets no edge. Sides
-// between consecutive hits are joined; this joins all shells of a volume: statement (3).
+// the inside of one of its triangles, shifted by (epsilon, epsilon^2) so that it meets no edge.
+// Sides between consecutive hits are joined; this joins all shells of a volume: statement (3).
 #pragma once
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>

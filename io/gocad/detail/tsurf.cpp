@@ -146,7 +146,8 @@ void TsurfReader::read_units(Tokens tokens) {
     if (units.size() > 2) frame.vertical_unit = unit_named(units[2]);
 }
 
-/// Takes NAME, PROJECTION and DATUM within the coordinate system; "Default" and "Unknown" state nothing.
+/// Takes NAME, PROJECTION and DATUM within the coordinate system; "Default" and "Unknown" state
+/// nothing.
 void TsurfReader::read_system(std::string_view keyword, std::string_view value) {
     if (keyword == "GOCAD_ORIGINAL_COORDINATE_SYSTEM") object_.in_system = true;
     if (keyword == "END_ORIGINAL_COORDINATE_SYSTEM") object_.in_system = false;

@@ -30,8 +30,8 @@ public:
     ByteSource(std::string_view text, bool base64, std::size_t at) :
         text_(text), base64_(base64), at_(at) {}
 
-    /// Takes the next bytes; in base64 they are a stream of their own, padded at its end. Returns false
-    /// if there are not as many, or other characters.
+    /// Takes the next bytes; in base64 they are a stream of their own, padded at its end. Returns
+    /// false if there are not as many, or other characters.
     bool take(std::size_t count, std::string& bytes) {
         bytes.clear();
         if (at_ > text_.size() || count > text_.size() - at_) return false;

@@ -50,7 +50,8 @@ char delimiter_of(std::string_view line) {
     return ' ';
 }
 
-/// Returns the columns of a heading; a bracketed unit between blanks belongs to the column before it.
+/// Returns the columns of a heading; a bracketed unit between blanks belongs to the column before
+/// it.
 std::vector<Column> named_columns(std::string_view line, char delimiter) {
     const auto texts = delimiter == ' ' ? columns_of(line) : cells_of(line, delimiter);
     std::vector<Column> columns;

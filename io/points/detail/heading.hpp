@@ -12,7 +12,8 @@
 
 namespace terrane::points::detail {
 
-/// Splits a line at blanks, commas and semicolons, and removes quotes. At most 64 columns are returned.
+/// Splits a line at blanks, commas and semicolons, and removes quotes. At most 64 columns are
+/// returned.
 std::vector<std::string_view> columns_of(std::string_view line);
 
 /// Splits a line at each `delimiter` outside of quotes, and removes blanks and quotes around cells.

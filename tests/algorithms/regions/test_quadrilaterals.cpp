@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Divides a horizon of a seismic survey, a grid of quadrilaterals with gaps, by a fault and a contact.
+// Divides a horizon of a seismic survey, a grid of quadrilaterals with gaps, by a fault and a
+// contact.
 #include <terrane/algorithms/regions/quadrilaterals.hpp>
 
 #include <algorithm>
@@ -28,8 +29,8 @@ using namespace test_support;
 
 namespace {
 
-/// Reads a horizon with a line "NAME" INLINE CROSSLINE Z for every second inline and crossline of the
-/// survey that it covers; these are 25 m apart.
+/// Reads a horizon with a line "NAME" INLINE CROSSLINE Z for every second inline and crossline of
+/// the survey that it covers; these are 25 m apart.
 QuadSurface survey_horizon() {
     std::ifstream file(test_data() + "/gio/F3_FS6_ILXL.dat");
     QuadSurface horizon{"FS6", Role::horizon, {}, {}};
@@ -90,8 +91,8 @@ Case cut_horizon() {
     return made;
 }
 
-/// Tells for each quadrilateral, by exact tests of its two triangles with those of the other surfaces,
-/// whether one of them meets it.
+/// Tells for each quadrilateral, by exact tests of its two triangles with those of the other
+/// surfaces, whether one of them meets it.
 std::vector<bool> met_quads(const Case& made) {
     std::vector<bool> met(made.horizon.quads.size());
     for (std::size_t t = 0; t < made.surfaces[1].triangles.size(); ++t)
@@ -106,8 +107,8 @@ std::vector<bool> met_quads(const Case& made) {
     return met;
 }
 
-/// Lists the sides of cells that one cell alone has, which are the border of the surface if cells are
-/// conforming.
+/// Lists the sides of cells that one cell alone has, which are the border of the surface if cells
+/// are conforming.
 std::set<Edge> border_of(const IndexLists<std::uint32_t>& cells) {
     std::map<Edge, int> count;
     for (std::size_t c = 0; c < cells.size(); ++c)

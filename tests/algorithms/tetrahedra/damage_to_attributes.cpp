@@ -40,8 +40,8 @@ std::uint32_t face_at(const Filled& f, std::uint32_t node) {
     return 0;
 }
 
-/// Lists faces for one of the triangles at a divided edge that do not divide the edge: a single one,
-/// or three round another node.
+/// Lists faces for one of the triangles at a divided edge that do not divide the edge: a single
+/// one, or three round another node.
 void tear_edge(Filled& f, bool in_three) {
     const auto of = f.tetrahedra.face_triangle;
     const std::uint32_t triangle = of[face_at(f, f.on_edges.back())];

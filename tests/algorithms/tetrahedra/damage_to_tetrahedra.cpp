@@ -72,7 +72,8 @@ void add_mirrored_pair(Filled& f) {
     add(f, fresh, m.region_of[t]);
 }
 
-/// Moves a node far away; all tetrahedra are positive afterwards, each face has two, and some overlap.
+/// Moves a node far away; all tetrahedra are positive afterwards, each face has two, and some
+/// overlap.
 void move_out_of_star(Filled& f) {
     TetrahedralMesh& m = f.tetrahedra;
     const std::uint32_t node = f.inside.front();

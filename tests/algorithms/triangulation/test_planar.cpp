@@ -94,9 +94,9 @@ bool is_covered(std::span<const Point3> p, const std::vector<Triangle>& triangle
     });
 }
 
-/// Counts the triangles that are not counterclockwise, and the pairs at an edge of which one has the
-/// opposite corner of the other strictly inside its circle. Edges of polygons have one triangle. If
-/// there are none, the triangulation is the constrained Delaunay one.
+/// Counts the triangles that are not counterclockwise, and the pairs at an edge of which one has
+/// the opposite corner of the other strictly inside its circle. Edges of polygons have one
+/// triangle. If there are none, the triangulation is the constrained Delaunay one.
 std::size_t delaunay_flaws(std::span<const Point3> p, const std::vector<Triangle>& triangles) {
     std::size_t flaws = 0;
     std::map<std::array<std::uint32_t, 2>, std::array<std::uint32_t, 3>> side_of; // directed

@@ -317,8 +317,7 @@ TEST_CASE("cut certificates: forged lists of what is outside", "[volume_of_inter
         });
 }
 
-/// Forgeries of the doubles, whether these have the triangles of the exact part or others.
-/// Leaves out the parts of the first 72 input triangles and lists these as vanished.
+/// Drops the parts of the first 72 input triangles, and lists these triangles as vanished.
 void hide_first_surface(Json& m) {
     std::set<int> inputs;
     for (int t = 0; t < 72; ++t) inputs.insert(t);
@@ -330,6 +329,7 @@ void hide_first_surface(Json& m) {
     m["vanished"] = vanished;
 }
 
+/// Returns forgeries of the doubles, whether these have the triangles of the exact part or others.
 std::vector<Forgery> forged_doubles() {
     return {
         cut_doubles(

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Files of a folder with blocks that are not what their certificate says, with right hashes: each is
-// refuted.
+// Files of a folder with blocks that are not what their certificate says, with right hashes: each
+// is refuted.
 #include "support/forged_blocks.hpp"
 
 #include <cctype>

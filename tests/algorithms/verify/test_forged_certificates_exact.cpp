@@ -88,8 +88,8 @@ TEST_CASE("forged certificates: vertices that the inputs do not force") {
 }
 
 TEST_CASE("forged certificates: the middle of an intersection segment is no vertex") {
-    // The wall at x = 2 crosses the large triangle from (2, 1.5) to (2, 2.5). Between them, the plane
-    // y = 2 through three input vertices crosses both, but no input triangle lies in it.
+    // The wall at x = 2 crosses the large triangle from (2, 1.5) to (2, 2.5). Between them, the
+    // plane y = 2 through three input vertices crosses both, but no input triangle lies in it.
     const std::vector<File> files{{"t.obj", "v -9 2 0\nv 9 -9 0\nv 9 12 0\n"
                                             "v 2 1 -1\nv 2 3 -1\nv 2 2 1\n"
                                             "v 20 2 5\nv 21 2 5\nv 20 3 5\n"

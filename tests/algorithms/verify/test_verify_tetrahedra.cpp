@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The verifier's rules about tetrahedra: each kind of damage is refused, and sound ones are accepted.
+// The verifier's rules about tetrahedra: each kind of damage is refused, and sound ones are
+// accepted.
 #include "support/divided_models.hpp"
 #include "support/effort.hpp"
 #include "support/tetrahedra_damage.hpp"
@@ -174,8 +175,8 @@ TEST_CASE("verifier: the volume of a block that is wrong by one part in 10^15 is
 
 TEST_CASE("verifier: what is within reach of a triangle depends on its coordinates only") {
     const std::array<Point3, 3> t{Point3{0, 0, 1}, Point3{4, 0, 1}, Point3{0, 3, 1}};
-    // Spacings: 2^-50, 2^-51 and 2^-52; five are allowed, along z with twice the others. The reach is the
-    // length of (5 * 2^-50, 5 * 2^-51, 5 * (2^-52 + 2 * 2^-50 + 2 * 2^-51)).
+    // Spacings: 2^-50, 2^-51 and 2^-52; five are allowed, along z with twice the others. The reach
+    // is the length of (5 * 2^-50, 5 * 2^-51, 5 * (2^-52 + 2 * 2^-50 + 2 * 2^-51)).
     const double e = 5 * 0x1p-52;
     const double reach = std::hypot(4 * e, 2 * e, e + 8 * e + 4 * e);
     const double volume = 2 * reach * 6;

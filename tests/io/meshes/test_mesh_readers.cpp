@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Reading VTP, legacy VTK and MSH: files of other programs (tests/data/other_programs), files that the
-// library wrote, and broken ones.
+// Reading VTP, legacy VTK and MSH: files of other programs (tests/data/other_programs), files that
+// the library wrote, and broken ones.
 #include <catch2/catch.hpp>
 
 #include <algorithm>

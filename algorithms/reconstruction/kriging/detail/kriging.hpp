@@ -22,8 +22,8 @@ struct Estimate {
     double standard_deviation = 0; ///< square root of the kriging variance
 };
 
-/// Estimates heights as weighted means of data, with weights that minimise the variance given by the
-/// variogram among all that reproduce a trend, a polynomial of degree 0, 1 or 2 (universal
+/// Estimates heights as weighted means of data, with weights that minimise the variance given by
+/// the variogram among all that reproduce a trend, a polynomial of degree 0, 1 or 2 (universal
 /// kriging): a slope is no variance, and a plane is estimated exactly. The degree is lowered if the
 /// data do not determine the trend.
 ///

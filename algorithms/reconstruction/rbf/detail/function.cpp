@@ -66,8 +66,8 @@ WideKernel wide_kernel(const Matrix& points) {
     return kernel;
 }
 
-/// Computes values - (kernel weights + polynomial), each entry summed in 128 bits; something else if
-/// the run is stopped.
+/// Computes values - (kernel weights + polynomial), each entry summed in 128 bits; something else
+/// if the run is stopped.
 Vector residual(const System& s, const WideKernel& kernel, const Vector& weights,
                 const Vector& polynomial, const Run& run) {
     const Eigen::Index n = s.values.size();
