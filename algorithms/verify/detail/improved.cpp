@@ -76,8 +76,7 @@ private:
         found_.push_back({rule, std::move(elements), std::move(sentence)});
     }
 
-    // --- R24, R25
-    // ---------------------------------------------------------------------------------
+    // --- R24, R25 --------------------------------------------------------------------------------
 
     void check_sheets() {
         constexpr Rule rule = Rule::R24_sheets;
@@ -119,8 +118,7 @@ private:
             }
     }
 
-    // --- R26: distances
-    // ---------------------------------------------------------------------------
+    // --- R26: distances --------------------------------------------------------------------------
 
     /// Returns the least limit of the surfaces of a sheet.
     [[nodiscard]] const Bound& limit_of(std::uint32_t sheet) const {
@@ -187,8 +185,7 @@ private:
                        " of the mesh before is farther from its curve than the limit");
     }
 
-    // --- R27: sides
-    // -------------------------------------------------------------------------------
+    // --- R27: sides ------------------------------------------------------------------------------
 
     [[nodiscard]] Vector3 corner(std::uint32_t v) const {
         return {exact_[v][0], exact_[v][1], exact_[v][2]};

@@ -125,8 +125,7 @@ private:
         return a > b || (a == b && i < j);
     }
 
-    // --- The surfaces, their borders, the layers
-    // --------------------------------------------------
+    // --- The surfaces, their borders, the layers -------------------------------------------------
 
     [[nodiscard]] std::optional<Seen> seen(std::uint32_t number, const Triangle& t,
                                            std::uint32_t first) const {
@@ -244,8 +243,7 @@ private:
         return border_tree_.touching(without_height(widened_by(box, reach_)));
     }
 
-    // --- R62: order
-    // -------------------------------------------------------------------------------
+    // --- R62: order ------------------------------------------------------------------------------
 
     void check_order() {
         std::vector<Box> downward = boxes_;
@@ -280,8 +278,7 @@ private:
                    layer_name(layered_.surfaces_of[s].front()));
     }
 
-    // --- R63, R65: heights and sides
-    // --------------------------------------------------------------
+    // --- R63, R65: heights and sides -------------------------------------------------------------
 
     [[nodiscard]] bool is_near(const Vector4& point, const Seen& s) const {
         return within(point, {s.corners[0], s.corners[1], s.corners[2]}, deviation_);
@@ -364,8 +361,7 @@ private:
         return true;
     }
 
-    // --- R64: places
-    // ------------------------------------------------------------------------------
+    // --- R64: places -----------------------------------------------------------------------------
 
     void check_places(std::uint32_t i) {
         check_edges(i);

@@ -13,8 +13,7 @@ namespace terrane::verifier {
 
 namespace {
 
-// --- Distances in double precision, which only propose
-// --------------------------------------------
+// --- Distances in double precision, which only propose -------------------------------------------
 
 Point3 minus(const Point3& a, const Point3& b) {
     return {a.x - b.x, a.y - b.y, a.z - b.z};

@@ -134,8 +134,7 @@ private:
         if (rest != "\"" && !named) in_.fail("\"" + start + "\" is needed");
     }
 
-    // --- MSH 4.1
-    // ----------------------------------------------------------------------------------
+    // --- MSH 4.1 ---------------------------------------------------------------------------------
 
     /// Returns the faces of the same surfaces on the same side of a cut.
     [[nodiscard]] std::vector<Group> face_groups() const {
@@ -242,8 +241,7 @@ private:
             in_.expect(text(back + std::uint64_t(1)) + " " + text(front + std::uint64_t(1)));
     }
 
-    // --- MSH 2.2
-    // ----------------------------------------------------------------------------------
+    // --- MSH 2.2 ---------------------------------------------------------------------------------
 
     void read_elements_22() {
         std::uint64_t count = claim_.tetrahedra.size() + expected_.surfaces_of.values.size();

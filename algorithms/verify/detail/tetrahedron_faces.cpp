@@ -212,8 +212,7 @@ private:
 
     [[nodiscard]] std::uint32_t block(std::uint32_t cell) const { return claim_.block_of[cell]; }
 
-    // --- R48: cuts, by statement (9)
-    // --------------------------------------------------------------
+    // --- R48: cuts, by statement (9) -------------------------------------------------------------
 
     /// Returns which corner of a tetrahedron is at a place.
     [[nodiscard]] std::uint32_t corner_at(std::uint32_t cell, std::uint32_t place) const {
