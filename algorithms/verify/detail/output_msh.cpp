@@ -200,7 +200,9 @@ private:
     void read_elements(const std::vector<Group>& groups, const Cells& cells,
                        const std::string& dimension, const std::string& type, std::uint64_t first) {
         for (const Group& group : groups) {
-            in_.expect(dimension + text(group.tag) + type + text(group.cells.size()));
+            std::string header = dimension;
+            header.append(text(group.tag)).append(type).append(text(group.cells.size()));
+            in_.expect(header);
             for (const std::uint32_t cell : group.cells) {
                 in_.next();
                 expect_number(first + cell);
