@@ -147,10 +147,12 @@ void VtkScanner::array(const std::string& name, const std::vector<T>& expected, 
     const std::size_t size = expected.size() * sizeof(T);
     const std::string_view text = in_.next();
     const std::string bytes = compressed_ ? inflated(text, size) : plain(text, size);
-    for (std::size_t i = 0; i < expected.size(); ++i)
-        if (std::memcmp(bytes.data() + i * sizeof(T), &expected[i], sizeof(T)) != 0)
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        const auto right = std::bit_cast<std::array<char, sizeof(T)>>(expected[i]);
+        if (!std::ranges::equal(right, std::string_view(bytes).substr(i * sizeof(T), sizeof(T))))
             in_.fail("array " + name + ", number " + std::to_string(i) +
                      ", is not that of the certificate");
+    }
     in_.expect("</DataArray>");
 }
 
