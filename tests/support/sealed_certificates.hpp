@@ -131,19 +131,9 @@ inline void seal_grown(Subject& s) {
     seal(s);
 }
 
-/// Does what check_forgeries() does, for certificates of grown surfaces.
+/// Checks forgeries of certificates of grown surfaces.
 inline void check_grown(const Subject& right, const std::vector<Forgery>& forgeries) {
-    REQUIRE(judged(right) == "");
-    for (const Forgery& forgery : forgeries) {
-        INFO(forgery.name);
-        Subject wrong = right;
-        forgery.change(wrong.certificate);
-        REQUIRE(wrong.certificate != right.certificate);
-        seal_grown(wrong);
-        const auto rules = judged(wrong);
-        INFO(rules);
-        CHECK((" " + rules + " ").find(" " + forgery.rule + " ") != std::string::npos);
-    }
+    check_forgeries(right, forgeries, seal_grown);
 }
 
 /// A sheet z = height + slope y over x from `low` to `high` and y from 0 to 10, of 6 by 5 cells.
@@ -261,33 +251,6 @@ inline void drop_exact(Json& c, const std::vector<std::size_t>& more) {
 
 inline void set_number(Json& number, double value) {
     number = decimal_text(value);
-}
-
-/// Returns the surfaces of a file as OBJ.
-inline std::string as_obj(const std::string& path) {
-    const auto surfaces = read_surfaces(path);
-    REQUIRE(surfaces);
-    std::string text;
-    std::size_t first = 1;
-    for (const Surface& s : surfaces.value()) {
-        for (const Point3& p : s.vertices) {
-            text += "v";
-            for (const double x : {p.x, p.y, p.z}) {
-                Json number;
-                set_number(number, x);
-                text += " " + number.get<std::string>();
-            }
-            text += "\n";
-        }
-        text += "g " + s.name + "\n";
-        for (const Triangle& t : s.triangles) {
-            text += "f";
-            for (const std::uint32_t v : t) text += " " + std::to_string(v + first);
-            text += "\n";
-        }
-        first += s.vertices.size();
-    }
-    return text;
 }
 
 /// Returns the number of each vertex of the doubles, by the exact vertex; -1: it was not kept.

@@ -85,7 +85,7 @@ TEST_CASE("sealed certificates: accepted for real surfaces", "[sealing]") {
     const std::string data = test_support::source_dir() + "/docs/data/";
     std::vector<File> files;
     for (const std::string name : {"top", "base", "fault"})
-        files.push_back({name + ".obj", as_obj(data + name + ".ts")});
+        files.push_back({name + ".obj", obj_in(data + name + ".ts")});
     const Volume box = box_volume({0, 0, -1700}, {2000, 1500, -700});
     const Subject all = sealed_subject(files, {box, 20, 60});
     CHECK(judged(all) == "");
@@ -103,7 +103,7 @@ TEST_CASE("sealed certificates: accepted for models", "[sealing]") {
                                                            {"manifold/Havocglass8_left.obj", 0.1},
                                                            {"manifold/Cray_left.obj", 0.1}}) {
         INFO(name);
-        const File file{"model.obj", as_obj(test_support::test_data() + "/" + name)};
+        const File file{"model.obj", obj_in(test_support::test_data() + "/" + name)};
         CHECK(judged(sealed_subject({file}, {std::nullopt, distance, 0})) == "");
     }
 }
