@@ -6,7 +6,7 @@
 set -euo pipefail
 
 packages=(
-    ca-certificates git g++ clang-14 libclang-rt-14-dev clang-format-14 clang-tidy-14
+    ca-certificates git g++ lld clang-14 libclang-rt-14-dev clang-format-14 clang-tidy-14
     cmake ninja-build ccache
     libcgal-dev libgmp-dev libmpfr-dev nettle-dev libeigen3-dev libnanoflann-dev libtbb-dev
     libcli11-dev libfmt-dev nlohmann-json3-dev libpugixml-dev zlib1g-dev

@@ -31,9 +31,9 @@ struct Grid {
 struct ReadOptions {
     bool depth = false;  ///< grids and points: values are depths, positive down; z becomes -value
     double max_edge = 0; ///< points: longest edge, in their unit; 0: twice the median edge
-    /// Unit to which coordinates with a stated unit are converted: "m", "km", "ft", "ftUS", "cm";
-    /// empty: none. A coordinate becomes the double nearest to it times the factor between the
-    /// units.
+    /// Unit to which coordinates with a stated unit are converted: "m", "km", "ft", "ftUS", "cm".
+    /// Each is multiplied by the factor between the units and rounded once. If this is empty,
+    /// coordinates stay as they are.
     std::string unit{};
 };
 

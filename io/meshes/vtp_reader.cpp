@@ -37,8 +37,9 @@ std::string without_blanks(std::string_view text) {
 
 /// Which surfaces a polygon belongs to, as to_vtp() writes it.
 struct Ownership {
-    Integers surface;        ///< per polygon
-    Integers lists, offsets; ///< of all surfaces; empty: each polygon has one
+    Integers surface; ///< per polygon: its surface, or the first of several
+    Integers lists;   ///< surfaces of all polygons, one after the other; empty if each has one
+    Integers offsets; ///< per polygon: where its part of `lists` ends
     [[nodiscard]] bool empty() const { return surface.empty(); }
 };
 

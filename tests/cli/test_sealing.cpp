@@ -118,6 +118,9 @@ TEST_CASE("cli: certificates of sealed, extended and cut surfaces that verify ta
               "improve " + in + " -o out.obj -o out.vtp --edge-length 2 --max-deviation 0.02",
               "volume " + in + " -o out"}) {
             INFO(command << options);
+            // Improving takes longest: all options at once, and a box alone, are enough for it.
+            const bool has_both = contains(options, "--seal") && contains(options, "--extend");
+            if (contains(command, "improve") && !has_both && options != around_gap) continue;
             const auto made = folder.run(command + " --certificate c.json" + options);
             INFO(made.err);
             REQUIRE(made.status == 0);

@@ -25,7 +25,7 @@ def test_names(root):
             if literal:
                 names.add("".join(LONG_NAME.findall(literal.group(1))))
     for path in (root / "tests").rglob("CMakeLists.txt"):
-        names |= set(re.findall(r"add_test\(NAME (\S+)", path.read_text()))
+        names |= set(re.findall(r"(?:add_test|terrane_test_of_texts)\(NAME (\S+)", path.read_text()))
     return names
 
 

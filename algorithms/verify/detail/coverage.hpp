@@ -46,8 +46,9 @@ public:
     /// child.
     [[nodiscard]] bool holds(std::span<const Triangle> children) const;
 
-    /// Tells whether each point of a segment in the parent is covered, or at most `collar` away
-    /// from a child. Precondition: the ends have w = 1 and differ when projected along the normal.
+    /// Tells whether each point of a segment lies in a child, or at most `collar` away from one. The
+    /// segment lies in the parent. Precondition: its ends have w = 1 and differ when projected along
+    /// the normal.
     [[nodiscard]] bool reaches(const Vector4& from, const Vector4& to,
                                std::span<const Triangle> children) const;
 

@@ -27,9 +27,9 @@ void check_orientation(const ExactParts& parts, Violations& found);
 /// Reports the vertices that the inputs do not force (R20). Precondition: the claim violates none
 /// of R3 to R6. By R5 and R6, the parents of the triangles at a vertex are all input triangles that
 /// contain it. The vertex is forced if it is a corner of one of them, or if no direction lies in
-/// the planes of all of them and along all of their edges that contain it. Otherwise all of them
-/// continue along this direction, and the arrangement needs no vertex there. Cost: a few products
-/// of integers for each vertex and each parent there.
+/// the planes of all of them and along all of their edges that contain it. Otherwise
+/// each parent continues on both sides along such a direction, so nothing requires a vertex there.
+/// Cost: a few products of integers for each vertex and each parent there.
 void check_meetings(const ExactParts& parts, Violations& found);
 
 } // namespace terrane::verifier
