@@ -220,7 +220,9 @@ std::optional<Mesh> mesh_of(const Subject& s, const Certificate& c) {
     } else if (c.rounded) {
         mesh.vertices = c.rounded->vertices;
         mesh.triangles = c.rounded->triangles;
-        auto surfaces = surfaces_of(s, c.rounded->parents_of);
+        Subject stated;
+        stated.surfaces = arranged_surfaces(s, c);
+        auto surfaces = surfaces_of(stated, c.rounded->parents_of);
         if (!surfaces) return std::nullopt;
         mesh.surfaces_of = std::move(*surfaces);
     }
@@ -353,6 +355,7 @@ std::string difference_of_tetrahedra(const Subject& s, const Certificate& change
 std::string difference_in_meaning(const Subject& s, const Certificate& changed, double accepted) {
     if (changed.filled) return difference_of_filled(s, *changed.filled);
     if (changed.layered) return difference_of_layers(s, *changed.layered, accepted);
+    if (changed.sealed) return difference_of_sealed(s, changed, accepted);
     if (changed.cut) return difference_of_cut(s, changed, accepted);
     const Certificate& right = s.certificate;
     if (right.digest != changed.digest) return "the digest";

@@ -385,7 +385,8 @@ Result<RoundedMesh> snap_input(const Arrangement& a, RoundedMesh first,
                                const RoundingOptions& options, const Run& run) {
     SnappedInput snapped(a);
     snapped.choose(first);
-    unsigned rounds = first.report.rounds;
+    // A part of an arrangement has been repaired in place as far as that goes, and begins anew.
+    unsigned rounds = a.state->whole ? first.report.rounds : 0;
     for (const int digits : rounding_tuning.coarse_digits)
         for (unsigned w = 0; w < rounding_tuning.widenings && rounds < options.max_rounds; ++w) {
             auto again = arrange(snapped.surfaces(digits), {}, run);
