@@ -84,10 +84,15 @@ bool same_bits(const std::vector<Point3>& a, const std::vector<Point3>& b) {
     });
 }
 
-bool same_doubles(const RoundedClaim& x, const RoundedClaim& y) {
+/// Tells whether two meshes are the same, whatever the input triangles are called.
+bool same_mesh(const RoundedClaim& x, const RoundedClaim& y) {
     return same_bits(x.vertices, y.vertices) && x.triangles == y.triangles &&
-           x.parents_of == y.parents_of && x.regions_of.offsets == y.regions_of.offsets &&
+           x.regions_of.offsets == y.regions_of.offsets &&
            canonical(x.regions_of) == canonical(y.regions_of);
+}
+
+bool same_doubles(const RoundedClaim& x, const RoundedClaim& y) {
+    return same_mesh(x, y) && x.parents_of == y.parents_of;
 }
 
 /// Sums the number of regions of each surface, and the length of all intersection edges.
@@ -272,7 +277,9 @@ bool writes_the_same(const Certificate& a, const Certificate& b) {
     if (a.rounded.has_value() != b.rounded.has_value()) return false;
     // Files with tetrahedra, and those with an improved mesh, do not hold the mesh before.
     const bool has_doubles = a.rounded && !a.tetrahedra && !a.improved;
-    if (has_doubles && !same_doubles(*a.rounded, *b.rounded)) return false;
+    if (has_doubles && a.sealed && !same_mesh(*a.rounded, *b.rounded)) return false;
+    // What was added to a surface and left out again changes the numbers of input triangles.
+    if (has_doubles && !a.sealed && !same_doubles(*a.rounded, *b.rounded)) return false;
     if (a.tetrahedra) {
         const TetrahedraClaim &x = *a.tetrahedra, &y = *b.tetrahedra;
         if (!same_bits(x.vertices, y.vertices) || x.tetrahedra != y.tetrahedra ||

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -202,7 +203,30 @@ void rename_purpose(Certificate& c, const Arguments& n) {
             move(part.extended, part.sealed, false);
 }
 
-/// Gives the added triangles of a surface to another one.
+/// Returns the edges with other than two triangles that lie in as many input triangles of the same
+/// surfaces.
+std::vector<Edge> intersection_edges(const std::vector<Triangle>& triangles,
+                                     const IndexLists<std::uint32_t>& parents_of,
+                                     const Numbers& surface_of) {
+    std::map<Edge, std::vector<Numbers>> at_edge; // the surfaces of the parents of each triangle
+    for (std::size_t t = 0; t < triangles.size() && t < parents_of.size(); ++t) {
+        Numbers surfaces;
+        for (const std::uint32_t p : parents_of[t])
+            surfaces.push_back(p < surface_of.size() ? surface_of[p] : UINT32_MAX);
+        std::sort(surfaces.begin(), surfaces.end());
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto [low, high] = std::minmax(triangles[t][i], triangles[t][(i + 1) % 3]);
+            at_edge[{low, high}].push_back(surfaces);
+        }
+    }
+    std::vector<Edge> edges;
+    for (const auto& [edge, at] : at_edge)
+        if (at.size() > 2 || (at.size() == 2 && at[0] != at[1])) edges.push_back(edge);
+    return edges;
+}
+
+/// Gives the added triangles of a surface to another one, with the intersection edges and regions
+/// that follow from that.
 void move_to_surface(Certificate& c, const Arguments& n) {
     const auto own = own_inputs(c);
     if (own.size() < 2) return;
@@ -230,6 +254,14 @@ void move_to_surface(Certificate& c, const Arguments& n) {
     joining.insert(joining.end(), leaving.begin(), leaving.end());
     leaving.clear();
     if (n.c % 2 == 0) c.sealed->surfaces[to].limit = 0.25;
+    if (n.d % 4 == 0) return;
+    const Numbers surface_of = surfaces_of_inputs(c);
+    c.exact.intersection_edges =
+        intersection_edges(c.exact.triangles, c.exact.parents_of, surface_of);
+    if (!c.rounded) return;
+    c.rounded->intersection_edges =
+        intersection_edges(c.rounded->triangles, c.rounded->parents_of, surface_of);
+    renumber_regions(c);
 }
 
 void change_limit(Certificate& c, const Arguments& n) {

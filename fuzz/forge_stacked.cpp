@@ -216,26 +216,6 @@ std::size_t boundary_triangles(const Certificate& c) {
     return count;
 }
 
-/// Returns the surface of each input triangle; those of the boundary come last.
-Numbers surfaces_of_inputs(const Certificate& c) {
-    Numbers of;
-    std::uint32_t surface = 0;
-    const std::size_t files =
-        c.inputs.size() - std::min<std::size_t>(c.inputs.size(), c.cut->volume.files);
-    for (std::size_t i = 0; i < files; ++i)
-        for (const CertifiedSurface& s : c.inputs[i].surfaces) {
-            of.insert(of.end(), s.triangles, surface);
-            if (c.sealed && surface < c.sealed->surfaces.size()) {
-                const SealedPart& part = c.sealed->surfaces[surface];
-                of.insert(of.end(), part.extended.size() + part.sealed.size(), surface);
-            }
-            ++surface;
-        }
-    for (const Surface& s : c.cut->volume.boundary)
-        of.insert(of.end(), s.triangles.size(), surface++);
-    return of;
-}
-
 /// Numbers the regions of the doubles anew: triangles of a surface that share an edge which is no
 /// intersection edge are in one.
 void number_regions(Certificate& c) {
@@ -444,6 +424,25 @@ constexpr std::array<Change, 8> cut_changes{{
 }};
 
 } // namespace
+
+Numbers surfaces_of_inputs(const Certificate& c) {
+    Numbers of;
+    std::uint32_t surface = 0;
+    const std::size_t files =
+        c.inputs.size() - std::min<std::size_t>(c.inputs.size(), c.cut->volume.files);
+    for (std::size_t i = 0; i < files; ++i)
+        for (const CertifiedSurface& s : c.inputs[i].surfaces) {
+            of.insert(of.end(), s.triangles, surface);
+            if (c.sealed && surface < c.sealed->surfaces.size()) {
+                const SealedPart& part = c.sealed->surfaces[surface];
+                of.insert(of.end(), part.extended.size() + part.sealed.size(), surface);
+            }
+            ++surface;
+        }
+    for (const Surface& s : c.cut->volume.boundary)
+        of.insert(of.end(), s.triangles.size(), surface++);
+    return of;
+}
 
 void renumber_regions(Certificate& c) {
     number_regions(c);

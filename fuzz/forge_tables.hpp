@@ -30,6 +30,10 @@ std::span<const Change> changes_of_seals();
 /// drops, repeats or exchanges elements, changes a number, empties it.
 std::string change_table(Certificate& certificate, unsigned which, const Arguments& arguments);
 
+/// Returns the surface of each input triangle of a certificate with "cut"; those of the boundary come
+/// last.
+Numbers surfaces_of_inputs(const Certificate& certificate);
+
 /// Numbers the regions of the doubles of a certificate with "cut" as their intersection edges divide
 /// the surfaces.
 void renumber_regions(Certificate& certificate);
