@@ -18,6 +18,8 @@ namespace {
 
 using Added = std::vector<std::array<Point3, 3>>;
 
+constexpr double wide_limit = 0.125; ///< accepted with each model, and wider than its gaps
+
 /// The input triangles, and the input vertices, of a surface: given, then extended, then sealed.
 struct OwnInputs {
     std::uint32_t extended = 0, sealed = 0, end = 0; ///< triangles
@@ -225,6 +227,13 @@ std::vector<Edge> intersection_edges(const std::vector<Triangle>& triangles,
     return edges;
 }
 
+/// Makes the intersection edges and regions of the doubles those that their triangles have.
+void follow_names(Certificate& c) {
+    c.rounded->intersection_edges =
+        intersection_edges(c.rounded->triangles, c.rounded->parents_of, surfaces_of_inputs(c));
+    renumber_regions(c);
+}
+
 /// Gives the added triangles of a surface to another one, with the intersection edges and regions
 /// that follow from that.
 void move_to_surface(Certificate& c, const Arguments& n) {
@@ -253,15 +262,11 @@ void move_to_surface(Certificate& c, const Arguments& n) {
     Added& joining = c.sealed->surfaces[to].sealed;
     joining.insert(joining.end(), leaving.begin(), leaving.end());
     leaving.clear();
-    if (n.c % 2 == 0) c.sealed->surfaces[to].limit = 0.25;
+    if (n.c % 2 == 0) c.sealed->surfaces[to].limit = wide_limit;
     if (n.d % 4 == 0) return;
-    const Numbers surface_of = surfaces_of_inputs(c);
     c.exact.intersection_edges =
-        intersection_edges(c.exact.triangles, c.exact.parents_of, surface_of);
-    if (!c.rounded) return;
-    c.rounded->intersection_edges =
-        intersection_edges(c.rounded->triangles, c.rounded->parents_of, surface_of);
-    renumber_regions(c);
+        intersection_edges(c.exact.triangles, c.exact.parents_of, surfaces_of_inputs(c));
+    if (c.rounded) follow_names(c);
 }
 
 void change_limit(Certificate& c, const Arguments& n) {
@@ -283,17 +288,21 @@ void leave_out(Certificate& c, const Arguments& n) {
     std::optional<Chosen> added;
     if (n.b % 2 == 0) added = choose(c, n.a);
     const auto input = added ? added->input : static_cast<std::uint32_t>(pick(n.a, inputs));
+    const Numbers before = c.cut->dropped;
+    Numbers& dropped = c.cut->dropped;
     for (std::uint32_t t = 0; t < c.exact.parents_of.size() && n.c % 4 != 0; ++t)
         if (c.exact.parents_of[t].size() == 1 && c.exact.parents_of[t].front() == input)
-            c.cut->dropped.push_back(t);
-    std::sort(c.cut->dropped.begin(), c.cut->dropped.end());
-    c.cut->dropped.erase(std::unique(c.cut->dropped.begin(), c.cut->dropped.end()),
-                         c.cut->dropped.end());
+            dropped.push_back(t);
+    std::sort(dropped.begin(), dropped.end());
+    dropped.erase(std::unique(dropped.begin(), dropped.end()), dropped.end());
     if (n.d % 4 < 2)
-        for (SealedPart& part : c.sealed->surfaces) part.limit = std::max(part.limit, 0.25);
+        for (SealedPart& part : c.sealed->surfaces) part.limit = std::max(part.limit, wide_limit);
     if (!c.rounded || n.c % 4 == 1) return;
-    drop_children(c.rounded->triangles, c.rounded->parents_of, &c.rounded->regions_of, input);
-    if (n.d % 2 == 0) c.rounded->max_move.reset();
+    if (n.c % 4 == 0)
+        drop_children(c.rounded->triangles, c.rounded->parents_of, &c.rounded->regions_of, input);
+    else
+        follow_dropped(c, before);
+    follow_names(c);
 }
 
 /// Returns the coordinates of an input vertex of an added triangle.
@@ -367,8 +376,8 @@ void keep_again(Certificate& c, const Arguments& n) {
     r.max_move.reset();
     r.deviation = std::max(r.deviation, 1e-12);
     for (SealedPart& part : c.sealed->surfaces)
-        if (n.d % 2 == 0) part.limit = std::max(part.limit, 0.25);
-    renumber_regions(c);
+        if (n.d % 2 == 0) part.limit = std::max(part.limit, wide_limit);
+    follow_names(c);
 }
 
 constexpr std::array<Change, 9> sealed_changes{{

@@ -168,48 +168,6 @@ Numbers numbers_of_kept(const Certificate& c, const Numbers& kept, std::uint32_t
     return number;
 }
 
-/// Removes from the doubles what is dropped now and was not before, where they are the exact
-/// triangles that were kept. Intersection edges go with it as far as one surface is left there.
-void follow_dropped(Certificate& c, const Numbers& before) {
-    RoundedClaim& r = *c.rounded;
-    std::uint32_t count = 0, count_now = 0;
-    const Numbers kept = kept_triangles(c, before), kept_now = kept_triangles(c, c.cut->dropped);
-    const Numbers number = numbers_of_kept(c, kept, count);
-    const Numbers number_now = numbers_of_kept(c, kept_now, count_now);
-    if (kept.size() != r.triangles.size() || kept.size() != r.parents_of.size() ||
-        kept.size() != r.regions_of.size() || count != r.vertices.size())
-        return;
-    for (std::size_t i = kept.size(); i-- > 0;) {
-        if (!std::ranges::binary_search(c.cut->dropped, kept[i])) continue;
-        erase_at(r.triangles, i);
-        erase_at(r.parents_of, i);
-        erase_at(r.regions_of, i);
-    }
-    Numbers renamed(count, UINT32_MAX);
-    std::vector<Point3> points(count_now);
-    for (std::size_t v = 0; v < number.size(); ++v) {
-        if (number[v] == UINT32_MAX || number_now[v] == UINT32_MAX) continue;
-        renamed[number[v]] = number_now[v];
-        points[number_now[v]] = r.vertices[number[v]];
-    }
-    r.vertices = points;
-    std::map<Edge, std::vector<Numbers>> parents_at;
-    for (std::size_t t = 0; t < r.triangles.size(); ++t) {
-        for (std::uint32_t& v : r.triangles[t]) v = v < count ? renamed[v] : v;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const auto [low, high] = std::minmax(r.triangles[t][k], r.triangles[t][(k + 1) % 3]);
-            parents_at[{low, high}].emplace_back(r.parents_of[t].begin(), r.parents_of[t].end());
-        }
-    }
-    for (Edge& e : r.intersection_edges)
-        for (std::uint32_t& v : e) v = v < count ? renamed[v] : v;
-    std::erase_if(r.intersection_edges, [&](const Edge& e) {
-        const auto at = parents_at.find(e);
-        return at == parents_at.end() || at->second.size() < 2 ||
-               (at->second.size() == 2 && at->second[0] == at->second[1]);
-    });
-}
-
 std::size_t boundary_triangles(const Certificate& c) {
     std::size_t count = 0;
     for (const Surface& side : c.cut->volume.boundary) count += side.triangles.size();
@@ -442,6 +400,46 @@ Numbers surfaces_of_inputs(const Certificate& c) {
     for (const Surface& s : c.cut->volume.boundary)
         of.insert(of.end(), s.triangles.size(), surface++);
     return of;
+}
+
+void follow_dropped(Certificate& c, const Numbers& before) {
+    RoundedClaim& r = *c.rounded;
+    std::uint32_t count = 0, count_now = 0;
+    const Numbers kept = kept_triangles(c, before), kept_now = kept_triangles(c, c.cut->dropped);
+    const Numbers number = numbers_of_kept(c, kept, count);
+    const Numbers number_now = numbers_of_kept(c, kept_now, count_now);
+    if (kept.size() != r.triangles.size() || kept.size() != r.parents_of.size() ||
+        kept.size() != r.regions_of.size() || count != r.vertices.size())
+        return;
+    for (std::size_t i = kept.size(); i-- > 0;) {
+        if (!std::ranges::binary_search(c.cut->dropped, kept[i])) continue;
+        erase_at(r.triangles, i);
+        erase_at(r.parents_of, i);
+        erase_at(r.regions_of, i);
+    }
+    Numbers renamed(count, UINT32_MAX);
+    std::vector<Point3> points(count_now);
+    for (std::size_t v = 0; v < number.size(); ++v) {
+        if (number[v] == UINT32_MAX || number_now[v] == UINT32_MAX) continue;
+        renamed[number[v]] = number_now[v];
+        points[number_now[v]] = r.vertices[number[v]];
+    }
+    r.vertices = points;
+    std::map<Edge, std::vector<Numbers>> parents_at;
+    for (std::size_t t = 0; t < r.triangles.size(); ++t) {
+        for (std::uint32_t& v : r.triangles[t]) v = v < count ? renamed[v] : v;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto [low, high] = std::minmax(r.triangles[t][k], r.triangles[t][(k + 1) % 3]);
+            parents_at[{low, high}].emplace_back(r.parents_of[t].begin(), r.parents_of[t].end());
+        }
+    }
+    for (Edge& e : r.intersection_edges)
+        for (std::uint32_t& v : e) v = v < count ? renamed[v] : v;
+    std::erase_if(r.intersection_edges, [&](const Edge& e) {
+        const auto at = parents_at.find(e);
+        return at == parents_at.end() || at->second.size() < 2 ||
+               (at->second.size() == 2 && at->second[0] == at->second[1]);
+    });
 }
 
 void renumber_regions(Certificate& c) {

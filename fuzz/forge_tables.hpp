@@ -34,6 +34,10 @@ std::string change_table(Certificate& certificate, unsigned which, const Argumen
 /// last.
 Numbers surfaces_of_inputs(const Certificate& certificate);
 
+/// Removes from the doubles what is dropped now and was not before, where they are the exact
+/// triangles that were kept. Intersection edges go with it as far as one surface is left there.
+void follow_dropped(Certificate& certificate, const Numbers& before);
+
 /// Numbers the regions of the doubles of a certificate with "cut" as their intersection edges divide
 /// the surfaces.
 void renumber_regions(Certificate& certificate);
