@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -337,6 +338,19 @@ Numbers doubles_of_exact(const Certificate& c) {
                                                                                       : Numbers();
 }
 
+/// Returns the exact triangles that were dropped and of which all parents were added.
+Numbers dropped_strips(const Certificate& c) {
+    std::set<std::uint32_t> added; // input triangles
+    for (const OwnInputs& own : own_inputs(c))
+        for (std::uint32_t p = own.extended; p < own.end; ++p) added.insert(p);
+    Numbers candidates;
+    for (const std::uint32_t t : c.cut->dropped)
+        if (t < c.exact.triangles.size() &&
+            std::ranges::all_of(c.exact.parents_of[t], [&](auto p) { return added.contains(p); }))
+            candidates.push_back(t);
+    return candidates;
+}
+
 /// Keeps what was dropped of an added triangle, in both parts or in one.
 void keep_again(Certificate& c, const Arguments& n) {
     if (!c.rounded || c.cut->dropped.empty() ||
@@ -345,18 +359,19 @@ void keep_again(Certificate& c, const Arguments& n) {
     RoundedClaim& r = *c.rounded;
     Numbers number = doubles_of_exact(c);
     if (number.empty()) return;
-    const std::uint32_t chosen = c.cut->dropped[pick(n.a, c.cut->dropped.size())];
-    if (chosen >= c.exact.triangles.size()) return;
+    const Numbers candidates = dropped_strips(c);
+    if (candidates.empty()) return;
+    const std::uint32_t chosen = candidates[pick(n.a, candidates.size())];
     const Numbers like(c.exact.parents_of[chosen].begin(), c.exact.parents_of[chosen].end());
     std::uint32_t region = 0;
     for (const std::uint32_t known : r.regions_of.values) region = std::max(region, known + 1);
     const Numbers before = c.cut->dropped;
     for (const std::uint32_t t : before) {
         if (t >= c.exact.triangles.size() || !std::ranges::equal(c.exact.parents_of[t], like) ||
-            (n.b % 2 == 0 && t != chosen))
+            (n.b % 4 == 0 && t != chosen))
             continue;
-        if (n.c % 4 != 0) std::erase(c.cut->dropped, t);
-        if (n.c % 4 == 1) continue;
+        if (n.c % 8 != 0) std::erase(c.cut->dropped, t);
+        if (n.c % 8 == 1) continue;
         Triangle corners = c.exact.triangles[t];
         for (std::uint32_t& v : corners) {
             if (v >= number.size()) return;
@@ -376,7 +391,7 @@ void keep_again(Certificate& c, const Arguments& n) {
     r.max_move.reset();
     r.deviation = std::max(r.deviation, 1e-12);
     for (SealedPart& part : c.sealed->surfaces)
-        if (n.d % 2 == 0) part.limit = std::max(part.limit, wide_limit);
+        if (n.d % 4 != 0) part.limit = std::max(part.limit, wide_limit);
     follow_names(c);
 }
 
