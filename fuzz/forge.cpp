@@ -5,6 +5,7 @@
 // unless it still means the same. There is a target for each kind, named by forge_kind. The bytes
 // are a list of changes, then the input as an OBJ file; for other kinds than arrangements one byte
 // that chooses a model.
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -126,9 +127,15 @@ void report(const Subject& s, const std::string& difference, const std::string& 
 /// Judges a changed certificate. `rewritten` tells whether the output files follow its claims.
 void judge(const Subject& s, const Certificate& changed, const fuzz::Contents& contents,
            bool rewritten, const std::string& what) {
-    const auto verdict = verify_certificate(s.files, changed, {.max_deviation = s.deviation * 4});
+    // What was cut may be stated to be farther away, as far as the user accepts by default: there
+    // doubles can be outside of the volume that are near to what is inside.
+    VerifyOptions options;
+    if (!s.certificate.cut) options.max_deviation = s.deviation * 4;
+    const auto verdict = verify_certificate(s.files, changed, options);
     if (!verdict.violations.empty()) return;
-    const double accepted = verdict.measured ? verdict.measured->max_deviation : 0;
+    double accepted = verdict.measured ? verdict.measured->max_deviation : 0;
+    if (s.certificate.cut && changed.rounded)
+        accepted = std::max(s.deviation, changed.rounded->deviation);
     const auto other = fuzz::difference_in_meaning(s, changed, accepted);
     if (!other.empty()) report(s, other, what);
     if (changed.outputs.empty() || !accepts_outputs(changed, contents) || rewritten) return;

@@ -253,6 +253,8 @@ std::span<const Change> changes_of(CertificateKind kind) {
         return changes_of_layers();
     case CertificateKind::cut:
         return changes_of_cuts();
+    case CertificateKind::sealed:
+        return changes_of_seals();
     default:
         return {};
     }

@@ -84,10 +84,15 @@ bool same_bits(const std::vector<Point3>& a, const std::vector<Point3>& b) {
     });
 }
 
-bool same_doubles(const RoundedClaim& x, const RoundedClaim& y) {
+/// Tells whether two meshes are the same, whatever the input triangles are called.
+bool same_mesh(const RoundedClaim& x, const RoundedClaim& y) {
     return same_bits(x.vertices, y.vertices) && x.triangles == y.triangles &&
-           x.parents_of == y.parents_of && x.regions_of.offsets == y.regions_of.offsets &&
+           x.regions_of.offsets == y.regions_of.offsets &&
            canonical(x.regions_of) == canonical(y.regions_of);
+}
+
+bool same_doubles(const RoundedClaim& x, const RoundedClaim& y) {
+    return same_mesh(x, y) && x.parents_of == y.parents_of;
 }
 
 /// Sums the number of regions of each surface, and the length of all intersection edges.
@@ -220,7 +225,9 @@ std::optional<Mesh> mesh_of(const Subject& s, const Certificate& c) {
     } else if (c.rounded) {
         mesh.vertices = c.rounded->vertices;
         mesh.triangles = c.rounded->triangles;
-        auto surfaces = surfaces_of(s, c.rounded->parents_of);
+        Subject stated;
+        stated.surfaces = arranged_surfaces(s, c);
+        auto surfaces = surfaces_of(stated, c.rounded->parents_of);
         if (!surfaces) return std::nullopt;
         mesh.surfaces_of = std::move(*surfaces);
     }
@@ -270,7 +277,9 @@ bool writes_the_same(const Certificate& a, const Certificate& b) {
     if (a.rounded.has_value() != b.rounded.has_value()) return false;
     // Files with tetrahedra, and those with an improved mesh, do not hold the mesh before.
     const bool has_doubles = a.rounded && !a.tetrahedra && !a.improved;
-    if (has_doubles && !same_doubles(*a.rounded, *b.rounded)) return false;
+    if (has_doubles && a.sealed && !same_mesh(*a.rounded, *b.rounded)) return false;
+    // What was added to a surface and left out again changes the numbers of input triangles.
+    if (has_doubles && !a.sealed && !same_doubles(*a.rounded, *b.rounded)) return false;
     if (a.tetrahedra) {
         const TetrahedraClaim &x = *a.tetrahedra, &y = *b.tetrahedra;
         if (!same_bits(x.vertices, y.vertices) || x.tetrahedra != y.tetrahedra ||
@@ -353,6 +362,7 @@ std::string difference_of_tetrahedra(const Subject& s, const Certificate& change
 std::string difference_in_meaning(const Subject& s, const Certificate& changed, double accepted) {
     if (changed.filled) return difference_of_filled(s, *changed.filled);
     if (changed.layered) return difference_of_layers(s, *changed.layered, accepted);
+    if (changed.sealed) return difference_of_sealed(s, changed, accepted);
     if (changed.cut) return difference_of_cut(s, changed, accepted);
     const Certificate& right = s.certificate;
     if (right.digest != changed.digest) return "the digest";

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <terrane/algorithms/mesh/mesh.hpp>
+#include <terrane/algorithms/mesh/surface.hpp>
 #include <terrane/algorithms/verify/verify_certificate.hpp>
 
 #include "forge_subjects.hpp"
@@ -38,6 +39,10 @@ bool has_turned(const ArrangementClaim& a, const ArrangementClaim& b);
 /// Tells whether triangles form a conforming mesh, by the library's own check.
 bool is_conforming(const std::vector<Point3>& vertices, const std::vector<Triangle>& triangles);
 
+/// Returns the doubles nearest to the vertices of an accepted exact part of these surfaces.
+std::vector<Point3> points_of_exact(const std::vector<Surface>& surfaces,
+                                    const ArrangementClaim& exact);
+
 // --- One function per section, which difference_in_meaning calls --------------------------------
 
 std::string difference_of_doubles(const Subject& subject, const RoundedClaim& claim,
@@ -48,6 +53,9 @@ std::string difference_of_improved(const Subject& subject, const Certificate& ch
 std::string difference_of_layers(const Subject& subject, const LayeredClaim& claim,
                                  double accepted);
 std::string difference_of_cut(const Subject& subject, const Certificate& changed, double accepted);
+std::string difference_of_volume(const Subject& subject, const VolumeClaim& claim);
+std::string difference_of_sealed(const Subject& subject, const Certificate& changed,
+                                 double accepted);
 std::string difference_of_filled(const Subject& subject, const FilledClaim& claim);
 
 } // namespace terrane::fuzz

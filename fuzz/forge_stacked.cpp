@@ -10,6 +10,7 @@
 
 #include <terrane/algorithms/verify/detail/joined_sets.hpp>
 
+#include "forge_geometry.hpp"
 #include "forge_tables.hpp"
 
 namespace terrane::fuzz {
@@ -167,60 +168,10 @@ Numbers numbers_of_kept(const Certificate& c, const Numbers& kept, std::uint32_t
     return number;
 }
 
-/// Removes from the doubles what is dropped now and was not before, where they are the exact
-/// triangles that were kept. Intersection edges go with it as far as one surface is left there.
-void follow_dropped(Certificate& c, const Numbers& before) {
-    RoundedClaim& r = *c.rounded;
-    std::uint32_t count = 0, count_now = 0;
-    const Numbers kept = kept_triangles(c, before), kept_now = kept_triangles(c, c.cut->dropped);
-    const Numbers number = numbers_of_kept(c, kept, count);
-    const Numbers number_now = numbers_of_kept(c, kept_now, count_now);
-    if (kept.size() != r.triangles.size() || kept.size() != r.parents_of.size() ||
-        kept.size() != r.regions_of.size() || count != r.vertices.size())
-        return;
-    for (std::size_t i = kept.size(); i-- > 0;) {
-        if (!std::ranges::binary_search(c.cut->dropped, kept[i])) continue;
-        erase_at(r.triangles, i);
-        erase_at(r.parents_of, i);
-        erase_at(r.regions_of, i);
-    }
-    Numbers renamed(count, UINT32_MAX);
-    std::vector<Point3> points(count_now);
-    for (std::size_t v = 0; v < number.size(); ++v) {
-        if (number[v] == UINT32_MAX || number_now[v] == UINT32_MAX) continue;
-        renamed[number[v]] = number_now[v];
-        points[number_now[v]] = r.vertices[number[v]];
-    }
-    r.vertices = points;
-    std::map<Edge, std::vector<Numbers>> parents_at;
-    for (std::size_t t = 0; t < r.triangles.size(); ++t) {
-        for (std::uint32_t& v : r.triangles[t]) v = v < count ? renamed[v] : v;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const auto [low, high] = std::minmax(r.triangles[t][k], r.triangles[t][(k + 1) % 3]);
-            parents_at[{low, high}].emplace_back(r.parents_of[t].begin(), r.parents_of[t].end());
-        }
-    }
-    for (Edge& e : r.intersection_edges)
-        for (std::uint32_t& v : e) v = v < count ? renamed[v] : v;
-    std::erase_if(r.intersection_edges, [&](const Edge& e) {
-        const auto at = parents_at.find(e);
-        return at == parents_at.end() || at->second.size() < 2 ||
-               (at->second.size() == 2 && at->second[0] == at->second[1]);
-    });
-}
-
-/// Returns the surface of each input triangle; those of the boundary come last.
-Numbers surfaces_of_inputs(const Certificate& c) {
-    Numbers of;
-    std::uint32_t surface = 0;
-    const std::size_t files =
-        c.inputs.size() - std::min<std::size_t>(c.inputs.size(), c.cut->volume.files);
-    for (std::size_t i = 0; i < files; ++i)
-        for (const CertifiedSurface& s : c.inputs[i].surfaces)
-            of.insert(of.end(), s.triangles, surface++);
-    for (const Surface& s : c.cut->volume.boundary)
-        of.insert(of.end(), s.triangles.size(), surface++);
-    return of;
+std::size_t boundary_triangles(const Certificate& c) {
+    std::size_t count = 0;
+    for (const Surface& side : c.cut->volume.boundary) count += side.triangles.size();
+    return count;
 }
 
 /// Numbers the regions of the doubles anew: triangles of a surface that share an edge which is no
@@ -279,6 +230,54 @@ void change_dropped(Certificate& c, const Arguments& n) {
     if (n.c % 4 != 1) number_regions(c);
 }
 
+/// Adds a triangle to the doubles, beyond an edge that is on the boundary of the volume, and says
+/// that they have other triangles than the exact part. As a sliver it is as near to what was kept
+/// as a larger stated deviation allows.
+void add_outside(Certificate& c, const Arguments& n) {
+    if (!c.rounded || c.rounded->triangles.size() != c.rounded->parents_of.size()) return;
+    RoundedClaim& r = *c.rounded;
+    const std::size_t own = surfaces_of_inputs(c).size() - boundary_triangles(c);
+    const auto is_on_boundary = [&](std::size_t t) {
+        const auto parents = r.parents_of[t];
+        return parents.empty() || parents.back() >= own;
+    };
+    std::set<Edge> on_boundary;
+    std::vector<std::array<std::uint32_t, 3>> ends; // of edges there, and the corner inside
+    Numbers triangles;
+    for (const bool boundary : {true, false})
+        for (std::uint32_t t = 0; t < r.triangles.size(); ++t)
+            for (std::size_t i = 0; i < 3; ++i) {
+                const Triangle& at = r.triangles[t];
+                const std::uint32_t a = at[i], b = at[(i + 1) % 3], inner = at[(i + 2) % 3];
+                if (std::max({a, b, inner}) >= r.vertices.size()) return;
+                const Edge edge{std::min(a, b), std::max(a, b)};
+                if (boundary && is_on_boundary(t)) on_boundary.insert(edge);
+                if (boundary || is_on_boundary(t) || !on_boundary.contains(edge)) continue;
+                ends.push_back({a, b, inner});
+                triangles.push_back(t);
+            }
+    if (ends.empty()) return;
+    const std::size_t chosen = pick(n.a, ends.size());
+    const Point3 a = r.vertices[ends[chosen][0]], b = r.vertices[ends[chosen][1]];
+    const Point3 foot =
+        along(a, b - a, dot(r.vertices[ends[chosen][2]] - a, b - a) / dot(b - a, b - a));
+    const Point3 outwards = foot - r.vertices[ends[chosen][2]];
+    const double size = length(b - a);
+    const double gap = std::ldexp(size, -24 - static_cast<int>(n.b % 8)) / length(outwards);
+    const double width = n.c % 4 == 0 ? 0.25 : gap; // far beyond, or as a sliver
+    const auto first = static_cast<std::uint32_t>(r.vertices.size());
+    r.vertices.push_back(along(along(a, b - a, 0.75), outwards, gap));
+    r.vertices.push_back(along(along(a, b - a, 0.25), outwards, gap));
+    r.vertices.push_back(along(along(a, b - a, 0.5), outwards, gap + width));
+    r.triangles.push_back({first, first + 1, first + 2});
+    const auto like = triangles[chosen];
+    const Numbers parents(r.parents_of[like].begin(), r.parents_of[like].end());
+    r.parents_of.push_back(parents);
+    number_regions(c);
+    r.max_move.reset();
+    r.deviation = std::max(r.deviation, 16 * gap * length(outwards));
+}
+
 /// Gives a coordinate of the boundary another value wherever it is: in the description of a prism,
 /// in the vertices of its sides, and in the doubles.
 void move_side(Certificate& c, const Arguments& n) {
@@ -306,8 +305,7 @@ void move_side(Certificate& c, const Arguments& n) {
 
 /// Turns the boundary over, and with it the triangles of both parts that have it as first parent.
 void turn_boundary(Certificate& c, const Arguments& n) {
-    std::size_t own = surfaces_of_inputs(c).size();
-    for (const Surface& side : c.cut->volume.boundary) own -= side.triangles.size();
+    const std::size_t own = surfaces_of_inputs(c).size() - boundary_triangles(c);
     for (Surface& side : c.cut->volume.boundary)
         for (Triangle& t : side.triangles) std::swap(t[0], t[1]);
     const auto turn = [&](std::vector<Triangle>& triangles,
@@ -372,8 +370,9 @@ void exchange_parents(Certificate& c, const Arguments& n) {
     if (c.rounded) rename(c.rounded->parents_of);
 }
 
-constexpr std::array<Change, 7> cut_changes{{
+constexpr std::array<Change, 8> cut_changes{{
     {"triangles dropped or kept", change_dropped},
+    {"triangle outside added to the doubles", add_outside},
     {"side of the volume moved", move_side},
     {"boundary turned over", turn_boundary},
     {"shape changed", change_shape},
@@ -383,6 +382,69 @@ constexpr std::array<Change, 7> cut_changes{{
 }};
 
 } // namespace
+
+Numbers surfaces_of_inputs(const Certificate& c) {
+    Numbers of;
+    std::uint32_t surface = 0;
+    const std::size_t files =
+        c.inputs.size() - std::min<std::size_t>(c.inputs.size(), c.cut->volume.files);
+    for (std::size_t i = 0; i < files; ++i)
+        for (const CertifiedSurface& s : c.inputs[i].surfaces) {
+            of.insert(of.end(), s.triangles, surface);
+            if (c.sealed && surface < c.sealed->surfaces.size()) {
+                const SealedPart& part = c.sealed->surfaces[surface];
+                of.insert(of.end(), part.extended.size() + part.sealed.size(), surface);
+            }
+            ++surface;
+        }
+    for (const Surface& s : c.cut->volume.boundary)
+        of.insert(of.end(), s.triangles.size(), surface++);
+    return of;
+}
+
+void follow_dropped(Certificate& c, const Numbers& before) {
+    RoundedClaim& r = *c.rounded;
+    std::uint32_t count = 0, count_now = 0;
+    const Numbers kept = kept_triangles(c, before), kept_now = kept_triangles(c, c.cut->dropped);
+    const Numbers number = numbers_of_kept(c, kept, count);
+    const Numbers number_now = numbers_of_kept(c, kept_now, count_now);
+    if (kept.size() != r.triangles.size() || kept.size() != r.parents_of.size() ||
+        kept.size() != r.regions_of.size() || count != r.vertices.size())
+        return;
+    for (std::size_t i = kept.size(); i-- > 0;) {
+        if (!std::ranges::binary_search(c.cut->dropped, kept[i])) continue;
+        erase_at(r.triangles, i);
+        erase_at(r.parents_of, i);
+        erase_at(r.regions_of, i);
+    }
+    Numbers renamed(count, UINT32_MAX);
+    std::vector<Point3> points(count_now);
+    for (std::size_t v = 0; v < number.size(); ++v) {
+        if (number[v] == UINT32_MAX || number_now[v] == UINT32_MAX) continue;
+        renamed[number[v]] = number_now[v];
+        points[number_now[v]] = r.vertices[number[v]];
+    }
+    r.vertices = points;
+    std::map<Edge, std::vector<Numbers>> parents_at;
+    for (std::size_t t = 0; t < r.triangles.size(); ++t) {
+        for (std::uint32_t& v : r.triangles[t]) v = v < count ? renamed[v] : v;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto [low, high] = std::minmax(r.triangles[t][k], r.triangles[t][(k + 1) % 3]);
+            parents_at[{low, high}].emplace_back(r.parents_of[t].begin(), r.parents_of[t].end());
+        }
+    }
+    for (Edge& e : r.intersection_edges)
+        for (std::uint32_t& v : e) v = v < count ? renamed[v] : v;
+    std::erase_if(r.intersection_edges, [&](const Edge& e) {
+        const auto at = parents_at.find(e);
+        return at == parents_at.end() || at->second.size() < 2 ||
+               (at->second.size() == 2 && at->second[0] == at->second[1]);
+    });
+}
+
+void renumber_regions(Certificate& c) {
+    number_regions(c);
+}
 
 std::span<const Change> changes_of_layers() {
     return layered_changes;

@@ -282,6 +282,73 @@ std::optional<Subject> cut_by(Subject s, const std::vector<Surface>& boundary,
     return s;
 }
 
+/// Appends what a certificate adds to the surfaces.
+Model3 grown(Model3 surfaces, const SealedClaim& sealed) {
+    for (std::size_t s = 0; s < surfaces.size() && s < sealed.surfaces.size(); ++s)
+        for (const auto* list : {&sealed.surfaces[s].extended, &sealed.surfaces[s].sealed})
+            for (const auto& corners : *list) {
+                const auto v = static_cast<std::uint32_t>(surfaces[s].vertices.size());
+                surfaces[s].vertices.insert(surfaces[s].vertices.end(), corners.begin(),
+                                            corners.end());
+                surfaces[s].triangles.push_back({v, v + 1, v + 2});
+            }
+    return surfaces;
+}
+
+/// A sheet that ends short of a wall, one that reaches beyond it, and the wall.
+Model3 gaping() {
+    return {placed(grid("short", 2, 0.25, 2, 2), {-2.0625, 0, 0}, 0.125),
+            placed(grid("long", 2, 0.125, 2, 2), {-1.9375, 0.125, 1.25}, 0),
+            {"wall",
+             Role::unknown,
+             {{0, -1, -2}, {0.0625, 3, -2}, {0, 3, 3}, {-0.03125, -1, 3}},
+             {{0, 1, 2}, {0, 2, 3}}}};
+}
+
+/// A sheet with a notch whose one side ends above the ridge of a roof.
+Model3 notched() {
+    return {{"notched",
+             Role::unknown,
+             {{0, 0, 0}, {1, 0, 0}, {1, -1, 0}, {-1, -1, 0}, {-1, 1, 0}, {1, 1, 0}, {1, 0.125, 0}},
+             {{0, 2, 1}, {0, 3, 2}, {0, 4, 3}, {0, 5, 4}, {0, 6, 5}}},
+            {"roof",
+             Role::unknown,
+             {{-0.5, 0, -0.0625},
+              {1.5, 0, -0.0625},
+              {-0.5, 0.25, -1},
+              {1.5, 0.25, -1},
+              {-0.5, -0.25, -1},
+              {1.5, -0.25, -1}},
+             {{0, 1, 3}, {0, 3, 2}, {1, 0, 4}, {1, 4, 5}}}};
+}
+
+/// Seals and extends surfaces, in a box or not, and certifies that.
+Subject sealed_subject(const Model3& surfaces, double seal, double extend,
+                       const std::vector<double>& box) {
+    Subject s = file_subject(surfaces);
+    std::vector<Surface> boundary;
+    VolumeRecord volume;
+    if (!box.empty()) {
+        const std::vector<Point2> corners{
+            {box[0], box[1]}, {box[2], box[1]}, {box[2], box[3]}, {box[0], box[3]}};
+        volume = {"prism", corners, {box[4], box[5]}};
+        boundary = needed(polygon_boundary(corners, box[4], box[5]));
+    }
+    ArrangeWithinOptions options;
+    options.seal = seal;
+    options.extend = extend;
+    const auto within = needed(arrange_within(s.surfaces, boundary, options));
+    s.surfaces = within.surfaces;
+    const Mesh& mesh = *within.rounded.mesh;
+    const std::vector<OutputRecord> outputs{
+        add_output(s, "out.obj", "obj", needed(format_mesh(mesh, Format::obj)), mesh.surfaces)};
+    const std::vector<InputRecord> records{record_of(s.files[0], "input.obj")};
+    parse(s, needed(to_cut_certificate(
+                 {records, within.surfaces, within.exact, &within.rounded, outputs},
+                 {box.empty() ? nullptr : &volume, boundary.size(), within.growth}, {})));
+    return s;
+}
+
 /// Two horizons that cross, and a wall.
 Model3 cut_surfaces() {
     return {placed(grid("first", 2, 0.5, 2, 2), {0, 0, 0}, 0.25),
@@ -353,6 +420,11 @@ std::vector<Subject> subjects_of(CertificateKind kind) {
                 rotated_box_subject({{1, 1, 0.25}, false, {1.25, 1, 1.5}, 20, 5, 3}),
                 body_subject({corner("a", {0.25, 0.25, -0.5}, 1.5),
                               corner("b", {0.375, 0.375, -0.375}, 0.25)})};
+    case CertificateKind::sealed:
+        return {sealed_subject(gaping(), 0.25, 0, {}),
+                sealed_subject(gaping(), 0.25, 0.5, {-1.75, 0.25, 0.1875, 1.75, -1, 2.5}),
+                sealed_subject(notched(), 0.08, 0, {}),
+                sealed_subject(gaping(), 0, 0.5, {-1.75, 0.25, 0.1875, 2.1875, -1, 2.5})};
     default:
         return {};
     }
@@ -362,6 +434,7 @@ std::vector<Surface> arranged_surfaces(const Subject& subject, const Certificate
     std::vector<Surface> surfaces = subject.surfaces;
     if (!certificate.cut) return surfaces;
     surfaces.resize(surfaces.size() - subject.certificate.cut->volume.boundary.size());
+    if (certificate.sealed) surfaces = grown(subject.files[0].surfaces, *certificate.sealed);
     const auto& boundary = certificate.cut->volume.boundary;
     surfaces.insert(surfaces.end(), boundary.begin(), boundary.end());
     return surfaces;

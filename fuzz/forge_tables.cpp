@@ -99,6 +99,23 @@ void change_item(Surface& item, const Arguments& n) {
         change_item(item.triangles[pick(n.a, item.triangles.size())], n);
 }
 
+void change_item(std::array<Point3, 3>& item, const Arguments& n) {
+    if (n.b % 4 == 3)
+        std::swap(item[n.c % 3], item[n.d % 3]);
+    else
+        change_item(item[n.b / 4 % 3], n);
+}
+
+void change_item(SealedPart& item, const Arguments& n) {
+    auto& list = n.a % 2 == 0 ? item.sealed : item.extended;
+    if (n.b % 8 == 7)
+        std::swap(item.sealed, item.extended);
+    else if (n.b % 8 == 6 || list.empty())
+        change_item(item.limit, n);
+    else
+        change_item(list[pick(n.a / 2, list.size())], n);
+}
+
 void change_item(Construction& item, const Arguments& n) {
     change_number(item.v[n.b % 9], n);
 }
@@ -220,6 +237,13 @@ std::vector<Table> tables_of(Certificate& c) {
         tables.push_back({"limits", {column(m.limits)}});
     }
     if (c.cut) add_cut(*c.cut, tables);
+    if (c.sealed) {
+        tables.push_back({"sealed parts", {column(c.sealed->surfaces)}});
+        for (SealedPart& part : c.sealed->surfaces) {
+            tables.push_back({"extended triangles", {column(part.extended)}});
+            tables.push_back({"sealing triangles", {column(part.sealed)}});
+        }
+    }
     if (c.layered) {
         add_layered(*c.layered, tables);
     } else if (c.filled) {

@@ -355,11 +355,11 @@ def forge():
                    header + (certified / name / "input.obj").read_bytes())
 
 
-def forge_kind(models=2):
+def forge_kind(models=2, more=0):
     """The same for a kind that has small models of its own (forge_subjects.cpp); with output files that
     follow the changes, or not."""
     change, most = 8, 3
-    for kind in range(46):
+    for kind in range(46 + more):
         first = bytes([kind, 5 * kind % 256, 7 * kind % 256, 0, kind % 7, kind + 1, 5 + kind, 0])
         yield (f"change_{kind:02}", bytes([most * (kind // 2 % 2)]) + first +
                bytes(change * (most - 1)) + bytes([kind % models]))
@@ -387,7 +387,8 @@ def main():
     targets = {"tri_tri": tri_tri, "corefine": corefine, "predicates": predicates, "search": search,
                "forge_arrangement": forge, "forge_volumes": forge_kind, "forge_tetrahedra": forge_kind,
                "forge_improved": forge_kind, "forge_filled": forge_kind,
-               "forge_layered": forge_kind, "forge_cut": lambda: forge_kind(4),
+               "forge_layered": forge_kind, "forge_cut": lambda: forge_kind(4, 1),
+               "forge_sealed": lambda: forge_kind(4, 9),
                "arrange": soups, "rounding": soups, "regions": soups, "volumes": soups, "tetrahedra": soups}
     seeds = {t: dict(make()) for t, make in targets.items()}
     for fmt, files in (FILES | other_programs()).items():

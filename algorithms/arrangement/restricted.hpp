@@ -15,8 +15,9 @@ namespace terrane {
 ///     Rounding, volumes, structure and tetrahedra therefore work as on any other arrangement.
 /// (3) Surfaces and the numbers of input triangles do not change, even if none of their triangles
 ///     is kept.
-/// (4) Rounding may move input vertices, which is its last resort, only if restrict_again of the
-///     state is set (exact_arrangement.hpp). This function does not change restrict_again.
+/// (4) Rounding may move the input and arrange it again, which is its last resort, only if
+///     restrict_again of the state is set (exact_arrangement.hpp). This function does not change
+///     restrict_again.
 /// (5) Input triangles are no longer the unions of the triangles that name them. `whole` of the
 ///     state becomes false, and no certificate can be written. If all triangles are kept, nothing
 ///     changes.

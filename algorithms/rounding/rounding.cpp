@@ -20,6 +20,7 @@
 #include <terrane/algorithms/mesh/work_hook.hpp>
 #include <terrane/algorithms/regions/regions_over.hpp>
 #include <terrane/algorithms/rounding/detail/pair_decisions.hpp>
+#include <terrane/algorithms/rounding/detail/reports.hpp>
 #include <terrane/algorithms/rounding/detail/separation.hpp>
 #include <terrane/algorithms/rounding/detail/snapped_input.hpp>
 #include <terrane/algorithms/rounding/detail/state.hpp>
@@ -45,19 +46,6 @@ public:
 using namespace rounding::detail;
 
 namespace {
-
-/// Returns the input triangles that have parts in the arrangement but not in `parents_of`;
-/// ascending.
-std::vector<std::uint32_t> vanished(const Arrangement& a,
-                                    const IndexLists<std::uint32_t>& parents_of) {
-    std::vector<bool> present(a.inputs.first.back(), false);
-    for (const std::uint32_t p : parents_of.values) present[p] = true;
-    std::vector<std::uint32_t> result;
-    for (const std::uint32_t p : a.parents_of.values)
-        if (!present[p]) result.push_back(p);
-    sort_unique(result);
-    return result;
-}
 
 class Rounding {
 public:
@@ -148,23 +136,29 @@ void Rounding::to_nearest() {
     changed_ = state_.tidy(run_);
 }
 
-/// Performs rounds of local snapping as long as they help, and keeps the mesh with fewest contacts.
+/// Performs rounds of local snapping, and keeps the mesh with fewest contacts. With a whole
+/// arrangement it ends as soon as a round does not help much, as the input can be snapped instead.
+/// What was removed from an arrangement would then have to be decided again, perhaps otherwise.
+/// Therefore a part of one gets coarser grids, too, each as long as it removes contacts.
 void Rounding::repair(std::vector<CandidatePair>& pairs) {
-    for (const int digits : rounding_tuning.fine_digits) {
+    const bool is_whole = arrangement_.state->whole;
+    std::vector<int> grids(rounding_tuning.fine_digits.begin(), rounding_tuning.fine_digits.end());
+    if (!is_whole)
+        grids.insert(grids.end(), rounding_tuning.coarse_digits.begin(),
+                     rounding_tuning.coarse_digits.end());
+    for (auto digits = grids.begin(); digits != grids.end();) {
         if (out_.report.rounds == options_.max_rounds || run_.stop.stop_requested()) return;
         ++out_.report.rounds;
         const RoundingState before = state_;
-        if (!snap_round(pairs, grid_of_digits(state_.points, digits))) {
-            state_ = before;
-            return;
-        }
-        auto left = contacts();
-        const bool helps = rounding_tuning.shrinking * left.size() <= pairs.size();
-        if (left.size() < pairs.size())
+        const std::size_t count = pairs.size();
+        auto left = snap_round(pairs, grid_of_digits(state_.points, *digits)) ? contacts() : pairs;
+        if (left.size() < count)
             pairs = std::move(left);
         else
             state_ = before;
-        if (pairs.empty() || !helps) return;
+        if (pairs.empty()) return;
+        if (is_whole && rounding_tuning.shrinking * pairs.size() > count) return;
+        if (is_whole || pairs.size() == count) ++digits;
     }
 }
 
@@ -371,52 +365,6 @@ void Rounding::finish(std::span<const CandidatePair> pairs) {
         out_.conforming = rounding::detail::RoundingProof::of(out_.mesh, out_.report.pairs);
 }
 
-/// Returns the largest distance between exact vertices and those of a mesh with the same triangles.
-/// Returns 0 for any other mesh, whose vertices do not correspond to exact points.
-double largest_distance(const Arrangement& a, const Mesh& mesh) {
-    double largest = 0;
-    if (mesh.triangles != a.triangles) return largest;
-    for (std::size_t v = 0; v < std::min(a.vertices.size(), mesh.vertices.size()); ++v)
-        largest = std::max(
-            largest, distance_bound(a.state->points.enclosure(a.vertices[v]), mesh.vertices[v]));
-    return largest;
-}
-
-/// Adds the moves of the snapped input to those of its rounding. Where surfaces cross at a small
-/// angle, their intersection moves farther than their corners.
-void add_to_report(const SnappedInput& snapped, const Arrangement& a, const RoundingReport& first,
-                   RoundedMesh& rounded) {
-    RoundingReport& report = rounded.report;
-    report.naive_contacts = first.naive_contacts;
-    report.max_move = std::max((report.max_move + snapped.largest_move()) * (1 + 0x1p-52),
-                               largest_distance(a, rounded.mesh));
-    report.deviation =
-        std::max((report.deviation + snapped.largest_move()) * (1 + 0x1p-52), report.max_move);
-    report.moved_input_vertices += snapped.moved();
-    report.merged_vertices += snapped.merged();
-    report.vanished = vanished(a, rounded.mesh->parents_of);
-}
-
-std::vector<std::size_t> regions_per_surface(std::size_t surfaces,
-                                             std::span<const Region> regions) {
-    std::vector<std::size_t> count(surfaces, 0);
-    for (const Region& r : regions) ++count[r.surface];
-    return count;
-}
-
-/// Compares the regions with those of the exact surfaces and reports losses.
-void report_lost_regions(const Arrangement& a, RoundedMesh& rounded) {
-    std::vector<Point3> places;
-    for (const PointIndex v : a.vertices) places.push_back(a.state->points.nearest(v));
-    const auto exact =
-        find_regions(places, a.triangles, a.surfaces_of, a.state->adjacency, a.intersection_edges);
-    const auto before = regions_per_surface(a.surfaces.size(), exact.regions);
-    const auto after = regions_per_surface(a.surfaces.size(), rounded.regions);
-    for (std::uint32_t s = 0; s < before.size(); ++s)
-        if (after[s] < before[s])
-            rounded.report.lost_regions.push_back({SurfaceId(s), before[s], after[s]});
-}
-
 /// Makes the arrangement of the snapped input one of the original input: triangles that have the
 /// same points only because they were snapped do not count as duplicates.
 void name_input(const Arrangement& a, Arrangement& snapped) {
@@ -437,7 +385,8 @@ Result<RoundedMesh> snap_input(const Arrangement& a, RoundedMesh first,
                                const RoundingOptions& options, const Run& run) {
     SnappedInput snapped(a);
     snapped.choose(first);
-    unsigned rounds = first.report.rounds;
+    // A part of an arrangement has been repaired in place as far as that goes, and begins anew.
+    unsigned rounds = a.state->whole ? first.report.rounds : 0;
     for (const int digits : rounding_tuning.coarse_digits)
         for (unsigned w = 0; w < rounding_tuning.widenings && rounds < options.max_rounds; ++w) {
             auto again = arrange(snapped.surfaces(digits), {}, run);
@@ -466,7 +415,7 @@ Result<RoundedMesh> round_all(const Arrangement& a, const RoundingOptions& optio
     // Arranging the input again would restore triangles that were removed from the arrangement.
     const bool may_snap_input =
         (a.state->whole || a.state->restrict_again) && options.max_rounds > 0;
-    Rounding where_it_lies(a, options, !may_snap_input, run);
+    Rounding where_it_lies(a, options, !may_snap_input || !a.state->whole, run);
     auto rounded = where_it_lies();
     const auto is_unclean = [&] { return rounded && !rounded.value().report.clean; };
     if (is_unclean() && may_snap_input)

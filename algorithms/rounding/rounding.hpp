@@ -34,7 +34,8 @@ namespace terrane {
 
 /// Options of round_to_doubles().
 struct RoundingOptions {
-    unsigned max_rounds = 8;  ///< limit on the rounds of snapping; 0: nearest doubles only
+    unsigned max_rounds = 8;  ///< limit on the rounds of snapping, for a part of an arrangement
+                              ///< in place and with moved input each; 0: nearest doubles only
     PairCheckOptions check{}; ///< how the doubles are checked; the mesh does not depend on it
 };
 

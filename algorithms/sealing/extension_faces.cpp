@@ -33,7 +33,7 @@ public:
         list_edges();
         join();
         do grow();
-        while (close());
+        while (close() || part_loose());
         return std::move(keep_);
     }
 
@@ -119,6 +119,82 @@ private:
             }
             if (count != 1 || !is_strip(left) || is_side(guard, left, e.edge)) continue;
             is_open_[sets_.find(left)] = true;
+            any = true;
+        }
+        return any;
+    }
+
+    // ---- What closes a gap
+
+    [[nodiscard]] bool share_surface(std::uint32_t t, std::uint32_t u) const {
+        const auto of = a_.surfaces_of[t];
+        return std::any_of(of.begin(), of.end(), [&](std::uint32_t s) { return is_in(u, s); });
+    }
+    [[nodiscard]] bool is_in(std::uint32_t t, std::uint32_t surface) const {
+        const auto of = a_.surfaces_of[t];
+        return std::binary_search(of.begin(), of.end(), surface);
+    }
+    /// Tells whether a triangle lies in a surface not only because of strips.
+    [[nodiscard]] bool is_given_for(std::uint32_t t, std::uint32_t surface) const {
+        const auto parents = a_.parents_of[t];
+        return std::any_of(parents.begin(), parents.end(), [&](std::uint32_t p) {
+            return by_input_[p] == no_index && p >= a_.inputs.first[surface] &&
+                   p < a_.inputs.first[surface + 1];
+        });
+    }
+    /// Tells whether a surface as it was given ends at the edge.
+    [[nodiscard]] bool ends_at(const StripEdgeSides& e, std::uint32_t surface) const {
+        std::size_t given = 0, kept = 0;
+        for (const std::uint32_t t : e.triangles) {
+            if (!is_given_for(t, surface)) continue;
+            ++given;
+            kept += keep_[t] ? 1 : 0;
+        }
+        return given == 1 && kept == 1;
+    }
+    /// Tells whether the edge lies on a side of one of the strip's triangles that contain it.
+    [[nodiscard]] bool is_on_outline(UpwardWitness upward, std::uint32_t t,
+                                     const Edge& edge) const {
+        const auto parents = a_.parents_of[t];
+        return std::any_of(parents.begin(), parents.end(), [&](std::uint32_t p) {
+            const Triangle& c = a_.state->corners[p];
+            for (std::size_t k = 0; k < 3; ++k)
+                if (lies_on(upward, a_, edge, InputTriangleId(p), c[k], c[(k + 1) % 3]))
+                    return true;
+            return false;
+        });
+    }
+    /// Tells whether a strip triangle ends on a kept one at an edge: on another surface, on its own
+    /// one where that does not end, or on another strip by which it was cut.
+    [[nodiscard]] bool ends_on(UpwardWitness upward, std::uint32_t t, std::uint32_t on,
+                               const StripEdgeSides& e) const {
+        if (is_strip(on) && share_surface(t, on))
+            return a_.parents_of[t][0] != a_.parents_of[on][0] &&
+                   !is_on_outline(upward, t, e.edge) && !is_on_outline(upward, on, e.edge);
+        const auto of = a_.surfaces_of[t];
+        return std::any_of(of.begin(), of.end(),
+                           [&](std::uint32_t s) { return !is_given_for(on, s) || !ends_at(e, s); });
+    }
+
+    /// Marks kept cells as open that are connected with none that ends on a surface: they lead from
+    /// the border to the border. Returns whether there are any.
+    bool part_loose() {
+        const UpwardRounding guard;
+        DisjointSets connected(strip_of_.size());
+        std::vector<bool> ends(strip_of_.size(), false), is_closing(strip_of_.size(), false);
+        for (const StripEdgeSides& e : edges_)
+            for (const std::uint32_t t : e.triangles)
+                for (const std::uint32_t u : e.triangles) {
+                    if (t == u || !is_strip(t) || !keep_[t] || !keep_[u]) continue;
+                    if (is_strip(u) && share_surface(t, u)) connected.join(t, u);
+                    ends[t] = ends[t] || ends_on(guard, t, u, e);
+                }
+        for (std::uint32_t t = 0; t < ends.size(); ++t)
+            if (ends[t]) is_closing[connected.find(t)] = true;
+        bool any = false;
+        for (std::uint32_t t = 0; t < ends.size(); ++t) {
+            if (!is_strip(t) || !keep_[t] || is_closing[connected.find(t)]) continue;
+            is_open_[sets_.find(t)] = true;
             any = true;
         }
         return any;

@@ -67,18 +67,33 @@ inline std::vector<OutputRecord> add_outputs(Subject& s, const Mesh& mesh,
     return records;
 }
 
+/// What certificates of an arrangement and of its improved mesh are made of.
+struct RoundedInputs {
+    std::vector<InputRecord> records;
+    Arrangement exact;
+    RoundedMesh rounded;
+};
+
+/// Adds files to a subject, arranges and rounds its surfaces.
+inline RoundedInputs rounded_inputs(Subject& s, const std::vector<File>& files) {
+    RoundedInputs made;
+    made.records = add_inputs(s, files);
+    auto exact = arrange(s.surfaces);
+    REQUIRE(exact);
+    made.exact = std::move(exact).value();
+    auto rounded = round_to_doubles(made.exact);
+    REQUIRE(rounded);
+    made.rounded = std::move(rounded).value();
+    return made;
+}
+
 /// Returns the certificate of these files with an output file in each format.
 inline Subject subject(const std::vector<File>& files,
                        const std::vector<std::string>& formats = {"obj"}) {
     Subject s;
-    const auto records = add_inputs(s, files);
-    const auto exact = arrange(s.surfaces);
-    REQUIRE(exact);
-    const auto rounded = round_to_doubles(exact.value());
-    REQUIRE(rounded);
-    const auto outputs = add_outputs(s, rounded->mesh, formats);
-    s.certificate = Json::parse(
-        to_certificate({records, s.surfaces, exact.value(), &rounded.value(), outputs}));
+    const auto [records, exact, rounded] = rounded_inputs(s, files);
+    const auto outputs = add_outputs(s, rounded.mesh, formats);
+    s.certificate = Json::parse(to_certificate({records, s.surfaces, exact, &rounded, outputs}));
     return s;
 }
 

@@ -20,20 +20,15 @@ namespace forged {
 inline Subject improved_subject(const std::vector<File>& files, const ImproveOptions& options,
                                 const std::vector<std::string>& formats = {"obj"}) {
     Subject s;
-    const auto records = add_inputs(s, files);
-    const auto exact = arrange(s.surfaces);
-    REQUIRE(exact);
-    const auto rounded = round_to_doubles(exact.value());
-    REQUIRE(rounded);
-    REQUIRE(rounded->report.clean);
-    const auto made = improve_and_measure(*rounded->conforming, options);
+    const auto [records, exact, rounded] = rounded_inputs(s, files);
+    REQUIRE(rounded.report.clean);
+    const auto made = improve_and_measure(*rounded.conforming, options);
     REQUIRE(made);
     REQUIRE(made->is_near_back());
     const Mesh& mesh = made->improved.mesh;
     const auto outputs = add_outputs(s, mesh, formats);
-    s.certificate = Json::parse(
-        to_improved_certificate({records, s.surfaces, exact.value(), &rounded.value(), outputs},
-                                mesh, made->improved.report.bound_of));
+    s.certificate = Json::parse(to_improved_certificate(
+        {records, s.surfaces, exact, &rounded, outputs}, mesh, made->improved.report.bound_of));
     return s;
 }
 

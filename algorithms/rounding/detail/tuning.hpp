@@ -21,9 +21,12 @@ namespace terrane::rounding::detail {
 /// (2) If a round does not reduce the contacts to a quarter, the input triangles concerned are
 ///     snapped instead, and the input is arranged again. If contacts are crowded from the start
 ///     (coplanar_half_turned), this happens at once, because fine rounds would only multiply them.
+/// (3) For a part of an arrangement (restricted.hpp) that is the last resort: what was removed would
+///     be decided again. It gets all grids in place first, each as long as it removes contacts.
 struct RoundingTuning {
     std::array<int, 3> fine_digits{4, 8, 12};             ///< grids for the output, in this order
-    std::array<int, 5> coarse_digits{16, 20, 24, 28, 32}; ///< grids for the input, in this order
+    std::array<int, 5> coarse_digits{16, 20, 24, 28, 32}; ///< grids for the input, in this order,
+                                                          ///< and for parts of arrangements
     std::size_t many = 1024;                              ///< fewer contacts are never crowded
     std::size_t crowded = 8;    ///< contacts are crowded if there are fewer triangles per contact
     std::size_t multiplied = 8; ///< growth of contacts in a round that counts as a failure

@@ -113,6 +113,12 @@ void judge_doubles(std::span<const Surface> surfaces, const Certificate& certifi
         check_only_kept(surfaces, kept, claim, is_cut, verdict.violations);
 }
 
+/// Tells whether nothing is said about a volume, so that nothing was cut.
+bool is_empty(const VolumeClaim& volume) {
+    return volume.shape.empty() && volume.corners.empty() && volume.between.empty() &&
+           volume.files == 0 && volume.boundary.empty();
+}
+
 /// Judges what was added and left out, by the claims themselves.
 void judge_lists(std::span<const Surface> files, const Certificate& certificate,
                  const VerifyOptions& options, Verdict& verdict) {
@@ -130,7 +136,7 @@ void judge_lists(std::span<const Surface> files, const Certificate& certificate,
             limit = std::max(limit, part.limit);
         verdict.change = SurfaceChange{limit, accepted};
     }
-    if (!cut.volume.shape.empty() || !certificate.sealed)
+    if (!is_empty(cut.volume) || !certificate.sealed)
         check_volume(cut.volume, files.subspan(own), verdict.violations);
     if (!sorted_and_unique(std::span(cut.dropped)) ||
         !all_below(cut.dropped, certificate.exact.triangles.size()))

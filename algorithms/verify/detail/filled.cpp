@@ -261,12 +261,7 @@ void check_numbers(const FilledClaim& filled, std::size_t surfaces, double accep
         const FilledPart& part = filled.surfaces[s];
         vertices += part.vertices;
         triangles += part.triangles;
-        if (!std::isfinite(part.limit) || part.limit < 0)
-            found.push_back({rule, {s}, "limit " + text(s) + " is negative or not finite"});
-        else if (part.limit > accepted)
-            found.push_back({Rule::R26_limits,
-                             {s},
-                             "limit " + text(s) + " is larger than the largest that is accepted"});
+        check_limit(part.limit, s, accepted, rule, found);
     }
     if (vertices != filled.vertices.size() || triangles != filled.triangles.size())
         found.push_back({rule, {}, "the filled surfaces do not have all vertices and triangles"});

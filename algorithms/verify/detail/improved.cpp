@@ -2,7 +2,6 @@
 #include <terrane/algorithms/verify/detail/improved.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <optional>
 #include <string>
@@ -272,15 +271,8 @@ void check_improved_numbers(const ImprovedClaim& improved, std::size_t surfaces,
         found.push_back({rule, {}, "a triangle has no surface, or not one region for each"});
     if (improved.limits.size() != surfaces)
         found.push_back({rule, {}, "there is not one limit per surface"});
-    for (std::uint32_t s = 0; s < improved.limits.size(); ++s) {
-        const double limit = improved.limits[s];
-        if (!std::isfinite(limit) || limit < 0)
-            found.push_back({rule, {s}, "limit " + text(s) + " is negative or not finite"});
-        else if (limit > accepted)
-            found.push_back({Rule::R26_limits,
-                             {s},
-                             "limit " + text(s) + " is larger than the largest that is accepted"});
-    }
+    for (std::uint32_t s = 0; s < improved.limits.size(); ++s)
+        check_limit(improved.limits[s], s, accepted, rule, found);
 }
 
 void check_improved(const LabelledMesh& before, const ImprovedClaim& improved, Violations& found) {

@@ -61,4 +61,14 @@ void check_edge_list(std::span<const Edge> edges, std::size_t vertex_count, Rule
     }
 }
 
+void check_limit(double limit, std::uint32_t surface, double accepted, Rule rule,
+                 Violations& found) {
+    const std::string name = "the limit of surface " + text(surface);
+    if (!std::isfinite(limit) || limit < 0)
+        found.push_back({rule, {surface}, name + " is negative or not finite"});
+    else if (limit > accepted)
+        found.push_back(
+            {Rule::R26_limits, {surface}, name + " is larger than the largest that is accepted"});
+}
+
 } // namespace terrane::verifier

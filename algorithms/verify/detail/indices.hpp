@@ -37,6 +37,11 @@ void check_parents(const Parts& parts, std::size_t input_triangles, Rule rule, V
 void check_edge_list(std::span<const Edge> edges, std::size_t vertex_count, Rule rule,
                      Violations& found);
 
+/// Checks that a stated limit of a surface is a distance, and not above the largest that is accepted
+/// (R26).
+void check_limit(double limit, std::uint32_t surface, double accepted, Rule rule,
+                 Violations& found);
+
 /// Calls visit(value) for each value that is in `of` but not in `in`. Both are sorted.
 template <class T, class Visit>
 void for_each_missing(const std::vector<T>& of, const std::vector<T>& in, Visit visit) {

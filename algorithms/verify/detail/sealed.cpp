@@ -10,6 +10,7 @@
 #include <utility>
 
 #include <terrane/algorithms/verify/detail/cut.hpp>
+#include <terrane/algorithms/verify/detail/indices.hpp>
 #include <terrane/algorithms/verify/detail/joined_sets.hpp>
 #include <terrane/algorithms/verify/detail/nearness.hpp>
 
@@ -367,12 +368,7 @@ void check_sealed_lists(const SealedClaim& sealed, std::size_t surfaces, double 
                     *list, [](const auto& t) { return std::ranges::all_of(t, is_finite); }))
                 found.push_back(
                     {rule, {s}, "an added coordinate of surface " + text(s) + " is not finite"});
-        if (!std::isfinite(part.limit) || part.limit < 0)
-            found.push_back({rule, {s}, "limit " + text(s) + " is negative or not finite"});
-        else if (part.limit > accepted)
-            found.push_back({Rule::R26_limits,
-                             {s},
-                             "limit " + text(s) + " is larger than the largest that is accepted"});
+        check_limit(part.limit, s, accepted, rule, found);
     }
 }
 

@@ -204,6 +204,20 @@ TEST_CASE("sealed certificates: forged volumes and extensions", "[sealing]") {
         });
 }
 
+TEST_CASE("sealed certificates: volumes that no text can state are refused", "[sealing]") {
+    const auto parsed = parse_certificate(right_extended().certificate.dump(), "c");
+    REQUIRE(parsed);
+    Certificate nameless = *parsed;
+    nameless.cut->volume.shape = ""; // the boundary is there, but nothing says of what
+    Certificate more_files = *parsed;
+    more_files.cut->volume.files = 99;
+    for (const Certificate& wrong : {nameless, more_files}) {
+        const auto verdict = verify_certificate(right_extended().inputs, wrong);
+        REQUIRE_FALSE(verdict.violations.empty());
+        CHECK(verdict.violations.front().rule == Rule::R50_volume);
+    }
+}
+
 TEST_CASE("sealed certificates: output files", "[sealing]") {
     const Subject right =
         sealed_subject(gaping(), {gaping_box(), 0.3, 2.5}, {"obj", "ply", "vtp", "ts"});

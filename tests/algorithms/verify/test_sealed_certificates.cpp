@@ -108,6 +108,58 @@ TEST_CASE("sealed certificates: accepted for models", "[sealing]") {
     }
 }
 
+TEST_CASE("sealed certificates: accepted where rounding has to move much", "[sealing]") {
+    // Two triangles each of two faults of arch-platform (tests/data/arch-platform). The finest grid
+    // makes three contacts of two; moving the inputs instead made another cell close the gap.
+    const std::vector<File> files{
+        {"one.obj", "v 2.196632307368127 42.43658330302957 0.02265761566666667\n"
+                    "v 2.215281842772147 42.43064935994648 0.023421153666666666\n"
+                    "v 2.221524042638781 42.43126587351355 0.023678660666666667\n"
+                    "v 2.1950875963328462 42.440924514957295 0.012644030037345363\n"
+                    "v 2.1980160357764524 42.440385065586106 0.012644030037345363\n"
+                    "v 2.216665571180472 42.43445112250301 0.013407568037345361\ng s20\nf 1 5 4\n"
+                    "f 2 3 6\n"},
+        {"other.obj",
+         "v 2.216460963011923 42.42966396735928 0.023630752333333335\n"
+         "v 2.217931290604562 42.42968910116428 0.023630752333333335\n"
+         "v 2.219929428102251 42.4297268018718 0.023630752333333335\n"
+         "v 2.2174107492234847 42.435050472633435 0.006797051994909115\n"
+         "v 2.2188810768161233 42.43507560643843 0.006797051994909115\ng s21\nf 1 2 4\n"
+         "f 2 3 5\n"}};
+    const Subject s = sealed_subject(files, {std::nullopt, 0.002, 0});
+    CHECK(judged(s) == "");
+    CHECK_FALSE(s.certificate["sealed"][1]["sealed"].empty());
+    CHECK(s.certificate["rounded"]["max_move"].is_null());
+}
+
+/// A sheet with a notch, and a roof whose ridge is 0.05 below one side of the notch.
+std::vector<File> notched() {
+    return {{"notched.obj", "v 0 0 0\nv 1 0 0\nv 1 -1 0\nv -1 -1 0\nv -1 1 0\nv 1 1 0\nv 1 0.1 0\n"
+                            "g notched\nf 1 3 2\nf 1 4 3\nf 1 5 4\nf 1 6 5\nf 1 7 6\n"},
+            {"roof.obj",
+             "v -0.5 0 -0.05\nv 1.5 0 -0.05\nv -0.5 0.3 -1\nv 1.5 0.3 -1\nv -0.5 -0.3 -1\n"
+             "v 1.5 -0.3 -1\ng roof\nf 1 2 4\nf 1 4 3\nf 2 1 5\nf 2 5 6\n"}};
+}
+
+TEST_CASE("sealed certificates: what leads from a border to the same border closes no gap",
+          "[sealing]") {
+    const Subject s = sealed_subject(notched(), {std::nullopt, 0.06, 0});
+    CHECK(judged(s) == "");
+    const Json& added = s.certificate["sealed"][0]["sealed"];
+    REQUIRE_FALSE(added.empty());
+    // The strips lead down to the ridge, not across the notch.
+    for (const Json& corners : added)
+        CHECK(std::ranges::any_of(corners, [](const Json& p) { return number_in(p[2]) < -0.04; }));
+    // A forger who closes the notch instead.
+    const std::vector<Corners> across{{Point3{1, 0, 0}, Point3{0, 0, 0}, Point3{1, 0.2, 0}}};
+    const auto keep = [](const Corners& corners, const std::set<std::uint32_t>& parents) {
+        return *parents.begin() != 5 || std::ranges::all_of(corners, [](const Point3& p) {
+            return p.y <= 0.1 * p.x + 1e-12;
+        });
+    };
+    CHECK(judged_widely(self_made(notched(), {{0, across}}, keep)) == "R55");
+}
+
 TEST_CASE("sealed certificates: a hole must stay open", "[sealing]") {
     const std::vector<File> files{
         {"plate.obj", "v 0 0 0\nv 9 0 1\nv 0 9 2\ng plate\nf 1 2 3\n"},

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Forged certificates of volumes of interest that one rule alone refutes.
+#include <algorithm>
+#include <array>
+#include <set>
+#include <utility>
+
+#include "support/cut_certificates.hpp"
+
+namespace {
+
+using namespace forged;
+
+const Subject& boxed_sheets() {
+    static const Subject subject = cut_subject(crossing_sheets(), the_box());
+    return subject;
+}
+
+/// Returns the number of input triangles without those of the box.
+std::size_t own_inputs(const Subject& s) {
+    std::size_t count = 0;
+    for (const Surface& surface : s.surfaces) count += surface.triangles.size();
+    return count - 12;
+}
+
+/// Adds a sliver to the doubles, beyond an edge on the boundary and parallel to it. It is nearer to
+/// what is inside than the deviation, which is stated larger for that.
+void add_sliver_outside(Json& m, std::size_t own) {
+    const auto is_boundary = [&](std::size_t t) { return m["parents"][t].back() >= own; };
+    std::set<std::set<std::size_t>> boundary;
+    const auto edge = [&](std::size_t t, std::size_t i) {
+        const Json& corners = m["triangles"][t];
+        return std::set<std::size_t>{corners[i].get<std::size_t>(),
+                                     corners[(i + 1) % 3].get<std::size_t>()};
+    };
+    for (std::size_t t = 0; t < m["triangles"].size(); ++t)
+        for (std::size_t i = 0; i < 3 && is_boundary(t); ++i) boundary.insert(edge(t, i));
+    for (std::size_t t = 0; t < m["triangles"].size(); ++t)
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (is_boundary(t) || m["parents"][t].size() != 1 || !boundary.contains(edge(t, i)))
+                continue;
+            const auto corner = [&](std::size_t k) {
+                const Json& at = m["vertices"][m["triangles"][t][(i + k) % 3].get<std::size_t>()];
+                return std::array{number_in(at[0]), number_in(at[1]), number_in(at[2])};
+            };
+            const auto a = corner(0), b = corner(1), inner = corner(2);
+            const auto v = m["vertices"].size();
+            for (const auto& [along, beyond] :
+                 {std::pair(0.75, 1e-9), std::pair(0.25, 1e-9), std::pair(0.5, 2e-9)}) {
+                Json point = Json::array({"", "", ""});
+                for (std::size_t k = 0; k < 3; ++k)
+                    point[k] = decimal_text(a[k] + along * (b[k] - a[k]) +
+                                            beyond * ((a[k] + b[k]) / 2 - inner[k]));
+                m["vertices"].push_back(point);
+            }
+            add_triangle(m, {static_cast<int>(v), static_cast<int>(v + 1), static_cast<int>(v + 2)},
+                         {m["parents"][t][0].get<int>()});
+            m["regions"].back() = {999};
+            m["max_move"] = nullptr;
+            m["deviation"] = decimal_text(1e-7);
+            return;
+        }
+    FAIL("no edge of a surface is on the boundary");
+}
+
+} // namespace
+
+TEST_CASE("cut certificates: a triangle of doubles outside is refused", "[volume_of_interest]") {
+    Subject wrong = boxed_sheets();
+    add_sliver_outside(wrong.certificate["rounded"], own_inputs(wrong));
+    wrong.certificate["outputs"] = Json::array();
+    wrong.contents.clear();
+    CHECK(judged(wrong) == "R52");
+}
+
+TEST_CASE("cut certificates: volumes that no text can state are refused", "[volume_of_interest]") {
+    const auto rule_of = [](Certificate certificate) {
+        const auto verdict = verify_certificate(boxed_sheets().inputs, certificate);
+        REQUIRE_FALSE(verdict.violations.empty());
+        return verdict.violations.front().rule;
+    };
+    const auto parsed = parse_certificate(boxed_sheets().certificate.dump(), "c");
+    REQUIRE(parsed);
+    Certificate more_files = *parsed;
+    more_files.cut->volume.files = 99;
+    CHECK(rule_of(more_files) == Rule::R50_volume);
+    Certificate nameless = *parsed;
+    nameless.cut->volume.shape = "";
+    CHECK(rule_of(nameless) == Rule::R50_volume);
+}
