@@ -12,6 +12,7 @@
 #include <terrane/algorithms/verify/detail/distance.hpp>
 #include <terrane/algorithms/verify/detail/indices.hpp>
 #include <terrane/algorithms/verify/detail/layered_sheets.hpp>
+#include <terrane/algorithms/verify/detail/layered_thickness.hpp>
 #include <terrane/algorithms/verify/detail/plan_view.hpp>
 
 namespace terrane::verifier {
@@ -27,7 +28,10 @@ public:
 
     void check() {
         check_order();
-        check_heights();
+        if (layered_.thickness)
+            check_thickness(s_, found_);
+        else
+            check_heights();
         for (std::uint32_t i = 0; i < s_.layers.size(); ++i) check_places(i);
     }
 
@@ -230,6 +234,8 @@ void check_layer_numbers(std::span<const Surface> surfaces, const LayeredClaim& 
     else if (layered.deviation > accepted)
         found.push_back(
             {rule, {}, "the stated deviation is larger than the largest that is accepted"});
+    if (layered.thickness && !(std::isfinite(*layered.thickness) && *layered.thickness > 0))
+        found.push_back({rule, {}, "the thickness is not positive or not finite"});
 }
 
 } // namespace

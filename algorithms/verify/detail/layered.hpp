@@ -5,7 +5,8 @@
 // The promise: at each place a layer has the height of its surface, except where this is above
 // (below) the nearest harder layer that exists there and is higher (lower) in the order; then it
 // has the height of that layer. The layers of the mesh are judged by it, seen along z. Let d be the
-// stated deviation.
+// stated deviation. Layers with a minimum thickness promise something else, and (4) and (6) are
+// replaced by the rules of layered_thickness.hpp, R66 among them.
 #pragma once
 
 #include <span>

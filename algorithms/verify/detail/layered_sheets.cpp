@@ -75,9 +75,12 @@ LayerSheets::LayerSheets(std::span<const Surface> surfaces_of_inputs, const Laye
         doubles_.insert(doubles_.end(), vertices.begin(), vertices.end());
     }
     std::vector<Point3> all = doubles_;
-    all.push_back({layered.deviation, 0, 0});
-    points = scale_to_integers(all).points;
+    all.push_back({layered.deviation, layered.thickness.value_or(0), 0});
+    ScaledPoints scaled = scale_to_integers(all);
+    points = std::move(scaled.points);
+    scale = scaled.scale;
     deviation = points.back()[0];
+    thickness = points.back()[1];
     width = 2 * deviation;
     reach = 4 * layered.deviation;
 }

@@ -77,7 +77,9 @@ struct LayerSheets {
     const LayeredClaim& claim;
     Numbers first;                         ///< per layer: the first point of its surface
     std::vector<Vector4> points;           ///< of the mesh, then of the surfaces
+    mpz_class scale;                       ///< of `points` and of the lengths below
     mpz_class deviation, width;            ///< d, 2 d
+    mpz_class thickness;                   ///< D; 0: there is none
     double reach = 0;                      ///< more than both
     std::vector<Sheet> surfaces;           ///< per layer: its surface
     std::vector<Sheet> layers;             ///< per layer: its triangles of the mesh
