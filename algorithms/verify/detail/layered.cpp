@@ -65,14 +65,19 @@ private:
                 return height_over(s_.seen[t]->corners, p) > height_over(s_.seen[s]->corners, p);
             }))
             return;
-        for (const std::uint32_t b : s_.borders_near(s_.boxes[s]))
-            if (std::ranges::all_of(
-                    polygon, [&](const Place& p) { return is_within(p, s_.borders[b], s_.width); }))
-                return;
+        if (is_at_border(polygon, s)) return;
         report(Rule::R62_layer_order, {s, t},
                "triangle " + text(t) + " of " + s_.name(layered_.surfaces_of[t].back()) +
                    " is above triangle " + text(s) + " of " +
                    s_.name(layered_.surfaces_of[s].front()));
+    }
+
+    /// Tells whether a part of the projection of a triangle of the mesh is within 2 d of a border.
+    [[nodiscard]] bool is_at_border(const PlacePolygon& polygon, std::uint32_t t) const {
+        return std::ranges::any_of(s_.borders_near(s_.boxes[t]), [&](std::uint32_t b) {
+            return std::ranges::all_of(
+                polygon, [&](const Place& p) { return is_within(p, s_.borders[b], s_.width); });
+        });
     }
 
     // --- R63, R65: heights and sides -------------------------------------------------------------
@@ -121,7 +126,7 @@ private:
                 return (from_above ? sgn(depth) >= 0 : sgn(depth) <= 0) ||
                        s_.is_near(point_over(replacing.corners, p), own);
             });
-            if (right) continue;
+            if (right || is_at_border(polygon, t)) continue;
             std::vector<Vector4> points;
             for (const Place& p : polygon) points.push_back(point_over(replacing.corners, p));
             if (!s_.near_one(i, points, near)) return false;
@@ -145,11 +150,36 @@ private:
                            ", is where its surface does not exist");
     }
 
-    /// Checks that a layer ends at borders of surfaces only.
-    void check_edges(std::uint32_t i) {
+    /// Finds the sides of all edges of a layer. Upright triangles, which rounding can make of thin
+    /// ones, face the side on which fewer of their edges have both triangles on one side.
+    [[nodiscard]] EdgeSides sides_of_layer(std::uint32_t i) const {
         EdgeSides edges;
         for (const Seen& t : s_.layers[i].triangles)
             add_sides(t, layered_.triangles[t.number], edges);
+        std::vector<Seen> upright;
+        for (std::uint32_t t = 0; t < layered_.triangles.size(); ++t)
+            if (!s_.seen[t] && std::ranges::binary_search(layered_.surfaces_of[t], i))
+                upright.push_back({t, {}, false});
+        for (const Seen& t : upright) add_sides(t, layered_.triangles[t.number], edges);
+        for (Seen& t : upright) {
+            const Triangle& c = layered_.triangles[t.number];
+            std::size_t wrong = 0;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const auto [low, high] = std::minmax(c[k], c[(k + 1) % 3]);
+                const auto& sides = edges.at({low, high});
+                if (sides.size() == 2 && sides[0] == sides[1]) ++wrong;
+            }
+            if (wrong < 2) continue;
+            remove_sides(t, c, edges);
+            t.flipped = true;
+            add_sides(t, c, edges);
+        }
+        return edges;
+    }
+
+    /// Checks that a layer ends at borders of surfaces only.
+    void check_edges(std::uint32_t i) {
+        const EdgeSides edges = sides_of_layer(i);
         for (const auto& [edge, sides] : edges) {
             if (has_both_sides(sides)) continue;
             Vector4 from = s_.points[edge[0]], to = s_.points[edge[1]];

@@ -63,6 +63,14 @@ void add_sides(const Seen& t, const Triangle& numbers, EdgeSides& edges) {
     }
 }
 
+void remove_sides(const Seen& t, const Triangle& numbers, EdgeSides& edges) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t a = numbers[k], b = numbers[(k + 1) % 3];
+        auto& sides = edges[{std::min(a, b), std::max(a, b)}];
+        sides.erase(std::ranges::find(sides, (a < b) != t.flipped ? 1 : -1));
+    }
+}
+
 bool has_both_sides(const std::vector<int>& sides) {
     return sides.size() == 2 && sides[0] != sides[1];
 }

@@ -48,6 +48,8 @@ using EdgeSides = std::map<Edge, std::vector<int>>;
 
 /// Adds the edges of a triangle whose corners have these numbers.
 void add_sides(const Seen& t, const Triangle& numbers, EdgeSides& edges);
+/// Removes what add_sides() added.
+void remove_sides(const Seen& t, const Triangle& numbers, EdgeSides& edges);
 bool has_both_sides(const std::vector<int>& sides);
 
 /// The surfaces of layers, their borders, and the layers. Numbers are scaled to integers.

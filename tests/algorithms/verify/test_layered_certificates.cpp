@@ -40,6 +40,8 @@ TEST_CASE("layered certificates: accepted for stacks of real and difficult surfa
     const std::string data = test_support::source_dir() + "/tests/data/layers/";
     const std::vector<std::pair<std::string, std::vector<Layer>>> stacks{
         {"partial_mid.obj", order_of({3, 2, 1})},
+        {"stack6_step.obj", order_of({6, 6})},           // two heights over one line
+        {"stack90_upright.obj", order_of({1, 3, 1, 0})}, // a thin triangle became upright
         {"stack16_cross.obj", order_of({1, 3, 2, 4})},
         {"stack261_cross.obj", order_of({2, 4, 2, 2})},
         {"stack536_cross.obj", order_of({4, 6, 7, 3, 5, 3})}};
