@@ -252,6 +252,15 @@ TEST_CASE("thick layers: stacks that were made in another way", "[layers]") {
     CHECK(claims(thick_subject(0), "0.4", right).find("R66") != std::string::npos);
     CHECK(claims(thick_subject(0.2), "0.4", right).find("R66") != std::string::npos);
     CHECK(claims(thick_subject(0.8), "0.4", right) == "R63");
+    // At twice the thickness from the only harder layer, above or below, with its surface beyond.
+    const auto three = three_horizons();
+    const auto below = order_of({2, 1}), above = order_of({1, 2});
+    CHECK(claims(layered_subject({three[0], three[1]}, below, {"obj"}, 0.8), "0.8", below) == "");
+    CHECK(claims(layered_subject({three[0], three[1]}, below, {"obj"}, 0.8), "0.4", below) ==
+          "R63");
+    CHECK(claims(layered_subject({three[1], three[2]}, above, {"obj"}, 0.8), "0.8", above) == "");
+    CHECK(claims(layered_subject({three[1], three[2]}, above, {"obj"}, 0.8), "0.4", above) ==
+          "R63");
     // The softer layers push the harder ones.
     CHECK(claims(thick_subject(0.4, order_of({2, 9, 3})), "0.4", right).find("R63") !=
           std::string::npos);
