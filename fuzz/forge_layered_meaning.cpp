@@ -72,13 +72,14 @@ struct Horizons {
     }
 };
 
-/// What is over a place.
+/// What is over a place: a layer keeps the thickness from the harder ones, and lies on the upper
+/// one where they leave less room.
 struct Column {
     std::vector<std::optional<Over>> own, right; ///< per layer: its surface; where it must be
     bool near_side = false;                      ///< rounding may decide which
 };
 
-Column column_at(const Horizons& horizons, const Point3& place, double width) {
+Column column_at(const Horizons& horizons, const Point3& place, double width, double thickness) {
     Column column;
     for (const auto& list : horizons.triangles) {
         std::optional<Over> found;
@@ -92,13 +93,14 @@ Column column_at(const Horizons& horizons, const Point3& place, double width) {
     column.right.resize(column.own.size());
     for (const std::uint32_t i : horizons.from_hardest) { // the others have none yet
         if (!column.own[i]) continue;
-        Over place_of_layer = *column.own[i];
+        double ceiling = HUGE_VAL, floor = -HUGE_VAL;
         for (std::uint32_t j = 0; j < i; ++j)
-            if (column.right[j])
-                place_of_layer.height = std::min(place_of_layer.height, column.right[j]->height);
+            if (column.right[j]) ceiling = std::min(ceiling, column.right[j]->height);
         for (std::uint32_t j = i + 1; j < column.right.size(); ++j)
-            if (column.right[j])
-                place_of_layer.height = std::max(place_of_layer.height, column.right[j]->height);
+            if (column.right[j]) floor = std::max(floor, column.right[j]->height);
+        Over place_of_layer = *column.own[i];
+        double& z = place_of_layer.height;
+        z = std::min(ceiling, std::max(floor + thickness, std::min(z, ceiling - thickness)));
         column.right[i] = place_of_layer;
     }
     return column;
@@ -109,11 +111,14 @@ public:
     LayersJudge(const Subject& s, const LayeredClaim& claim, double accepted) :
         claim_(claim), horizons_(s, claim), accepted_(accepted) {
         for (const Triangle& t : claim.triangles) triangles_.push_back(corners(claim.vertices, t));
+        thickness_ = claim.thickness.value_or(0);
         width_ = 1e-8 + 4 * accepted;
         slack_ = 1e-9 + 64 * accepted; // for slopes below 16
     }
 
     std::string difference() const {
+        if (claim_.thickness && !(thickness_ > 0 && std::isfinite(thickness_)))
+            return "the thickness";
         if (auto flaw = areas_flaw(); !flaw.empty()) return flaw;
         for (const Point3& place : places())
             if (auto flaw = flaw_at(place); !flaw.empty()) return flaw;
@@ -157,8 +162,13 @@ private:
         return result;
     }
 
+    /// Tells whether a triangle has the height of a surface, moved up, and faces the same side.
+    bool faces_as(const Over& own, const Over& o, double moved) const {
+        return own.faces_up == o.faces_up && std::abs(own.height + moved - o.height) <= slack_;
+    }
+
     std::string flaw_at(const Point3& place) const {
-        const Column column = column_at(horizons_, place, width_);
+        const Column column = column_at(horizons_, place, width_, thickness_);
         if (column.near_side) return "";
         std::vector<std::size_t> times(column.own.size());
         for (std::size_t t = 0; t < triangles_.size(); ++t) {
@@ -172,9 +182,14 @@ private:
                 if (!column.right[i]) return "where a layer exists";
                 if (std::abs(column.right[i]->height - o->height) > slack_)
                     return "the height of a layer";
-                right_side = right_side || (column.own[i]->faces_up == o->faces_up &&
-                                            std::abs(column.own[i]->height - o->height) <= slack_);
+                right_side = right_side || faces_as(*column.own[i], *o, 0);
             }
+            if (thickness_ > 0)
+                for (const auto& own : column.own) // moved by multiples of the thickness
+                    for (std::size_t steps = 0; own && steps <= column.own.size(); ++steps)
+                        right_side = right_side ||
+                                     faces_as(*own, *o, thickness_ * static_cast<double>(steps)) ||
+                                     faces_as(*own, *o, -thickness_ * static_cast<double>(steps));
             if (!right_side) return "the side of a layer";
         }
         for (std::size_t i = 0; i < times.size(); ++i)
@@ -186,6 +201,7 @@ private:
     Horizons horizons_;
     std::vector<Corners3> triangles_;
     double accepted_ = 0;
+    double thickness_ = 0;
     double width_ = 0; ///< of the strips along sides that are left out
     double slack_ = 0; ///< of heights
 };

@@ -3,6 +3,7 @@
 // The changes that only certificates of layers and of volumes of interest have.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <map>
 #include <set>
@@ -129,12 +130,34 @@ void change_layer_deviation(Certificate& c, const Arguments& n) {
     deviation = n.a % 2 == 0 ? deviation * (n.b + 1.0) / 64 : moved(deviation, n.b, n.c);
 }
 
+/// Gives the thickness another value, or none.
+void change_thickness(Certificate& c, const Arguments& n) {
+    auto& thickness = c.layered->thickness;
+    const double old = thickness.value_or(0);
+    switch (n.a % 5) {
+    case 0:
+        thickness = old * (n.b + 1.0) / 16;
+        break;
+    case 1:
+        thickness = moved(old, n.b, n.c);
+        break;
+    case 2:
+        thickness = (n.b % 64) / 32.0;
+        break;
+    case 3:
+        thickness = std::array{1e300, 5e-324, -old, HUGE_VAL, std::nan(""), 1e-12}[n.b % 6];
+        break;
+    default:
+        thickness.reset();
+    }
+}
+
 void change_layer_surface(Certificate& c, const Arguments& n) {
     auto& order = c.layered->order;
     if (!order.empty()) change_number(order[pick(n.a, order.size())].surface, n);
 }
 
-constexpr std::array<Change, 9> layered_changes{{
+constexpr std::array<Change, 10> layered_changes{{
     {"layers exchanged", exchange_layers},
     {"hardness changed", change_hardness},
     {"layer dropped", drop_layer},
@@ -144,6 +167,7 @@ constexpr std::array<Change, 9> layered_changes{{
     {"layer moved", move_layer},
     {"deviation of layers changed", change_layer_deviation},
     {"surface of a layer changed", change_layer_surface},
+    {"thickness changed", change_thickness},
 }};
 
 // --- Volumes of interest ------------------------------------------------------------------------

@@ -251,12 +251,22 @@ Model3 partial_horizons() {
             placed(grid("flat", 2, 0, 2, 2), {0.25, 0.125, 0.125}, 0)};
 }
 
-Subject layered_subject(const Model3& surfaces, const std::vector<double>& hardness) {
+/// Four horizons. The two in the middle are the softest: there is room for one of them only, if
+/// horizons are to be half a unit apart.
+Model3 narrow_horizons() {
+    return {placed(grid("top", 2, 0, 2, 2), {0, 0, 1.5}, 0),
+            placed(grid("upper", 2, 0.25, 2, 2), {0, 0, 1.125}, -0.25),
+            placed(grid("lower", 2, 0.5, 2, 2), {0.25, 0, 0.75}, 0.125),
+            placed(grid("base", 2, 0, 1, 2), {0, 0, 0.75}, -0.0625)};
+}
+
+Subject layered_subject(const Model3& surfaces, const std::vector<double>& hardness,
+                        double thickness = 0) {
     Subject s = file_subject(surfaces);
     std::vector<Layer> order;
     for (const double h : hardness)
         order.push_back({SurfaceId(static_cast<std::uint32_t>(order.size())), h});
-    const Layered layered = needed(stack_layers(s.surfaces, order));
+    const Layered layered = needed(stack_layers(s.surfaces, order, {.min_thickness = thickness}));
     require(layered.is_stack(), "no base model: the layers are not in order");
     const Mesh& mesh = layered.rounded.mesh;
     const std::vector<OutputRecord> outputs{
@@ -413,7 +423,10 @@ std::vector<Subject> subjects_of(CertificateKind kind) {
                                FillMethod::kriging)};
     case CertificateKind::layered:
         return {layered_subject(crossing_horizons(), {2, 1, 3}),
-                layered_subject(partial_horizons(), {3, 1, 2})};
+                layered_subject(partial_horizons(), {3, 1, 2}),
+                layered_subject(crossing_horizons(), {2, 1, 3}, 0.25),
+                layered_subject(partial_horizons(), {3, 1, 2}, 0.3),
+                layered_subject(narrow_horizons(), {4, 1, 2, 5}, 0.5)};
     case CertificateKind::cut:
         return {prism_subject({{0.25, 0.5}, {1.75, 0.5}, {1.75, 1.5}, {0.25, 1.5}}, -0.5, 0.75),
                 prism_subject({{0.5, 0.25}, {1.75, 1.25}, {0.25, 1.5}, {0.625, 0.875}}, -1, 0.5),

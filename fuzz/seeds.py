@@ -387,7 +387,7 @@ def main():
     targets = {"tri_tri": tri_tri, "corefine": corefine, "predicates": predicates, "search": search,
                "forge_arrangement": forge, "forge_volumes": forge_kind, "forge_tetrahedra": forge_kind,
                "forge_improved": forge_kind, "forge_filled": forge_kind,
-               "forge_layered": forge_kind, "forge_cut": lambda: forge_kind(4, 1),
+               "forge_layered": lambda: forge_kind(5), "forge_cut": lambda: forge_kind(4, 1),
                "forge_sealed": lambda: forge_kind(4, 9),
                "arrange": soups, "rounding": soups, "regions": soups, "volumes": soups, "tetrahedra": soups}
     seeds = {t: dict(make()) for t, make in targets.items()}

@@ -215,11 +215,12 @@ std::string to_filled_certificate(std::span<const InputRecord> files,
 ///   "layered": {
 ///     "order": [{ "surface": 1, "hardness": "2" }],  from the top down; surfaces of the files
 ///     "deviation": "1e-12",        no triangle is farther from where it must be
+///     "thickness": "0.25",         the minimum thickness; only if there is one
 ///     "vertices": [["0.5", "-1e-3", "7"]], "triangles": [[u, v, w]],
 ///     "layers": [[i, ...]],        per triangle: positions in "order"
 ///     "regions": [[r, ...]], "parents": [[p, ...]] }  per triangle: what the output files say
 ///
-/// Precondition: layered.is_stack(), made of `surfaces` without a minimum thickness.
+/// Precondition: layered.is_stack(), made of `surfaces`.
 std::string to_layered_certificate(std::span<const InputRecord> files,
                                    std::span<const Surface> surfaces,
                                    std::span<const OutputRecord> outputs,

@@ -19,7 +19,7 @@ double stated_deviation(const Layered& layered) {
         largest = std::max({largest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
     const double spacing =
         std::nextafter(largest, std::numeric_limits<double>::infinity()) - largest;
-    return slack * (layered.rounded.report.deviation + spacing);
+    return slack * (layered.rounded.report.deviation + spacing + layered.height_error);
 }
 
 std::string to_layered_certificate(std::span<const InputRecord> files,
@@ -40,6 +40,10 @@ std::string to_layered_certificate(std::span<const InputRecord> files,
     });
     out.raw(",\n\"deviation\":");
     out.quote(stated_deviation(layered));
+    if (layered.min_thickness > 0) {
+        out.raw(",\n\"thickness\":");
+        out.quote(layered.min_thickness);
+    }
     out.raw(",\n\"vertices\":");
     write_points(out, mesh.vertices);
     out.raw(",\n\"triangles\":");

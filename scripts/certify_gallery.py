@@ -94,6 +94,12 @@ KINDS = {
         "modelA4": stack("H3b_horizon", "H2b_horizon", "H1b_horizon"),
         "tindel": stack("Main_6", "Main_4", "Main_7"),
         "Drogon": stack("03_topvolon", "02_toptherys")}),
+    "layered, thick": Kind(["layer"], SURFACES, {
+        "modelA1": [*stack("h3_model1", "h2_model1", "h1_model1"), "--min-thickness", "50"],
+        "modelA2": [*stack("h3_model3", "h2_model3", "h1_model3"), "--min-thickness", "30"],
+        "modelA4": [*stack("H3b_horizon", "H2b_horizon", "H1b_horizon"), "--min-thickness", "20"],
+        "tindel": [*stack("Main_6", "Main_4", "Main_7"), "--min-thickness", "40"],
+        "Drogon": [*stack("02_toptherys", "03_topvolon"), "--min-thickness", "30"]}),
     "sealed": Kind(["arrange"], SURFACES, ["modelA1", "modelA2", "tindel", "gom"], ["--seal", "30"]),
     "sealed, small": Kind(["arrange"], SURFACES, ["cube, not sealed", "NashPoint joints"], ["--seal", "0.4"]),
     "sealed and cut": Kind(["arrange"], SURFACES, ["modelA1", "modelA2", "tindel"],

@@ -33,7 +33,7 @@ cases=(
     'kriging_gaussian fill --depth docs/seabed.asc -o out/a.vtp --model gaussian --isotropic --rings 3'
     'rbf_smoothed fill --depth docs/seabed.asc -o out/a.obj --method rbf --smoothing auto'
     'layer layer --hard docs/salt.ts --soft docs/shale.ts --keep upper -o out/a.vtp -o out/a.obj --certificate out/c.json'
-    'stack layer docs/salt.ts docs/shale.ts --layer shale=1 --layer salt=2 --min-thickness 5 -o out/a.vtp'
+    'stack layer docs/salt.ts docs/shale.ts --layer shale=1 --layer salt=2 --min-thickness 5 -o out/a.vtp --certificate out/c.json'
     'tetrahedra tetrahedralize data/ringmesh/split_cube.ml -o out/a.vtu -o out/a.msh --quality 2'
     'convert convert docs/top.ts out/a.ply'
     'points convert docs/seabed.asc out/a.ts'

@@ -75,6 +75,15 @@ Surface moved_up(Surface s, double by) {
     return s;
 }
 
+/// Returns more than the error of heights of copies: of the sum of a height and a multiple of the
+/// thickness, and of that multiple.
+double error_of_copies(std::span<const Surface> copies) {
+    double highest = 0;
+    for (const Surface& s : copies)
+        for (const Point3& p : s.vertices) highest = std::max(highest, std::fabs(p.z));
+    return 2 * (std::nextafter(highest, HUGE_VAL) - highest);
+}
+
 /// Builds vertical walls on all free borders of the layers, from below all of them to above.
 Surface walls_on(std::span<const Surface> layers) {
     double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -198,6 +207,7 @@ Result<std::optional<Layered>> stack_again(std::span<const Surface> surfaces,
     auto again = stack_valid(exact, order, same, quiet);
     if (!again && again.error().code == ErrorCode::interrupted) return again.error();
     if (!again || !again->is_stack()) return {std::nullopt};
+    again->height_error += unit; // more than heights were rounded by
     return {std::move(*again)};
 }
 
@@ -212,6 +222,7 @@ Result<Layered> stack_valid(std::span<const Surface> surfaces, std::span<const L
     std::vector<Surface> all;
     for (const Copy& c : copies)
         all.push_back(moved_up(surfaces[order[c.layer].surface], c.steps * options.min_thickness));
+    const double height_error = thick ? error_of_copies(all) : 0;
     all.push_back(walls_on(all));
     const auto arrangement = arrange(all, {}, run);
     if (!arrangement) return arrangement.error();
@@ -244,7 +255,8 @@ Result<Layered> stack_valid(std::span<const Surface> surfaces, std::span<const L
         if (*again) return std::move(**again);
     }
     progress(1);
-    return Layered{std::move(*rounded), resolver.reports(), width, std::move(*flaws)};
+    return Layered{std::move(*rounded), resolver.reports(),    width,
+                   std::move(*flaws),   options.min_thickness, height_error};
 }
 
 } // namespace

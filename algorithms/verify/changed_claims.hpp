@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -60,6 +61,8 @@ struct LayeredClaim {
     IndexLists<std::uint32_t> parents_of;  ///< likewise
     std::vector<CertifiedLayer> order;     ///< from the top down
     double deviation = 0; ///< no triangle is farther from where it must be, unit of the input
+    std::optional<double> thickness; ///< least distance along z from harder layers, unit of the
+                                     ///< input; > 0; none: layers may touch
 };
 
 /// The volume of interest by which surfaces were cut.

@@ -110,6 +110,8 @@ enum class Rule : std::uint8_t {
                           ///< replace it there
     R64_layer_places,     ///< a layer does not exist where its surface does, or the reverse
     R65_layer_sides,      ///< a triangle faces another side than the surface that it is on
+    R66_layer_thickness,  ///< a layer is nearer to a harder one than the thickness, and there is
+                          ///< room for it
 };
 
 /// Returns "R5" for rule R5, and so on.
@@ -138,7 +140,7 @@ struct Violation {
                                          ///< R26: {triangle} or {surface}; R27: {triangle}
                                          ///< R28, R29, R35, R36: a triangle, a vertex or none
                                          ///< R50: none; R51, R52: a triangle
-                                         ///< R60, R63, R65: a triangle or none; R61: as R3 to
+                                         ///< R60, R63, R65, R66: a triangle or none; R61: as R3 to
                                          ///< R5; R62: two triangles; R64: a triangle or an edge
     std::string sentence;                ///< what is wrong
 };

@@ -23,7 +23,7 @@
 //     within the stated limits of it, both ways (R22 to R27).
 // (7) Filled surfaces have all that was given, and new triangles close whole borders without
 //     meeting others (R28, R29, R35, R36).
-// (8) Layers are the pointwise stack of the surfaces that they were made of (R60 to R65).
+// (8) Layers are the pointwise stack of the surfaces that they were made of (R60 to R66).
 // (9) The mesh of a volume of interest is what is inside of it, all of that and nothing else (R50
 // to
 //     R52); (3) and (4) hold for the parts inside.

@@ -105,9 +105,6 @@ Result<std::vector<Layer>> order_of(const LayerCommand& command, const Inputs& i
 /// Checks before any work is done that a certificate can be made, if one is wanted.
 Status check_certificate(const LayerCommand& command) {
     if (command.proof.certificate.empty()) return Done{};
-    if (command.min_thickness > 0)
-        return Error{ErrorCode::bad_option,
-                     "there is no certificate of layers with a minimum thickness", "--certificate"};
     return plan_proof(command.proof, command.files);
 }
 

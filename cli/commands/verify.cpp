@@ -269,9 +269,15 @@ std::string layers_text(const Judgement& judged) {
     for (const CertifiedLayer& layer : layered.order)
         text += fmt::format("{} {} (hardness {})", &layer == &layered.order.front() ? "" : ",",
                             names[layer.surface], layer.hardness);
-    return text + fmt::format("; {}, conforming, in this order, at most {:.3g} from their surfaces "
-                              "or from the harder ones that replace these",
-                              counted(layered.triangles.size(), "triangle"), layered.deviation);
+    text += fmt::format("; {}, conforming, in this order, ",
+                        counted(layered.triangles.size(), "triangle"));
+    if (!layered.thickness)
+        return text + fmt::format("at most {:.3g} from their surfaces or from the harder ones that "
+                                  "replace these",
+                                  layered.deviation);
+    return text + fmt::format("with a thickness of at least {} where harder ones leave room; at "
+                              "most {:.3g} from where they must be",
+                              *layered.thickness, layered.deviation);
 }
 
 /// Says what was added to surfaces, with a line end before it; nothing if they were not changed.

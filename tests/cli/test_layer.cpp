@@ -104,10 +104,15 @@ TEST_CASE("cli: layer writes a certificate that verify takes", "[cli][layer]") {
     CHECK(folder.run("verify c.json --max-deviation 0").status == 1);
     const auto thick =
         folder.run("layer " + soft + " " + hard + " --layer shale=1 --layer salt=2 " +
-                   "--min-thickness 1 -o no.obj --certificate no.json");
-    CHECK(thick.status == 2);
-    CHECK(thick.err.find("there is no certificate of layers with a minimum thickness") !=
+                   "--min-thickness 1 -o thick.obj --certificate thick.json");
+    INFO(thick.err);
+    REQUIRE(thick.status == 0);
+    const auto shown = folder.run("verify thick.json");
+    INFO(shown.out << shown.err);
+    CHECK(shown.status == 0);
+    CHECK(shown.out.find("with a thickness of at least 1 where harder ones leave room") !=
           std::string::npos);
+    CHECK(folder.run("verify thick.json --max-deviation 0").status == 1);
     CHECK(folder
               .run("layer --hard " + hard + " --soft " + soft +
                    " --keep upper -o no.obj --certificate -")

@@ -210,10 +210,12 @@ def write_json_files(program, folder):
     run("fill", "fold.ts", "-o", "g.vtp", "--certificate", "filled.json")
     run("layer", "--hard", "salt.ts", "--soft", "shale.ts", "--keep", "upper", "-o", "l.vtp",
         "--certificate", "layered.json")
+    run("layer", "salt.ts", "shale.ts", "--layer", "shale=1", "--layer", "salt=2", "--min-thickness",
+        "5", "-o", "thick.vtp", "--certificate", "thick.json")
     run("arrange", *model, "-o", "v.vtp", "--box", "0,0,-1700,2000,1500,-700", "--certificate", "cut.json")
     run("arrange", *model, "-o", "s.vtp", "--box", "0,0,-1700,2000,1500,-700", "--seal", "20",
         "--certificate", "sealed.json")
-    certificates += ["improved.json", "filled.json", "layered.json", "cut.json", "sealed.json"]
+    certificates += ["improved.json", "filled.json", "layered.json", "thick.json", "cut.json", "sealed.json"]
     with (folder / "top.ts").open("a") as changed:
         changed.write("\n")
     run("verify", "certificate.json", "--json", out="refuted.json")

@@ -6,7 +6,8 @@
 //               at the corners of the common polygon;
 //   definition  at each place a horizon gives way to the nearest harder ones that exist there,
 //               above and below it. At random places the height of each layer is compared with the
-//               one computed from the input alone.
+//               one computed from the input alone;
+//   certificate the verifier accepts the certificate of the stack.
 // The horizons are flat, plane, wavy or on a lattice of heights, with steps; they cover all, a
 // rectangle, scattered cells, or all but a hole; some are identical to parts of others.
 //   stacks random COUNT [FIRST_SEED [FOLDER]]             FOLDER takes the stacks that fail
@@ -22,11 +23,14 @@
 #include <optional>
 #include <random>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "oracles/clipped.hpp"
 #include <terrane/algorithms/layers/layers.hpp>
+#include <terrane/algorithms/verify/verify_certificate.hpp>
+#include <terrane/io/certificate.hpp>
 #include <terrane/io/files.hpp>
 
 namespace {
@@ -318,6 +322,20 @@ std::string definition_flaw(const Stack& stack, const std::vector<Triangles>& ma
     return {};
 }
 
+/// Returns what the verifier says about the certificate of layers; empty if it accepts it.
+std::string certificate_flaw(const Stack& stack, const Layered& layered) {
+    const InputFile file = input_file("", stack.surfaces);
+    const std::vector<InputRecord> records{
+        {"stack.obj", file.sha256, file.bytes, stack.surfaces.size()}};
+    const auto certificate = parse_certificate(
+        to_layered_certificate(records, stack.surfaces, {}, stack.order, layered), "stack");
+    if (!certificate) return certificate.error().message();
+    const Verdict verdict = verify_certificate(std::span(&file, 1), *certificate);
+    if (verdict.violations.empty()) return {};
+    return "certificate: " + name_of(verdict.violations[0].rule) + ": " +
+           verdict.violations[0].sentence;
+}
+
 /// Returns the promise that the stack of these layers breaks; empty if it holds.
 std::string flaw(const Stack& stack) {
     const auto layered =
@@ -340,7 +358,8 @@ std::string flaw(const Stack& stack) {
                 return text;
             }
     if (!layered->is_stack()) return "order: said to be out of order, but is not";
-    return definition_flaw(stack, made);
+    if (auto what = definition_flaw(stack, made); !what.empty()) return what;
+    return certificate_flaw(stack, *layered);
 }
 
 int judge_file(const std::vector<std::string>& words) {

@@ -5,7 +5,8 @@
 // The promise: at each place a layer has the height of its surface, except where this is above
 // (below) the nearest harder layer that exists there and is higher (lower) in the order; then it
 // has the height of that layer. The layers of the mesh are judged by it, seen along z. Let d be the
-// stated deviation.
+// stated deviation. Layers with a minimum thickness promise something else, and (4) and (6) are
+// replaced by the rules of layered_thickness.hpp, R66 among them.
 #pragma once
 
 #include <span>
@@ -25,15 +26,16 @@ namespace terrane::verifier {
 ///     common part within 2 d of a border of a surface, where a step can be.
 /// (4) R63: each triangle of a layer is within d of its surface; or it belongs to a harder layer
 ///     that is higher (lower) in the order, too, and over each place of it the surface is not below
-///     (above) it, unless the triangle is within d of the surface there. For a triangle T of the
-///     layer and S of the surface, the distance of a point of T from S is convex, and the places
-///     where S is below T are a half-plane; so the corners of the common part decide.
-/// (5) R64: a layer exists where its surface does, and nowhere else, except in strips as wide as 4
-/// d
-///     along borders of surfaces. Each edge of the layer without a triangle on both sides is within
-///     d of such borders. The borders divide each triangle of the surface into convex cells. Where
-///     a cell is more than d away from its border, the layer exists in all of it or nowhere; the
-///     mean of its corners tells which, if that is more than 2 d away from the border.
+///     (above) it, unless the triangle is within d of the surface there, or the place within 2 d of
+///     a border of a surface. For a triangle T of the layer and S of the surface, the distance of a
+///     point of T from S is convex, and the places where S is below T are a half-plane; so the
+///     corners of the common part decide.
+/// (5) R64: a layer exists where its surface does, and nowhere else, except in strips as wide as
+///     4 d along borders of surfaces. Each edge of the layer without a triangle on both sides is
+///     within d of such borders; upright triangles are over no place, and may be on either side of
+///     all their edges. The borders divide each triangle of the surface into convex cells. Where a
+///     cell is more than d away from its border, the layer exists in all of it or nowhere; the mean
+///     of its corners tells which, if that is more than 2 d away from the border.
 /// (6) R65: each triangle faces the side that some surface faces that it is within d of.
 ///
 /// From (3) to (5) the promise follows up to d: by (4) a layer has the height of its surface, which

@@ -15,8 +15,12 @@ namespace {
 
 void parse_layered(const Node& node, Certificate& certificate) {
     const Node claim = node["layered"];
-    claim.expect_keys(
-        {"order", "deviation", "vertices", "triangles", "layers", "regions", "parents"});
+    if (claim.has("thickness"))
+        claim.expect_keys({"order", "deviation", "thickness", "vertices", "triangles", "layers",
+                           "regions", "parents"});
+    else
+        claim.expect_keys(
+            {"order", "deviation", "vertices", "triangles", "layers", "regions", "parents"});
     const auto layer = [](const Node& l) {
         l.expect_keys({"surface", "hardness"});
         return CertifiedLayer{l["surface"].index(), l["hardness"].number()};
@@ -27,7 +31,8 @@ void parse_layered(const Node& node, Certificate& certificate) {
         LayeredClaim{each(claim["vertices"], point), each(claim["triangles"], indices<3>),
                      lists(claim["layers"]),         lists(claim["regions"]),
                      lists(claim["parents"]),        each(claim["order"], layer),
-                     claim["deviation"].number()};
+                     claim["deviation"].number(),    std::nullopt};
+    if (claim.has("thickness")) certificate.layered->thickness = claim["thickness"].number();
     for (const CertifiedLayer& l : certificate.layered->order)
         if (l.surface >= surfaces) claim["order"].fail("a layer names no surface");
 }
