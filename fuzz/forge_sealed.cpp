@@ -19,7 +19,8 @@ namespace {
 
 using Added = std::vector<std::array<Point3, 3>>;
 
-constexpr double wide_limit = 0.125; ///< accepted with each model, and wider than its gaps
+constexpr double wide_limit = 0.125;   ///< accepted with each model, and wider than its gaps
+constexpr double widest_limit = 0.328; ///< accepted with most models: a triangle can be missing
 
 /// The input triangles, and the input vertices, of a surface: given, then extended, then sealed.
 struct OwnInputs {
@@ -296,8 +297,8 @@ void leave_out(Certificate& c, const Arguments& n) {
             dropped.push_back(t);
     std::sort(dropped.begin(), dropped.end());
     dropped.erase(std::unique(dropped.begin(), dropped.end()), dropped.end());
-    if (n.d % 4 < 2)
-        for (SealedPart& part : c.sealed->surfaces) part.limit = std::max(part.limit, wide_limit);
+    const double limit = n.d % 4 < 2 ? widest_limit : n.d % 4 == 2 ? wide_limit : 0;
+    for (SealedPart& part : c.sealed->surfaces) part.limit = std::max(part.limit, limit);
     if (!c.rounded || n.c % 4 == 1) return;
     if (n.c % 4 == 0)
         drop_children(c.rounded->triangles, c.rounded->parents_of, &c.rounded->regions_of, input);
