@@ -129,6 +129,26 @@ Forgery with_thickness(const std::string& name, const Json& thickness, const std
         name, [=](Json& m) { m["thickness"] = thickness; }, rule);
 }
 
+/// Adds an upright triangle on an edge of a layer along x = 0, where all surfaces end.
+void add_upright(Json& m, int layer, double height) {
+    for (std::size_t t = 0; t < m["triangles"].size(); ++t) {
+        if (m["layers"][t] != Json{layer}) continue;
+        std::vector<std::size_t> edge;
+        for (const Json& v : m["triangles"][t])
+            if (layer_coordinate(m, v.get<std::size_t>(), 0) == 0)
+                edge.push_back(v.get<std::size_t>());
+        if (edge.size() != 2) continue;
+        Json top = m["vertices"][edge[0]];
+        shift_number(top[2], height);
+        const std::size_t v = m["vertices"].size();
+        m["vertices"].push_back(top);
+        m["triangles"].push_back({edge[0], edge[1], v});
+        for (const char* list : {"layers", "regions", "parents"}) m[list].push_back(m[list][t]);
+        return;
+    }
+    FAIL("the layer has no edge along x = 0");
+}
+
 /// Gives the middle layer the triangles of another one, where this exists, and removes its own.
 void put_middle_on(Json& m, int other) {
     erase_all(m, {1});
@@ -328,6 +348,9 @@ TEST_CASE("thick layers: forged heights", "[layers]") {
                 "what hangs below a harder layer is turned over",
                 [](Json& m) { turn_over(m, held_triangle(thick_layers(), 1, Held::by_upper)); },
                 "R65"),
+            layered(
+                "an upright triangle along the border", [](Json& m) { add_upright(m, 1, 0.25); },
+                "R63"),
             layered(
                 "a larger deviation, for a corner moved as far",
                 [](Json& m) {
