@@ -365,6 +365,17 @@ def forge_kind(models=2, more=0):
                bytes(change * (most - 1)) + bytes([kind % models]))
 
 
+def forge_sealed():
+    """More for what surfaces were sealed with: parts that were dropped are kept, and input triangles left
+    out (forge_sealed.cpp), in each of the four models and at several places."""
+    yield from forge_kind(4, 9)
+    for name, kind in (("kept", 32), ("left_out", 39)):
+        for model in range(4):
+            for place in range(4):
+                change = bytes([kind, 0, (53 * place + 90 * model) % 256, 0, 5 * place, 3, 2 + place, 0])
+                yield (f"{name}_{model}_{place}", bytes([3]) + change + bytes(16) + bytes([model]))
+
+
 def other_programs():
     """Small files that VTK, gmsh and meshio wrote, by format, and DXF and GeoJSON as others write them."""
     data = pathlib.Path(__file__).parent.parent / "tests" / "data" / "other_programs"
@@ -388,7 +399,7 @@ def main():
                "forge_arrangement": forge, "forge_volumes": forge_kind, "forge_tetrahedra": forge_kind,
                "forge_improved": forge_kind, "forge_filled": forge_kind,
                "forge_layered": lambda: forge_kind(5), "forge_cut": lambda: forge_kind(4, 1),
-               "forge_sealed": lambda: forge_kind(4, 9),
+               "forge_sealed": forge_sealed,
                "arrange": soups, "rounding": soups, "regions": soups, "volumes": soups, "tetrahedra": soups}
     seeds = {t: dict(make()) for t, make in targets.items()}
     for fmt, files in (FILES | other_programs()).items():

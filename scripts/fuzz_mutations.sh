@@ -73,8 +73,11 @@ while IFS='~' read -r -u 3 name target file change breaks; do
         what="does not compile: see $scratch/build.log"
     else
         found=$(time_to_find "$target")
-        what=$(grep -aE '^FOUND|ERROR: |runtime error|\.obj: R[0-9]' "$scratch/$target.log" | head -1 |
-            sed -E 's/^FOUND: //; s/^==[0-9]+== *ERROR: //; s/.*runtime error/runtime error/' | cut -c1-70)
+        what="not found"
+        [[ -z $found ]] ||
+            what=$(grep -aE '^FOUND|ERROR: |runtime error|\.obj: R[0-9]' "$scratch/$target.log" | head -1 |
+                sed -E 's/^FOUND: //; s/^==[0-9]+== *ERROR: //; s/.*runtime error/runtime error/' |
+                cut -c1-70)
     fi
     mv "$scratch/$file.kept" "$scratch/$file"
     touch "$scratch/$file"
