@@ -46,7 +46,8 @@ struct FillOptions {
     double mesh_size = 0;                       ///< 0: the median edge of the hole's border
     std::size_t rings = KrigingOptions{}.rings; ///< of triangles round the hole, data of kriging
     double gap_slope = GapRule{}.slope;         ///< GapRule::slope
-    bool isotropic = false;                     ///< the variogram is the same in all directions
+    bool isotropic = false;                     ///< the variogram of kriging is the same in all
+                                                ///< directions
     bool bridge = false;                        ///< whether fault gaps are filled, too
     std::optional<double> smoothing{};          ///< RbfOptions::smoothing
 };

@@ -178,6 +178,15 @@ Status read_smoothing(FillCommand& command) {
     return Done{};
 }
 
+/// Refuses options that --method rbf would not heed.
+Status refuse_for_rbf(const CLI::App& app, const FillCommand& command) {
+    if (command.method != "rbf") return Done{};
+    for (const char* const name : {"--model", "--isotropic", "--rings"})
+        if (app.count(name) > 0)
+            return Error{ErrorCode::bad_option, "is of --method kriging", name};
+    return Done{};
+}
+
 Result<ExitStatus> fill_files(const FillCommand& command, Session& session) {
     Stopwatch total;
     const auto outputs = plan(command);
@@ -227,15 +236,16 @@ void add_method(CLI::App& app, FillCommand& command) {
                    "kriging, for z = f(x, y), or rbf, for any surface (default: kriging)")
         ->check(CLI::IsMember({"kriging", "rbf"}).description(""))
         ->type_name("METHOD");
-    app.add_option("--model", command.model,
-                   "Of the variogram: auto, spherical, exponential, gaussian, matern, power "
-                   "(default: auto, "
-                   "what fits best)")
+    app.add_option(
+           "--model", command.model,
+           "Of the variogram of kriging: auto, spherical, exponential, gaussian, matern, power "
+           "(default: auto, "
+           "what fits best)")
         ->check(CLI::IsMember({"auto", "spherical", "exponential", "gaussian", "matern", "power"})
                     .description(""))
         ->type_name("MODEL");
     app.add_flag("--isotropic", command.settings.isotropic,
-                 "The variogram is the same in all directions");
+                 "The variogram of kriging is the same in all directions");
     app.add_option("--smoothing", command.smoothing,
                    "Of rbf: none; auto, as much as predicts data best from others; or the root "
                    "mean square by which data may be missed (default: none)")
@@ -246,7 +256,7 @@ void add_method(CLI::App& app, FillCommand& command) {
         ->check(CLI::PositiveNumber.description(""))
         ->type_name("LENGTH");
     app.add_option("--rings", command.settings.rings,
-                   "Rings of triangles round the hole that are data (default: 5)")
+                   "Rings of triangles round the hole that are data of kriging (default: 5)")
         ->check(CLI::Range(1U, 1000U).description(""))
         ->type_name("N");
 }
@@ -273,7 +283,9 @@ Command fill_command(CLI::App& program) {
     add_threads(*app, options->files);
     add_stats(*app, options->files);
     app->footer(fill_footer);
-    return {app, [options] {
+    return {app, [app, options] {
+                if (const auto good = refuse_for_rbf(*app, *options); !good)
+                    return fail(good.error());
                 if (const auto read = read_smoothing(*options); !read) return fail(read.error());
                 Session session(options->files.threads);
                 const auto status = fill_files(*options, session);

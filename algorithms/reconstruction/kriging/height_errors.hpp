@@ -17,22 +17,30 @@ namespace terrane {
 /// a standard deviation; so another estimate is expected to be wrong by the root of the variance
 /// plus the square of its distance from that mean.
 ///
-/// At most 400 data take part, well spread. The variogram is chosen and calibrated as for kriging:
-/// by restricted likelihood, and by leaving out blocks as wide as the hole. Cost: 80 times n^3 for
-/// n = 128, n^3 / 3 for n = 400, and 400^2 per place.
+/// At most 300 data take part, half of them on the border, well spread. The variogram is chosen and
+/// calibrated as for kriging: by restricted likelihood, and by leaving out blocks as wide as the
+/// hole. Cost: 80 times n^3 for n = 128, n^3 / 3 for n = 300, and 300^2 per place.
 class HeightErrors {
 public:
     /// `data`: heights z over x and y, those on the border of the hole first; `radius`: of a disk
     /// with the hole's area. Useless if the run is stopped.
     HeightErrors(std::span<const Point3> data, std::size_t border, double radius, const Run& run);
     HeightErrors(HeightErrors&&) noexcept;
+    HeightErrors& operator=(HeightErrors&&) noexcept;
     ~HeightErrors();
 
     /// Computes the expected error of each height z; NaN if there are too few data to tell.
     [[nodiscard]] std::vector<double> at(std::span<const Point3> heights, const Run& run) const;
 
-    /// Standard deviation of the noise of single data, by the variogram's nugget.
+    /// Root mean square error of blocks as wide as the hole that were left out; NaN if there were
+    /// none.
+    [[nodiscard]] double validated() const;
+
+    /// Standard deviation of single data.
     [[nodiscard]] double noise() const;
+
+    /// Tells whether there are enough data for expected errors: 20.
+    [[nodiscard]] bool determined() const;
 
 private:
     struct State;

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -18,10 +20,12 @@
 #include <terrane/algorithms/mesh/triangle_tree.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/reconstruction/holes/flatness.hpp>
+#include <terrane/algorithms/reconstruction/kriging/flat_hole.hpp>
 #include <terrane/algorithms/reconstruction/rbf/detail/constants.hpp>
 #include <terrane/algorithms/reconstruction/rbf/detail/data.hpp>
 #include <terrane/algorithms/reconstruction/rbf/detail/error.hpp>
 #include <terrane/algorithms/reconstruction/rbf/detail/fit.hpp>
+#include <terrane/algorithms/reconstruction/rbf/detail/heights.hpp>
 #include <terrane/algorithms/reconstruction/rbf/detail/zero_level.hpp>
 
 namespace terrane {
@@ -118,7 +122,7 @@ private:
     std::map<Cell, Ball> inside_; ///< per cell: the last ball that contains no excluded point
 };
 
-/// Step (5): triangulates the zero level.
+/// Step (6): triangulates the zero level.
 Result<Surface> mesh_zero_level(const Implicit& f, const RbfData& data, const TriangleTree& tree,
                                 double size, const Run& run) {
     DomainMask outside(data, tree, size);
@@ -131,23 +135,35 @@ Result<Surface> mesh_zero_level(const Implicit& f, const RbfData& data, const Tr
     return zero_level(function, options, run);
 }
 
-/// Computes the expected error at each place; 0 over the surface.
-std::vector<double> expected_error_at(std::span<const Point3> places, const RbfData& data,
-                                      const RbfChoice& choice, double nugget, const Run& run) {
-    std::vector<double> expected_error(places.size(), no_number);
-    if (!std::isfinite(choice.expected)) return expected_error;
-    const RbfError error(data, choice.form.polynomial, 0, nugget);
-    expected_error = error.at(places, false, run);
-    for (double& d : expected_error) d *= choice.expected;
-    return expected_error;
+/// A function whose zero level fills the hole, and what is known of it.
+struct FittedLevel {
+    Implicit f;                     ///< of a surface that is no graph
+    std::optional<HeightFit> graph; ///< none if the data are no graph
+    double precision = no_number;   ///< without errors: factor of the power function
+    RbfPolynomial polynomial;       ///< of the power function
+    double validated = no_number;   ///< root mean square error at data left out
+    std::string model;              ///< described
+};
+
+/// Computes how precisely the level is known at each place: its expected error, or else the power
+/// function, scaled to what the form missed of data left out; 0 over the surface. The latter tells
+/// how small triangles need be; for an expected error it is too rough.
+std::vector<double> precision_at(std::span<const Point3> places, const RbfData& data,
+                                 const FittedLevel& level, const Run& run) {
+    if (level.graph) return expected_errors(*level.graph, places, run);
+    if (!std::isfinite(level.precision)) return std::vector<double>(places.size(), no_number);
+    const RbfError error(data, level.polynomial, 0, level.f.nugget);
+    auto precision = error.at(places, false, run);
+    for (double& d : precision) d *= level.precision;
+    return precision;
 }
 
 /// The zero level over the hole, and the data it comes from.
 struct Level {
+    const FittedLevel& fitted;
     const Implicit& f;
     const RbfData& data;
     const TriangleTree& tree; ///< of the data's triangles
-    const RbfChoice& choice;
 };
 
 /// Tells whether the triangles cut corners at the border: whether the zero level there is farther
@@ -173,11 +189,13 @@ bool is_too_flat(const Surface& mesh, const Level& level, double size, const Run
         const Point3 &p = mesh.vertices[a], &q = mesh.vertices[b], m = detail::middle_of(p, q);
         const double over = constants.over_surface * size;
         if (level.tree.distance(m, over) < over) continue; // over the surface
-        sags.push_back((f(m) - (f(p) + f(q)) / 2) / length(f.gradient(m)));
-        middles.push_back(m);
+        const Point3 g = f.gradient(m);
+        const double step = -f(m) / dot(g, g); // to the level, whose precision counts
+        sags.push_back((f(m) - (f(p) + f(q)) / 2) / length(g));
+        middles.push_back({m.x + step * g.x, m.y + step * g.y, m.z + step * g.z});
     }
-    return detail::flatness_outweighs(
-        sags, expected_error_at(middles, level.data, level.choice, level.f.nugget, run), size);
+    return detail::flatness_outweighs(sags, precision_at(middles, level.data, level.fitted, run),
+                                      size);
 }
 
 /// Triangulates the zero level with edges as long as those of the border, or a half or a quarter of
@@ -190,7 +208,9 @@ Result<Surface> mesh_to_size(const Level& level, const BorderLoop& loop, const R
     auto mesh = mesh_zero_level(level.f, level.data, level.tree, size, run);
     if (options.size > 0) return mesh;
     for (unsigned halvings = 0; halvings < detail::most_halvings && size / 2 >= least; ++halvings) {
-        if (!mesh || !(cuts_corners(mesh.value(), level, size) ||
+        // A graph may be steep, but its noise at the border is no corner.
+        const bool graph = level.fitted.graph.has_value();
+        if (!mesh || !((!graph && cuts_corners(mesh.value(), level, size)) ||
                        is_too_flat(mesh.value(), level, size, run)))
             break;
         auto finer = mesh_zero_level(level.f, level.data, level.tree, size / 2, run);
@@ -252,35 +272,123 @@ Status validate_options(const RbfOptions& o) {
     return Done{};
 }
 
+/// Describes a graph.
+std::string describe(const RbfReport& r, const HeightFit& fit, bool smoothed) {
+    auto text = fmt::format("heights by kernels {} and degree {}, {} of {} data are centres, ",
+                            name_of(fit.kernel), r.degree, r.centres, r.data);
+    text += smoothed ? fmt::format("smoothed with {:.0f} degrees of freedom", r.freedom)
+                     : fmt::format("noise {:.2g}", fit.noise);
+    text += std::isfinite(fit.validated)
+                ? fmt::format("; blocks as wide as the hole are missed by {:.4g}", fit.validated)
+                : "; no blocks as wide as the hole can be left out";
+    if (r.patches > 0)
+        text += fmt::format("; data missed by {:.2g} at most, {} patches, then by {:.2g}", r.missed,
+                            r.patches, r.largest_error);
+    return text;
+}
+
+/// Steps (2) and (5) of a graph; none if the data are no graph, or if the run is stopped.
+std::optional<FittedLevel> fit_graph(const RbfData& data, const RbfOptions& options,
+                                     RbfReport& report, const Run& run) {
+    const auto axes = graph_axes(data);
+    if (!axes) return std::nullopt;
+    auto fit = fit_heights(data, *axes, options, report, run);
+    if (!fit) return std::nullopt;
+    interpolate_noise(*fit, data, options, report, run);
+    FittedLevel level;
+    level.model = describe(report, *fit, options.smoothing.has_value());
+    level.validated = fit->validated;
+    level.graph = std::move(fit);
+    return level;
+}
+
+/// Steps (3) to (5) of any surface.
+Result<FittedLevel> fit_any(const RbfData& data, const TriangleTree& tree,
+                            const RbfOptions& options, RbfReport& report, const Run& run) {
+    report = {};
+    const auto choice = choose_form(data, options, run);
+    if (!choice) return choice.error();
+    const RbfForm& form = choice.value().form;
+    report.degree = form.polynomial.degree;
+    auto f = fit_hole(data, tree, form, options, report, run);
+    if (!f) return f.error();
+    FittedLevel level;
+    level.f = std::move(f).value();
+    level.precision = choice.value().expected;
+    level.polynomial = form.polynomial;
+    level.validated = choice.value().validated;
+    level.model = describe(report, form, form.smoothed || options.smoothing.has_value());
+    return level;
+}
+
+Error interrupted() {
+    return Error{ErrorCode::interrupted, "stopped on request", ""};
+}
+
 Result<Filling> fill_valid(const Surface& surface, const BorderLoop& loop,
                            const RbfOptions& options, RbfReport& report, const Run& run) {
     const auto data = collect_data(surface, loop, options.loops,
                                    {options.reach, options.rings, options.long_edges});
     if (!data) return data.error();
-    const auto choice = choose_form(data.value(), options, run);
-    if (!choice) return choice.error();
-    const RbfForm& form = choice.value().form;
-    report.degree = form.polynomial.degree;
     const TriangleTree tree(data.value().points, data.value().triangles);
-    const auto f = fit_hole(data.value(), tree, form, options, report, run);
-    if (!f) return f.error();
-    const Level level{f.value(), data.value(), tree, choice.value()};
+    auto fitted = fit_graph(data.value(), options, report, run);
+    if (run.stop.stop_requested()) return interrupted();
+    if (!fitted) {
+        auto any = fit_any(data.value(), tree, options, report, run);
+        if (!any) return any.error();
+        fitted.emplace(std::move(any).value());
+    }
+    const Level level{*fitted, fitted->graph ? fitted->graph->f : fitted->f, data.value(), tree};
     auto mesh = mesh_to_size(level, loop, options, report.size, run);
     if (!mesh) return mesh.error();
     Filling filling;
     filling.surface = std::move(mesh).value();
     filling.surface.name = surface.name;
     filling.surface.role = surface.role;
-    filling.expected_error = expected_error_at(filling.surface.vertices, data.value(),
-                                               choice.value(), f.value().nugget, run);
+    filling.expected_error = fitted->graph
+                                 ? expected_errors(*fitted->graph, filling.surface.vertices, run)
+                                 : std::vector(filling.surface.vertices.size(), no_number);
     filling.report.data = report.data;
     filling.report.interpolated = filling.surface.vertices.size();
     filling.report.area = area_of(filling.surface);
     filling.report.expected_error = mean_over_hole(filling, tree, report.size);
-    filling.report.validated_error = choice.value().validated;
-    filling.report.model = describe(report, form, form.smoothed || options.smoothing.has_value());
+    filling.report.validated_error = fitted->validated;
+    filling.report.model = fitted->model;
     if (options.long_edges) filling.report.model += "; with points on long edges";
-    if (run.stop.stop_requested()) return Error{ErrorCode::interrupted, "stopped on request", ""};
+    if (run.stop.stop_requested()) return interrupted();
+    return filling;
+}
+
+/// Step (7).
+Result<Filling> fill_valid_graph(const Surface& surface, const BorderLoop& loop,
+                                 const RbfOptions& options, RbfReport& report, const Run& run) {
+    const Error no_graph{ErrorCode::unsupported,
+                         "the surface is no graph z = f(x, y) next to the hole", ""};
+    const auto data =
+        collect_data(surface, loop, options.loops, {options.reach, options.rings, false});
+    if (!data) return data.error();
+    const auto axes = graph_axes(data.value());
+    if (!axes || std::fabs((*axes)[2].z) != 1) return no_graph;
+    auto hole = FlatHole::of(surface, loop, options.loops, 1);
+    if (!hole) return hole.error();
+    if (const auto built = hole->triangulate(options.size, run); !built) return built.error();
+    const auto fit = fit_heights(data.value(), *axes, options, report, run);
+    if (run.stop.stop_requested()) return interrupted();
+    if (!fit) return no_graph;
+    auto filling = hole->filled(
+        [&](std::span<const Point3> places) {
+            KnownHeights known{heights_of(*fit, places, run), {}};
+            std::vector<Point3> points(places.begin(), places.end());
+            for (std::size_t i = 0; i < points.size(); ++i) points[i].z = known.heights[i];
+            known.expected = expected_errors(*fit, points, run);
+            return known;
+        },
+        run);
+    if (!filling) return filling;
+    report.size = hole->mesh_size();
+    filling->report.data = report.data;
+    filling->report.validated_error = fit->validated;
+    filling->report.model = describe(report, *fit, options.smoothing.has_value());
     return filling;
 }
 
@@ -298,6 +406,14 @@ Result<Filling> fill_by_rbf(const Surface& surface, const BorderLoop& loop,
                             const RbfOptions& options, const Run& run) {
     RbfReport report;
     return fill_by_rbf(surface, loop, options, report, run);
+}
+
+Result<Filling> fill_graph_by_rbf(const Surface& surface, const BorderLoop& loop,
+                                  const RbfOptions& options, RbfReport& report, const Run& run) {
+    report = {};
+    if (const auto good = validate_options(options); !good) return good.error();
+    return guarded("for the filling", "fill",
+                   [&] { return fill_valid_graph(surface, loop, options, report, run); });
 }
 
 std::vector<NamedConstant> rbf_constants() {

@@ -1,7 +1,14 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/algorithms/reconstruction/rbf/rbf_join.hpp>
 
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <span>
 #include <utility>
+
+#include <terrane/algorithms/check/check.hpp>
+#include <terrane/algorithms/reconstruction/kriging/fill_kriging.hpp>
 
 namespace terrane {
 namespace {
@@ -16,6 +23,30 @@ Result<FilledByRbf> try_once(const Surface& surface, const BorderLoop& loop,
     return FilledByRbf{std::move(filling).value(), std::move(joined).value(), report};
 }
 
+/// Fills a graph exactly up to its border. None if that is impossible: the level may do better.
+std::optional<Result<FilledByRbf>> try_graph(const Surface& surface, const BorderLoop& loop,
+                                             const RbfOptions& options, const Run& run) {
+    FilledByRbf made;
+    auto filling = fill_graph_by_rbf(surface, loop, options, made.report, run);
+    if (!filling && filling.error().code == ErrorCode::interrupted) return filling.error();
+    if (!filling) return std::nullopt;
+    made.filling = std::move(*filling);
+    made.joined.surface = joined(surface, made.filling);
+    const auto checked = check(std::span(&made.joined.surface, 1), run);
+    if (!checked) return checked.error();
+    for (const ImproperContact& c : checked->contacts)
+        if (std::max(c.triangles[0], c.triangles[1]) >= surface.triangles.size())
+            return std::nullopt;
+    const auto all = static_cast<std::uint32_t>(made.filling.surface.vertices.size());
+    for (auto v = all - static_cast<std::uint32_t>(made.filling.report.interpolated); v < all; ++v)
+        made.joined.filling_vertices.push_back(v);
+    JoinReport& report = made.joined.report;
+    report.inside_triangles = report.new_triangles = made.filling.surface.triangles.size();
+    report.new_vertices = made.filling.report.interpolated;
+    report.area = made.filling.report.area;
+    return made;
+}
+
 bool may_be_joined_otherwise(const Error& error) {
     return error.code == ErrorCode::not_closed || error.code == ErrorCode::improper_contact;
 }
@@ -25,6 +56,8 @@ bool may_be_joined_otherwise(const Error& error) {
 Result<FilledByRbf> fill_and_join_by_rbf(const Surface& surface, const BorderLoop& loop,
                                          const RbfOptions& options, const JoinOptions& join,
                                          const Run& run) {
+    if (!options.long_edges)
+        if (auto graph = try_graph(surface, loop, options, run)) return std::move(*graph);
     auto filled = try_once(surface, loop, options, join, run);
     if (filled || options.long_edges || !may_be_joined_otherwise(filled.error())) return filled;
     RbfOptions again = options;

@@ -15,9 +15,11 @@ struct FilledByRbf {
     RbfReport report; ///< of the fit
 };
 
-/// Runs fill_by_rbf() and join_filling(). If the zero level does not pass along the border, so that
-/// it can't be joined, tries again with options.long_edges, as the hole may be at a cliff. Errors:
-/// those of both; those of the first attempt if neither can be joined.
+/// Runs fill_graph_by_rbf(). Where the surface is no graph z = f(x, y) next to the hole, or what
+/// was made meets another part of it, runs fill_by_rbf() and join_filling(). If the zero level does
+/// not pass along the border, so that it can't be joined, tries again with options.long_edges, as
+/// the hole may be at a cliff. Errors: those of both; those of the first attempt if neither can be
+/// joined.
 Result<FilledByRbf> fill_and_join_by_rbf(const Surface& surface, const BorderLoop& loop,
                                          const RbfOptions& options = {},
                                          const JoinOptions& join = {}, const Run& run = {});

@@ -9,13 +9,14 @@
 
 #include <Eigen/Dense>
 
+#include <terrane/algorithms/reconstruction/kriging/contrasts.hpp>
 #include <terrane/algorithms/reconstruction/kriging/detail/constants.hpp>
 #include <terrane/algorithms/reconstruction/kriging/detail/system.hpp>
 
 namespace terrane::kriging::detail {
 namespace {
 
-constexpr unsigned trend_degree = 1;
+constexpr unsigned trend_degree = 1, higher_degree = 2;
 
 std::vector<Point3> selected(std::span<const Point3> points,
                              const std::vector<std::uint32_t>& which) {
@@ -44,11 +45,24 @@ std::vector<Variogram> shapes(const VariogramFitOptions& options) {
     return powers;
 }
 
+/// Data from which a variogram is chosen.
+struct FittedData {
+    explicit FittedData(std::span<const Point3> data) {
+        const auto pairs = well_spread_pairs(data, constants.most_fitted, constants.close_pairs);
+        points = selected(data, pairs.chosen);
+        gap = pairs.gap;
+    }
+
+    std::vector<Point3> points;
+    double gap = 0; ///< median distance of neighbours; 0 if all data are taken
+};
+
 /// Searches the most likely variogram.
 class Search {
 public:
-    Search(std::span<const Point3> data, const VariogramFitOptions& options, const Run& run) :
-        likelihood_(data, trend_degree), options_(options), run_(run) {}
+    Search(const FittedData& data, const VariogramFitOptions& options, const Run& run) :
+        likelihood_(data.points, trend_degree), least_range_(constants.gaps_per_range * data.gap),
+        options_(options), run_(run) {}
 
     Variogram operator()() {
         Variogram none;
@@ -64,7 +78,9 @@ public:
             if (found.likelihood > best.likelihood + margin) best = found;
         }
         if (options_.anisotropy) turn(best);
-        return best.variogram.sill > 0 ? best.variogram : none;
+        if (!(best.variogram.sill > 0)) return none;
+        if (!options_.model) weigh(best);
+        return best.variogram;
     }
 
 private:
@@ -87,7 +103,8 @@ private:
         };
         const double most = shape.model == VariogramModel::gaussian ? constants.most_smooth_range
                                                                     : constants.most_range;
-        const double low = std::log(constants.least_range * likelihood_.extent()),
+        const double low = std::log(
+                         std::max(constants.least_range * likelihood_.extent(), least_range_)),
                      high = std::log(most * likelihood_.extent());
         if (shape.model == VariogramModel::power) { // its range is a mere unit
             attempt(std::log(likelihood_.extent()));
@@ -98,7 +115,7 @@ private:
         for (int k = 0; k < constants.range_halvings; ++k) {
             step /= 2;
             const double middle = best_at;
-            attempt(middle - step);
+            attempt(std::max(middle - step, low));
             attempt(std::min(middle + step, high));
         }
         return best;
@@ -131,7 +148,18 @@ private:
         if (turned.likelihood > best.likelihood + constants.worth_turned) best = turned;
     }
 
+    /// Reduces the sill as far as the data may as well be noise about the trend.
+    void weigh(Likely& best) const {
+        constexpr double parameters = 2; // sill and range
+        Variogram& v = best.variogram;
+        const NoiseAlone alone = likelihood_.noise_alone();
+        const double share = alone.probability_of({best.likelihood, v.sill, v.nugget}, parameters);
+        v.nugget = share * v.nugget + (1 - share) * std::min(alone.variance, options_.most_nugget);
+        v.sill *= std::max(share, constants.least_share);
+    }
+
     Likelihood likelihood_;
+    double least_range_; ///< shorter ones can't be told from noise
     const VariogramFitOptions& options_;
     const Run& run_;
 };
@@ -152,12 +180,14 @@ std::vector<std::vector<Eigen::Index>> blocks_of(std::span<const Point3> data,
     return blocks;
 }
 
-BlockValidation validate(const DataAroundHole& around, const Variogram& variogram, const Run& run) {
+BlockValidation validate(const DataAroundHole& around, const Variogram& variogram, unsigned degree,
+                         const Run& run) {
     BlockValidation result;
-    const auto data = selected(around.data, well_spread(around.data, constants.most_block_data));
+    const auto data =
+        selected(around.data, well_spread_in_plane(around.data, constants.most_block_data));
     const auto border = around.data.first(around.border);
-    const auto centres = selected(border, well_spread(border, constants.blocks));
-    const System system(data, variogram, trend_degree, run);
+    const auto centres = selected(border, well_spread_in_plane(border, constants.blocks));
+    const System system(data, variogram, degree, run);
     if (!system.ready()) return result;
     const Eigen::MatrixXd projection = system.projection();
     double squares = 0, ratios = 0;
@@ -180,42 +210,37 @@ BlockValidation validate(const DataAroundHole& around, const Variogram& variogra
     return result;
 }
 
-} // namespace
-
-std::vector<std::uint32_t> well_spread(std::span<const Point3> points, std::size_t count) {
-    std::vector<std::uint32_t> chosen;
-    if (points.size() <= count) {
-        for (std::uint32_t i = 0; i < points.size(); ++i) chosen.push_back(i);
-        return chosen;
+/// Takes a trend of degree 2 if blocks are then missed by far less, as those of a paraboloid.
+void raise_degree(const DataAroundHole& around, const FittedData& fitted, double most_nugget,
+                  ModelChoice& choice, const Run& run) {
+    if (!(choice.variogram.sill > 0) || choice.validation.blocks == 0) return;
+    const Likelihood likelihood(fitted.points, higher_degree);
+    Variogram variogram = choice.variogram;
+    variogram.sill = variogram.nugget = 0;
+    if (!likelihood.trend_only()) {
+        const Likely found = likelihood.at(choice.variogram, most_nugget);
+        if (!(found.variogram.sill > 0)) return;
+        variogram = found.variogram;
     }
-    Point3 mean;
-    for (const Point3& p : points) {
-        const auto n = static_cast<double>(points.size());
-        mean = {mean.x + p.x / n, mean.y + p.y / n, mean.z + p.z / n};
-    }
-    std::vector<double> distance;
-    for (const Point3& p : points) distance.push_back(std::hypot(p.x - mean.x, p.y - mean.y));
-    constexpr double equal = 1 - 1e-9; // distances differ by more than rounding
-    while (chosen.size() < count) {
-        const double farthest = *std::max_element(distance.begin(), distance.end());
-        if (!(farthest > 0)) break;
-        std::uint32_t best = 0;
-        double height = -1;
-        for (std::uint32_t i = 0; i < points.size(); ++i) {
-            const double off = std::abs(points[i].z - mean.z);
-            if (distance[i] < equal * farthest || off <= height) continue;
-            best = i;
-            height = off;
-        }
-        if (chosen.empty())
-            std::fill(distance.begin(), distance.end(), std::numeric_limits<double>::infinity());
-        chosen.push_back(best);
-        for (std::uint32_t i = 0; i < points.size(); ++i)
-            distance[i] = std::min(distance[i], std::hypot(points[i].x - points[best].x,
-                                                           points[i].y - points[best].y));
-    }
-    return chosen;
+    const auto validation = validate(around, variogram, higher_degree, run);
+    if (validation.blocks < choice.validation.blocks ||
+        !(validation.error < constants.worth_degree * choice.validation.error))
+        return;
+    choice.degree = higher_degree;
+    choice.variogram = variogram;
+    choice.validation = validation;
 }
+
+/// Computes the factor of nugget and sill. Blocks overlap, so that many count as `most_counted`;
+/// they are beside the hole, not in it: if they are missed by less than expected, the hole need not
+/// be.
+double calibration(const BlockValidation& validation) {
+    const double n = std::min(static_cast<double>(validation.blocks), constants.most_counted);
+    const double square = validation.ratio * validation.ratio;
+    return std::max(1.0, (n * square + constants.block_prior) / (n + constants.block_prior));
+}
+
+} // namespace
 
 ModelChoice choose_model(const DataAroundHole& around, const VariogramFitOptions& options,
                          const Run& run) {
@@ -224,13 +249,11 @@ ModelChoice choose_model(const DataAroundHole& around, const VariogramFitOptions
     choice.determined = around.data.size() >= constants.least_data;
     VariogramFitOptions fit = options;
     fit.anisotropy = options.anisotropy && choice.determined;
-    const auto some = selected(around.data, well_spread(around.data, constants.most_fitted));
-    choice.variogram = Search(some, fit, run)();
-    choice.validation = validate(around, choice.variogram, run);
-    const auto n = static_cast<double>(choice.validation.blocks);
-    const double square = choice.validation.ratio * choice.validation.ratio;
-    const double factor =
-        std::max(1.0, (n * square + constants.block_prior) / (n + constants.block_prior));
+    const FittedData fitted(around.data);
+    choice.variogram = Search(fitted, fit, run)();
+    choice.validation = validate(around, choice.variogram, choice.degree, run);
+    if (choice.determined) raise_degree(around, fitted, options.most_nugget, choice, run);
+    const double factor = calibration(choice.validation);
     choice.variogram.sill *= factor;
     choice.variogram.nugget *= factor;
     return choice;

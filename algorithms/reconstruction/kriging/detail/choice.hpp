@@ -40,14 +40,10 @@ struct DataAroundHole {
 /// matern and gaussian, or of options.model alone; the nugget among them is the noise of the data.
 /// A gaussian model must be more likely by a margin, as must anisotropy. Then blocks as wide as the
 /// hole are left out in turn: if they are missed by more than the model expects, nugget and sill
-/// grow by the square of that ratio. The model counts for 2 blocks in it. The trend has degree 1.
+/// grow by the square of that ratio. The model counts for 2 blocks in it, and all blocks for at
+/// most 12. The trend has degree 1, or 2 if blocks are then missed by less than a tenth.
 /// Stops early if the run is stopped; the choice is of no use then.
 ModelChoice choose_model(const DataAroundHole& around, const VariogramFitOptions& options,
                          const Run& run);
-
-/// Selects `count` points, each as far as possible from those before it in x and y; the first one
-/// is farthest from the mean. Of points as far as each other the one farthest from the mean height
-/// is taken, so that neither the order of the points decides nor the direction of the axes.
-std::vector<std::uint32_t> well_spread(std::span<const Point3> points, std::size_t count);
 
 } // namespace terrane::kriging::detail

@@ -16,8 +16,8 @@ struct KrigingConstants {
     double worth_anisotropy = 0.8;
     /// With fewer data, validation errors do not decide.
     std::size_t least_data = 20;
-    /// Patches that are left out in turn.
-    std::size_t blocks = 12;
+    /// Blocks that are left out in turn.
+    std::size_t blocks = 32;
     /// Classes of the experimental variogram by distance.
     std::size_t distance_classes = 15;
     /// Classes of the experimental variogram by direction, 15 degrees each.
@@ -76,7 +76,11 @@ struct KrigingConstants {
     double first_growth = 64;
     /// Data from which the variogram is estimated, well spread. Larger: slower, n^3 for each
     /// variogram that is tried.
-    std::size_t most_fitted = 128;
+    std::size_t most_fitted = 96;
+    /// Of these data, those whose nearest neighbour is taken as well.
+    std::size_t close_pairs = 48;
+    /// Least range that is tried, in median distances of such neighbours.
+    double gaps_per_range = 3;
     /// By how much the log-likelihood of a gaussian model, which is infinitely smooth, must exceed
     /// that of others.
     double worth_gaussian = 8;
@@ -100,6 +104,8 @@ struct KrigingConstants {
     int noise_steps = 48;
     /// How often the ratio of nuggets is halved about the most likely one.
     int noise_halvings = 5;
+    /// Least factor of a sill whose data may as well be noise.
+    double least_share = 1e-6;
     /// Ratio of diagonal entries below which a trend is not determined by the data.
     double trend_singular = 1e-10;
     /// Distance of the data from the trend, in largest heights, below which it is rounding.
@@ -108,12 +114,16 @@ struct KrigingConstants {
     std::size_t most_block_data = 300;
     /// Blocks of the expected error that the model itself counts for in the calibration.
     double block_prior = 2;
+    /// Blocks that all of them count for at most in the calibration, since they overlap.
+    double most_counted = 12;
+    /// Share of the error of blocks below which a trend of degree 2 is taken.
+    double worth_degree = 0.1;
     /// A block with more than this share of the data is not left out.
     double most_of_all = 0.7;
     /// Data that determine standard deviations together where all of them would take too long.
     std::size_t most_deviations = 600;
     /// Data that determine the expected errors of another method's heights.
-    std::size_t most_error_data = 400;
+    std::size_t most_error_data = 300;
     /// Multiplications between looks at the stop token.
     double operations_per_check = 5e8;
     /// Multiplications above which all of them would take too long.
@@ -170,6 +180,8 @@ inline std::vector<NamedConstant> named_constants() {
         {"most_border_samples", constants.most_border_samples},
         {"first_growth", constants.first_growth},
         {"most_fitted", static_cast<double>(constants.most_fitted)},
+        {"close_pairs", static_cast<double>(constants.close_pairs)},
+        {"gaps_per_range", constants.gaps_per_range},
         {"worth_gaussian", constants.worth_gaussian},
         {"worth_turned", constants.worth_turned},
         {"least_range", constants.least_range},
@@ -181,10 +193,13 @@ inline std::vector<NamedConstant> named_constants() {
         {"most_noise", constants.most_noise},
         {"noise_steps", static_cast<double>(constants.noise_steps)},
         {"noise_halvings", static_cast<double>(constants.noise_halvings)},
+        {"least_share", constants.least_share},
         {"trend_singular", constants.trend_singular},
         {"trend_rounding", constants.trend_rounding},
         {"most_block_data", static_cast<double>(constants.most_block_data)},
         {"block_prior", constants.block_prior},
+        {"most_counted", constants.most_counted},
+        {"worth_degree", constants.worth_degree},
         {"most_of_all", constants.most_of_all},
         {"most_deviations", static_cast<double>(constants.most_deviations)},
         {"most_error_data", static_cast<double>(constants.most_error_data)},

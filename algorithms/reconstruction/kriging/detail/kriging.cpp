@@ -11,6 +11,7 @@
 #include <tbb/parallel_for.h>
 
 #include <terrane/algorithms/core/parallel.hpp>
+#include <terrane/algorithms/reconstruction/kriging/contrasts.hpp>
 #include <terrane/algorithms/reconstruction/kriging/detail/choice.hpp>
 #include <terrane/algorithms/reconstruction/kriging/detail/constants.hpp>
 #include <terrane/algorithms/reconstruction/kriging/detail/flat_cloud.hpp>
@@ -207,7 +208,7 @@ std::vector<Estimate> Kriging::at(std::span<const Point3> places, const Run& run
     if (s.system && n * n * static_cast<double>(places.size()) > constants.most_operations &&
         s.data.size() > constants.most_deviations) {
         std::vector<Point3> some;
-        for (const auto i : well_spread(s.data, constants.most_deviations))
+        for (const auto i : well_spread_in_plane(s.data, constants.most_deviations))
             some.push_back(s.data[i]);
         thinned = std::make_unique<System>(some, s.variogram, s.trend_degree, run);
         if (thinned->ready()) deviations = thinned.get();

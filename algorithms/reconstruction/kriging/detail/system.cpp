@@ -6,8 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include <Eigen/Eigenvalues>
-
+#include <terrane/algorithms/reconstruction/kriging/contrasts.hpp>
 #include <terrane/algorithms/reconstruction/kriging/detail/constants.hpp>
 
 namespace terrane::kriging::detail {
@@ -58,22 +57,6 @@ MatrixXd TrendTerms::matrix(std::span<const Point3> data) const {
         terms.row(i) = at(p.x, p.y);
     }
     return terms;
-}
-
-bool cholesky(MatrixXd& matrix, const Run& run) {
-    constexpr Index panel = 128;
-    const Index n = matrix.rows();
-    for (Index k = 0; k < n; k += panel) {
-        if (run.stop.stop_requested()) return false;
-        const Index width = std::min(panel, n - k), rest = n - k - width;
-        Eigen::Ref<MatrixXd> corner = matrix.block(k, k, width, width);
-        if (Eigen::internal::llt_inplace<double, Eigen::Lower>::blocked(corner) != -1) return false;
-        if (rest == 0) break;
-        Eigen::Ref<MatrixXd> below = matrix.block(k + width, k, rest, width);
-        corner.transpose().triangularView<Eigen::Upper>().solveInPlace<Eigen::OnTheRight>(below);
-        matrix.bottomRightCorner(rest, rest).selfadjointView<Eigen::Lower>().rankUpdate(below, -1);
-    }
-    return true;
 }
 
 System::System(std::span<const Point3> data, const Variogram& model, unsigned degree,
@@ -213,42 +196,6 @@ Likelihood::Likelihood(std::span<const Point3> data, unsigned degree) :
     extent_ = std::hypot(high.x - low.x, high.y - low.y);
 }
 
-namespace {
-
-/// A symmetric tridiagonal matrix and a vector in its coordinates.
-struct Tridiagonal {
-    VectorXd diagonal, beside, values;
-};
-
-/// Log-likelihood and sill for a nugget of `noise` sills.
-struct Profile {
-    double likelihood = -HUGE_VAL;
-    double sill = 0;
-};
-
-Profile profile(const Tridiagonal& t, double noise) {
-    const Index n = t.diagonal.size();
-    double pivot = 0, carried = 0, squares = 0, logarithms = 0, product = 1;
-    for (Index i = 0; i < n; ++i) {
-        const double ratio = i == 0 ? 0 : t.beside[i - 1] / pivot;
-        pivot = t.diagonal[i] + noise - (i == 0 ? 0 : ratio * t.beside[i - 1]);
-        if (!(pivot > 0)) return {};
-        carried = t.values[i] - ratio * carried;
-        squares += carried * carried / pivot;
-        product *= pivot;
-        if (product < 1e-200 || product > 1e200) { // a logarithm for many pivots at a time
-            logarithms += std::log(product);
-            product = 1;
-        }
-    }
-    logarithms += std::log(product);
-    const double sill = squares / static_cast<double>(n);
-    if (!(sill > 0)) return {};
-    return {-(static_cast<double>(n) * std::log(sill) + logarithms) / 2, sill};
-}
-
-} // namespace
-
 Likely Likelihood::at(const Variogram& shape, double most_nugget) const {
     Variogram unit = shape;
     unit.nugget = 0;
@@ -274,32 +221,12 @@ Likely Likelihood::at(const Variogram& shape, double most_nugget) const {
     kernel.applyOnTheRight(qr_.householderQ());
     const Index m = n - terms_;
     if (m < 2) return {};
-    const Eigen::Tridiagonalization<MatrixXd> form(kernel.bottomRightCorner(m, m));
-    Tridiagonal t{form.diagonal(), form.subDiagonal(), contrasts_};
-    t.values.applyOnTheLeft(form.matrixQ().adjoint());
-    const double scale = std::max(t.diagonal.mean(), std::numeric_limits<double>::min());
-    Likely best;
-    double best_at = 0;
-    const double low = std::log(constants.least_noise), high = std::log(constants.most_noise);
-    const auto attempt = [&](double exponent) {
-        const double noise = scale * std::exp(exponent);
-        const Profile found = profile(t, noise);
-        if (!(found.likelihood > best.likelihood)) return;
-        if (exponent > low && found.sill * noise > most_nugget) return;
-        best.likelihood = found.likelihood;
-        best.variogram = unit;
-        best.variogram.sill = found.sill;
-        best.variogram.nugget = found.sill * noise;
-        best_at = exponent;
-    };
-    double step = (high - low) / constants.noise_steps;
-    for (int k = 0; k <= constants.noise_steps; ++k) attempt(low + k * step);
-    for (int k = 0; k < constants.noise_halvings; ++k) {
-        step /= 2;
-        const double middle = best_at;
-        attempt(std::max(low, middle - step));
-        attempt(middle + step);
-    }
+    const LikelyNugget found =
+        TridiagonalKernel(kernel.bottomRightCorner(m, m), contrasts_).most_likely(most_nugget);
+    if (!(found.sill > 0)) return {};
+    Likely best{found.likelihood, unit};
+    best.variogram.sill = found.sill;
+    best.variogram.nugget = found.nugget;
     return best;
 }
 

@@ -17,6 +17,7 @@
 #include <Eigen/QR>
 
 #include <terrane/algorithms/core/run.hpp>
+#include <terrane/algorithms/reconstruction/kriging/contrasts.hpp>
 #include <terrane/algorithms/reconstruction/kriging/variogram.hpp>
 #include <terrane/kernel/point.hpp>
 
@@ -75,11 +76,6 @@ private:
     bool ready_ = false;
 };
 
-/// Replaces the lower triangle of a symmetric matrix by its Cholesky factor, in panels of 128
-/// columns; looks at the stop token before each. Returns whether the matrix is positive definite
-/// and the run was not stopped. Cost: n^3 / 3.
-bool cholesky(Eigen::MatrixXd& matrix, const Run& run);
-
 /// The variogram of one shape with the largest restricted likelihood.
 struct Likely {
     double likelihood = -HUGE_VAL; ///< its logarithm, up to a constant of the data
@@ -98,6 +94,9 @@ public:
 
     /// Tells whether the data are the trend up to rounding.
     [[nodiscard]] bool trend_only() const { return trend_only_; }
+    /// The variance of the data about the trend, if that leaves nothing but noise, and its
+    /// likelihood.
+    [[nodiscard]] NoiseAlone noise_alone() const { return NoiseAlone(contrasts_); }
     /// Extent of the data: the diagonal of their bounding box.
     [[nodiscard]] double extent() const { return extent_; }
 

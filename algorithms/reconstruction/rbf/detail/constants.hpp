@@ -73,12 +73,13 @@ struct RbfConstants {
     /// Share of a distance bound that is used; the rest exceeds rounding errors.
     double mask_sure = 0.99;
     /// Edges at which flatness is judged.
-    std::size_t most_sags = 1024;
+    std::size_t most_sags = 256;
     /// Degrees of polynomials along the surface that are tried.
     std::array<unsigned, 6> degrees{1, 2, 3, 4, 6, 8};
     /// Degrees of polynomials in space that are tried.
     std::array<unsigned, 5> degrees_in_space{2, 3, 4, 5, 6};
-    /// Centres per term of a polynomial along the surface, at least. Larger: lower degrees.
+    /// Centres per term of a polynomial along the surface, at least; of a graph, trial data.
+    /// Larger: lower degrees.
     std::size_t centres_per_term = 3;
     /// Least number of centres at the start.
     std::size_t least_start = 10;
@@ -146,6 +147,40 @@ struct RbfConstants {
     double cut_corner = 0.25;
     /// Distance from the surface up to which the filling counts as over it, in edge lengths.
     double over_surface = 0.5;
+    /// Well-spread data from which the kernel and the degree of a graph are chosen. Larger: slower,
+    /// n^3.
+    std::size_t height_trial = 112;
+    /// Of these data, those whose nearest neighbour is taken as well.
+    std::size_t height_pairs = 48;
+    /// Blocks as wide as the hole that are left out of a graph in turn.
+    std::size_t height_blocks = 12;
+    /// Data that are left out of a graph in such blocks, well spread.
+    std::size_t height_validation = 300;
+    /// Least factor of a kernel whose data may as well be noise.
+    double least_share = 1e-6;
+    /// The model of kriging is believed up to so many times the error of the fit at such blocks.
+    double worth_own = 1.5;
+    /// Noise of the fit, in that of the model of kriging, above which its model is not believed.
+    double most_own_noise = 2;
+    /// Multiplications above which expected errors come from these data alone.
+    double most_operations = 5e9;
+    /// A block with more than this share of the data is not left out.
+    double most_of_all = 0.7;
+    /// Centres of a graph whose data are to be missed by a given amount.
+    std::size_t most_smoothed_heights = 600;
+    /// Slope between two data above which they are no graph: 87 degrees.
+    double steepest_graph = 20;
+    /// Distance of the data from a polynomial, in units, below which it is rounding.
+    double height_rounding = 1e-13;
+    /// How far what a graph misses of the data reaches into the hole, in median border edges.
+    /// Larger: noise enters the hole; much less: the filling has spikes at its border.
+    double noise_reach = 0.75;
+    /// First addition to the diagonal of a singular system of a graph, in its mean entries.
+    double least_addition = 1e-13;
+    /// Largest such addition.
+    double most_addition = 1e-7;
+    /// Growth of such additions.
+    double addition_growth = 100;
 };
 
 inline constexpr RbfConstants constants;
@@ -195,6 +230,22 @@ inline std::vector<NamedConstant> named_constants_of_fit() {
         {"least_levelled_shape", constants.least_levelled_shape},
         {"cut_corner", constants.cut_corner},
         {"over_surface", constants.over_surface},
+        {"height_trial", static_cast<double>(constants.height_trial)},
+        {"height_pairs", static_cast<double>(constants.height_pairs)},
+        {"height_blocks", static_cast<double>(constants.height_blocks)},
+        {"height_validation", static_cast<double>(constants.height_validation)},
+        {"least_share", constants.least_share},
+        {"worth_own", constants.worth_own},
+        {"most_own_noise", constants.most_own_noise},
+        {"most_operations", constants.most_operations},
+        {"most_of_all", constants.most_of_all},
+        {"most_smoothed_heights", static_cast<double>(constants.most_smoothed_heights)},
+        {"steepest_graph", constants.steepest_graph},
+        {"height_rounding", constants.height_rounding},
+        {"noise_reach", constants.noise_reach},
+        {"least_addition", constants.least_addition},
+        {"most_addition", constants.most_addition},
+        {"addition_growth", constants.addition_growth},
     };
 }
 

@@ -21,7 +21,7 @@ Point3 along(const Point3& p, double d, const Point3& direction) {
     return {p.x + d * direction.x, p.y + d * direction.y, p.z + d * direction.z};
 }
 
-/// Returns the number of centres with which step (2) starts.
+/// Returns the number of centres with which step (3) starts.
 std::size_t start_size(const RbfOptions& options) {
     return std::max(constants.least_start, options.most_centres / constants.start_part);
 }
@@ -50,6 +50,30 @@ struct Start {
     const TriangleTree& surface;
 };
 
+double tolerance_of(const RbfData& data, const RbfOptions& options) {
+    return options.tolerance > 0 ? options.tolerance : data.edge / 1000;
+}
+
+/// Computes the errors at each `step`th datum; 0 at the others.
+std::vector<double> errors_at_data(const Implicit& f, const RbfData& data, std::size_t step,
+                                   const Run& run) {
+    std::vector<double> errors(data.points.size(), 0);
+    for_ranges((errors.size() + step - 1) / step, run, [&](std::size_t a, std::size_t b) {
+        for (std::size_t i = a; i < b; ++i) errors[i * step] = f(data.points[i * step]);
+    });
+    return errors;
+}
+
+void note_errors(const std::vector<double>& errors, RbfReport& report) {
+    double most = 0, squares = 0;
+    for (const double e : errors) {
+        most = std::max(most, std::fabs(e));
+        squares += e * e;
+    }
+    report.largest_error = most;
+    report.rms_error = std::sqrt(squares / static_cast<double>(errors.size()));
+}
+
 class Fitter {
 public:
     Fitter(const RbfData& data, const Start& start, const RbfForm& form, const RbfOptions& options,
@@ -57,7 +81,7 @@ public:
         data_(data),
         start_(start), form_(form), options_(options), report_(report), run_(run) {}
 
-    /// Fits by steps (2) to (4); without step (4) unless `whole`.
+    /// Fits by steps (3) to (5); without step (5) unless `whole`.
     Result<Implicit> operator()(bool whole) {
         report_.data = data_.points.size();
         choose_start();
@@ -80,14 +104,13 @@ public:
             f.smooth = std::move(fit.value().function);
             report_.solution = fit.value().solution;
             report_.centres = centres_;
-            auto errors = errors_of(f);
-            if (some() > 1 && add_missed(errors)) continue;
-            make_up(f, std::move(errors));
+            if (some() > 1 && add_missed(errors_of(f))) continue;
+            interpolate_rest(f, data_, options_, {}, report_, run_);
             return f;
         }
     }
 
-    /// Fits without refinement and without step (4).
+    /// Fits without refinement and without step (5).
     Result<Implicit> quick() {
         choose_start();
         if (options_.smoothing) return smoothed(false);
@@ -99,7 +122,7 @@ public:
     }
 
 private:
-    /// Step (2): sets centres and offset constraints.
+    /// Step (3): sets centres and offset constraints.
     void choose_start() {
         is_centre_.assign(data_.points.size(), false);
         for (const std::uint32_t i : start_.centres) add_centre(i);
@@ -139,8 +162,8 @@ private:
         }
     }
 
-    /// Steps (3) and (4) with smoothing: all data, or a sufficient sample, determine the weights of
-    /// the centres of step (2).
+    /// Steps (4) and (5) with smoothing: all data, or a sufficient sample, determine the weights of
+    /// the centres of step (3).
     Result<Implicit> smoothed(bool whole) {
         std::vector<Point3> points(points_.begin(), points_.end());
         std::vector<double> values(values_.begin(), values_.end());
@@ -159,23 +182,12 @@ private:
         f.nugget = fit.value().nugget;
         report_.centres = centres_;
         report_.freedom = fit.value().freedom;
-        if (!whole) return f;
-        if (!options_.smoothing) {
-            make_up(f, errors_of(f));
-            return f;
-        }
-        note_errors(errors_of(f));
-        report_.missed = report_.largest_error;
+        if (whole) interpolate_rest(f, data_, options_, {}, report_, run_);
         return f;
     }
 
-    /// Computes the errors at each `step`th datum; 0 at the others.
     [[nodiscard]] std::vector<double> errors_of(const Implicit& f, std::size_t step = 1) const {
-        std::vector<double> errors(data_.points.size(), 0);
-        for_ranges((errors.size() + step - 1) / step, run_, [&](std::size_t a, std::size_t b) {
-            for (std::size_t i = a; i < b; ++i) errors[i * step] = f(data_.points[i * step]);
-        });
-        return errors;
+        return errors_at_data(f, data_, step, run_);
     }
 
     /// Returns the step at which a sample of data suffices for a trial or for more centres.
@@ -183,16 +195,13 @@ private:
         return std::max<std::size_t>(1, data_.points.size() / constants.enough_data);
     }
 
-    [[nodiscard]] double tolerance() const {
-        return options_.tolerance > 0 ? options_.tolerance : data_.edge / 1000;
-    }
-
-    /// Step (3): turns the data of largest error into centres, no two of them near each other.
+    /// Step (4): turns the data of largest error into centres, no two of them near each other.
     /// Returns false if all errors are tolerable or the centres are used up.
     bool add_missed(const std::vector<double>& errors) {
         std::vector<std::uint32_t> missed;
         for (std::uint32_t i = 0; i < errors.size(); ++i)
-            if (!is_centre_[i] && std::fabs(errors[i]) > tolerance()) missed.push_back(i);
+            if (!is_centre_[i] && std::fabs(errors[i]) > tolerance_of(data_, options_))
+                missed.push_back(i);
         if (missed.empty() || centres_ >= options_.most_centres) return false;
         std::sort(missed.begin(), missed.end(), [&](std::uint32_t a, std::uint32_t b) {
             const double x = std::fabs(errors[a]), y = std::fabs(errors[b]);
@@ -212,31 +221,6 @@ private:
         for (const std::uint32_t i : taken) add_centre(i);
         spacing_ *= constants.crowded;
         return true;
-    }
-
-    void note_errors(const std::vector<double>& errors) {
-        double most = 0, squares = 0;
-        for (const double e : errors) {
-            most = std::max(most, std::fabs(e));
-            squares += e * e;
-        }
-        report_.largest_error = most;
-        report_.rms_error = std::sqrt(squares / static_cast<double>(errors.size()));
-    }
-
-    /// Step (4): interpolates the errors that step (3) left, given per datum.
-    void make_up(Implicit& f, std::vector<double> errors) {
-        note_errors(errors);
-        report_.missed = report_.largest_error;
-        if (report_.missed <= tolerance()) return;
-        auto wanted = errors;
-        for (double& e : wanted) e = -e;
-        f.rest = RbfPatches(data_.points, wanted);
-        report_.patches = f.rest.size();
-        for_ranges(errors.size(), run_, [&](std::size_t a, std::size_t b) {
-            for (std::size_t i = a; i < b; ++i) errors[i] += f.rest(data_.points[i]);
-        });
-        note_errors(errors);
     }
 
     const RbfData& data_;
@@ -315,7 +299,7 @@ struct Trials {
     Start start;
 };
 
-/// Fits a form and measures its error at the data left out. `quick`: without step (3).
+/// Fits a form and measures its error at the data left out. `quick`: without step (4).
 Result<Trial> try_form(const Trials& trials, const RbfForm& form, bool quick, const Run& run) {
     RbfReport unused;
     const RbfData& data = trials.data;
@@ -331,7 +315,8 @@ Result<Trial> try_form(const Trials& trials, const RbfForm& form, bool quick, co
     return Trial{rms(missed), f.value().nugget};
 }
 
-/// Computes axes along and across the hole; the third is the mean normal of its border.
+} // namespace
+
 std::array<Point3, 3> axes_of(const RbfData& data) {
     Point3 n;
     for (std::size_t i = 0; i < data.next.size(); ++i) n = along(n, 1, data.normals[i]);
@@ -345,6 +330,8 @@ std::array<Point3, 3> axes_of(const RbfData& data) {
     u = {u.x / length_u, u.y / length_u, u.z / length_u};
     return {u, cross(n, u), n};
 }
+
+namespace {
 
 /// Computes the least cosine between normals and axis, ignoring the worst twentieth: noise tilts
 /// few normals, a fold tilts many.
@@ -415,9 +402,29 @@ std::vector<std::uint32_t> well_spread(const std::vector<Point3>& points, std::s
     return chosen;
 }
 
+void interpolate_rest(Implicit& f, const RbfData& data, const RbfOptions& options,
+                      const PatchFade& fade, RbfReport& report, const Run& run) {
+    auto errors = errors_at_data(f, data, 1, run);
+    note_errors(errors, report);
+    report.missed = report.largest_error;
+    if (options.smoothing || report.missed <= tolerance_of(data, options)) return;
+    auto wanted = errors;
+    for (double& e : wanted) e = -e;
+    f.rest = RbfPatches(data.points, wanted, fade);
+    report.patches = f.rest.size();
+    for_ranges(errors.size(), run, [&](std::size_t a, std::size_t b) {
+        for (std::size_t i = a; i < b; ++i) errors[i] += f.rest(data.points[i]);
+    });
+    note_errors(errors, report);
+}
+
 Result<Implicit> fit_hole(const RbfData& data, const TriangleTree& tree, const RbfForm& form,
                           const RbfOptions& options, RbfReport& report, const Run& run) {
     return Fitter(data, Start(data, tree, options), form, options, report, run)(true);
+}
+
+bool is_graph_along(const RbfData& data, const Point3& axis) {
+    return steepest_slope(data, axis) > constants.graph_cosine;
 }
 
 Result<RbfChoice> choose_form(const RbfData& data, const RbfOptions& options, const Run& run) {
@@ -441,7 +448,7 @@ Result<RbfChoice> choose_form(const RbfData& data, const RbfOptions& options, co
     }
     if (!options.smoothing &&
         !(least.missed <
-          constants.exact * data.radius)) { // with step (3), and with noise kept out of the
+          constants.exact * data.radius)) { // with step (4), and with noise kept out of the
                                             // hole
         for (const bool smoothed : {false, true}) {
             RbfForm form = best.form;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Fits the function whose zero level fills a hole: steps (2) to (4) of rbf.hpp.
+// Fits the function whose zero level fills a hole: steps (3) to (5) of rbf.hpp.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -30,8 +31,8 @@ struct RbfForm {
     bool along_axis = false; ///< offset constraints are along the polynomial's third axis, not
                              ///< along normals: f is a height, of which the polynomial can take
                              ///< more than of a distance
-    bool smoothed = false;   ///< step (3) smooths by generalised cross-validation, so that noise of
-                             ///< the data is left to step (4) and does not enter the hole
+    bool smoothed = false;   ///< step (4) smooths by generalised cross-validation, so that noise of
+                             ///< the data is left to step (5) and does not enter the hole
 };
 
 /// Fits the function. `tree`: of the data's triangles; `report` describes the fit. Errors: those of
@@ -55,9 +56,20 @@ struct RbfChoice {
                          ///< NaN if none could be left out
 };
 
+/// Computes axes along and across the hole; the third is the mean normal of its border.
+std::array<Point3, 3> axes_of(const RbfData& data);
+
+/// Tells whether the data are a graph over the plane across this axis.
+bool is_graph_along(const RbfData& data, const Point3& axis);
+
 /// Chooses the form with the least error at the data left out; a higher degree must be better by a
 /// tenth. Errors: interrupted.
 Result<RbfChoice> choose_form(const RbfData& data, const RbfOptions& options, const Run& run);
+
+/// Step (5): interpolates the errors that were left at the data, if any exceeds the tolerance;
+/// `fade` says how far they reach. With options.smoothing, reports them only.
+void interpolate_rest(Implicit& f, const RbfData& data, const RbfOptions& options,
+                      const PatchFade& fade, RbfReport& report, const Run& run);
 
 /// Selects up to `count` of the points marked in `of`, each as far as possible from those before
 /// it.

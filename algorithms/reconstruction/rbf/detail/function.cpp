@@ -8,11 +8,9 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Dense>
 #include <Eigen/QR>
-#include <mpfr.h>
 
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/reconstruction/rbf/detail/constants.hpp>
-#include <terrane/kernel/double_double.hpp>
 
 namespace terrane::rbf::detail {
 namespace {
@@ -20,20 +18,36 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-constexpr mpfr_prec_t residual_bits = 128;
+/// Replaces a squared distance of 0, where the logarithm is not defined.
+constexpr double no_square = std::numeric_limits<double>::min();
 
-/// A number of residual_bits, freed at the end of its scope.
-class Wide {
-public:
-    Wide() { mpfr_init2(number_, residual_bits); }
-    ~Wide() { mpfr_clear(number_); }
-    Wide(const Wide&) = delete;
-    Wide& operator=(const Wide&) = delete;
-    operator mpfr_ptr() { return number_; } // as MPFR's functions expect
-
-private:
-    mpfr_t number_;
+/// An unevaluated sum of two doubles, of about 106 bits. It tracks no error bound, unlike
+/// DoubleDouble, and takes a third of the time. Source: Dekker (1971).
+struct Pair {
+    double high = 0, low = 0;
 };
+
+/// Adds two doubles without error.
+Pair exact_sum(double a, double b) {
+    const double s = a + b, t = s - a;
+    return {s, (a - (s - t)) + (b - t)};
+}
+
+/// Multiplies two doubles without error, unless the product underflows.
+Pair exact_product(double a, double b) {
+    const double p = a * b;
+    return {p, std::fma(a, b, -p)};
+}
+
+Pair plus(const Pair& a, const Pair& b) {
+    const Pair s = exact_sum(a.high, b.high);
+    return exact_sum(s.high, s.low + (a.low + b.low));
+}
+
+Pair times(const Pair& a, const Pair& b) {
+    const Pair p = exact_product(a.high, b.high);
+    return exact_sum(p.high, p.low + (a.high * b.low + a.low * b.high));
+}
 
 struct System {
     Matrix points; ///< n x 3, scaled
@@ -41,9 +55,8 @@ struct System {
     Matrix terms; ///< n x m: terms of the polynomial at each point
 };
 
-/// The kernel of each pair j < i of points, by increasing i and j, as a sum of two doubles: to
-/// about 100 bits.
-using WideKernel = std::vector<std::array<double, 2>>;
+/// The kernel of each pair j < i of points, by increasing i and j: to about 100 bits.
+using WideKernel = std::vector<Pair>;
 
 WideKernel wide_kernel(const Matrix& points) {
     const Eigen::Index n = points.rows();
@@ -51,53 +64,45 @@ WideKernel wide_kernel(const Matrix& points) {
     kernel.reserve(static_cast<std::size_t>(n * (n - 1) / 2));
     for (Eigen::Index i = 0; i < n; ++i)
         for (Eigen::Index j = 0; j < i; ++j) {
-            DoubleDouble square;
+            Pair square;
             for (Eigen::Index k = 0; k < 3; ++k) {
-                const DoubleDouble d = DoubleDouble(points(i, k)) - DoubleDouble(points(j, k));
-                square = square + d * d;
+                const Pair d = exact_sum(points(i, k), -points(j, k));
+                square = plus(square, times(d, d));
             }
-            const double root = std::sqrt(square.value()); // followed by one Newton step
-            const DoubleDouble left = square - DoubleDouble(root) * DoubleDouble(root);
-            const DoubleDouble value =
-                square * (DoubleDouble(root) + DoubleDouble(left.value() / (2 * root)));
-            const double high = value.value();
-            kernel.push_back({high, (value - DoubleDouble(high)).value()});
+            const double root = std::sqrt(square.high); // followed by one Newton step
+            const Pair left = plus(square, exact_product(-root, root));
+            kernel.push_back(root > 0 ? times(square, exact_sum(root, left.high / (2 * root)))
+                                      : Pair{});
         }
     return kernel;
 }
 
-/// Computes values - (kernel weights + polynomial), each entry summed in 128 bits; something else
-/// if the run is stopped.
+/// Computes values - (kernel weights + polynomial), each entry summed in about 106 bits; something
+/// else if the run is stopped.
 Vector residual(const System& s, const WideKernel& kernel, const Vector& weights,
                 const Vector& polynomial, const Run& run) {
     const Eigen::Index n = s.values.size();
-    std::vector<Wide> sums(static_cast<std::size_t>(n)), factors(static_cast<std::size_t>(n));
-    const auto sum = [&](Eigen::Index i) -> Wide& { return sums[static_cast<std::size_t>(i)]; };
-    const auto factor = [&](Eigen::Index i) -> Wide& {
-        return factors[static_cast<std::size_t>(i)];
+    std::vector<Pair> sums(static_cast<std::size_t>(n));
+    const auto subtract = [&](Eigen::Index i, const Pair& product) {
+        Pair& sum = sums[static_cast<std::size_t>(i)];
+        sum = plus(sum, {-product.high, -product.low});
     };
-    Wide d, value;
-    for (Eigen::Index i = 0; i < n; ++i) mpfr_set_d(factor(i), weights[i], MPFR_RNDN);
     for (Eigen::Index i = 0; i < n; ++i) {
-        mpfr_set_d(sum(i), s.values[i], MPFR_RNDN);
-        for (Eigen::Index k = 0; k < polynomial.size(); ++k) {
-            mpfr_set_d(d, s.terms(i, k), MPFR_RNDN);
-            mpfr_mul_d(d, d, polynomial[k], MPFR_RNDN);
-            mpfr_sub(sum(i), sum(i), d, MPFR_RNDN);
-        }
+        sums[static_cast<std::size_t>(i)] = {s.values[i], 0};
+        for (Eigen::Index k = 0; k < polynomial.size(); ++k)
+            subtract(i, exact_product(s.terms(i, k), polynomial[k]));
     }
     auto pair = kernel.begin();
     for (Eigen::Index i = 0; i < n && !run.stop.stop_requested(); ++i)
         for (Eigen::Index j = 0; j < i; ++j, ++pair) { // the kernel is symmetric
-            mpfr_set_d(value, (*pair)[0], MPFR_RNDN);
-            mpfr_add_d(value, value, (*pair)[1], MPFR_RNDN);
-            mpfr_mul(d, value, factor(j), MPFR_RNDN);
-            mpfr_sub(sum(i), sum(i), d, MPFR_RNDN);
-            mpfr_mul(d, value, factor(i), MPFR_RNDN);
-            mpfr_sub(sum(j), sum(j), d, MPFR_RNDN);
+            subtract(i, times(*pair, {weights[j], 0}));
+            subtract(j, times(*pair, {weights[i], 0}));
         }
     Vector result(n);
-    for (Eigen::Index i = 0; i < n; ++i) result[i] = mpfr_get_d(sum(i), MPFR_RNDN);
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const Pair& sum = sums[static_cast<std::size_t>(i)];
+        result[i] = sum.high + sum.low;
+    }
     return result;
 }
 
@@ -230,14 +235,44 @@ void RbfFunction::terms_at(const std::array<double, 3>& p, double* terms) const 
     });
 }
 
+std::string_view name_of(RbfKernel kernel) {
+    switch (kernel) {
+    case RbfKernel::linear:
+        return "h";
+    case RbfKernel::thin_plate:
+        return "h^2 log h";
+    case RbfKernel::cubic:
+        break;
+    }
+    return "h^3";
+}
+
+void RbfFunction::set_graph(unsigned degree, const GraphParts& parts) {
+    basis_.degree = degree;
+    graph_ = true;
+    kernel_ = parts.kernel;
+    std::fill(z_.begin(), z_.end(), 0.0);
+    weights_.clear();
+    for (const double c : parts.weights) weights_.push_back(-c);
+    polynomial_.clear();
+    for (const double c : parts.polynomial) polynomial_.push_back(-c);
+    polynomial_.push_back(1); // of w
+}
+
 double RbfFunction::operator()(const Point3& p) const {
     if (polynomial_.empty()) return 0;
     const auto [u, v, w] = scaled(p);
     using Array = Eigen::Map<const Eigen::ArrayXd>;
     const auto n = static_cast<Eigen::Index>(x_.size());
     const Array cx(x_.data(), n), cy(y_.data(), n), cz(z_.data(), n), c(weights_.data(), n);
-    const auto square = (cx - u).square() + (cy - v).square() + (cz - w).square();
-    double sum = (c * square * square.sqrt()).sum();
+    const auto square = (cx - u).square() + (cy - v).square() + (cz - (graph_ ? 0 : w)).square();
+    double sum = 0;
+    if (kernel_ == RbfKernel::cubic)
+        sum = (c * square * square.sqrt()).sum();
+    else if (kernel_ == RbfKernel::linear)
+        sum = -(c * square.sqrt()).sum();
+    else
+        sum = (c * square * square.max(no_square).log()).sum() / 2;
     const auto powers = Powers({u, v, w}).of;
     auto factor = polynomial_.begin();
     for_each_term(basis_, [&](unsigned i, unsigned j, unsigned k) {
@@ -252,10 +287,14 @@ Point3 RbfFunction::gradient(const Point3& p) const {
     using Array = Eigen::Map<const Eigen::ArrayXd>;
     const auto n = static_cast<Eigen::Index>(x_.size());
     const Array cx(x_.data(), n), cy(y_.data(), n), cz(z_.data(), n), c(weights_.data(), n);
-    const Eigen::ArrayXd slopes =
-        3 * c * ((cx - u).square() + (cy - v).square() + (cz - w).square()).sqrt();
+    const double height = graph_ ? 0 : w;
+    const Eigen::ArrayXd square =
+        ((cx - u).square() + (cy - v).square() + (cz - height).square()).max(no_square);
+    Eigen::ArrayXd slopes = 3 * c * square.sqrt();
+    if (kernel_ == RbfKernel::linear) slopes = -c / square.sqrt();
+    if (kernel_ == RbfKernel::thin_plate) slopes = c * (square.log() + 1);
     std::array<double, 3> g{(slopes * (u - cx)).sum(), (slopes * (v - cy)).sum(),
-                            (slopes * (w - cz)).sum()};
+                            graph_ ? 0 : (slopes * (w - cz)).sum()};
     const auto powers = Powers({u, v, w}).of;
     auto factor = polynomial_.begin();
     for_each_term(basis_, [&](unsigned i, unsigned j, unsigned k) {

@@ -6,15 +6,17 @@
 //
 // The system is dense and ill-conditioned. Therefore coordinates are scaled to a unit box; the
 // orthogonal complement of the polynomials makes the remaining system positive definite
-// (Householder, then Cholesky); residuals are summed with MPFR in 128 bits, with kernels to 100
-// bits, and the solution is refined until they no longer halve; the condition is estimated, and all
+// (Householder, then Cholesky); residuals are summed in about 106 bits, with kernels to 100 bits,
+// and the solution is refined until they no longer halve; the condition is estimated, and all
 // of it is reported. Cost: n^3 / 3 to fit n points, n per value. Source: the paper, 4.1, equation
 // (10); Wendland (2005), 6.3 and 8.5, for the complement.
 #pragma once
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include <terrane/algorithms/core/result.hpp>
@@ -39,9 +41,26 @@ struct RbfPolynomial {
     }
 };
 
+/// The radial part, of the distance h.
+enum class RbfKernel : std::uint8_t {
+    linear,     ///< -h
+    thin_plate, ///< h^2 log h, of thin plate splines
+    cubic,      ///< h^3
+};
+
+/// Names the kernel: "h", "h^2 log h", "h^3".
+std::string_view name_of(RbfKernel kernel);
+
 struct RbfFit;
 struct RbfSetting;
 struct RbfSmoothFit;
+
+/// The parts of a function w - g(u, v): a surface that is a graph over the plane of u and v.
+struct GraphParts {
+    RbfKernel kernel = RbfKernel::cubic; ///< of g, for distances in that plane
+    std::span<const double> weights;     ///< of g, per centre
+    std::span<const double> polynomial;  ///< of g, per term in u and v
+};
 
 class RbfFunction {
 public:
@@ -51,6 +70,15 @@ public:
     [[nodiscard]] double operator()(const Point3& p) const;
     [[nodiscard]] Point3 gradient(const Point3& p) const;
     [[nodiscard]] std::size_t centre_count() const { return x_.size(); }
+    /// The unit of u, v, w, half the longest side of the box of the centres.
+    [[nodiscard]] double unit() const { return scale_; }
+    /// Converts a point to u, v, w, from the middle of the box.
+    [[nodiscard]] std::array<double, 3> scaled(const Point3& p) const;
+
+    /// Sets centres and scaling, and no function yet. Returns false if all centres are equal.
+    bool set_centres(std::span<const Point3> centres, const RbfPolynomial& basis);
+    /// Makes this w - g(u, v), for the centres that were set and a polynomial of this degree.
+    void set_graph(unsigned degree, const GraphParts& parts);
 
     friend Result<RbfFit> fit_rbf(std::span<const Point3>, std::span<const double>,
                                   const RbfSetting&, const Run&);
@@ -59,16 +87,15 @@ public:
                                            const Run&);
 
 private:
-    /// Sets centres and scaling. Returns false if all centres are equal.
-    bool set_centres(std::span<const Point3> centres, const RbfPolynomial& basis);
     /// Evaluates the terms of the polynomial at a scaled point.
     void terms_at(const std::array<double, 3>& p, double* terms) const;
-    [[nodiscard]] std::array<double, 3> scaled(const Point3& p) const;
 
     Point3 middle_{};
     double scale_ = 1;              ///< half the longest side of the bounding box
     std::vector<double> x_, y_, z_; ///< centres, scaled
     std::vector<double> weights_;   ///< per centre
+    RbfKernel kernel_ = RbfKernel::cubic;
+    bool graph_ = false; ///< distances of the kernel are those in the plane of u and v
     RbfPolynomial basis_;
     std::vector<double> polynomial_; ///< per term: by increasing power of w, then of u, then of v
 };

@@ -35,7 +35,9 @@ Point3 greatest(const Point3& a, const Point3& b) {
 
 } // namespace
 
-RbfPatches::RbfPatches(std::span<const Point3> points, std::span<const double> values) {
+RbfPatches::RbfPatches(std::span<const Point3> points, std::span<const double> values,
+                       const PatchFade& fade) :
+    fade_(fade) {
     if (points.empty()) return;
     Values data{points, values, std::vector<std::uint32_t>(points.size())};
     std::iota(data.order.begin(), data.order.end(), 0U);
@@ -146,7 +148,7 @@ void RbfPatches::bound_balls() {
 
 double RbfPatches::operator()(const Point3& p) const {
     if (nodes_.empty()) return 0;
-    double sum = 0, weights = 0;
+    double sum = 0, weights = 0, nearest = HUGE_VAL;
     std::array<std::uint32_t, 128> open{}; // deeper than any tree of bisections
     std::size_t count = 1;
     while (count > 0) {
@@ -161,12 +163,22 @@ double RbfPatches::operator()(const Point3& p) const {
         const double w = weight(length(minus(p, patch.centre)) / patch.radius);
         if (!(w > 0)) continue;
         double value = patch.constant;
-        for (std::size_t i = 0; i < patch.points.size(); ++i)
-            value += patch.weights[i] * length(minus(p, patch.points[i]));
+        for (std::size_t i = 0; i < patch.points.size(); ++i) {
+            const Point3 d = minus(p, patch.points[i]);
+            const double square = dot(d, d), along = dot(d, fade_.axis);
+            value += patch.weights[i] * std::sqrt(square);
+            nearest = std::min(nearest, square - along * along);
+        }
         sum += w * value;
         weights += w;
     }
-    return sum / std::max(weights, weight(1 / constants.ball_ratio));
+    return faded(sum / std::max(weights, weight(1 / constants.ball_ratio)), nearest);
+}
+
+double RbfPatches::faded(double value, double square) const {
+    if (!(fade_.distance > 0)) return value;
+    const double left = 1 - square / (fade_.distance * fade_.distance);
+    return left > 0 ? value * left * left : 0;
 }
 
 } // namespace terrane::rbf::detail
