@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <queue>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include <terrane/algorithms/core/parallel.hpp>
@@ -39,14 +42,27 @@ struct Part {
     friend bool operator<(const Part& a, const Part& b) { return a.most < b.most; }
 };
 
-/// Bounds the distance of a part. The distance function is 1-Lipschitz, so no point is farther than
-/// the centroid's distance plus the radius around it.
-Part part_of(const TriangleTree& tree, const Corners& c, double& least) {
+/// Bounds the distance of a part: the distance function is 1-Lipschitz, so no point is farther than
+/// the centroid's distance plus the radius around it; and the distance from one triangle is
+/// convex, so no point is farther from it than the farthest corner. Raises `least` to the distance
+/// of the centroid.
+Part part_of(const TriangleTree& tree, std::span<const Point3> points, const Corners& c,
+             double& least) {
     const Point3 middle = weighted(c, 1.0 / 3, 1.0 / 3, 1.0 / 3);
     const double radius = std::max({apart(middle, c[0]), apart(middle, c[1]), apart(middle, c[2])});
-    const double there = tree.distance(middle, endless);
-    least = std::max(least, there);
-    return {there + radius, c};
+    const auto near = tree.nearest(middle, endless);
+    if (!near) return {endless, c};
+    least = std::max(least, near->distance);
+    const auto& [i, j, k] = near->triangle;
+    double convex = 0;
+    for (const Point3& p : c)
+        convex = std::max(convex, distance_to_triangle(p, points[i], points[j], points[k]));
+    return {std::min(near->distance + radius, convex), c};
+}
+
+std::array<Corners, 4> quarters(const Corners& c) {
+    const Corners m{weighted(c, 0.5, 0.5, 0), weighted(c, 0, 0.5, 0.5), weighted(c, 0.5, 0, 0.5)};
+    return {Corners{c[0], m[0], m[2]}, Corners{m[0], c[1], m[1]}, Corners{m[2], m[1], c[2]}, m};
 }
 
 } // namespace
@@ -86,15 +102,13 @@ double distance_bound(const Surface& from, const Surface& to, double tolerance, 
     const TriangleTree tree(to.vertices, to.triangles);
     std::priority_queue<Part> front;
     double least = 0;
-    for (const Triangle& t : from.triangles) front.push(part_of(tree, corners_of(from, t), least));
+    for (const Triangle& t : from.triangles)
+        front.push(part_of(tree, to.vertices, corners_of(from, t), least));
     while (!front.empty() && front.top().most > least + tolerance && !run.stop.stop_requested()) {
         const Corners c = front.top().corners;
         front.pop();
-        const Corners m{weighted(c, 0.5, 0.5, 0), weighted(c, 0, 0.5, 0.5),
-                        weighted(c, 0.5, 0, 0.5)};
-        for (const Corners& quarter :
-             {Corners{c[0], m[0], m[2]}, Corners{m[0], c[1], m[1]}, Corners{m[2], m[1], c[2]}, m}) {
-            const Part part = part_of(tree, quarter, least);
+        for (const Corners& quarter : quarters(c)) {
+            const Part part = part_of(tree, to.vertices, quarter, least);
             if (part.most > least + tolerance) front.push(part);
         }
     }
@@ -107,7 +121,7 @@ std::vector<Deviation> deviations_of(const Mesh& before, const Mesh& after, cons
     for (std::uint32_t s = 0; s < before.surfaces.size(); ++s) {
         if (run.stop.stop_requested()) break;
         const Surface old = surface_of_mesh(before, s), now = surface_of_mesh(after, s);
-        all.push_back({sampled_distance(now, old, run), sampled_distance(old, now, run)});
+        all.push_back({measured_distance(now, old, run), measured_distance(old, now, run)});
     }
     return all;
 }

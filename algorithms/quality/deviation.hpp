@@ -17,13 +17,20 @@ namespace terrane {
 /// 13 nearest-triangle queries per triangle.
 double sampled_distance(const Surface& from, const Surface& to, const Run& run = {});
 
+/// Returns the distance of a point of `from` to `to` that is within 5 % of the largest one (the
+/// one-sided Hausdorff distance), up to rounding errors. Triangles are divided until the bound of
+/// each part shows it. Floating point, in the unit of the points; infinite where `to` has no
+/// triangles. Ends soon after a request to stop, with a distance that is too small. Cost: some
+/// nearest-triangle queries per triangle, and more where the distance is near the largest.
+double measured_distance(const Surface& from, const Surface& to, const Run& run = {});
+
 /// Returns an upper bound of the one-sided Hausdorff distance (up to rounding) that exceeds it by
 /// at most `tolerance`. Triangles are subdivided until the bound of each part is tight enough; the
 /// cost grows quickly, so use it for small surfaces.
 double distance_bound(const Surface& from, const Surface& to, double tolerance,
                       const Run& run = {});
 
-/// Sampled distances between the two states of one surface: `out` from the second mesh to the
+/// Measured distances between the two states of one surface: `out` from the second mesh to the
 /// first, `back` from the first to the second.
 struct Deviation {
     double out = 0;  ///< from the second mesh to the first, unit of the points

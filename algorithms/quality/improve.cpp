@@ -3,18 +3,23 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <string>
+
+#include <fmt/format.h>
 
 #include <terrane/algorithms/check/conforming.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
+#include <terrane/algorithms/mesh/vectors.hpp>
+#include <terrane/algorithms/quality/detail/block_volumes.hpp>
 #include <terrane/algorithms/quality/detail/constants.hpp>
-#include <terrane/algorithms/quality/detail/operations.hpp>
+#include <terrane/algorithms/quality/detail/remesher.hpp>
 #include <terrane/algorithms/quality/detail/sizes.hpp>
+#include <terrane/algorithms/quality/detail/sorted_mesh.hpp>
+#include <terrane/algorithms/quality/detail/thickness.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 
 namespace terrane {
@@ -23,6 +28,7 @@ namespace {
 using namespace quality::detail;
 
 constexpr double pi = 3.14159265358979323846;
+constexpr double attempt_share = 0.7; ///< of the remaining progress, that one attempt stands for
 
 Error wrong(std::string sentence) {
     return {ErrorCode::bad_option, std::move(sentence), ""};
@@ -45,6 +51,12 @@ Status check_options(const Mesh& mesh, const ImproveOptions& o) {
         !(o.curve_angle > 0 && o.curve_angle <= 180))
         return wrong("angles of creases and curves must be in (0, 180] degrees");
     if (o.passes < 1 || o.passes > 100) return wrong("passes must be 1 to 100");
+    if (!(o.thickness_share > 0 && std::isfinite(o.thickness_share)))
+        return wrong("thickness_share must be positive");
+    if (!(o.least_quality > 0 && o.least_quality <= 1))
+        return wrong("least_quality must be in (0, 1]");
+    if (!(o.max_volume_change >= 0)) return wrong("max_volume_change must not be negative");
+    if (!(o.max_triangles > 0)) return wrong("max_triangles must be positive");
     return Done{};
 }
 
@@ -55,56 +67,57 @@ Status check_conforming(const Mesh& mesh, const Run& run) {
     return conforming(mesh.vertices, mesh.triangles, labels, run);
 }
 
-/// Computes, for each curve, its tolerance: a share of the least tolerance of the sheets that meet
-/// there.
-std::vector<double> bounds_of_curves(const WorkMesh& mesh, std::size_t curves,
-                                     std::span<const double> bound_of) {
-    std::vector<double> bounds(curves, std::numeric_limits<double>::infinity());
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-        for (std::size_t i = 0; i < 3; ++i) {
-            const std::uint32_t c =
-                mesh.curve_at(mesh.triangles[t][i], mesh.triangles[t][(i + 1) % 3]);
-            if (c != none)
-                bounds[c] =
-                    std::min(bounds[c], constants.curve_tolerance * bound_of[mesh.sheet_of[t]]);
-        }
-    return bounds;
+/// Tells whether the triangles run round in opposite directions.
+bool is_turned(const Triangle& t, const Triangle& other) {
+    const auto at =
+        static_cast<std::size_t>(std::find(other.begin(), other.end(), t[0]) - other.begin());
+    return other[(at + 1) % 3] != t[1];
 }
 
 class Improver {
 public:
-    Improver(const Mesh& mesh, const ImproveOptions& options, const Run& run) :
-        input_(mesh), options_(options), run_(run),
+    Improver(const Mesh& original, const ImproveOptions& options, const Run& run) :
+        original_(original), sorted_(sort_by_place(original)), input_(sorted_.mesh),
+        options_(options), run_(run),
         features_(find_features(
-            mesh, {options.crease_angle * pi / 180, options.curve_angle * pi / 180}, run)),
-        sizes_(find_sizes(mesh, features_, options)),
-        reference_(mesh.vertices, features_, sizes_.bound_of), mesh_(mesh, features_),
-        validator_(mesh_, reference_), context_{mesh_,
-                                                validator_,
-                                                reference_,
-                                                mesh.vertices,
-                                                features_.curves,
-                                                bounds_of_curves(mesh_, features_.curves.size(),
-                                                                 sizes_.bound_of),
-                                                run} {
-        mesh_.sizes = sizes_.of_vertices;
+            input_, {options.crease_angle * pi / 180, options.curve_angle * pi / 180}, run)),
+        sizes_(find_sizes(input_, features_, options)),
+        bound_of_triangles_(
+            bounds_by_thickness(input_, features_, sizes_, options.thickness_share, run)),
+        reference_(input_.vertices, features_, sizes_.bound_of) {
+        for (std::size_t t = 0; t < bound_of_triangles_.size(); ++t)
+            report_.thin_triangles +=
+                bound_of_triangles_[t] < sizes_.bound_of[features_.sheet_of[t]];
+        reference_.limit_bounds(bound_of_triangles_);
         reference_.find_isolated(run);
-        for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t)
-            mesh_.isolated[t] = static_cast<char>(reference_.is_isolated(t));
     }
 
     Result<Improved> operator()() {
         const double least = *std::min_element(sizes_.bound_of.begin(), sizes_.bound_of.end());
         if (least < reference_.least_bound())
-            return wrong("max_deviation is too small for coordinates of this size");
+            return wrong(fmt::format(
+                "max_deviation is too small for coordinates of this size; the least is {:.3g}",
+                reference_.least_bound()));
+        if (const double count = expected_with_sizes(input_, features_, sizes_);
+            count > options_.max_triangles)
+            return wrong(fmt::format("about {:.3g} triangles are to be expected, more than "
+                                     "max_triangles, {:.3g}",
+                                     count, options_.max_triangles));
+        find_orientations();
+        std::optional<Result<Volumes>> volumes;
+        Run quiet = run_; // progress may only be reported by the calling thread
+        quiet.progress = nullptr;
+        both(
+            run_,
+            [&] { report_.before = measure_quality(input_.vertices, input_.triangles, run_); },
+            [&] { volumes = find_volumes(original_, quiet); });
+        if (!*volumes) return volumes->error();
+        volumes_before_ = std::move(*volumes).value();
         report_.bound_of.assign(input_.surfaces.size(), 0);
         for (std::size_t s = 0; s < sizes_.bound_of.size(); ++s)
             for (const std::uint32_t surface : input_.surfaces_of[features_.first_of[s]])
                 report_.bound_of[surface] = std::max(report_.bound_of[surface], sizes_.bound_of[s]);
-        validator_.group_again(run_);
-        for (unsigned pass = 0; pass < options_.passes && !stopped(); ++pass)
-            if (!one_pass(pass)) break;
-        if (!stopped()) finish();
+        remesh();
         if (stopped()) return Error{ErrorCode::interrupted, "stopped on request", ""};
         return assembled();
     }
@@ -112,92 +125,112 @@ public:
 private:
     [[nodiscard]] bool stopped() const { return run_.stop.stop_requested(); }
 
-    void regroup_if_needed() {
-        if (!stopped() && constants.regroup_part * validator_.ungrouped() > mesh_.triangles.size())
-            validator_.group_again(run_);
-    }
-
-    /// Removes slivers first, as splitting would only turn them into more slivers.
-    void clean_first() {
-        collapse_curves(context_);
-        regroup_if_needed();
-        collapse_edges(context_);
-        regroup_if_needed();
-        swap_edges(context_);
-        regroup_if_needed();
-    }
-
-    [[nodiscard]] std::size_t changes() const {
-        return context_.splits + context_.collapses + context_.swaps + context_.moves;
-    }
-
-    /// Returns whether another pass is worthwhile.
-    bool one_pass(unsigned pass) {
-        if (run_.progress)
-            run_.progress("improve", static_cast<double>(pass) / (options_.passes + 1));
-        ++report_.passes;
-        const std::size_t before = changes();
-        if (pass == 0) clean_first();
-        split_curves(context_);
-        collapse_curves(context_);
-        slide_curves(context_);
-        regroup_if_needed();
-        split_edges(context_);
-        regroup_if_needed();
-        collapse_edges(context_);
-        regroup_if_needed();
-        if (pass < constants.jitter_passes) jitter(context_);
-        equalize_valences(context_);
-        regroup_if_needed();
-        smooth(context_);
-        swap_edges(context_);
-        regroup_if_needed();
-        smooth(context_);
-        return constants.pass_part * (changes() - before) > mesh_.triangles.size();
-    }
-
-    /// Improves the few remaining bad triangles one by one.
-    void finish() {
-        if (run_.progress) run_.progress("improve", options_.passes / (options_.passes + 1.0));
-        for (unsigned round = 0; round < constants.finish_rounds && !stopped(); ++round) {
-            regroup_if_needed();
-            const std::size_t before = context_.collapses + context_.swaps;
-            collapse_bad(context_, constants.bad_shape);
-            swap_edges(context_);
-            slide_curves(context_);
-            smooth(context_);
-            const std::size_t improved = improve_worst(context_, constants.bad_shape);
-            if (context_.collapses + context_.swaps == before && improved == 0) break;
-        }
-    }
-
+    void remesh();
+    bool is_good_enough(LeastQuality& least);
+    [[nodiscard]] BlockVolumes block_volumes() const;
     Result<Improved> assembled();
     Status check(Mesh after, std::span<const std::uint32_t> sheets, Improved& improved);
     [[nodiscard]] Result<bool> sides_kept(std::span<const std::uint32_t> sheets,
                                           Improved& improved) const;
     [[nodiscard]] Mesh output(std::span<const std::uint32_t> used) const;
+    void find_orientations();
     void add_intersection_edges(std::span<const std::uint32_t> used,
                                 std::span<const std::uint32_t> name_of, Mesh& out) const;
-    WorstCause cause_of_worst(Triangle t);
 
-    const Mesh& input_;
+    const Mesh& original_;
+    const SortedMesh sorted_;
+    const Mesh& input_; ///< original_, sorted
     const ImproveOptions& options_;
     const Run& run_;
     const Features features_;
     const Sizes sizes_;
+    std::vector<double> bound_of_triangles_; ///< see bounds_by_thickness()
     ReferenceSurface reference_;
-    WorkMesh mesh_;
-    ChangeValidator validator_;
-    RemeshContext context_;
+    std::optional<Remesher> remesher_; ///< of the last attempt
+    unsigned strict_attempts_ = 0;     ///< attempts after which more triangles became strict
     ImproveReport report_;
+    Volumes volumes_before_;
+    std::vector<std::uint32_t> first_of_; ///< per sheet: its first triangle in original_
+    std::vector<bool> is_turned_;         ///< per sheet: that triangle is oriented otherwise
 };
+
+/// Tells whether no triangle is worse than any may be. Otherwise more triangles become strict:
+/// those near the bad ones, and at last all.
+bool Improver::is_good_enough(LeastQuality& least) {
+    if (least.elsewhere == least.wanted) return true; // all were strict
+    const WorkMesh& mesh = remesher_->mesh();
+    const auto bad = worse_than(mesh, least.wanted);
+    if (bad.empty()) return true;
+    if (++strict_attempts_ > constants.strict_attempts ||
+        constants.strict_part * bad.size() > mesh.triangles.size())
+        least = {least.wanted, least.wanted};
+    else
+        make_strict_near(bad, mesh, input_, least);
+    return false;
+}
+
+BlockVolumes Improver::block_volumes() const {
+    std::vector<std::array<std::uint32_t, 2>> sides;
+    for (std::size_t s = 0; s < first_of_.size(); ++s) {
+        sides.push_back(volumes_before_.of_sides[first_of_[s]]);
+        if (is_turned_[s]) std::swap(sides.back()[0], sides.back()[1]);
+    }
+    return {input_, features_, std::move(sides), volumes_before_.measures.size()};
+}
+
+/// Improves the mesh. Repeats that with more strict triangles as long as a triangle is worse than
+/// any may be, and with smaller bounds where volumes change too much.
+void Improver::remesh() {
+    LeastQuality least;
+    least.wanted =
+        std::min(report_.before.q.min, options_.least_quality) * (1 - constants.quality_rounding);
+    least.elsewhere = std::min(least.wanted, constants.least_quality);
+    report_.least_quality = least.wanted;
+    BlockVolumes blocks = block_volumes();
+    const double share = options_.max_volume_change / 100;
+    unsigned volume_attempts = 0;
+    double done = 0;
+    for (report_.attempts = 1;; ++report_.attempts) {
+        const double to = done + attempt_share * (1 - done);
+        remesher_.emplace(RemeshInput{input_, features_, sizes_, reference_}, least, run_);
+        (*remesher_)(options_.passes, done, to);
+        done = to;
+        if (stopped()) return;
+        const bool is_good = is_good_enough(least);
+        const bool is_limited =
+            volume_attempts < constants.volume_attempts &&
+            blocks.limit_bounds(remesher_->mesh(), share, reference_.least_bound(), sizes_.bound_of,
+                                bound_of_triangles_);
+        report_.held_blocks = blocks.limited();
+        if (is_good && !is_limited) return;
+        if (!is_limited) continue;
+        ++volume_attempts;
+        reference_.limit_bounds(bound_of_triangles_);
+    }
+}
+
+/// Finds the first original triangle of each sheet, by which the result is oriented.
+void Improver::find_orientations() {
+    first_of_.assign(features_.first_of.size(), none);
+    is_turned_.assign(first_of_.size(), false);
+    const auto number = [&](std::uint32_t v) { return sorted_.number_of[v]; };
+    for (std::uint32_t t = 0; t < features_.triangles.size(); ++t) {
+        const std::uint32_t sheet = features_.sheet_of[t], here = sorted_.triangle_of[t];
+        if (here >= first_of_[sheet]) continue;
+        first_of_[sheet] = here;
+        const Triangle& c = original_.triangles[here];
+        is_turned_[sheet] =
+            is_turned({number(c[0]), number(c[1]), number(c[2])}, features_.triangles[t]);
+    }
+}
 
 void Improver::add_intersection_edges(std::span<const std::uint32_t> used,
                                       std::span<const std::uint32_t> name_of, Mesh& out) const {
+    const WorkMesh& mesh = remesher_->mesh();
     for (const std::uint32_t t : used)
         for (std::size_t i = 0; i < 3; ++i) {
-            const std::uint32_t a = mesh_.triangles[t][i], b = mesh_.triangles[t][(i + 1) % 3];
-            const std::uint32_t c = mesh_.curve_at(a, b);
+            const std::uint32_t a = mesh.triangles[t][i], b = mesh.triangles[t][(i + 1) % 3];
+            const std::uint32_t c = mesh.curve_at(a, b);
             if (c == none || !features_.curves[c].intersection) continue;
             out.intersection_edges.push_back(
                 {std::min(name_of[a], name_of[b]), std::max(name_of[a], name_of[b])});
@@ -209,18 +242,21 @@ void Improver::add_intersection_edges(std::span<const std::uint32_t> used,
 }
 
 Mesh Improver::output(std::span<const std::uint32_t> used) const {
+    const WorkMesh& mesh = remesher_->mesh();
     Mesh out;
     out.surfaces = input_.surfaces;
-    std::vector<std::uint32_t> name_of(mesh_.points.size(), none);
-    for (std::uint32_t v = 0; v < mesh_.points.size(); ++v) {
-        if (mesh_.star[v].empty()) continue;
+    std::vector<std::uint32_t> name_of(mesh.points.size(), none);
+    for (std::uint32_t v = 0; v < mesh.points.size(); ++v) {
+        if (mesh.star[v].empty()) continue;
         name_of[v] = static_cast<std::uint32_t>(out.vertices.size());
-        out.vertices.push_back(mesh_.points[v]);
+        out.vertices.push_back(mesh.points[v]);
     }
     for (const std::uint32_t t : used) {
-        const Triangle& c = mesh_.triangles[t];
+        const Triangle& c = mesh.triangles[t];
         out.triangles.push_back({name_of[c[0]], name_of[c[1]], name_of[c[2]]});
-        const std::uint32_t first = features_.first_of[mesh_.sheet_of[t]];
+        if (is_turned_[mesh.sheet_of[t]])
+            std::swap(out.triangles.back()[1], out.triangles.back()[2]);
+        const std::uint32_t first = features_.first_of[mesh.sheet_of[t]];
         out.surfaces_of.push_back(input_.surfaces_of[first]);
         if (input_.regions_of.size() > 0) out.regions_of.push_back(input_.regions_of[first]);
     }
@@ -228,58 +264,22 @@ Mesh Improver::output(std::span<const std::uint32_t> used) const {
     return out;
 }
 
-/// Finds the reason why a triangle can't be improved: its own shape, or what rejects all changes to
-/// it.
-WorstCause Improver::cause_of_worst(Triangle t) {
-    std::array<double, 3> lengths{};
-    std::array<std::uint32_t, 3> curves{};
-    bool all_on_curves = true;
-    for (std::size_t i = 0; i < 3; ++i) {
-        lengths[i] = mesh_.edge_length(t[i], t[(i + 1) % 3]);
-        curves[i] = mesh_.curve_at(t[i], t[(i + 1) % 3]);
-        all_on_curves = all_on_curves && mesh_.kinds[t[i]] != VertexKind::inner;
-    }
-    const auto shortest = static_cast<std::size_t>(
-        std::min_element(lengths.begin(), lengths.end()) - lengths.begin());
-    // The smallest angle is opposite to the shortest edge, between the other two.
-    if (curves[(shortest + 1) % 3] != none && curves[(shortest + 2) % 3] != none)
-        return WorstCause::corner_angle;
-    if (curves[shortest] != none && mesh_.kinds[t[shortest]] == VertexKind::corner &&
-        mesh_.kinds[t[(shortest + 1) % 3]] == VertexKind::corner)
-        return WorstCause::short_curve;
-    if (all_on_curves) return WorstCause::close_curves;
-    const Refusals before = validator_.refusals();
-    const double below = shape_of(mesh_, t) * (1 + 1e-9);
-    context_.improved_at.clear(); // repeats changes that were rejected before, to count the reasons
-    improve_worst(context_, below);
-    collapse_bad(context_, below);
-    const Refusals& after = validator_.refusals();
-    const std::size_t deviation = after.deviation - before.deviation;
-    const std::size_t contact = after.contact - before.contact;
-    if (deviation == 0 && contact == 0) return WorstCause::shape;
-    return deviation >= contact ? WorstCause::deviation : WorstCause::contact;
-}
-
 /// Finds the volumes of the improved mesh. Tells whether a renaming of volumes exists by which each
 /// sheet has the same volumes on its sides as before.
 Result<bool> Improver::sides_kept(std::span<const std::uint32_t> sheets, Improved& improved) const {
-    std::optional<Result<Volumes>> found_old, found_now;
     Run quiet = run_; // progress may only be reported by the calling thread
     quiet.progress = nullptr;
-    both(
-        run_, [&] { found_old = find_volumes(input_, quiet); },
-        [&] { found_now = find_volumes(improved.mesh, quiet); });
-    if (!*found_old) return found_old->error();
-    if (!*found_now) return found_now->error();
-    improved.volumes_before = std::move(*found_old).value();
-    improved.volumes = std::move(*found_now).value();
+    auto found = find_volumes(improved.mesh, quiet);
+    if (!found) return found.error();
+    improved.volumes_before = volumes_before_;
+    improved.volumes = std::move(found).value();
     const Volumes &old = improved.volumes_before, &now = improved.volumes;
     std::vector<std::uint32_t> to(old.measures.size(), none), back(now.measures.size(), none);
     if (to.size() != back.size()) return false;
     to[0] = back[0] = 0;
     for (std::size_t t = 0; t < sheets.size(); ++t)
         for (std::size_t side = 0; side < 2; ++side) {
-            const std::uint32_t a = old.of_sides[features_.first_of[sheets[t]]][side];
+            const std::uint32_t a = old.of_sides[first_of_[sheets[t]]][side];
             const std::uint32_t b = now.of_sides[t][side];
             if (to[a] == none && back[b] == none) {
                 to[a] = b;
@@ -296,9 +296,7 @@ Result<bool> Improver::sides_kept(std::span<const std::uint32_t> sheets, Improve
 Status Improver::check(Mesh after, std::span<const std::uint32_t> sheets, Improved& improved) {
     std::optional<Result<ConformingMesh>> proof;
     std::optional<Result<bool>> kept;
-    both(
-        run_, [&] { report_.before = measure_quality(input_.vertices, input_.triangles, run_); },
-        [&] { proof = prove_conforming(std::move(after), sheets, options_.check, run_); });
+    proof = prove_conforming(std::move(after), sheets, options_.check, run_);
     if (!*proof && proof->error().code == ErrorCode::interrupted) return proof->error();
     if (!*proof)
         return Error{ErrorCode::internal,
@@ -317,21 +315,21 @@ Status Improver::check(Mesh after, std::span<const std::uint32_t> sheets, Improv
 Result<Improved> Improver::assembled() {
     std::vector<std::uint32_t> used, sheets;
     Improved improved;
-    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-        if (!mesh_.in_use(t)) continue;
-        used.push_back(t);
-        sheets.push_back(mesh_.sheet_of[t]);
-        improved.near_of.push_back(mesh_.hint_of[t]);
+    report_.worst_cause = remesher_->cause_of_worst();
+    remesher_->describe(report_);
+    const WorkMesh& mesh = remesher_->mesh();
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+        if (mesh.in_use(t)) used.push_back(t);
+    // Sheets follow in the order of the input, so that those of a surface are together.
+    std::stable_sort(used.begin(), used.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return first_of_[mesh.sheet_of[a]] < first_of_[mesh.sheet_of[b]];
+    });
+    for (const std::uint32_t t : used) {
+        sheets.push_back(mesh.sheet_of[t]);
+        improved.near_of.push_back(sorted_.triangle_of[mesh.hint_of[t]]);
     }
-    report_.splits = context_.splits;
-    report_.collapses = context_.collapses;
-    report_.swaps = context_.swaps;
-    report_.moves = context_.moves;
-    report_.refused_contact = validator_.refusals().contact;
-    report_.refused_deviation = validator_.refusals().deviation;
-    report_.refused_shape = validator_.refusals().shape;
     if (auto good = check(output(used), sheets, improved); !good) return good.error();
-    report_.worst_cause = cause_of_worst(mesh_.triangles[used[report_.after.worst]]);
+    report_.is_strict = strict_attempts_ > 0;
     report_.sheets = features_.first_of.size();
     report_.curves = features_.curves.size();
     report_.corners = static_cast<std::size_t>(
@@ -381,6 +379,8 @@ std::string_view name_of(WorstCause cause) {
         return "other triangles too near";
     case WorstCause::shape:
         return "no operation helps";
+    case WorstCause::rounds:
+        return "limit of changes";
     }
     return "";
 }

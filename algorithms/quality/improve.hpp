@@ -18,18 +18,27 @@
 //     original curve.
 // (4) The algorithm terminates: moves and swaps reduce a sum of shapes or the largest angle, and
 //     the number of split and collapse passes is bounded.
-// (5) The result depends neither on the number of threads nor on time.
-// Cost: some microseconds per triangle and pass, then one exact check of the whole mesh.
-// Source: the paper, section 4. The alternation of the four operations follows Botsch and Kobbelt
-// (2004). Trapezium drawing is named after Semenova, Savchenko and Hagiwara (2004), whose formula
-// was not available. Here, each triangle at a vertex proposes to slide it parallel to the opposite
-// edge until it is above the middle of that edge; the vertex moves by twice the mean of the
-// proposals (each of them only sees the direction of its own edge) and is then projected back to
-// the surface.
+// (5) The result depends neither on the number of threads nor on time, nor on the order of
+//     vertices, triangles and surfaces: it numbers the mesh by place first.
+// (6) No triangle of the result has a smaller q than the worst one of the input, or than
+//     least_quality if that is less, up to rounding (a relative 1e-12). Where the wanted lengths
+//     would leave such triangles, the mesh is improved again, so that triangles near them, or all,
+//     never fall below that q.
+// (7) Over a triangle of the input at a thin block, the tolerance of (3) is at most the share
+//     thickness_share of the distance to the next sheet of about the same direction. Around a block
+//     whose volume changes by more than max_volume_change, the tolerance becomes smaller, in up to
+//     three more attempts. Cost: some microseconds per triangle and pass, then one exact check of
+//     the whole mesh. Source: the paper, section 4. The alternation of the four operations follows
+//     Botsch and Kobbelt (2004). Trapezium drawing is named after Semenova, Savchenko and Hagiwara
+//     (2004), whose formula was not available. Here, each triangle at a vertex proposes to slide it
+//     parallel to the opposite edge until it is above the middle of that edge; the vertex moves by
+//     twice the mean of the proposals (each of them only sees the direction of its own edge) and is
+//     then projected back to the surface.
 #pragma once
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -39,6 +48,7 @@
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/algorithms/mesh/shared_mesh.hpp>
+#include <terrane/algorithms/mesh/surface.hpp>
 #include <terrane/algorithms/quality/quality.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 
@@ -58,7 +68,17 @@ struct ImproveOptions {
     double crease_angle = 50; ///< edges at which a surface turns by more are curves
     double curve_angle = 45;  ///< vertices at which a curve turns by more are corners
     unsigned passes = 6;      ///< rounds of the four operations, 1 to 100
-    PairCheckOptions check{}; ///< how the improved mesh is checked
+    double thickness_share =
+        0.1; ///< where blocks are thin, points deviate by at most this share of
+             ///< the distance to the next sheet, along the normal; > 0
+    double least_quality =
+        1; ///< no triangle becomes worse than the worst one of the input, or than
+           ///< this q if that is less; (0, 1]
+    double max_volume_change =
+        5;                      ///< percent; where the volume of a block changes by more, the mesh
+                                ///< is improved again, with smaller bounds around that block
+    double max_triangles = 2e7; ///< refuses to begin where more are to be expected
+    PairCheckOptions check{};   ///< how the improved mesh is checked
 };
 
 /// The reason why the worst triangle can't be improved; the first one that applies.
@@ -69,7 +89,8 @@ enum class WorstCause : std::uint8_t {
     close_curves, ///< all its corners lie on curves
     deviation,    ///< better triangles are not proven to be within max_deviation
     contact,      ///< better triangles would meet others
-    shape,        ///< no operation improves it
+    shape,        ///< collapses, swaps and moves at its corners were tried; none improves it
+    rounds,       ///< the number of changes made for worst triangles is limited
 };
 
 /// Names the cause as reports print it: "fixed corner angle", "short curve", ...
@@ -89,8 +110,15 @@ struct ImproveReport {
     std::size_t moves = 0;           ///< vertices moved, each time counted
     std::size_t refused_contact = 0; ///< changes rejected since triangles would meet improperly
     std::size_t refused_deviation = 0; ///< changes rejected since they are not proven to be near
-    std::size_t refused_shape = 0;     ///< changes rejected since they would fold or degenerate
-    unsigned passes = 0;               ///< rounds of the four operations
+    std::size_t refused_shape = 0;     ///< changes rejected since they would fold, degenerate or
+                                       ///< be worse than the worst triangle of the input
+    double least_quality = 0;          ///< no triangle may have a smaller q, see guarantee (6)
+    unsigned attempts = 1;  ///< times that the mesh was improved from the start, for guarantee (6)
+                            ///< and for the volumes of blocks
+    bool is_strict = false; ///< guarantee (6) needed more than one attempt
+    std::size_t held_blocks = 0;    ///< blocks around which bounds were reduced for their volumes
+    std::size_t thin_triangles = 0; ///< input triangles over which thickness_share limits the bound
+    unsigned passes = 0;            ///< rounds of the four operations
     bool sides_kept = false; ///< exact: each sheet has the same volumes on its sides as before
     WorstCause worst_cause = WorstCause::none; ///< of the triangle after.worst
 };
@@ -111,6 +139,14 @@ struct Improved {
                                         ///< its centroid
     ImproveReport report;               ///< quality, changes and bounds
 };
+
+/// Returns the least max_deviation that is distinguishable from rounding errors at coordinates of
+/// this size (the largest absolute value).
+double least_deviation(double largest_coordinate);
+
+/// Estimates the number of triangles that surfaces of this shape have after improve(), from their
+/// areas and the wanted lengths alone: without curvature, and without what intersections add.
+double expected_triangles(std::span<const Surface> surfaces, const ImproveOptions& options);
 
 /// Improves the mesh. Errors: bad_option; bad_number, bad_index; improper_contact if the mesh is
 /// not conforming; nothing_to_do if it has no triangles; interrupted, out_of_memory.

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <stop_token>
+#include <utility>
 
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/mesh/edges.hpp>
@@ -21,7 +23,7 @@ namespace {
 
 using namespace quality::detail;
 
-constexpr double endless = std::numeric_limits<double>::infinity();
+constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 /// Arranges the improved mesh by the sheets of the original, as the reference surface to compare
 /// with.
@@ -75,7 +77,7 @@ std::vector<double> bounds_of_sheets(const Mesh& before, const Features& feature
                                      const ImproveReport& report) {
     std::vector<double> bounds;
     for (const std::uint32_t first : features.first_of) {
-        double least = endless;
+        double least = unbounded;
         for (const std::uint32_t s : before.surfaces_of[first])
             least = std::min(least, report.bound_of[s]);
         bounds.push_back(least);
@@ -89,22 +91,23 @@ std::vector<double> bounds_of_sheets(const Mesh& before, const Features& feature
 /// plus the radius around it is (the distance is 1-Lipschitz).
 class Nearest {
 public:
-    Nearest(const Mesh& after, std::uint32_t surface) :
+    Nearest(const Mesh& after, std::uint32_t surface, std::stop_token stop) :
         surface_(surface_of_mesh(after, surface)),
-        tree_(surface_.vertices, without_slivers(surface_)) {}
+        tree_(surface_.vertices, without_slivers(surface_)), stop_(std::move(stop)) {}
 
     /// Tells whether the whole triangle is within the bound. A part that is large against the bound
-    /// also passes if contains_within_tolerance(part) holds.
+    /// also passes if contains_within_tolerance(part) holds. False if a stop was requested.
     template <class Follows>
     [[nodiscard]] bool is_near(const Corners& whole, double bound,
                                const Follows& contains_within_tolerance) const {
         std::vector<Corners> parts{whole};
         for (unsigned count = 0; !parts.empty(); ++count) {
+            if (count % 64 == 63 && stop_.stop_requested()) return false;
             const Corners c = parts.back();
             parts.pop_back();
             const Point3 middle{(c[0].x + c[1].x + c[2].x) / 3, (c[0].y + c[1].y + c[2].y) / 3,
                                 (c[0].z + c[1].z + c[2].z) / 3};
-            const auto near = tree_.nearest(middle, endless);
+            const auto near = tree_.nearest(middle, unbounded);
             if (!near) return false;
             const auto off = [&](const Point3& p) {
                 const auto& [i, j, k] = near->triangle;
@@ -155,14 +158,18 @@ private:
 
     Surface surface_;
     TriangleTree tree_;
+    std::stop_token stop_;
 };
 
 Result<std::vector<double>> shown(const Mesh& before, const Improved& after,
                                   const ImproveOptions& options, const Run& run) {
     const double radians = std::acos(-1.0) / 180;
+    const Error interrupted{ErrorCode::interrupted, "stopped on request", ""};
     const Features features =
-        find_features(before, {options.crease_angle * radians, options.curve_angle * radians});
+        find_features(before, {options.crease_angle * radians, options.curve_angle * radians}, run);
+    if (run.stop.stop_requested()) return interrupted;
     const Features now = features_of(features, after, run);
+    if (run.stop.stop_requested()) return interrupted;
     const auto hints = hints_of(features, after);
     std::vector<double> bounds = bounds_of_sheets(before, features, after.report);
     const ReferenceSurface reference(after.mesh->vertices, now, bounds);
@@ -179,7 +186,7 @@ Result<std::vector<double>> shown(const Mesh& before, const Improved& after,
         const double bound = bounds[features.sheet_of[t]] - reference.rounding();
         const auto surfaces = before.surfaces_of[t];
         return std::all_of(surfaces.begin(), surfaces.end(), [&](std::uint32_t s) {
-            if (!nearest[s]) nearest[s].emplace(after.mesh, s);
+            if (!nearest[s]) nearest[s].emplace(after.mesh, s, run.stop);
             return nearest[s]->is_near(corners, bound, [&](const Corners& part) {
                 return hints[t] != none &&
                        reference.contains_within_tolerance(part, hints[t], search).has_value();
@@ -189,8 +196,7 @@ Result<std::vector<double>> shown(const Mesh& before, const Improved& after,
     for (double factor = 1; factor <= constants.most_factor_back && !open.empty(); factor *= 2) {
         std::vector<std::uint32_t> still_open;
         for (const std::uint32_t t : open) {
-            if (run.stop.stop_requested())
-                return Error{ErrorCode::interrupted, "stopped on request", ""};
+            if (run.stop.stop_requested()) return interrupted;
             const auto& [a, b, c] = features.triangles[t];
             const Corners corners{before.vertices[a], before.vertices[b], before.vertices[c]};
             if ((hints[t] != none &&
@@ -203,7 +209,8 @@ Result<std::vector<double>> shown(const Mesh& before, const Improved& after,
         open = std::move(still_open);
         for (double& bound : bounds) bound *= 2;
     }
-    for (const std::uint32_t t : open) raise(t, endless);
+    for (const std::uint32_t t : open) raise(t, unbounded);
+    if (run.stop.stop_requested()) return interrupted;
     return of_surfaces;
 }
 

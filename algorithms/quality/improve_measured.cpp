@@ -22,6 +22,7 @@ Result<ImprovedAndMeasured> improve_and_measure(const ConformingMesh& mesh,
     const StageTimer timer(run, "measure");
     if (run.progress) run.progress("measure", 0);
     auto deviations = deviations_of(mesh, improved->mesh, run);
+    if (run.stop.stop_requested()) return Error{ErrorCode::interrupted, "stopped on request", ""};
     auto back = bounds_back(mesh, *improved, options, run);
     if (!back) return back.error();
     if (run.stop.stop_requested()) return Error{ErrorCode::interrupted, "stopped on request", ""};

@@ -48,7 +48,13 @@ std::vector<double> edge_lengths(std::span<const Point3> vertices,
 
 } // namespace
 
-double quality_of(const Point3& a, const Point3& b, const Point3& c) {
+double quality_of(const Point3& first, const Point3& second, const Point3& third) {
+    // The corners are sorted, so that the result is the same in any order to the last bit.
+    std::array<Point3, 3> corners{first, second, third};
+    std::sort(corners.begin(), corners.end(), [](const Point3& p, const Point3& q) {
+        return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z);
+    });
+    const auto& [a, b, c] = corners;
     const Point3 u = minus(b, a), v = minus(c, a);
     const double size = std::max({std::fabs(u.x), std::fabs(u.y), std::fabs(u.z), std::fabs(v.x),
                                   std::fabs(v.y), std::fabs(v.z)});

@@ -15,7 +15,7 @@
 
 namespace terrane {
 
-/// Computes q, in [0, 1].
+/// Computes q, in [0, 1]. The order of the corners changes no bit of it.
 double quality_of(const Point3& a, const Point3& b, const Point3& c);
 
 /// Computes the angles at a, b and c in degrees; 0 where an adjacent side has no length.

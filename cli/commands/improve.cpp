@@ -3,8 +3,11 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
@@ -61,6 +64,41 @@ std::optional<double> positive(const std::string& text) {
     return value;
 }
 
+/// Refuses numbers that can't be meant, before anything is read.
+Status check_numbers(const ImproveCommand& command, const CLI::App& app) {
+    for (const char* const name : {"--curve-length", "--turn", "--growth", "--max-deviation",
+                                   "--thickness-share", "--max-triangles", "--least-quality"})
+        if (const auto* option = app.get_option(name);
+            option->count() > 0 && !positive(option->as<std::string>()))
+            return Error{ErrorCode::bad_option, "needs a positive number", name};
+    if (!(command.options.least_quality <= 1))
+        return Error{ErrorCode::bad_option, "must be at most 1", "--least-quality"};
+    if (!(command.options.max_volume_change >= 0))
+        return Error{ErrorCode::bad_option, "needs a percentage", "--max-volume-change"};
+    return Done{};
+}
+
+/// Judges the options by the surfaces as they were read, before these are arranged.
+Status judge(const Inputs& inputs, const ImproveOptions& options) {
+    double largest = 0;
+    for (const Surface& s : inputs.surfaces)
+        for (const Point3& p : s.vertices)
+            largest = std::max({largest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+    if (options.max_deviation > 0 && options.max_deviation < least_deviation(largest))
+        return Error{ErrorCode::bad_option,
+                     fmt::format("is too small for coordinates of this size; the least is {:.3g}",
+                                 least_deviation(largest)),
+                     "--max-deviation"};
+    const double count = expected_triangles(inputs.surfaces, options);
+    if (count > options.max_triangles)
+        return Error{ErrorCode::bad_option,
+                     fmt::format("about {:.3g} triangles are to be expected, more than the limit "
+                                 "of {:.3g}; ask for longer edges or raise --max-triangles",
+                                 count, options.max_triangles),
+                     "--edge-length"};
+    return Done{};
+}
+
 Status set_length_of(const std::string& text, const Inputs& inputs, std::vector<double>& lengths) {
     const auto at = text.rfind('=');
     const auto length = at == std::string::npos ? std::nullopt : positive(text.substr(at + 1));
@@ -106,7 +144,8 @@ Status write_all(const ImproveCommand& command, const Inputs& inputs, const Arra
     auto written = write_outputs(measured.improved.mesh, true, command.files, outputs, session);
     if (!written || command.proof.certificate.empty()) return written;
     const ProofFiles certified{command.files.inputs, outputs, command.files.ascii,
-                               summary_stream(command.files), cut_request(command.settings)};
+                               summary_stream(command.files),
+                               cut_request(command.settings, arranged)};
     return write_improved_certificate(command.proof.certificate, certified, inputs, arranged,
                                       measured.improved, session);
 }
@@ -118,6 +157,7 @@ Status check_improve(const ImproveCommand& command) {
     if (auto sound = check_volume_options(command.settings.volume); !sound) return sound;
     if (auto named = plan_proof(command.proof, command.files); !named) return named;
     if (command.proof.certificate.empty()) return Done{};
+    if (auto possible = check_certifiable(command.settings); !possible) return possible;
     return check_certified_names(command.proof.certificate, command.settings.volume.within);
 }
 
@@ -132,6 +172,7 @@ Result<ExitStatus> improve_files(const ImproveCommand& command, Session& session
     ImproveOptions options = command.options;
     options.check = check_of(command.settings.check, inputs.value());
     if (const auto set = set_lengths(command, inputs.value(), options); !set) return set.error();
+    if (const auto good = judge(inputs.value(), options); !good) return good.error();
     Json statistics = statistics_of(inputs.value(), session.times());
 
     const auto arranged = arrange_and_round(inputs.value(), command.settings, session, statistics);
@@ -163,6 +204,7 @@ Result<ExitStatus> improve_files(const ImproveCommand& command, Session& session
             warn(
                 "not all of each surface as it was is shown to be near enough to the improved one; "
                 "try another --max-deviation");
+        clean = keeps_volumes(measured.value(), files.strict, options.max_volume_change) && clean;
         Stopwatch writing;
         if (clean) {
             const auto written = write_all(command, inputs.value(), arranged.value(),
@@ -204,6 +246,25 @@ void add_limits(CLI::App& app, ImproveCommand& command) {
                    "No point of a surface goes farther from it, unit of the files (default: a "
                    "twentieth of the wanted length)")
         ->type_name("D");
+    app.add_option("--thickness-share", command.options.thickness_share,
+                   "Where blocks are thin, points deviate by at most this share of the distance to "
+                   "the next sheet (default: 0.1)")
+        ->type_name("SHARE");
+    app.add_option("--max-volume-change", command.options.max_volume_change,
+                   "Improve again around blocks whose volumes change by more percent, and "
+                   "warn where that does not help (default: 5)")
+        ->type_name("P");
+    app.get_option("--strict")
+        ->description(
+            "Stop with status 2 at warnings about the inputs, and with status 1 at such a "
+            "change; nothing is written then");
+    app.add_option("--least-quality", command.options.least_quality,
+                   "No triangle becomes worse than the worst one before, or than this q if that is "
+                   "less, up to 1 (default: 1)")
+        ->type_name("Q");
+    app.add_option("--max-triangles", command.options.max_triangles,
+                   "Refuse to begin where more are to be expected (default: 2e7)")
+        ->type_name("N");
     app.add_option("--crease-angle", command.options.crease_angle,
                    "Edges at which a surface turns by more are kept (default: 50)")
         ->type_name("DEGREES");
@@ -233,7 +294,9 @@ Command improve_command(CLI::App& program) {
     add_threads(*app, command->files);
     add_stats(*app, command->files);
     app->footer(improve_footer);
-    return {app, [command] {
+    return {app, [command, app] {
+                if (const auto good = check_numbers(*command, *app); !good)
+                    return fail(good.error());
                 Session session(command->files.threads);
                 const auto status = improve_files(*command, session);
                 return status ? status.value() : fail(status.error());

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -31,6 +32,14 @@ std::string worst_text(const Improved& improved) {
                        text_of(m.vertices[t[0]]), name_of(r.worst_cause));
 }
 
+/// Explains why edges may be longer or shorter than wanted.
+std::string lengths_text(const ImproveReport& r) {
+    if (!r.is_strict) return {};
+    return fmt::format("lengths: edges stay where others would make triangles worse than q {:.4f}, "
+                       "the worst before; --least-quality allows them\n",
+                       r.least_quality);
+}
+
 /// Reports the deviation of the surface that comes nearest to its bound.
 std::string deviation_text(const ImprovedAndMeasured& measured, const Inputs& inputs) {
     const ImproveReport& r = measured.improved.report;
@@ -53,6 +62,56 @@ std::string deviation_text(const ImprovedAndMeasured& measured, const Inputs& in
            text_of(measured.improved.conforming->pairs());
 }
 
+/// The volume of a block before and after.
+struct VolumeChange {
+    std::size_t block = 0; ///< number in the improved mesh
+    double before = 0, after = 0;
+
+    /// Returns the size of the change in percent of the volume before.
+    [[nodiscard]] double percent() const {
+        return after == before ? 0 : 100 * std::fabs(after / before - 1);
+    }
+};
+
+/// Lists all blocks; none where the sides of sheets are not kept.
+std::vector<VolumeChange> volume_changes(const Improved& improved) {
+    std::vector<VolumeChange> changes;
+    for (std::size_t b = 1; b < improved.volume_before.size(); ++b)
+        changes.push_back({b, improved.volumes_before.measures[improved.volume_before[b]],
+                           improved.volumes.measures[b]});
+    return changes;
+}
+
+/// Reports the volumes of all blocks together and of each block; of many, the one that changed
+/// most.
+std::string volumes_text(const Improved& improved) {
+    constexpr std::size_t few = 20;
+    auto changes = volume_changes(improved);
+    if (changes.empty()) return {};
+    std::stable_sort(
+        changes.begin(), changes.end(),
+        [](const VolumeChange& a, const VolumeChange& b) { return a.percent() > b.percent(); });
+    auto text = fmt::format("volumes: {}, {:.6g} before, {:.6g} after{}\n",
+                            counted(changes.size(), "block"), improved.volumes_before.measures[0],
+                            improved.volumes.measures[0],
+                            changes.size() > few ? "; those that changed most:" : "");
+    if (changes.size() > few) changes.resize(few);
+    for (const VolumeChange& c : changes)
+        text += fmt::format("  block {}: {:.6g} before, {:.6g} after, changed by {:.2g} %\n",
+                            c.block, c.before, c.after, c.percent());
+    return text;
+}
+
+Json volumes_json(const Improved& improved) {
+    Json all = Json::array();
+    for (const VolumeChange& c : volume_changes(improved))
+        all.push_back({{"block", c.block},
+                       {"volume_before", c.before},
+                       {"volume_after", c.after},
+                       {"change_percent", c.percent()}});
+    return all;
+}
+
 Json json_of(const Spread& s) {
     return {{"min", s.min},
             {"mean", s.mean},
@@ -72,6 +131,17 @@ Json json_of(const QualityReport& q) {
 
 } // namespace
 
+bool keeps_volumes(const ImprovedAndMeasured& measured, bool strict, double most) {
+    double largest = 0;
+    for (const VolumeChange& c : volume_changes(measured.improved))
+        largest = std::max(largest, c.percent());
+    if (largest <= most) return true;
+    warn(fmt::format("the volume of a block changed by {:.3g} %, more than {:.3g} %; try a smaller "
+                     "deviation",
+                     largest, most));
+    return !strict;
+}
+
 std::string improve_text(const ImprovedAndMeasured& measured, const Inputs& inputs) {
     const Improved& improved = measured.improved;
     const ImproveReport& r = improved.report;
@@ -79,10 +149,11 @@ std::string improve_text(const ImprovedAndMeasured& measured, const Inputs& inpu
         "quality  triangles  mean q   least  % > 0.8  angle min       max  edges min, mean, max\n";
     text += quality_row("before", r.before) + quality_row("after", r.after);
     text += worst_text(improved);
+    text += lengths_text(r);
     text +=
         fmt::format("{} splits, {} collapses, {} swaps, {} moves; {} curves and {} corners kept\n",
                     r.splits, r.collapses, r.swaps, r.moves, r.curves, r.corners);
-    return text + deviation_text(measured, inputs);
+    return text + volumes_text(improved) + deviation_text(measured, inputs);
 }
 
 void add_statistics(Json& json, const ImprovedAndMeasured& measured, const StageTimes& times) {
@@ -105,6 +176,11 @@ void add_statistics(Json& json, const ImprovedAndMeasured& measured, const Stage
                        {"corners", r.corners},
                        {"curves", r.curves},
                        {"sheets", r.sheets},
+                       {"attempts", r.attempts},
+                       {"least_quality", r.least_quality},
+                       {"thin_triangles", r.thin_triangles},
+                       {"held_blocks", r.held_blocks},
+                       {"blocks", volumes_json(improved)},
                        {"worst_cause", name_of(r.worst_cause)}};
     if (const auto& pairs = improved.conforming->pairs())
         json["improve"]["pairs"] = json_of(*pairs);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <algorithm>
 #include <string>
 
 #include <catch2/catch.hpp>
@@ -63,13 +64,51 @@ TEST_CASE("cli: improve refuses what makes no sense, and writes nothing", "[cli]
     for (const std::string options :
          {"--edge-length -1", "--edge-length 1x", "--edge-length nan", "--edge-length-of fault",
           "--edge-length-of nobody=1", "--edge-length-of fault=0", "--passes 0", "--turn -5",
-          "--max-deviation 1e-300", "--histogram nowhere/q.svg"}) {
+          "--max-deviation 1e-300", "--max-deviation 0", "--curve-length 0", "--turn 0",
+          "--thickness-share 0", "--least-quality 0", "--least-quality 1.1",
+          "--max-volume-change -1", "--edge-length 1e-6", "--edge-length 0.5 --max-triangles 10",
+          "--histogram nowhere/q.svg"}) {
         const Outcome made = folder.run("improve in/two.obj -o out.obj " + options);
         INFO(options << ": " << made.err);
         CHECK(made.status == 2);
         CHECK_FALSE(made.err.empty());
     }
     CHECK(folder.left().empty());
+}
+
+TEST_CASE("cli: improve states the volumes of blocks, and judges how they change", "[cli]") {
+    const Folder folder;
+    const std::string thin = "improve $D/improve/thin_block.obj --edge-length 150 ";
+    const Outcome kept = folder.run(thin + "-o kept.obj --stats kept.json --max-volume-change 20");
+    INFO(kept.err);
+    REQUIRE(kept.status == 0);
+    CHECK(contains(kept.out, "volumes: "));
+    CHECK_FALSE(contains(kept.err, "the volume of a block changed"));
+    const Json stats = Json::parse(folder.read("kept.json"));
+    CHECK(stats.at("improve").at("thin_triangles") > 0);
+    const auto& blocks = stats.at("improve").at("blocks");
+    REQUIRE_FALSE(blocks.empty());
+    for (const auto& b : blocks) CHECK(b.at("change_percent") < 20);
+
+    const Outcome held =
+        folder.run(thin + "-o held.obj --stats held.json --thickness-share 1e6 --strict");
+    CHECK(held.status == 0);
+    const Json now = Json::parse(folder.read("held.json")).at("improve");
+    CHECK(now.at("held_blocks") > 0);
+    for (const auto& b : now.at("blocks")) CHECK(b.at("change_percent") <= 5);
+
+    // At these coordinates no smaller deviation can be told from rounding errors.
+    const std::string large = "improve $D/improve/large_h0.obj $D/improve/large_h1.obj "
+                              "$D/improve/large_h2.obj $D/improve/large_f0.obj "
+                              "--max-volume-change 1e-6 ";
+    const Outcome loose = folder.run(large + "-o loose.obj");
+    CHECK(loose.status == 0);
+    CHECK(contains(loose.err, "the volume of a block changed by "));
+    const Outcome strict = folder.run(large + "-o strict.obj --strict");
+    CHECK(strict.status == 1);
+    CHECK(contains(strict.err, "nothing written"));
+    const auto left = folder.left();
+    CHECK(std::find(left.begin(), left.end(), "strict.obj") == left.end());
 }
 
 TEST_CASE("cli: improve writes the same bytes for any number of threads", "[cli]") {

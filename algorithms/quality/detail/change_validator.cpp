@@ -8,6 +8,7 @@
 #include <terrane/algorithms/intersection/intersection.hpp>
 #include <terrane/algorithms/mesh/edges.hpp>
 #include <terrane/algorithms/quality/detail/constants.hpp>
+#include <terrane/algorithms/quality/quality.hpp>
 #include <terrane/kernel/predicates.hpp>
 
 namespace terrane::quality::detail {
@@ -124,12 +125,13 @@ Sign ChangeValidator::orientation_of(const Change& change, const Triangle& t,
     return orientation_in(axis_[patch], corners_of(change, t), {0, 1, 2});
 }
 
-/// Checks that added triangles have area, do not turn away from those they replace and, in an
-/// injective patch, keep its orientation.
+/// Checks that added triangles are not worse than allowed, have area, do not turn away from those
+/// they replace and, in an injective patch, keep its orientation.
 bool ChangeValidator::shapes_hold(const Change& change, std::uint32_t patch) const {
     for (std::size_t i = 0; i < change.added.size(); ++i) {
         const Triangle& t = change.added[i];
         const auto [a, b, c] = corners_of(change, t);
+        if (quality_of(a, b, c) < least_quality_.at(mesh_.hint_of[change.from[i]])) return false;
         const Point3 n = cross(minus(b, a), minus(c, a));
         const std::uint32_t sheet = mesh_.sheet_of[change.from[i]];
         const auto facing =

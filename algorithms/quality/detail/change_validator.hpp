@@ -22,6 +22,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <tbb/enumerable_thread_specific.h>
@@ -29,6 +30,7 @@
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/quality/detail/borders.hpp>
 #include <terrane/algorithms/quality/detail/grid.hpp>
+#include <terrane/algorithms/quality/detail/least_quality.hpp>
 #include <terrane/algorithms/quality/detail/reference_surface.hpp>
 #include <terrane/algorithms/quality/detail/working_mesh.hpp>
 #include <terrane/kernel/plane_filter.hpp>
@@ -87,6 +89,10 @@ public:
     /// Finds injective patches anew and renumbers triangles. Must be called first, and again when
     /// many triangles have left their patches.
     void group_again(const Run& run);
+
+    /// Refuses from now on all changes that add a triangle of a smaller q.
+    void set_least_quality(LeastQuality least) { least_quality_ = std::move(least); }
+    [[nodiscard]] const LeastQuality& least_quality() const { return least_quality_; }
 
     /// Tells whether all triangles are in one injective patch, which makes changes to them cheap.
     [[nodiscard]] bool in_one_patch(std::span<const std::uint32_t> triangles) const;
@@ -161,6 +167,7 @@ private:
     Borders borders_;
     TriangleGrid grid_;
     std::size_t ungrouped_ = 0;
+    LeastQuality least_quality_;
 
     tbb::enumerable_thread_specific<ThreadScratch> scratches_;
     std::vector<std::uint32_t> numbers_; ///< of the triangles added last

@@ -53,6 +53,21 @@ struct RemeshConstants {
     /// Least target length where a surface is curved, as a share of the target length
     /// elsewhere. Smaller: more triangles at sharp bends.
     double curvature_floor = 0.125;
+    /// Triangles that may decide the normal of a surface at a vertex. Larger: curvature is measured
+    /// over the wanted length on finer meshes.
+    unsigned turn_triangles = 256;
+    /// Turns are measured over so many triangles, but not beyond the wanted length. Larger: bends
+    /// of few triangles count less.
+    double turn_reach = 1;
+    /// Least cosine of the angle between two triangles between which a block counts as thin: 30
+    /// degrees. Larger: blocks are thin in fewer places, and triangles near intersections become
+    /// better.
+    double thin_cosine = 0.866;
+    /// The thickness of a block is the largest one within so many target lengths. Larger: triangles
+    /// near intersections become better, blocks that end in wedges change more.
+    double thin_reach = 1;
+    /// Triangles that may decide about the thickness at a triangle.
+    unsigned thin_triangles = 256;
     /// Default of max_deviation, in target lengths. Larger: coarser representation of
     /// curved surfaces.
     double default_tolerance = 0.05;
@@ -78,6 +93,21 @@ struct RemeshConstants {
     unsigned jitter_passes = 2;
     /// Rounds that improve single triangles.
     unsigned finish_rounds = 2;
+    /// Changes that are made for the worst triangle of all at the end, one after the other. Larger:
+    /// a better worst triangle.
+    unsigned worst_rounds = 200;
+    /// Rounds that improve all triangles that are worse than the result may be.
+    unsigned bad_rounds = 10;
+    /// Attempts with more and more strict triangles before all are. Larger: wanted lengths in more
+    /// places, more time.
+    unsigned strict_attempts = 2;
+    /// Attempts with smaller bounds around blocks whose volumes have changed too much. Larger:
+    /// fewer such blocks, more time.
+    unsigned volume_attempts = 3;
+    /// Input triangles up to so many target lengths from a bad triangle become strict.
+    double strict_lengths = 2;
+    /// All input triangles become strict when more than one in so many triangles is bad.
+    unsigned strict_part = 20;
     /// Rounds of splitting in a pass; a round halves an edge at most once.
     unsigned split_rounds = 32;
     /// Rounds of swapping in a pass.
@@ -124,6 +154,11 @@ struct RemeshConstants {
     double coarse_part_back = 4;
     /// Edges that a collapse along a curve may leave, in target lengths.
     double curve_collapse_ratio = 2;
+    /// Least q of triangles that are not strict, unless the result may have smaller ones. Larger:
+    /// good triangles are divided less, as their parts are worse at first.
+    double least_quality = 1e-3;
+    /// Share by which rounding may reduce q of a triangle that is divided into similar ones.
+    double quality_rounding = 1e-12;
 };
 
 inline constexpr RemeshConstants constants;
@@ -144,6 +179,11 @@ inline std::vector<NamedConstant> named_constants() {
         {"least_cosine_gain", constants.least_cosine_gain},
         {"least_slide", constants.least_slide},
         {"curvature_floor", constants.curvature_floor},
+        {"turn_triangles", static_cast<double>(constants.turn_triangles)},
+        {"turn_reach", constants.turn_reach},
+        {"thin_cosine", constants.thin_cosine},
+        {"thin_reach", constants.thin_reach},
+        {"thin_triangles", static_cast<double>(constants.thin_triangles)},
         {"default_tolerance", constants.default_tolerance},
         {"thinnest", constants.thinnest},
         {"least_bound", constants.least_bound},
@@ -153,6 +193,12 @@ inline std::vector<NamedConstant> named_constants() {
         {"cleanup_part", static_cast<double>(constants.cleanup_part)},
         {"jitter_passes", static_cast<double>(constants.jitter_passes)},
         {"finish_rounds", static_cast<double>(constants.finish_rounds)},
+        {"worst_rounds", static_cast<double>(constants.worst_rounds)},
+        {"bad_rounds", static_cast<double>(constants.bad_rounds)},
+        {"strict_attempts", static_cast<double>(constants.strict_attempts)},
+        {"volume_attempts", static_cast<double>(constants.volume_attempts)},
+        {"strict_lengths", constants.strict_lengths},
+        {"strict_part", static_cast<double>(constants.strict_part)},
         {"split_rounds", static_cast<double>(constants.split_rounds)},
         {"swap_rounds", static_cast<double>(constants.swap_rounds)},
         {"window_size", static_cast<double>(constants.window_size)},
@@ -174,6 +220,8 @@ inline std::vector<NamedConstant> named_constants() {
         {"least_part", constants.least_part},
         {"coarse_part_back", constants.coarse_part_back},
         {"curve_collapse_ratio", constants.curve_collapse_ratio},
+        {"least_quality", constants.least_quality},
+        {"quality_rounding", constants.quality_rounding},
     };
 }
 

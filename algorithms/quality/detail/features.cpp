@@ -101,7 +101,8 @@ private:
     }
 
     /// Orients all triangles of each sheet like its first one; an edge across which that is
-    /// impossible becomes a curve edge.
+    /// impossible becomes a curve edge. The nearest triangles come first, so that such edges form a
+    /// short curve, however the triangles are numbered.
     void orient_consistently() {
         std::vector<bool> seen(mesh_.triangles.size(), false);
         std::vector<std::uint32_t> front;
@@ -109,11 +110,8 @@ private:
         for (const std::uint32_t first : out_.first_of) {
             front.assign(1, first);
             seen[first] = true;
-            while (!front.empty()) {
-                const std::uint32_t t = front.back();
-                front.pop_back();
-                for (std::size_t i = 0; i < 3; ++i) cut = spread(t, i, seen, front) || cut;
-            }
+            for (std::size_t k = 0; k < front.size(); ++k)
+                for (std::size_t i = 0; i < 3; ++i) cut = spread(front[k], i, seen, front) || cut;
         }
         if (cut) std::sort(out_.edges.begin(), out_.edges.end());
     }

@@ -87,6 +87,9 @@ std::size_t split_edges(RemeshContext& context);
 std::size_t collapse_edges(RemeshContext& context);
 /// Collapses an edge of each triangle worse than `below` where that improves the worst triangle.
 std::size_t collapse_bad(RemeshContext& context, double below);
+/// Tries the collapse of each edge at the triangle's corners and the swap of each of its edges, and
+/// makes what improves it, however long the edges become. Returns the number of changes.
+std::size_t improve_triangle(RemeshContext& context, std::uint32_t t);
 std::size_t swap_edges(RemeshContext& context);
 /// Swaps edges so that valences come closer to six, unless that makes an angle too large. Smoothing
 /// then improves these triangles beyond the former ones.

@@ -72,7 +72,7 @@ ReferenceSurface::ReferenceSurface(std::span<const Point3> points, const Feature
             largest = std::max(
                 {largest, std::fabs(points[v].x), std::fabs(points[v].y), std::fabs(points[v].z)});
     }
-    slack_ = 256 * unit * largest;
+    slack_ = rounding_at(largest);
 }
 
 /// Tells whether all corners of triangle t are farther than `gap` from the plane of triangle `of`,
@@ -224,7 +224,7 @@ ReferenceSurface::Walk ReferenceSurface::walk(const Frame& frame, const Point3& 
 /// Tells whether a triangle is within the target's bound over the whole target. `heights` are those
 /// of its corners above the plane of the target.
 bool ReferenceSurface::is_near(const Target& target, const Corners& facet,
-                               const std::array<double, 3>& heights) {
+                               const std::array<double, 3>& heights, double bound) {
     std::array<Flat, 3> corners;
     for (std::size_t i = 0; i < 3; ++i)
         corners[i] = target.frame.flat(minus(facet[i], target.origin));
@@ -252,7 +252,7 @@ bool ReferenceSurface::is_near(const Target& target, const Corners& facet,
                               std::min({heights[0], heights[1], heights[2]});
         const double height =
             shares[0] * heights[0] + shares[1] * heights[1] + shares[2] * heights[2];
-        if (!(std::fabs(height) + 3 * error * spread <= target.bound)) return false;
+        if (!(std::fabs(height) + 3 * error * spread <= bound)) return false;
     }
     return true;
 }
@@ -262,6 +262,7 @@ ReferenceSurface::Cover ReferenceSurface::visit(const Target& target, std::uint3
                                                 Search& search) const {
     if (orientation_of(t, target.frame) != target.orientation) return Cover::open;
     const Facet& facet = facets_[t];
+    const double bound = std::min(target.bound, height_bound(t));
     const Target::Measures& m = target.measures;
     std::array<std::array<double, 4>, 3> measured{}; // per corner: how far inside of each edge, and
                                                      // the height
@@ -274,7 +275,7 @@ ReferenceSurface::Cover ReferenceSurface::visit(const Target& target, std::uint3
             measured[i][k] = m.x[k] * d.x + m.y[k] * d.y + m.z[k] * d.z - m.off[k];
         const double away = std::fabs(d.x) + std::fabs(d.y) + std::fabs(d.z);
         heights[i] = measured[i][3] + std::copysign(target.error * away, measured[i][3]);
-        all_near = all_near && std::fabs(heights[i]) <= target.bound;
+        all_near = all_near && std::fabs(heights[i]) <= bound;
         size = std::max(size, away);
     }
     // From here on, upper bounds of how far inside each corner lies.
@@ -305,12 +306,12 @@ ReferenceSurface::Cover ReferenceSurface::visit(const Target& target, std::uint3
         }
         if (all_near) continue;
         const double rise = heights[k] - heights[i];
-        const double most = target.bound - 2 * share_error * std::fabs(rise);
+        const double most = bound - 2 * share_error * std::fabs(rise);
         if (!(std::fabs(heights[i] + low * rise) <= most) ||
             !(std::fabs(heights[i] + high * rise) <= most))
             return Cover::far;
     }
-    return all_near || is_near(target, facet.corners, heights) ? Cover::near : Cover::far;
+    return all_near || is_near(target, facet.corners, heights, bound) ? Cover::near : Cover::far;
 }
 
 ReferenceSurface::Cover ReferenceSurface::covered(const Target& target, std::uint32_t start,
@@ -335,8 +336,12 @@ ReferenceSurface::Cover ReferenceSurface::covered(const Target& target, std::uin
 
 bool ReferenceSurface::near_one(const Corners& triangle, std::uint32_t t, double bound) const {
     const Corners& of = facets_[t].corners;
+    const Point3& n = facets_[t].normal;
+    const double height = height_bound(t), size = length(n);
     return std::all_of(triangle.begin(), triangle.end(), [&](const Point3& p) {
-        return to_triangle(p, of[0], of[1], of[2]) <= bound;
+        const double away = to_triangle(p, of[0], of[1], of[2]);
+        return away <= bound &&
+               (away <= height || std::fabs(dot(n, minus(p, of[0]))) <= size * height);
     });
 }
 

@@ -18,8 +18,10 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <terrane/algorithms/core/run.hpp>
@@ -42,6 +44,10 @@ public:
     ReferenceSurface(std::span<const Point3> points, const Features& features,
                      std::span<const double> bound_of);
 
+    /// Limits heights over single triangles, which are distances along about the normal. `bounds`
+    /// is given per triangle and is at most that of its sheet.
+    void limit_bounds(std::vector<double> bounds) { local_bound_ = std::move(bounds); }
+
     /// Finds the isolated triangles; before, none counts as isolated.
     void find_isolated(const Run& run);
 
@@ -49,7 +55,11 @@ public:
 
     /// Returns the least tolerance that is distinguishable from rounding errors.
     [[nodiscard]] double least_bound() const { return constants.least_bound * slack_; }
-    /// Returns an upper bound of the rounding error of a distance.
+    /// Returns an upper bound of the rounding error of a distance where no coordinate is larger.
+    static double rounding_at(double largest_coordinate) {
+        return 256 * std::numeric_limits<double>::epsilon() * largest_coordinate;
+    }
+    /// Returns that bound for this surface.
     [[nodiscard]] double rounding() const { return slack_; }
 
     struct Containment {
@@ -137,7 +147,11 @@ private:
     Cover covered(const Target& target, std::uint32_t start, Search& search) const;
     Cover visit(const Target& target, std::uint32_t t, Search& search) const;
     [[nodiscard]] static bool is_near(const Target& target, const Corners& facet,
-                                      const std::array<double, 3>& heights);
+                                      const std::array<double, 3>& heights, double bound);
+    /// Returns the bound of heights over triangle t, rounding errors included.
+    [[nodiscard]] double height_bound(std::uint32_t t) const {
+        return (local_bound_.empty() ? bound_of_[features_.sheet_of[t]] : local_bound_[t]) - slack_;
+    }
     [[nodiscard]] bool near_one(const Corners& triangle, std::uint32_t t, double bound) const;
     bool contains_part(const Corners& triangle, Containment& containment, double bound,
                        unsigned& budget, Search& search) const;
@@ -156,8 +170,9 @@ private:
         std::array<std::int8_t, 3> orientations{}; ///< per axis, exact
         bool isolated = false;
     };
-    std::vector<Facet> facets_; ///< per triangle
-    double slack_ = 0;          ///< exceeds the rounding errors of distances
+    std::vector<Facet> facets_;       ///< per triangle
+    std::vector<double> local_bound_; ///< per triangle; empty: those of the sheets
+    double slack_ = 0;                ///< exceeds the rounding errors of distances
 };
 
 } // namespace terrane::quality::detail

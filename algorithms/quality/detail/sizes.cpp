@@ -10,6 +10,7 @@
 
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/quality/detail/constants.hpp>
+#include <terrane/algorithms/quality/detail/curvature.hpp>
 
 namespace terrane::quality::detail {
 namespace {
@@ -45,30 +46,31 @@ std::vector<double> lengths_of_surfaces(const Mesh& mesh, const ImproveOptions& 
     return lengths;
 }
 
-/// Reduces the target length where the normals of adjacent triangles differ much over the distance
-/// of their centroids.
+/// Computes, per vertex, the edge of an equilateral triangle as large as the largest one at the
+/// vertex or at its neighbours: the slivers along intersections are next to larger triangles.
+std::vector<double> edges_of_largest(const Mesh& mesh, const Features& features) {
+    std::vector<double> at(mesh.vertices.size(), 0);
+    for (const Triangle& t : features.triangles) {
+        const double edge = std::sqrt(length(normal_of(mesh, t)) * 2 / std::sqrt(3.0));
+        for (const std::uint32_t v : t) at[v] = std::max(at[v], edge);
+    }
+    std::vector<double> near = at;
+    for (const Triangle& t : features.triangles)
+        for (const std::uint32_t v : t) near[v] = std::max({near[v], at[t[0]], at[t[1]], at[t[2]]});
+    return near;
+}
+
+/// Reduces the target length where the sheet turns by more than `turn` along it. Turns are measured
+/// over the target length, or over about two triangles where these are smaller.
 void limit_by_curvature(const Mesh& mesh, const Features& features, double turn,
                         std::vector<double>& sizes) {
-    const std::vector<double> before = sizes;
-    for (std::uint32_t t = 0; t < features.triangles.size(); ++t)
-        for (std::size_t i = 0; i < 3; ++i) {
-            const std::uint32_t u = features.across[t][i];
-            if (u == none || u < t) continue;
-            const Triangle &a = features.triangles[t], &b = features.triangles[u];
-            const Point3 n = normal_of(mesh, a), m = normal_of(mesh, b);
-            const double angle = std::atan2(length(cross(n, m)), dot(n, m));
-            const Point3 along = minus(mesh.vertices[a[(i + 1) % 3]], mesh.vertices[a[i]]);
-            const double base = length(along);
-            const double way = (length(n) + length(m)) / (3 * base); // a third of both heights
-            if (!(angle > 0) || !(way > 0)) continue;
-            const double wanted = turn * way / angle;
-            for (const std::uint32_t v : a)
-                sizes[v] =
-                    std::min(sizes[v], std::max(wanted, constants.curvature_floor * before[v]));
-            for (const std::uint32_t v : b)
-                sizes[v] =
-                    std::min(sizes[v], std::max(wanted, constants.curvature_floor * before[v]));
-        }
+    std::vector<double> reach = edges_of_largest(mesh, features);
+    for (std::size_t v = 0; v < sizes.size(); ++v)
+        reach[v] = std::min(sizes[v], constants.turn_reach * reach[v]);
+    const auto turns = turns_per_length(mesh, features, reach);
+    for (std::size_t v = 0; v < sizes.size(); ++v)
+        if (turns[v] * sizes[v] > turn)
+            sizes[v] = std::max(turn / turns[v], constants.curvature_floor * sizes[v]);
 }
 
 /// Limits each target length to that of a neighbour plus `growth` times the distance to it.
@@ -123,6 +125,18 @@ Sizes find_sizes(const Mesh& mesh, const Features& features, const ImproveOption
         limit_by_curvature(mesh, features, options.turn * std::acos(-1.0) / 180, out.of_vertices);
     limit_growth(mesh, features, options.growth, out.of_vertices);
     return out;
+}
+
+double expected_with_sizes(const Mesh& mesh, const Features& features, const Sizes& sizes) {
+    double count = 0;
+    for (const Triangle& t : features.triangles) {
+        const Point3 n = cross(minus(mesh.vertices[t[1]], mesh.vertices[t[0]]),
+                               minus(mesh.vertices[t[2]], mesh.vertices[t[0]]));
+        const double size =
+            (sizes.of_vertices[t[0]] + sizes.of_vertices[t[1]] + sizes.of_vertices[t[2]]) / 3;
+        count += length(n) / 2 / (std::sqrt(3.0) / 4 * size * size);
+    }
+    return count;
 }
 
 } // namespace terrane::quality::detail

@@ -18,4 +18,7 @@ struct Sizes {
 /// options.edge_length_of must have one element per surface, or none.
 Sizes find_sizes(const Mesh& mesh, const Features& features, const ImproveOptions& options);
 
+/// Estimates the number of triangles from areas and local target lengths.
+double expected_with_sizes(const Mesh& mesh, const Features& features, const Sizes& sizes);
+
 } // namespace terrane::quality::detail

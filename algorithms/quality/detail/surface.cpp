@@ -190,6 +190,14 @@ std::size_t swap_those(RemeshContext& context, std::uint32_t changed_since, Aim 
     return count;
 }
 
+/// Tells whether the mesh has a triangle with the corners of t; v is one of them.
+bool exists(const WorkMesh& mesh, const Triangle& t, std::uint32_t v) {
+    return std::any_of(mesh.star[v].begin(), mesh.star[v].end(), [&](std::uint32_t other) {
+        return std::all_of(t.begin(), t.end(),
+                           [&](std::uint32_t c) { return has(mesh.triangles[other], c); });
+    });
+}
+
 /// Tells whether the collapse preserves the topology.
 bool keeps_topology(const WorkMesh& mesh, std::uint32_t gone, std::uint32_t kept, Proposal& p) {
     mesh.neighbours(gone, p.of_gone);
@@ -208,7 +216,7 @@ bool keeps_topology(const WorkMesh& mesh, std::uint32_t gone, std::uint32_t kept
     for (const Triangle& t : p.change.added) {
         unsigned count = 0;
         for (const std::uint32_t v : t) count += is_across(v);
-        if (count == 2) return false; // the triangle may exist already
+        if (count == 2 && exists(mesh, t, kept)) return false;
     }
     return true;
 }
@@ -413,6 +421,50 @@ std::size_t collapse_bad(RemeshContext& context, double below) {
             if (is_made) after_collapse(context.mesh, p);
         });
     context.collapses += count;
+    return count;
+}
+
+std::size_t improve_triangle(RemeshContext& context, std::uint32_t t) {
+    const Triangle c = context.mesh.triangles[t];
+    std::vector<Edge> ends; // gone, kept
+    for (std::size_t i = 0; i < 3; ++i) {
+        ends.push_back({c[i], c[(i + 1) % 3]});
+        ends.push_back({c[(i + 1) % 3], c[i]});
+    }
+    for (const std::uint32_t v : c) { // its other neighbours, and the collapse of a vertex of three
+        std::vector<std::uint32_t> around;
+        context.mesh.neighbours(v, around);
+        for (const std::uint32_t u : around)
+            if (!has(c, u)) ends.push_back({v, u});
+    }
+    const auto fits = [&](const Edge& e) {
+        const auto kind = context.mesh.kinds[e[0]];
+        return kind == VertexKind::inner ||
+               (kind == VertexKind::curve && context.mesh.curve_at(e[0], e[1]) != none);
+    };
+    std::erase_if(ends, [&](const Edge& e) { return !fits(e); });
+    const auto is_here = [&] { return context.mesh.in_use(t) && context.mesh.triangles[t] == c; };
+    std::size_t count = in_windows(
+        context, ends,
+        [&](const Edge& e, Proposal& p) {
+            return is_here() && propose_collapse(context, e, HUGE_VAL, 1.0, p);
+        },
+        [&](const Edge&, const Proposal& p, bool is_made) {
+            if (is_made) after_collapse(context.mesh, p);
+        });
+    context.collapses += count;
+    if (count > 0 || !is_here()) return count;
+    std::vector<Edge> sides;
+    for (std::size_t i = 0; i < 3; ++i)
+        if (context.mesh.curve_at(c[i], c[(i + 1) % 3]) == none)
+            sides.push_back({c[i], c[(i + 1) % 3]});
+    count = in_windows(
+        context, sides,
+        [&](const Edge& e, Proposal& p) {
+            return is_here() && propose_swap(context, e, Aim::angles, p);
+        },
+        nothing_more);
+    context.swaps += count;
     return count;
 }
 

@@ -116,6 +116,8 @@ TEST_CASE("improve: sheets closer than the bound never meet", "[improve]") {
     ImproveOptions options;
     options.edge_length = 0.4;
     options.max_deviation = 0.1;
+    options.thickness_share = 1000;  // the bound is not limited by the distance of the sheets,
+    options.max_volume_change = 1e9; // nor by the volume between them
     const Improved better = improved(mesh, options); // the result is checked exactly
     CHECK(better.report.refused_contact > 0);        // otherwise the test would be too easy
 }
@@ -139,6 +141,8 @@ TEST_CASE("improve: no sheet sweeps over a piece that is smaller than the bound"
                 ImproveOptions options;
                 options.edge_length = length;
                 options.max_deviation = 0.8;
+                options.thickness_share = 1000;
+                options.max_volume_change = 1e9;
                 const Improved better = improved(mesh, options);
                 INFO(size << ' ' << narrow << ' ' << length);
                 CHECK(better.mesh->triangles.size() < mesh.triangles.size() / 4);
@@ -182,9 +186,15 @@ TEST_CASE("improve: target lengths hold by surface, along curves, and where a su
     ImproveOptions turning;
     turning.edge_length = 1;
     turning.max_deviation = 0.2;
-    const std::size_t plain = improved(bump, turning).mesh->triangles.size();
+    turning.least_quality = 0.3; // the half squares are good, so that few would be changed
+    const auto plain = static_cast<double>(improved(bump, turning).mesh->triangles.size());
     turning.turn = 15;
-    CHECK(improved(bump, turning).mesh->triangles.size() > plain * 3 / 2);
+    const auto turned = static_cast<double>(improved(bump, turning).mesh->triangles.size());
+    // Equilateral triangles of the wanted lengths, which follow from the curvature of exp(-60 r)
+    // and grow by 0.3: the integral of area / (sqrt(3) / 4 length^2) is 236 and 378.
+    CHECK(plain == Approx(236).epsilon(0.2));
+    CHECK(turned == Approx(378).epsilon(0.2));
+    CHECK(turned > 1.4 * plain);
 }
 
 TEST_CASE("improve: closed, one-sided and folded surfaces stay near their originals", "[improve]") {
@@ -192,6 +202,7 @@ TEST_CASE("improve: closed, one-sided and folded surfaces stay near their origin
         const Mesh mesh = mesh_of({s});
         ImproveOptions options;
         options.edge_length = 0.5;
+        options.least_quality = 0.3; // all triangles of the cube are good: half squares
         const Improved better = improved(mesh, options);
         const double bound = better.report.bound_of[0];
         CHECK(sampled_distance(surface_of_mesh(better.mesh, 0), s) <= bound);

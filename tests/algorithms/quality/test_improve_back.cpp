@@ -3,6 +3,8 @@
 
 #include <terrane/algorithms/quality/improve.hpp>
 
+#include <stop_token>
+
 #include <catch2/catch.hpp>
 
 #include <terrane/algorithms/mesh/submesh.hpp>
@@ -30,6 +32,13 @@ TEST_CASE("improve: the original is near the result, and a hole is detected", "[
         const Surface before = surface_of_mesh(mesh, s), after = surface_of_mesh(better.mesh, s);
         CHECK(back.value()[s] >= sampled_distance(before, after));
     }
+    std::stop_source source;
+    source.request_stop();
+    Run run;
+    run.stop = source.get_token();
+    const auto stopped = bounds_back(mesh, better, options, run);
+    REQUIRE_FALSE(stopped);
+    CHECK(stopped.error().code == ErrorCode::interrupted);
     // Without a triangle it is far: the inscribed circle is larger than the bound.
     for (const std::size_t gone : {std::size_t{0}, better.mesh->triangles.size() / 2}) {
         Improved holed = better;
