@@ -149,6 +149,7 @@ Result<FilledBlocks> fill_blocks(const Model& model, const TetrahedraRequest& re
     if (filled.report.violations.empty())
         if (auto done = finish(request, *split, filled.tetrahedra, filled.added_nodes); !done)
             return done.error();
+    filled.report.shape = shape_of(filled.tetrahedra); // of those that are left
     for (const ModelBlock& block : model.structure.blocks) filled.block_names.push_back(block.name);
     timer.stop();
     if (run.stop.stop_requested()) return Error{ErrorCode::interrupted, "", ""};

@@ -209,7 +209,8 @@ Status set_sizes(const Mesh& mesh, const Volumes& volumes, const TetgenDomain& d
     if (!sizes) return sizes.error();
     const ScaledSizes scaled(sizes.value(), scale);
     input.radius_edge_ratio = options.radius_edge_ratio;
-    input.keep_facets = !sizes.value().any() && !input.radius_edge_ratio;
+    input.keep_facets =
+        !sizes.value().any() && !(options.split_surfaces && input.radius_edge_ratio);
     if (!sizes.value().any()) return Done{};
     const Box3 box{scale.down(domain.box.low), scale.down(domain.box.high)};
     if (Status good = check_count(volumes, box, sizes.value(), scaled, scale); !good) return good;

@@ -46,9 +46,11 @@ struct TetrahedraOptions {
                                                ///< tetrahedra as possible
     std::optional<double> radius_edge_ratio{}; ///< TetGen's quality bound (>= 1.1); none: no bound,
                                                ///< or 2 with any size
-    std::optional<double> max_volume{};        ///< largest volume of a tetrahedron, cubic unit
-    std::vector<BlockSize> block_sizes{};      ///< instead of edge_length and max_volume there
-    std::vector<SurfaceSize> surface_sizes{};  ///< where they are less than any other size there
+    bool split_surfaces = false; ///< triangles may be divided for radius_edge_ratio. Any size
+                                 ///< allows it, too
+    std::optional<double> max_volume{};       ///< largest volume of a tetrahedron, cubic unit
+    std::vector<BlockSize> block_sizes{};     ///< instead of edge_length and max_volume there
+    std::vector<SurfaceSize> surface_sizes{}; ///< where they are less than any other size there
     double time_limit = 600;        ///< seconds, > 0, for each way of asking TetGen, which may run
                                     ///< forever
     std::filesystem::path helper{}; ///< TetGen's helper program; empty: see find_tetgen_helper
@@ -57,9 +59,10 @@ struct TetrahedraOptions {
 /// Fills a box with tetrahedra such that every triangle of the mesh is a union of faces. `volumes`
 /// are those of the mesh.
 ///
-/// (1) Without sizes and radius_edge_ratio, the faces on the mesh are its triangles, undivided,
+/// (1) Without sizes and split_surfaces, the faces on the mesh are its triangles, undivided,
 ///     unless TetGen needs more vertices on them. Vertices added on a triangle are rounded to
-///     doubles next to it.
+///     doubles next to it. The bound radius_edge_ratio is then missed beside thin triangles, and
+///     where surfaces are closer than their triangles are long.
 /// (2) The vertices are the used ones of the mesh in its order and bit by bit, then the eight
 ///     corners of the box, then added ones.
 /// (3) For each result it is proven exactly that all tetrahedra have positive volume, that the

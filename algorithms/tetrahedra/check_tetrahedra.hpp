@@ -68,7 +68,7 @@ struct RegionVolume {
 struct TetrahedraReport {
     std::vector<TetrahedraViolation> violations; ///< one per kind that occurs, in their order
     std::vector<RegionVolume> volumes;           ///< per volume; [0], the outside, is not compared
-    TetrahedraShape shape;                       ///< reported only; never a violation
+    TetrahedraShape shape;                       ///< of all tetrahedra; never a violation
 };
 
 /// Checks tetrahedra as tetrahedralize() makes them, and as without_outside() and split_nodes()

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 #include <terrane/kernel/polynomials.hpp>
 
@@ -64,6 +65,76 @@ std::size_t dihedral_bin(double degrees) {
     return std::min(bin, dihedral_bins - 1);
 }
 
+std::size_t quality_bin(double quality) {
+    const double scaled = std::max(quality, 0.0) * quality_bins;
+    return std::min(static_cast<std::size_t>(scaled), quality_bins - 1);
+}
+
+/// Finds out why tetrahedra are bad.
+class BadFinder {
+public:
+    explicit BadFinder(const TetrahedralMesh& mesh) : on_surface_(mesh.vertices.size(), false) {
+        for (const Triangle& face : mesh.faces) {
+            faces_.push_back(sorted(face));
+            for (const std::uint32_t v : face) on_surface_[v] = true;
+        }
+        std::sort(faces_.begin(), faces_.end());
+    }
+
+    void add(const std::array<std::uint32_t, 4>& t, const std::array<Point3, 4>& corners,
+             const std::array<double, 6>& angles,
+             std::array<BadTetrahedra, bad_causes>& bad) const {
+        const double least = *std::min_element(angles.begin(), angles.end());
+        if (least >= bad_angle) return;
+        BadTetrahedra& of_cause = bad[static_cast<std::size_t>(cause(t, corners, angles))];
+        if (of_cause.count++ > 0 && least >= of_cause.least) return;
+        of_cause.least = least;
+        const auto mean = [&](double Point3::*x) {
+            return corners[0].*x / 4 + corners[1].*x / 4 + corners[2].*x / 4 + corners[3].*x / 4;
+        };
+        of_cause.place = {mean(&Point3::x), mean(&Point3::y), mean(&Point3::z)};
+    }
+
+private:
+    static Triangle sorted(Triangle face) {
+        std::sort(face.begin(), face.end());
+        return face;
+    }
+
+    [[nodiscard]] BadCause cause(const std::array<std::uint32_t, 4>& t,
+                                 const std::array<Point3, 4>& corners,
+                                 const std::array<double, 6>& angles) const {
+        std::array<bool, 4> given{}; // per corner: the face opposite to it is on a surface
+        for (std::size_t k = 0; k < 4; ++k)
+            given[k] = std::binary_search(faces_.begin(), faces_.end(),
+                                          sorted({t[(k + 1) % 4], t[(k + 2) % 4], t[(k + 3) % 4]}));
+        for (std::size_t i = 0; i < edges.size(); ++i)
+            if (angles[i] < bad_angle && given[edges[i][2]] && given[edges[i][3]])
+                return BadCause::input_angle;
+        for (std::size_t k = 0; k < 4; ++k)
+            if (given[k] && least_angle({corners[(k + 1) % 4], corners[(k + 2) % 4],
+                                         corners[(k + 3) % 4]}) < bad_angle)
+                return BadCause::thin_triangle;
+        const bool between =
+            std::all_of(t.begin(), t.end(), [&](std::uint32_t v) { return on_surface_[v]; });
+        return between ? BadCause::gap : BadCause::other;
+    }
+
+    /// Returns the least angle of a triangle in degrees.
+    static double least_angle(const std::array<Point3, 3>& p) {
+        double least = 180;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vector3 u = from_to(p[k], p[(k + 1) % 3]), v = from_to(p[k], p[(k + 2) % 3]);
+            least = std::min(least,
+                             std::atan2(length(cross(u, v)), dot(u, v)) * 180 / std::numbers::pi);
+        }
+        return least;
+    }
+
+    std::vector<Triangle> faces_;  ///< corners ascending; sorted
+    std::vector<bool> on_surface_; ///< per node
+};
+
 std::size_t radius_edge_bin(double ratio) {
     const auto* const at =
         std::upper_bound(radius_edge_bounds.begin(), radius_edge_bounds.end(), ratio);
@@ -102,22 +173,67 @@ double radius_edge_ratio(const std::array<Point3, 4>& input) {
     return length(centre) / (2 * six_volumes) / shortest;
 }
 
+double inverse_condition(const std::array<Point3, 4>& input) {
+    const std::array<Point3, 4> corners = of_unit_size(input);
+    const Vector3 a = from_to(corners[0], corners[1]), b = from_to(corners[0], corners[2]),
+                  c = from_to(corners[0], corners[3]);
+    // The columns of J: edges of the regular tetrahedron, (1, 0, 0), (1/2, sqrt(3)/2, 0) and
+    // (1/2, sqrt(3)/6, sqrt(2/3)), become a, b and c.
+    constexpr double root = std::numbers::sqrt3, low = 1 / root, high = root / std::numbers::sqrt2;
+    const auto column = [](double r, const Vector3& u, double s, const Vector3& v, double t,
+                           const Vector3& w) {
+        return Vector3{r * u.x + s * v.x + t * w.x, r * u.y + s * v.y + t * w.y,
+                       r * u.z + s * v.z + t * w.z};
+    };
+    const Vector3 y = column(2 * low, b, -low, a, 0, c);
+    const Vector3 z = column(high, c, -high / 3, a, -high / 3, b);
+    const auto norm = [](const Vector3& u, const Vector3& v, const Vector3& w) {
+        return std::sqrt(dot(u, u) + dot(v, v) + dot(w, w));
+    };
+    const double volume = dot(cross(a, y), z);
+    const double product = norm(a, y, z) * norm(cross(y, z), cross(z, a), cross(a, y));
+    return product > 0 ? 3 * volume / product : 0;
+}
+
+double mean_ratio(const std::array<Point3, 4>& input) {
+    const std::array<Point3, 4> corners = of_unit_size(input);
+    const Vector3 a = from_to(corners[0], corners[1]), b = from_to(corners[0], corners[2]),
+                  c = from_to(corners[0], corners[3]);
+    double squares = 0;
+    for (const auto& edge : edges) {
+        const Vector3 e = from_to(corners[edge[0]], corners[edge[1]]);
+        squares += dot(e, e);
+    }
+    const double root = std::cbrt(std::fabs(dot(cross(a, b), c)) / 2); // of three volumes
+    return squares > 0 ? 12 * root * root / squares : 0;
+}
+
 TetrahedraShape shape_of(const TetrahedralMesh& mesh) {
     TetrahedraShape shape;
-    Gather dihedral, radius_edge;
+    Gather dihedral, radius_edge, sicn, ratio_of_means;
+    shape.count = mesh.tetrahedra.size();
+    BadFinder bad(mesh);
     for (const auto& [a, b, c, d] : mesh.tetrahedra) {
         const auto& v = mesh.vertices;
         const std::array<Point3, 4> corners{v[a], v[b], v[c], v[d]};
-        for (const double angle : dihedral_angles(corners)) {
+        const auto angles = dihedral_angles(corners);
+        for (const double angle : angles) {
             dihedral.add(angle);
             ++shape.dihedral_histogram[dihedral_bin(angle)];
         }
+        bad.add({a, b, c, d}, corners, angles, shape.bad);
+        sicn.add(inverse_condition(corners));
+        ++shape.sicn_histogram[quality_bin(inverse_condition(corners))];
+        ratio_of_means.add(mean_ratio(corners));
+        ++shape.mean_ratio_histogram[quality_bin(mean_ratio(corners))];
         const double ratio = radius_edge_ratio(corners);
         radius_edge.add(ratio);
         ++shape.radius_edge_histogram[radius_edge_bin(ratio)];
     }
     shape.dihedral = dihedral.spread();
     shape.radius_edge = radius_edge.spread();
+    shape.sicn = sicn.spread();
+    shape.mean_ratio = ratio_of_means.spread();
     return shape;
 }
 

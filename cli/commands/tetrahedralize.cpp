@@ -179,7 +179,7 @@ Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Se
         if (!command.certificate.empty()) {
             const auto proved = write_certificate(
                 {command.certificate, files, inputs.value(), roles, arranged.value(),
-                 cut_request(command.settings)},
+                 cut_request(command.settings, arranged.value())},
                 model.value(), filled.value().tetrahedra, outputs.value(), session);
             if (!proved) return proved.error();
         }
@@ -225,6 +225,8 @@ void add_tetrahedra_options(CLI::App& app, TetrahedralizeCommand& command) {
     app.add_option("--quality", options.radius_edge_ratio,
                    "Largest ratio of circumradius to shortest edge, at least 1.1 (default: none)")
         ->type_name("RATIO");
+    app.add_flag("--split-surfaces", options.split_surfaces,
+                 "Let triangles of surfaces be divided for --quality");
     app.add_option("--time-limit", options.time_limit,
                    "For each of the ways in which TetGen is tried (default: 600)")
         ->type_name("SECONDS");

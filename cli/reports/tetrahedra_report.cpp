@@ -2,6 +2,7 @@
 #include <terrane/cli/reports/tetrahedra_report.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -65,6 +66,51 @@ std::string radius_edge_text(const TetrahedraShape& shape) {
     return text;
 }
 
+std::string quality_text(const TetrahedraShape& shape) {
+    return fmt::format(
+        "SICN {:.3g} to {:.3g}, mean {:.3g}; mean ratio {:.3g} to {:.3g}, mean {:.3g}\n",
+        shape.sicn.least, shape.sicn.largest, shape.sicn.mean, shape.mean_ratio.least,
+        shape.mean_ratio.largest, shape.mean_ratio.mean);
+}
+
+constexpr std::array<const char*, bad_causes> cause_keys{"input_angle", "thin_triangle", "gap",
+                                                         "other"};
+constexpr std::array<const char*, bad_causes> cause_texts{
+    "between surfaces that meet at such an angle", "at a triangle of a surface with such an angle",
+    "with all corners on surfaces", "for other reasons"};
+
+std::size_t bad_count(const TetrahedraShape& shape) {
+    std::size_t all = 0;
+    for (const BadTetrahedra& bad : shape.bad) all += bad.count;
+    return all;
+}
+
+std::string bad_text(const TetrahedraShape& shape) {
+    const std::size_t all = bad_count(shape);
+    const double share =
+        shape.count == 0 ? 0 : 100 * static_cast<double>(all) / static_cast<double>(shape.count);
+    auto text = fmt::format("{} of {} tetrahedra have an angle below {} degrees ({:.3g} %)\n", all,
+                            shape.count, bad_angle, share);
+    for (std::size_t i = 0; i < bad_causes; ++i)
+        if (const BadTetrahedra& bad = shape.bad[i]; bad.count > 0)
+            text += fmt::format("  {:>9} {}, down to {:.2g} at {}\n", bad.count, cause_texts[i],
+                                bad.least, text_of(bad.place));
+    return text;
+}
+
+Json bad_json(const TetrahedraShape& shape) {
+    Json json{{"below", bad_angle}, {"tetrahedra", bad_count(shape)}};
+    for (std::size_t i = 0; i < bad_causes; ++i) {
+        const BadTetrahedra& bad = shape.bad[i];
+        const bool any = bad.count > 0;
+        json[cause_keys[i]] = {
+            {"tetrahedra", bad.count},
+            {"least", any ? Json(bad.least) : Json(nullptr)},
+            {"place", any ? Json{bad.place.x, bad.place.y, bad.place.z} : Json(nullptr)}};
+    }
+    return json;
+}
+
 /// Returns null for an infinite value, which JSON does not have.
 Json number_or_null(double value) {
     return std::isfinite(value) ? Json(value) : Json(nullptr);
@@ -98,7 +144,7 @@ std::string report_text(const TetrahedraReport& report) {
             ? std::string("checked: each triangle is a union of faces, each region is one block\n")
             : fmt::format("not good: {}\n", counted(count_of(report), "violation"));
     return verdict + volumes_text(report) + dihedral_text(report.shape) +
-           radius_edge_text(report.shape);
+           radius_edge_text(report.shape) + quality_text(report.shape) + bad_text(report.shape);
 }
 
 std::string violations_text(const TetrahedraReport& report) {
@@ -122,6 +168,11 @@ Json report_json(const TetrahedraReport& report) {
     json["radius_edge"] = spread_json(shape.radius_edge);
     json["radius_edge"]["bounds"] = radius_edge_bounds;
     json["radius_edge"]["histogram"] = shape.radius_edge_histogram;
+    json["sicn"] = spread_json(shape.sicn);
+    json["sicn"]["histogram"] = shape.sicn_histogram;
+    json["mean_ratio"] = spread_json(shape.mean_ratio);
+    json["mean_ratio"]["histogram"] = shape.mean_ratio_histogram;
+    json["bad"] = bad_json(shape);
     return json;
 }
 

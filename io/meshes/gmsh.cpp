@@ -47,14 +47,15 @@ std::vector<Entity> surface_entities(std::vector<SurfaceGroup> groups, std::size
     return entities;
 }
 
-std::vector<Entity> volume_entities(const std::vector<std::uint32_t>& region_of) {
+std::vector<Entity> volume_entities(const std::vector<std::uint32_t>& region_of,
+                                    std::size_t surface_count) {
     std::map<std::uint32_t, Entity> entity_of;
     for (std::size_t i = 0; i < region_of.size(); ++i) entity_of[region_of[i]].cells.push_back(i);
     std::vector<Entity> entities;
     for (auto& [region, entity] : entity_of) {
         entity.dimension = 3;
         entity.tag = region + 1;
-        entity.physical = {region + 1};
+        entity.physical = {region_tag(region, surface_count)};
         entities.push_back(std::move(entity));
     }
     return entities;
@@ -100,8 +101,8 @@ public:
             out_ += fmt::format("2 {} \"{}\"\n", s + 1, names[s]);
         for (const auto& side : sides) out_ += fmt::format("2 {} \"{}\"\n", side.tag, side.name);
         for (const auto& volume : volumes)
-            out_ +=
-                fmt::format("3 {} \"{}\"\n", volume.tag, region_name(volume.tag - 1, region_names));
+            out_ += fmt::format("3 {} \"{}\"\n", volume.physical.front(),
+                                region_name(volume.tag - 1, region_names));
         out_ += "$EndPhysicalNames\n";
     }
 
@@ -203,7 +204,7 @@ std::string to_msh(const Mesh& mesh) {
 }
 
 std::string to_msh(const TetrahedralMesh& mesh, std::span<const std::string> region_names) {
-    const auto volumes = volume_entities(mesh.region_of);
+    const auto volumes = volume_entities(mesh.region_of, mesh.surfaces.size());
     const auto groups = surface_groups(mesh.surfaces_of, mesh.surfaces.size(), cut_sides(mesh));
     const auto surfaces =
         surface_entities(groups, mesh.surfaces.size(), mesh.tetrahedra.size() + 1);

@@ -17,11 +17,11 @@ namespace terrane {
 std::string to_msh(const Mesh& mesh);
 
 /// Writes the tetrahedra, then their faces on surfaces, which have entities and physical surfaces
-/// as the triangles above. Region r is volume entity r + 1 and physical volume r + 1, with the name
-/// "outside" or "region 1", ..., or "region 1: NAME" if region_names[1] is NAME. If nodes are
-/// split, the faces of surface s in front of the cut are in the physical surface "NAME front" and
-/// those behind it in "NAME back", instead of in s + 1; $Periodic lists the pairs of nodes at the
-/// same point.
+/// as the triangles above. Region r is volume entity r + 1 and, with n surfaces, physical volume 3
+/// n + r + 1, which is no number of a physical surface, with the name "outside" or "region 1", ...,
+/// or "region 1: NAME" if region_names[1] is NAME. If nodes are split, the faces of surface s in
+/// front of the cut are in the physical surface "NAME front" and those behind it in "NAME back",
+/// instead of in s + 1; $Periodic lists the pairs of nodes at the same point.
 std::string to_msh(const TetrahedralMesh& mesh, std::span<const std::string> region_names = {});
 
 } // namespace terrane

@@ -28,7 +28,8 @@ std::string physical_names(const std::vector<SurfaceInfo>& surfaces,
         text += fmt::format("2 {} \"{}\"\n", s + 1, names[s]);
     for (const auto& side : sides) text += fmt::format("2 {} \"{}\"\n", side.tag, side.name);
     for (const auto region : regions)
-        text += fmt::format("3 {} \"{}\"\n", region + 1, region_name(region, region_names));
+        text += fmt::format("3 {} \"{}\"\n", region_tag(region, surfaces.size()),
+                            region_name(region, region_names));
     return text + "$EndPhysicalNames\n";
 }
 
@@ -111,7 +112,8 @@ std::string to_msh22(const Mesh& mesh) {
 std::string to_msh22(const TetrahedralMesh& mesh, std::span<const std::string> region_names) {
     Elements elements;
     for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
-        elements.add(" 4 2", std::uint64_t(mesh.region_of[t]) + 1, mesh.tetrahedra[t]);
+        elements.add(" 4 2", region_tag(mesh.region_of[t], mesh.surfaces.size()),
+                     mesh.tetrahedra[t]);
     const auto sides = cut_sides(mesh);
     elements.add_triangles(mesh.faces, mesh.surfaces_of, mesh.surfaces.size(), sides);
     const std::set<std::uint32_t> regions(mesh.region_of.begin(), mesh.region_of.end());

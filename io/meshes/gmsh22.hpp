@@ -16,8 +16,9 @@ namespace terrane {
 std::string to_msh22(const Mesh& mesh);
 
 /// Writes the tetrahedra, then their faces on surfaces, numbered as the triangles above. Region r
-/// is physical volume and entity r + 1, with the name "outside" or "region 1", ..., or "region 1:
-/// NAME" if region_names[1] is NAME. Split nodes are written as in MSH 4.1 (gmsh.hpp).
+/// is physical volume and entity 3 n + r + 1, with n surfaces, with the name "outside" or "region
+/// 1", ..., or "region 1: NAME" if region_names[1] is NAME. Split nodes are written as in MSH 4.1
+/// (gmsh.hpp).
 std::string to_msh22(const TetrahedralMesh& mesh, std::span<const std::string> region_names = {});
 
 } // namespace terrane

@@ -210,7 +210,7 @@ def check_gmsh(path, meant):
             wanted[2, tag, tuple(corners)] += 1
             wanted_names[tag] = in_quotes(meant["names"])[surface] + ENDINGS[side]
     for corners, region in zip(meant["cells"], meant.get("region_of", [])):
-        wanted[4, region + 1, tuple(corners)] += 1
+        wanted[4, 3 * count + region + 1, tuple(corners)] += 1
     for front, back in meant.get("twins", []):
         wanted_pairs |= {(b, a) for a, b in zip(triangles[front], triangles[back]) if a != b}
     elements, pairs = labelled(nodes, elements, pairs)
@@ -223,7 +223,7 @@ def check_gmsh(path, meant):
     found = {tag: name for (dimension, tag), name in names.items() if dimension == 2}
     check(found == wanted_names, f"{path}: names {names}")
     regions = {r: "outside" if r == 0 else f"region {r}" for r in meant.get("region_of", [])}
-    check({tag - 1: name for (dimension, tag), name in names.items() if dimension == 3} == regions,
+    check({tag - 1 - 3 * count: name for (dimension, tag), name in names.items() if dimension == 3} == regions,
           f"{path}: names {names}")
 
 

@@ -28,7 +28,7 @@ struct RegionBound {
 struct TetgenInput {
     std::vector<Point3> points;       ///< pairwise distinct, all used
     IndexLists<std::uint32_t> facets; ///< corners of each facet, in order around it
-    bool keep_facets = true;          ///< do not split facets; goes with none of the last four
+    bool keep_facets = true;          ///< do not split facets; without bounds on sizes
     bool improve = true;              ///< flip and smooth where shapes are bad
     bool sort_points = true;          ///< insert points along a curve, not in their order
     std::optional<double> max_volume; ///< largest volume of any tetrahedron

@@ -59,6 +59,10 @@ std::size_t side_tag(std::size_t surface, CutSide side, std::size_t surface_coun
     return surface_count + 2 * surface + (side == CutSide::front ? 1 : 2);
 }
 
+std::size_t region_tag(std::size_t region, std::size_t surface_count) {
+    return 3 * surface_count + region + 1;
+}
+
 std::vector<std::size_t> group_tags(const std::vector<SurfaceGroup>& groups,
                                     std::size_t triangle_count) {
     std::vector<std::size_t> tags(triangle_count);

@@ -45,6 +45,11 @@ struct SurfaceGroup {
 /// for its back.
 [[nodiscard]] std::size_t side_tag(std::size_t surface, CutSide side, std::size_t surface_count);
 
+/// Returns the tag of a region, for formats in which surfaces and regions are groups, too. No
+/// surface, and no side of one, has the same: programs that take the mesh for a simulation, such as
+/// GetDP, know a group by its number alone.
+[[nodiscard]] std::size_t region_tag(std::size_t region, std::size_t surface_count);
+
 /// Returns the tag of the group of each triangle.
 [[nodiscard]] std::vector<std::size_t> group_tags(const std::vector<SurfaceGroup>& groups,
                                                   std::size_t triangle_count);

@@ -19,6 +19,7 @@
 #include "support/paths.hpp"
 #include "support/read.hpp"
 #include "support/rounded.hpp"
+#include "support/shapes.hpp"
 #include "support/tetgen_cases.hpp"
 
 using namespace terrane;
@@ -174,7 +175,10 @@ TEST_CASE("tetrahedra: lengths, volumes and shapes are honoured", "[tetrahedra]"
         CHECK(volume(by_volume, t) <= 0.05 * (1 + 1e-9));
     const TetrahedralMesh by_length = must(cube(), {.box = unit_box, .edge_length = 0.5});
     CHECK(by_length.tetrahedra.size() > coarse);
-    CHECK(must(cube(), {.box = unit_box, .radius_edge_ratio = 1.2}).tetrahedra.size() > coarse);
+    const TetrahedralMesh by_ratio =
+        must(cube(), {.box = unit_box, .radius_edge_ratio = 1.2, .split_surfaces = true});
+    CHECK(by_ratio.tetrahedra.size() > coarse);
+    CHECK(by_ratio.faces.size() > must(cube(), {.box = unit_box}).faces.size());
     for (const TetrahedralMesh* made : {&by_volume, &by_length}) {
         REQUIRE(made->region_count == 2);
         CHECK(region_volumes(*made)[0] == Approx(26));
@@ -363,4 +367,28 @@ TEST_CASE("tetrahedra: what once failed is filled, but for what TetGen cannot do
         CHECK(check_tetrahedra(made.value(), mesh, volumes.value()).violations.empty());
     }
     CHECK(filled >= 8);
+}
+
+TEST_CASE("tetrahedra: a bound on shapes divides no triangle of a surface", "[tetrahedra]") {
+    // Between two sheets that are far apart, tetrahedra without nodes inside are long.
+    const Mesh mesh = mesh_of({unit_grid(6, 6,
+                                         [](double u, double v) {
+                                             return Point3{6 * u, 6 * v, 0};
+                                         }),
+                               unit_grid(6, 6, [](double u, double v) {
+                                   return Point3{6 * u, 6 * v, 5};
+                               })});
+    const TetrahedralMesh plain = must(mesh, {.margin = 1});
+    const TetrahedralMesh kept = must(mesh, {.margin = 1, .radius_edge_ratio = 1.4});
+    const TetrahedralMesh split =
+        must(mesh, {.margin = 1, .radius_edge_ratio = 1.4, .split_surfaces = true});
+    const auto faces_on = [&](const TetrahedralMesh& made) {
+        return std::ranges::count_if(made.face_triangle,
+                                     [](std::uint32_t t) { return t != UINT32_MAX; });
+    };
+    CHECK(faces_on(plain) == 144);
+    CHECK(faces_on(kept) == 144);
+    CHECK(kept.tetrahedra.size() > plain.tetrahedra.size());
+    CHECK(split.tetrahedra.size() > 0);
+    CHECK(shape_of(kept).radius_edge.mean < shape_of(plain).radius_edge.mean);
 }

@@ -101,3 +101,54 @@ TEST_CASE("shape: histograms count each angle and each tetrahedron once", "[tetr
     CHECK(none.dihedral.largest == 0);
     CHECK(none.radius_edge.least == 0);
 }
+
+TEST_CASE("shape: SICN and mean ratio of known tetrahedra", "[tetrahedra]") {
+    const Corners upright{regular[0], regular[2], regular[1], regular[3]};
+    CHECK(inverse_condition(upright) == Approx(1));
+    CHECK(inverse_condition(regular) == Approx(-1)); // inverted
+    CHECK(mean_ratio(upright) == Approx(1));
+    CHECK(mean_ratio(regular) == Approx(1));
+    // From the definitions, by NumPy.
+    const Corners oblique{{{0, 0, 0}, {1, 0, 0}, {3, 5, 0}, {1, 2, 0.5}}};
+    CHECK(inverse_condition(of_cube) == Approx(0.8164965809277261));
+    CHECK(inverse_condition(oblique) == Approx(0.20453172095502542));
+    CHECK(mean_ratio(of_cube) == Approx(0.839947366596582));
+    CHECK(mean_ratio(oblique) == Approx(0.16051604035548517));
+    const Corners flat{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}};
+    CHECK(inverse_condition(flat) == 0);
+    CHECK(mean_ratio(flat) == 0);
+    const auto shape = shape_of(mesh_of({upright, of_cube, flat}));
+    CHECK(shape.count == 3);
+    CHECK(shape.sicn.mean == Approx((1 + 0.8164965809277261) / 3));
+    CHECK(shape.mean_ratio_histogram[0] == 1);
+    CHECK(shape.mean_ratio_histogram[8] == 1);
+    CHECK(shape.mean_ratio_histogram[9] == 1);
+}
+
+TEST_CASE("shape: why tetrahedra are bad", "[tetrahedra]") {
+    const double thin = 0.05;
+    const Corners wedge{{{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, 1, thin}}};
+    const Corners sliver{{{0, 0, 0}, {1, 0, thin}, {1, 1, 0}, {0, 1, thin}}};
+    const auto count = [](const Corners& corners, const std::vector<Triangle>& faces) {
+        TetrahedralMesh mesh = mesh_of({corners});
+        mesh.faces = faces;
+        std::array<std::size_t, bad_causes> counts{};
+        const auto shape = shape_of(mesh);
+        for (std::size_t i = 0; i < bad_causes; ++i) counts[i] = shape.bad[i].count;
+        return counts;
+    };
+    using Counts = std::array<std::size_t, bad_causes>;
+    CHECK(count(regular, {{0, 1, 2}, {0, 1, 3}}) == Counts{0, 0, 0, 0});
+    CHECK(count(wedge, {{1, 0, 2}, {0, 1, 3}}) == Counts{1, 0, 0, 0}); // at the angle itself
+    CHECK(count(wedge, {{1, 0, 2}, {0, 2, 3}}) == Counts{0, 1, 0, 0}); // 0, 2, 3 is thin
+    CHECK(count(wedge, {{2, 0, 1}}) == Counts{0, 0, 0, 1});            // 3 is on no surface
+    CHECK(count(sliver, {{0, 1, 2}, {1, 2, 3}}) == Counts{1, 0, 0, 0});
+    CHECK(count(sliver, {}) == Counts{0, 0, 0, 1});
+    // All corners are on surfaces, none of the faces is.
+    TetrahedralMesh mesh = mesh_of({sliver, regular});
+    mesh.faces = {{0, 1, 4}, {2, 3, 5}};
+    const auto shape = shape_of(mesh);
+    CHECK(shape.bad[static_cast<std::size_t>(BadCause::gap)].count == 1);
+    CHECK(shape.bad[static_cast<std::size_t>(BadCause::gap)].least < bad_angle);
+    CHECK(shape.bad[static_cast<std::size_t>(BadCause::gap)].place.x == Approx(0.5));
+}
