@@ -26,6 +26,8 @@
 #include <terrane/algorithms/model/arrange_within.hpp>
 #include <terrane/algorithms/model/model.hpp>
 #include <terrane/algorithms/model/model_doubts.hpp>
+#include <terrane/algorithms/model/seal_advice.hpp>
+#include <terrane/algorithms/model/small_blocks.hpp>
 #include <terrane/algorithms/plausibility/plausibility.hpp>
 #include <terrane/algorithms/project/build.hpp>
 #include <terrane/algorithms/project/preprocess.hpp>
@@ -43,9 +45,11 @@
 #include <terrane/algorithms/regions/quadrilaterals.hpp>
 #include <terrane/algorithms/regions/regions.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
+#include <terrane/algorithms/sealing/gaps.hpp>
 #include <terrane/algorithms/sealing/sealing.hpp>
 #include <terrane/algorithms/search/method.hpp>
 #include <terrane/algorithms/structure/free_borders.hpp>
+#include <terrane/algorithms/structure/relations.hpp>
 #include <terrane/algorithms/structure/structure.hpp>
 #include <terrane/algorithms/structure/structure_meshes.hpp>
 #include <terrane/algorithms/tetgen/fill_blocks.hpp>

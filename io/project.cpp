@@ -57,7 +57,9 @@ private:
             if (project.volume.index() == 0)
                 in_.fail("extend", "needs volume_of_interest, to whose boundary it extends");
         }
-        if (const Json* v = in_.find(json, "seal")) project.seal = in_.positive(*v, "seal");
+        if (const Json* v = in_.find(json, "seal")) project.seal = automatic(*v, "seal");
+        if (const Json* v = in_.find(json, "min_volume"))
+            project.min_volume = automatic(*v, "min_volume");
         if (const Json* v = in_.find(json, "improve")) project.improve = improve(*v);
         if (const Json* v = in_.find(json, "tetrahedra")) project.tetrahedra = tetrahedra(*v);
         const bool turned = std::any_of(project.surfaces.begin(), project.surfaces.end(),
@@ -68,6 +70,10 @@ private:
                 "outputs.certificate",
                 "must be false with fill, layers, improve or depth: a certificate is about whole "
                 "surfaces as their files have them");
+        if (project.outputs.certificate && project.min_volume)
+            in_.fail("outputs.certificate",
+                     "must be false with min_volume: a certificate can't show yet that only small "
+                     "blocks were merged");
     }
 
     unsigned threads(const Json& value) {
@@ -116,11 +122,12 @@ private:
         if (const Json* v = in_.find(json, "bridge_faults"))
             f.bridge_faults = in_.truth(*v, path + ".bridge_faults");
         if (const Json* v = in_.find(json, "smoothing"))
-            f.smoothing = smoothing(*v, path + ".smoothing");
+            f.smoothing = automatic(*v, path + ".smoothing");
         return f;
     }
 
-    double smoothing(const Json& value, const std::string& path) {
+    /// Reads a positive number, or 0 for "auto".
+    double automatic(const Json& value, const std::string& path) {
         if (value == "auto") return 0;
         if (value.is_number()) return in_.positive(value, path);
         in_.fail(path, "must be auto or a number larger than 0");
@@ -246,6 +253,8 @@ private:
         if (const Json* v = in_.find(json, "max_volume"))
             t.max_volume = in_.positive(*v, path + ".max_volume");
         if (const Json* v = in_.find(json, "quality")) t.quality = quality(*v, path + ".quality");
+        if (const Json* v = in_.find(json, "split_surfaces"))
+            t.split_surfaces = in_.truth(*v, path + ".split_surfaces");
         if (const Json* v = in_.find(json, "size_of")) t.size_of = sizes(*v, path + ".size_of");
         if (const Json* v = in_.find(json, "size_in")) t.size_in = sizes(*v, path + ".size_in");
         if (const Json* v = in_.find(json, "split")) t.split = in_.texts(*v, path + ".split", 0);

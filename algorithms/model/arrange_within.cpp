@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <iterator>
 #include <numeric>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -40,37 +41,99 @@ Result<Arrangement> arrange_or_seal(const ArrangeWithinOptions& options, const R
     return std::move(sealed->arrangement);
 }
 
-} // namespace
-
-Result<Arranged> arrange_within(std::vector<Surface> surfaces, std::vector<Surface> boundary,
-                                const ArrangeWithinOptions& options, const Run& run) {
-    std::vector<std::uint32_t> sides(boundary.size()); // indices of the boundary's surfaces
-    std::iota(sides.begin(), sides.end(), static_cast<std::uint32_t>(surfaces.size()));
-    Arranged arranged;
-    arranged.surfaces = std::move(surfaces);
-    std::move(boundary.begin(), boundary.end(), std::back_inserter(arranged.surfaces));
-    if (options.extend != 0 || options.seal != 0)
-        for (std::size_t s = 0; s + sides.size() < arranged.surfaces.size(); ++s)
-            arranged.growth.push_back({arranged.surfaces[s].triangles.size()});
-    if (options.extend != 0)
-        if (auto done = extend(sides, options, run, arranged); !done) return done.error();
-    for (std::size_t s = 0; s < arranged.growth.size(); ++s)
-        arranged.growth[s].extended = arranged.surfaces[s].triangles.size();
-    auto exact = arrange_or_seal(options, run, arranged);
-    if (!exact) return exact.error();
-    if (sides.empty()) {
-        arranged.exact = std::move(*exact);
-    } else {
+/// Removes what is outside of the volume of interest, then small blocks.
+Status restrict_to(std::span<const std::uint32_t> sides, const ArrangeWithinOptions& options,
+                   const Run& run, Arranged& arranged) {
+    if (!sides.empty()) {
         announce(run, "volume of interest");
-        auto cut = cut_to_volume(std::move(*exact), sides, run);
+        auto cut = cut_to_volume(std::move(arranged.exact), sides, run);
         if (!cut) return cut.error();
         arranged.exact = std::move(cut->arrangement);
         arranged.cut = std::move(cut->report);
     }
+    if (options.min_volume != 0) {
+        announce(run, "small blocks");
+        auto without = merge_small_blocks(std::move(arranged.exact), options.min_volume, run);
+        if (!without) return without.error();
+        arranged.exact = std::move(without->arrangement);
+        arranged.merged = std::move(without->report);
+    }
+    return Done{};
+}
+
+/// Gaps wider than this share of the median edge length count as meant: a modeller who picks a
+/// surface at points so far apart does not place its border more exactly.
+constexpr double widest_gap = 0.2;
+/// Gaps are measured up to this multiple of the widest one, so that a break just below that is
+/// seen.
+constexpr double break_beyond = 4;
+
+} // namespace
+
+Result<SealChoice> choose_seal(const std::vector<Surface>& surfaces,
+                               const std::vector<Surface>& boundary,
+                               const ArrangeWithinOptions& options, const Run& run) {
+    ArrangeWithinOptions unsealed = options;
+    unsealed.seal = unsealed.min_volume = 0;
+    unsealed.seal_automatic = false;
+    SealChoice choice;
+    choice.edge_length = median_edge_length(surfaces);
+    choice.widest = widest_gap * choice.edge_length;
+    if (!(choice.widest > 0)) return choice;
+    const auto arranged = arrange_exactly_within(surfaces, boundary, unsealed, run);
+    if (!arranged) return arranged.error();
+    const auto gaps = find_gaps(arranged->exact, break_beyond * choice.widest, run);
+    if (!gaps) return gaps.error();
+    choice.breaks = find_breaks(*gaps, break_beyond * choice.widest);
+    std::erase_if(choice.breaks, [&](const GapBreak& b) { return b.low > choice.widest; });
+    if (!choice.breaks.empty()) choice.distance = choice.breaks.back().distance;
+    return choice;
+}
+
+std::vector<NamedConstant> seal_choice_constants() {
+    auto constants = gap_constants();
+    constants.push_back({"widest_gap", widest_gap});
+    constants.push_back({"break_beyond", break_beyond});
+    return constants;
+}
+
+Result<Arranged> arrange_exactly_within(std::vector<Surface> surfaces,
+                                        std::vector<Surface> boundary,
+                                        const ArrangeWithinOptions& options, const Run& run) {
+    ArrangeWithinOptions chosen = options;
+    Arranged arranged;
+    if (options.seal_automatic) {
+        auto choice = choose_seal(surfaces, boundary, options, run);
+        if (!choice) return choice.error();
+        chosen.seal = choice->distance;
+        arranged.choice = std::move(*choice);
+    }
+    std::vector<std::uint32_t> sides(boundary.size()); // indices of the boundary's surfaces
+    std::iota(sides.begin(), sides.end(), static_cast<std::uint32_t>(surfaces.size()));
+    arranged.surfaces = std::move(surfaces);
+    std::move(boundary.begin(), boundary.end(), std::back_inserter(arranged.surfaces));
+    if (chosen.extend != 0 || chosen.seal != 0)
+        for (std::size_t s = 0; s + sides.size() < arranged.surfaces.size(); ++s)
+            arranged.growth.push_back({arranged.surfaces[s].triangles.size()});
+    if (chosen.extend != 0)
+        if (auto done = extend(sides, chosen, run, arranged); !done) return done.error();
+    for (std::size_t s = 0; s < arranged.growth.size(); ++s)
+        arranged.growth[s].extended = arranged.surfaces[s].triangles.size();
+    auto exact = arrange_or_seal(chosen, run, arranged);
+    if (!exact) return exact.error();
+    arranged.exact = std::move(*exact);
+    if (auto done = restrict_to(sides, chosen, run, arranged); !done) return done.error();
+    return arranged;
+}
+
+Result<Arranged> arrange_within(std::vector<Surface> surfaces, std::vector<Surface> boundary,
+                                const ArrangeWithinOptions& options, const Run& run) {
+    auto arranged = arrange_exactly_within(std::move(surfaces), std::move(boundary), options, run);
+    if (!arranged) return arranged;
     announce(run, "round");
-    auto rounded = round_to_doubles(arranged.exact, options.rounding, run);
+    auto rounded = round_to_doubles(arranged->exact, options.rounding, run);
     if (!rounded) return rounded.error();
-    arranged.rounded = std::move(*rounded);
+    arranged->rounded = std::move(*rounded);
     return arranged;
 }
 

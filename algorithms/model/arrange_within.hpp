@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // Makes a mesh of doubles from surfaces. They are extended to the boundary of a volume of interest,
-// sealed, arranged, cut and rounded; each of the optional steps happens if it is asked for.
+// sealed, arranged, cut, freed of small blocks and rounded; each of the optional steps happens if
+// it is asked for.
 #pragma once
 
 #include <optional>
@@ -11,7 +12,9 @@
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
+#include <terrane/algorithms/model/small_blocks.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
+#include <terrane/algorithms/sealing/gaps.hpp>
 #include <terrane/algorithms/sealing/sealing.hpp>
 #include <terrane/algorithms/volume_of_interest/extension.hpp>
 #include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
@@ -20,11 +23,22 @@ namespace terrane {
 
 /// Options of arrange_within().
 struct ArrangeWithinOptions {
-    ArrangeOptions arrange{};   ///< for every arrangement that is made
-    RoundingOptions rounding{}; ///< for the final rounding
-    double seal = 0;            ///< largest width of gaps to close, unit of the input; 0: none
-    double extend = 0; ///< longest extension of horizons that end inside, unit of the input; 0:
-                       ///< none
+    ArrangeOptions arrange{};    ///< for every arrangement that is made
+    RoundingOptions rounding{};  ///< for the final rounding
+    double seal = 0;             ///< largest width of gaps to close, unit of the input; 0: none
+    bool seal_automatic = false; ///< the distance is chosen by choose_seal(); `seal` is ignored
+    double extend = 0;     ///< longest extension of horizons that end inside, unit of the input; 0:
+                           ///< none
+    double min_volume = 0; ///< smaller blocks are merged with neighbours, cubic unit of the input;
+                           ///< 0: none
+};
+
+/// The distance for sealing that the widths of gaps suggest.
+struct SealChoice {
+    double edge_length = 0;         ///< median of the surfaces' edges, unit of the input
+    double widest = 0;              ///< gaps above it, a share of edge_length, count as meant
+    std::vector<GapBreak> breaks{}; ///< of the gaps in the volume of interest, ascending
+    double distance = 0;            ///< of the last break; 0: there is none
 };
 
 /// The gaps that were closed.
@@ -48,14 +62,31 @@ struct Arranged {
     RoundedMesh rounded;           ///< `exact` in doubles, with its report
     std::optional<VolumeReport> cut;                     ///< with a volume of interest
     std::optional<SealReport> sealed;                    ///< where asked for
+    std::optional<SealChoice> choice;                    ///< with seal_automatic
+    std::optional<BlockMerge> merged;                    ///< with min_volume
     std::optional<std::vector<ExtendedBorder>> extended; ///< where asked for
     std::vector<SurfaceGrowth> growth; ///< per surface of the input; with seal or extend
 };
 
 /// Arranges and rounds the surfaces. `boundary` is that of a volume of interest; empty: there is
-/// none. Errors: those of extend_to_boundary, seal, arrange, cut_to_volume and round_to_doubles. A
-/// mesh that is not conforming is no error: see rounded.report.
+/// none. Errors: those of extend_to_boundary, seal, arrange, cut_to_volume, merge_small_blocks and
+/// round_to_doubles. A mesh that is not conforming is no error: see rounded.report.
 Result<Arranged> arrange_within(std::vector<Surface> surfaces, std::vector<Surface> boundary,
                                 const ArrangeWithinOptions& options = {}, const Run& run = {});
+
+/// Does the same without rounding: `rounded` stays empty.
+Result<Arranged> arrange_exactly_within(std::vector<Surface> surfaces,
+                                        std::vector<Surface> boundary,
+                                        const ArrangeWithinOptions& options = {},
+                                        const Run& run = {});
+
+/// Finds the breaks in the widths of gaps up to a share of the median edge length, after extension
+/// and cut, if they are asked for. Cost: that of arranging. Errors: those of arrange_within.
+Result<SealChoice> choose_seal(const std::vector<Surface>& surfaces,
+                               const std::vector<Surface>& boundary,
+                               const ArrangeWithinOptions& options = {}, const Run& run = {});
+
+/// Lists the constants that decide the choice.
+std::vector<NamedConstant> seal_choice_constants();
 
 } // namespace terrane

@@ -74,13 +74,21 @@ private:
     Status arrange_surfaces() {
         const ArrangeWithinOptions options{.rounding = {.check = project_.check},
                                            .seal = project_.seal.value_or(0),
-                                           .extend = project_.extend.value_or(0)};
+                                           .seal_automatic = project_.seal == 0.0,
+                                           .extend = project_.extend.value_or(0),
+                                           .min_volume = least_volume()};
         auto arranged =
             arrange_within(std::move(input_.surfaces), std::move(input_.boundary), options, run_);
         if (!arranged) return arranged.error();
         built_.arranged = std::move(*arranged);
         built_.labels = unique_labels(infos_of(built_.arranged.surfaces));
         return Done{};
+    }
+
+    /// Returns the volume below which blocks are merged; 0: none is.
+    [[nodiscard]] double least_volume() const {
+        return project_.min_volume == 0.0 ? small_volume_for(input_.surfaces)
+                                          : project_.min_volume.value_or(0);
     }
 
     [[nodiscard]] const ConformingMesh& rounded() const {
@@ -142,6 +150,9 @@ TetrahedraRequest request_of(const Project& project) {
     r.options.edge_length = t.edge_length;
     r.options.max_volume = t.max_volume;
     r.options.radius_edge_ratio = t.quality;
+    const bool sized = t.edge_length || t.max_volume || !t.size_of.empty() || !t.size_in.empty();
+    if (!t.quality && project.improve && !sized) r.options.radius_edge_ratio = improved_quality;
+    r.options.split_surfaces = t.split_surfaces;
     r.options.time_limit = t.time_limit;
     for (const auto& [name, length] : t.size_of)
         r.size_of.push_back({{name, place("size_of." + name)}, length});

@@ -85,7 +85,10 @@ struct ProjectImprove {
 /// Tetrahedra of the blocks (tetrahedra.hpp).
 struct ProjectTetrahedra {
     std::optional<double> edge_length{}; ///< wanted, unit of the surfaces
-    std::optional<double> quality{};     ///< bound of circumradius / shortest edge, no unit
+    std::optional<double> quality{};     ///< bound of circumradius / shortest edge, no unit; none:
+                                         ///< improved_quality with `improve` and without sizes,
+                                         ///< else that of TetrahedraOptions
+    bool split_surfaces = false;         ///< triangles of surfaces may be divided for `quality`
     std::optional<double> max_volume{};  ///< of a tetrahedron, cubic unit
     double time_limit = 600;             ///< seconds, > 0
     std::vector<ProjectSize> size_of{};  ///< by surface
@@ -94,6 +97,9 @@ struct ProjectTetrahedra {
     std::optional<bool> outside{};       ///< whether region 0 is meshed; none: only if there is no
                                          ///< volume of interest
 };
+
+/// The bound of circumradius / shortest edge for tetrahedra of improved surfaces.
+inline constexpr double improved_quality = 1.4;
 
 /// The formats of the files in the folder of results.
 struct ProjectOutputs {
@@ -115,7 +121,10 @@ struct Project {
     std::optional<ProjectLayers> layers{}; ///< none: horizons are not put in order
     std::optional<double> extend{}; ///< limit of the extension of horizons that end in the volume,
                                     ///< unit of the surfaces
-    std::optional<double> seal{};   ///< largest width of gaps to close, unit of the surfaces
+    std::optional<double> seal{};   ///< largest width of gaps to close, unit of the surfaces; 0:
+                                    ///< "auto", see choose_seal()
+    std::optional<double> min_volume{}; ///< smaller blocks are merged with a neighbour, cubic unit;
+                                        ///< 0: "auto", see small_volume_for()
     std::optional<ProjectImprove> improve{}; ///< none: triangles stay as they are
     ProjectTetrahedra tetrahedra{};          ///< made where outputs.tetrahedra asks for them
     ProjectOutputs outputs{};                ///< what is written

@@ -18,10 +18,10 @@
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/no_index.hpp>
 #include <terrane/algorithms/core/stage_timer.hpp>
-#include <terrane/algorithms/mesh/triangle_tree.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/sealing/border_extension.hpp>
 #include <terrane/algorithms/sealing/detail/constants.hpp>
+#include <terrane/algorithms/sealing/detail/gap_distances.hpp>
 #include <terrane/algorithms/sealing/detail/overshoots.hpp>
 #include <terrane/algorithms/sealing/extension_faces.hpp>
 
@@ -33,10 +33,6 @@ namespace {
 
 using sealing::detail::constants;
 
-Point3 middle(const Point3& p, const Point3& q) {
-    return {p.x + (q.x - p.x) / 2, p.y + (q.y - p.y) / 2, p.z + (q.z - p.z) / 2};
-}
-
 std::array<Point3, 2> in_order(const Point3& p, const Point3& q) {
     return {std::min(p, q), std::max(p, q)};
 }
@@ -44,77 +40,6 @@ std::array<Point3, 2> in_order(const Point3& p, const Point3& q) {
 Error interrupted() {
     return {ErrorCode::interrupted, "stopped on request", ""};
 }
-
-// ---- Gaps
-
-/// The free part of a border edge and its distance from other surfaces.
-struct Gap {
-    BorderEdge edge{};
-    double length = 0, largest = 0;
-    Point3 place{}; ///< where the distance is largest
-};
-
-/// Computes distances to surfaces, up to a bound.
-class Distances {
-public:
-    Distances(const Arrangement& a, double bound) : bound_(std::nextafter(bound, HUGE_VAL)) {
-        for (const PointIndex v : a.vertices) places_.push_back(a.state->points.nearest(v));
-        std::vector<std::vector<Triangle>> triangles(a.surfaces.size());
-        for (std::size_t t = 0; t < a.triangles.size(); ++t)
-            for (const std::uint32_t s : a.surfaces_of[t]) triangles[s].push_back(a.triangles[t]);
-        for (auto& of_surface : triangles) trees_.emplace_back(places_, std::move(of_surface));
-    }
-    Distances(const Distances&) = delete; // the trees refer to places_
-    Distances& operator=(const Distances&) = delete;
-    Distances(Distances&&) = delete;
-    Distances& operator=(Distances&&) = delete;
-    ~Distances() = default;
-
-    /// Measures the free parts of the edge that are within the bound of a surface other than the
-    /// edge's own everywhere. Returns nothing if there are none.
-    [[nodiscard]] std::optional<Gap> gap_at(const BorderEdge& edge) const {
-        Gap gap{edge, 0, -1, {}};
-        for (const Edge& part : edge.open) add_part(gap, places_[part[0]], places_[part[1]]);
-        if (gap.largest < 0) return std::nullopt;
-        return gap;
-    }
-    /// Finds the point nearest to p on a surface that does not contain the edge's triangle; that of
-    /// the first surface among equals.
-    [[nodiscard]] std::optional<Point3> nearest(const Point3& p, const BorderEdge& edge) const {
-        std::optional<Point3> best;
-        double bound = bound_;
-        for (std::uint32_t s = 0; s < trees_.size(); ++s) {
-            if (std::binary_search(edge.own.begin(), edge.own.end(), s)) continue;
-            if (const auto near = trees_[s].nearest(p, bound)) {
-                best = near->place;
-                bound = near->distance;
-            }
-        }
-        return best;
-    }
-
-private:
-    void add_part(Gap& gap, const Point3& p, const Point3& q) const {
-        double largest = -1;
-        Point3 place{};
-        for (const Point3& at : {p, middle(p, q), q}) {
-            const auto near = nearest(at, gap.edge);
-            if (!near) return;
-            const double d = length(minus(*near, at));
-            if (d <= largest) continue;
-            largest = d;
-            place = at;
-        }
-        gap.length += length(minus(q, p));
-        if (largest <= gap.largest) return;
-        gap.largest = largest;
-        gap.place = place;
-    }
-
-    const double bound_;
-    std::vector<Point3> places_;
-    std::vector<TriangleTree> trees_; ///< per surface
-};
 
 // ---- What is kept
 
@@ -194,7 +119,7 @@ private:
     }
 
     /// Finds the free parts of the original borders, not those of strips, that are near enough.
-    [[nodiscard]] std::vector<Gap> gaps(const Distances& distances) const {
+    [[nodiscard]] std::vector<Gap> gaps(const GapDistances& distances) const {
         const auto by_input = strips_by_input(kept_, strips_);
         std::vector<bool> is_strip;
         for (const std::uint32_t strip : by_input) is_strip.push_back(strip != no_index);
@@ -213,8 +138,8 @@ private:
     }
 
     [[nodiscard]] std::vector<ExtensionTriangle> new_strips(bool along) {
-        const Distances distances(kept_, options_.distance);
-        const Distances farther(kept_, constants.end_reach * options_.distance);
+        const GapDistances distances(kept_, options_.distance);
+        const GapDistances farther(kept_, constants.end_reach * options_.distance);
         std::vector<StripEdge> edges;
         const auto done = edges_with_strip();
         for (Gap& gap : gaps(distances)) {
@@ -229,7 +154,7 @@ private:
             if (!along) {
                 const auto a = farther.nearest(ends[0], gap.edge),
                            b = farther.nearest(ends[1], gap.edge);
-                if (a && b) strip.targets = {*a, *b};
+                if (a && b) strip.targets = {a->place, b->place};
             }
             gaps_.push_back(std::move(gap));
         }
@@ -278,7 +203,8 @@ private:
                       return std::tie(a.kind, a.surface, a.place, a.length) <
                              std::tie(b.kind, b.surface, b.place, b.length);
                   });
-        for (const Gap& gap : gaps(Distances(kept_, options_.distance))) sealed_.left += gap.length;
+        for (const Gap& gap : gaps(GapDistances(kept_, options_.distance)))
+            sealed_.left += gap.length;
         sealed_.surfaces = with(strips_);
         sealed_.arrangement = std::move(kept_);
         if (!sealed_.arrangement.state->whole)

@@ -34,6 +34,7 @@ Examples:
 /// Checks before any work is done that a certificate can be made, if one is wanted.
 Status check_certificate(const ArrangeCommand& command) {
     if (command.proof.certificate.empty()) return Done{};
+    if (auto possible = check_certifiable(command.settings); !possible) return possible;
     return check_certified_names(command.proof.certificate, command.settings.volume.within);
 }
 
@@ -74,7 +75,8 @@ Result<ExitStatus> arrange_files(const ArrangeCommand& command, Session& session
         print(stderr, std::string("terrane: ") + (proves ? "the mesh is not" : "nothing") +
                           " written (see --keep-unverified)\n");
     const ProofFiles certified{files.inputs, keep ? outputs.value() : std::vector<Output>(),
-                               files.ascii, summary_stream(files), cut_request(command.settings)};
+                               files.ascii, summary_stream(files),
+                               cut_request(command.settings, *arranged)};
     const auto proved =
         write_proof(command.proof, certified, inputs.value(), arranged.value(), session);
     if (!proved) return proved.error();

@@ -117,8 +117,8 @@ public:
         journal_.note(fmt::format("terrane {}, {}", TERRANE_VERSION, source_));
         if (auto done = check(); !done) return done.error();
         if (auto done = read(); !done) return done.error();
-        if (auto done = make(); !done)
-            return refused_.empty() ? Result<ExitStatus>(done.error()) : refuse(refused_);
+        if (auto done = make(); !done && refused_.empty()) return done.error();
+        if (!refused_.empty()) return refuse(refused_);
         if (built_.filled && !built_.filled->report.violations.empty())
             return refuse(violations_text(built_.filled->report) + "terrane: nothing written\n");
         if (doubts_) return *doubts_;
@@ -240,6 +240,7 @@ private:
             return;
         case BuildStage::improve:
             add_statistics(statistics_, *built.improved, session_.times());
+            if (!keeps_volumes(*built.improved, strict_)) refused_ = "terrane: nothing written\n";
             return journal_.say(improve_text(*built.improved, inputs_));
         case BuildStage::blocks:
             add_statistics(statistics_, *built.model, session_.times());
@@ -418,7 +419,7 @@ private:
 
     /// Returns what the project cuts, seals and extends; none if it leaves surfaces as they are.
     [[nodiscard]] std::optional<CutRequest> request_of_cut() const {
-        if (project_.volume.index() == 0 && !project_.seal) return std::nullopt;
+        if (project_.volume.index() == 0 && !built_.arranged.sealed) return std::nullopt;
         CutRequest request;
         if (project_.volume.index() != 0)
             request.volume = [this](const std::string& path) { return record_of(project_, path); };

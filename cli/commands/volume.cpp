@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/options/roles.hpp>
+#include <terrane/cli/reports/relation_report.hpp>
+#include <terrane/cli/reports/seal_report.hpp>
 #include <terrane/cli/stages/block_certificate.hpp>
 #include <terrane/cli/stages/blocks.hpp>
 #include <terrane/cli/stages/certificate_output.hpp>
 #include <terrane/cli/stages/plausibility.hpp>
+#include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/atomic/atomic_folder.hpp>
 
 namespace terrane::cli {
@@ -19,7 +24,10 @@ struct VolumeCommand {
     std::string folder;
     std::vector<std::string> roles; ///< NAME=ROLE
     std::string part_format = "vtp";
-    std::string certificate; ///< file; empty: none
+    std::string certificate;   ///< file; empty: none
+    std::string relations;     ///< file for the table of relations; here and below, empty: none
+    std::string juxtaposition; ///< file for the table of areas between blocks
+    bool suggests = false;     ///< whether distances for sealing are tried, and nothing is written
 };
 
 constexpr auto volume_footer =
@@ -37,10 +45,18 @@ summary says which, and how far their free borders are from other surfaces.
 
 --seal D closes gaps: free borders that end short of another surface by at most D are extended onto it,
 those that reach beyond by at most D are trimmed. Every change is listed, and is in model.json.
+--suggest-seal lists the widths of gaps by their natural breaks and the number of blocks for each, and
+writes nothing; --seal auto takes the last break below a fifth of the median edge length.
+--min-volume V merges blocks below V with a neighbour, by removing the largest part of their boundary
+with the same neighbour and the same surfaces; each is listed.
 
 With a volume of interest (--box, --rotated-box, --polygon, --within) all surfaces are cut by its
 boundary, exactly, the inside is kept, and the boundary closes it: its faces are surfaces of their
 own, "boundary top", "boundary side 1", ... --extend D extends horizons that end inside.
+
+--relations FILE.csv lists which surface stops at which other one, crosses it, or ends near it, along
+which length and with which gap; --juxtaposition FILE.csv lists which blocks face each other across which
+surface, and the area.
 
 --certificate FILE writes all that it takes to check the files in DIR from the input files alone.
 
@@ -48,6 +64,8 @@ Examples:
   terrane volume model.ml -o model
   terrane volume model.ml -o model --certificate model-certificate.json
   terrane volume model.ml -o model --seal 0.01
+  terrane volume *.ts --box 0,0,-3000,10000,10000,500 --suggest-seal
+  terrane volume *.ts -o model --seal auto --min-volume auto
   terrane volume horizons.ts faults.ts -o model --box 0,0,-3000,10000,10000,500
   terrane volume *.ts -o model --polygon licence.txt --between -4000,0
   terrane volume top.ts base.ts F1.ts box.ts -o model --role F1=fault --role box=boundary)";
@@ -66,12 +84,71 @@ Status write_folder(const VolumeCommand& command, const Arranged& arranged, cons
     return published;
 }
 
+/// Checks before any work is done that the folder is given and will do, or that none is wanted.
+Status check_output(const VolumeCommand& command) {
+    if (!command.suggests) {
+        if (!command.folder.empty()) return check_new_folder(command.folder);
+        return Error{ErrorCode::bad_option, "the folder for the model is missing", "--output"};
+    }
+    if (command.folder.empty() && command.certificate.empty()) return Done{};
+    return Error{ErrorCode::bad_option, "writes no model, so that it takes no --output",
+                 "--suggest-seal"};
+}
+
+Status write_tables(const VolumeCommand& command, const Model& model, const Inputs& inputs,
+                    Session& session) {
+    const auto write = [&](const std::string& path, const std::string& text) -> Status {
+        session.begin("write", Phase::writing);
+        auto written = write_file(path, text);
+        session.end_stage();
+        if (written && path != "-") print(summary_stream(command.files), "wrote " + path + "\n");
+        return written;
+    };
+    if (!command.relations.empty()) {
+        const auto relations = find_relations(model.mesh, model.structure, model.borders);
+        if (auto done = write(command.relations, csv_of(relations, inputs.labels)); !done)
+            return done;
+    }
+    if (command.juxtaposition.empty()) return Done{};
+    return write(command.juxtaposition,
+                 csv_of(find_juxtapositions(model.structure), inputs.labels, model.structure));
+}
+
+Result<ExitStatus> suggest_seal(const VolumeCommand& command, Session& session) {
+    Stopwatch total;
+    const FileOptions& files = command.files;
+    auto inputs = read_inputs(files, session);
+    if (!inputs) return inputs.error();
+    if (const auto set = set_roles(command.roles, inputs.value()); !set) return set.error();
+    Json statistics = statistics_of(inputs.value(), session.times());
+    std::vector<Surface> boundary;
+    if (command.settings.volume.wanted()) {
+        auto made = boundary_of(command.settings.volume, session);
+        if (!made) return made.error();
+        boundary = std::move(*made);
+    }
+    if (const auto sound = examine(*inputs, {boundary, true}, statistics); !sound)
+        return sound.error();
+    session.begin("seal", Phase::computing);
+    const auto advice = advise_seal(inputs->surfaces, boundary,
+                                    options_within(command.settings, *inputs), session.run());
+    session.end_stage();
+    if (!advice) return advice.error();
+    print(summary_stream(files), text_of(*advice));
+    add_statistics(statistics, *advice);
+    add_constants(statistics, "seal", seal_constants());
+    add_constants(statistics, "seal_choice", seal_choice_constants());
+    if (auto written = write_statistics(statistics, files.stats, total.lap()); !written)
+        return written.error();
+    return ExitStatus::done;
+}
+
 Result<ExitStatus> find_blocks(const VolumeCommand& command, Session& session) {
     Stopwatch total;
     const FileOptions& files = command.files;
     if (const auto planned = plan_outputs(files, OutputKind::surfaces); !planned)
         return planned.error();
-    if (const auto good = check_new_folder(command.folder); !good) return good.error();
+    if (const auto good = check_output(command); !good) return good.error();
     if (const auto planned = plan_certificate(command.certificate, files, command.settings);
         !planned)
         return planned.error();
@@ -80,6 +157,7 @@ Result<ExitStatus> find_blocks(const VolumeCommand& command, Session& session) {
             return named.error();
     if (const auto sound = check_volume_options(command.settings.volume); !sound)
         return sound.error();
+    if (command.suggests) return suggest_seal(command, session);
     auto inputs = read_certified_inputs(command.certificate, files, session);
     if (!inputs) return inputs.error();
     const auto roles = roles_of(inputs.value());
@@ -103,11 +181,13 @@ Result<ExitStatus> find_blocks(const VolumeCommand& command, Session& session) {
         const auto written = write_folder(command, arranged.value(), model.value(), session);
         if (!written) return written.error();
         print(summary_stream(files), "wrote " + command.folder + "\n");
+        if (auto tables = write_tables(command, *model, *inputs, session); !tables)
+            return tables.error();
         if (!command.certificate.empty()) {
-            const auto proved =
-                write_certificate({command.certificate, files, inputs.value(), roles,
-                                   arranged.value(), cut_request(command.settings)},
-                                  model.value(), command.folder, command.part_format, session);
+            const auto proved = write_certificate(
+                {command.certificate, files, inputs.value(), roles, arranged.value(),
+                 cut_request(command.settings, arranged.value())},
+                model.value(), command.folder, command.part_format, session);
             if (!proved) return proved.error();
         }
         statistics["seconds"]["write"] = writing.lap();
@@ -124,12 +204,20 @@ Command volume_command(CLI::App& program) {
     auto* app = program.add_subcommand("volume", "Find the blocks that surfaces enclose");
     add_inputs(*app, command->files);
     app->add_option("-o,--output", command->folder, "Folder for the model; made by the program")
-        ->required()
         ->type_name("DIR");
+    app->add_flag("--suggest-seal", command->suggests,
+                  "List natural breaks in the widths of gaps, and the blocks for each distance; "
+                  "write nothing");
     add_roles(*app, command->roles);
     app->add_option("--parts", command->part_format, "Format of blocks and interfaces: vtp, obj")
         ->check(CLI::IsMember({"vtp", "obj"}).description(""))
         ->type_name("FORMAT");
+    app->add_option("--relations", command->relations,
+                    "Which surface stops at, crosses or ends near which other one, as a table")
+        ->type_name("FILE.csv");
+    app->add_option("--juxtaposition", command->juxtaposition,
+                    "Which blocks face each other across which surface, as a table")
+        ->type_name("FILE.csv");
     add_certificate(*app, command->certificate);
     add_settings(*app, command->settings);
     add_threads(*app, command->files);

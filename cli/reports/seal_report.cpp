@@ -54,6 +54,56 @@ Json json_of(const SealReport& report) {
     return {{"distance", report.distance}, {"changes", std::move(changes)}, {"left", report.left}};
 }
 
+std::string text_of(const SealChoice& choice) {
+    auto text = fmt::format("gaps up to {:.3g}, a fifth of the median edge:\n", choice.widest);
+    for (const GapBreak& b : choice.breaks)
+        text += fmt::format("  {} of up to {:.3g}, along {:.4g}; next to none up to {:.3g}\n",
+                            counted(b.gaps, "border edge"), b.low, b.length, b.high);
+    if (choice.breaks.empty()) return text + "  no natural break: nothing is sealed\n";
+    return text + fmt::format("  chosen distance: {}\n", choice.distance);
+}
+
+void add_statistics(Json& json, const SealChoice& choice) {
+    Json breaks = Json::array();
+    for (const GapBreak& b : choice.breaks)
+        breaks.push_back({{"low", b.low},
+                          {"high", b.high},
+                          {"distance", b.distance},
+                          {"gaps", b.gaps},
+                          {"length", b.length}});
+    json["seal_choice"] = {{"edge_length", choice.edge_length},
+                           {"widest", choice.widest},
+                           {"breaks", std::move(breaks)},
+                           {"distance", choice.distance}};
+}
+
+std::string text_of(const SealAdvice& advice) {
+    auto text = text_of(advice.choice);
+    text += fmt::format("  {:>10}  {:>6}  {:>5}  {:>7}  {:>9}  {:>10}  {:>10}\n", "distance",
+                        "blocks", "small", "changes", "triangles", "along", "left open");
+    for (const SealTrial& t : advice.trials)
+        text += fmt::format("  {:>10}  {:>6}  {:>5}  {:>7}  {:>9}  {:>10.4g}  {:>10.4g}\n",
+                            t.distance == 0 ? "none" : fmt::format("{}", t.distance), t.blocks,
+                            t.small, t.changes, t.triangles, t.length, t.left);
+    return text + fmt::format("small: below {:.3g}, see --min-volume auto; triangles: added or "
+                              "removed; along: the borders that change\n",
+                              advice.small_volume);
+}
+
+void add_statistics(Json& json, const SealAdvice& advice) {
+    add_statistics(json, advice.choice);
+    Json trials = Json::array();
+    for (const SealTrial& t : advice.trials)
+        trials.push_back({{"distance", t.distance},
+                          {"blocks", t.blocks},
+                          {"small", t.small},
+                          {"changes", t.changes},
+                          {"triangles", t.triangles},
+                          {"length", t.length},
+                          {"left", t.left}});
+    json["seal_trials"] = {{"small_volume", advice.small_volume}, {"trials", std::move(trials)}};
+}
+
 void add_statistics(Json& json, const SealReport& report, const Inputs& inputs) {
     Json entry = json_of(report);
     for (Json& change : entry["changes"])

@@ -6,6 +6,7 @@
 #include <string>
 
 #include <terrane/algorithms/model/arrange_within.hpp>
+#include <terrane/algorithms/model/seal_advice.hpp>
 #include <terrane/cli/options/files.hpp>
 #include <terrane/cli/options/statistics.hpp>
 
@@ -15,6 +16,18 @@ std::string text_of(const SealReport& report, const Inputs& inputs);
 
 /// Returns distance, changes (kind, surface, length, distance, place, triangles) and left.
 Json json_of(const SealReport& report);
+
+/// Reports the natural breaks in the widths of gaps, and the distance that was chosen.
+std::string text_of(const SealChoice& choice);
+
+/// Adds "seal_choice": edge_length, widest, breaks, distance.
+void add_statistics(Json& json, const SealChoice& choice);
+
+/// Reports the models that the distances lead to, as a table.
+std::string text_of(const SealAdvice& advice);
+
+/// Adds "seal_choice" and "seal_trials".
+void add_statistics(Json& json, const SealAdvice& advice);
 
 /// Adds "seal" with json_of(report) in it.
 void add_statistics(Json& json, const SealReport& report, const Inputs& inputs);

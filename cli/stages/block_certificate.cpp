@@ -89,6 +89,7 @@ Status write(const BlockProof& proof, const Make& make, Session& session) {
 Status plan_certificate(const std::string& path, const FileOptions& files,
                         const ArrangeSettings& settings) {
     if (path.empty()) return Done{};
+    if (auto possible = check_certifiable(settings); !possible) return possible;
     if (path == "-" || std::ranges::count(files.outputs, "-") > 0)
         return Error{ErrorCode::bad_option, "a certificate is about files, and is one",
                      "--certificate"};

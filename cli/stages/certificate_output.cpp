@@ -52,9 +52,9 @@ Result<std::vector<OutputRecord>> record_outputs(const std::string& certificate,
 
 } // namespace
 
-std::optional<CutRequest> cut_request(const ArrangeSettings& settings) {
+std::optional<CutRequest> cut_request(const ArrangeSettings& settings, const Arranged& arranged) {
     const VolumeOptions& volume = settings.volume;
-    if (!volume.wanted() && settings.seal == 0) return std::nullopt;
+    if (!volume.wanted() && !arranged.sealed) return std::nullopt;
     CutRequest request{{}, settings.search};
     if (volume.wanted())
         request.volume = [&volume](const std::string& path) { return record_of(volume, path); };

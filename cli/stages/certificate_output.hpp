@@ -69,9 +69,9 @@ struct CutRequest {
     Search search = Search::automatic; ///< for arranging again what was left out
 };
 
-/// Returns what the settings ask for, which must outlive the result; none: surfaces stay as they
-/// are.
-std::optional<CutRequest> cut_request(const ArrangeSettings& settings);
+/// Returns how surfaces were changed, as the settings asked for, which must outlive the result;
+/// none: they stay as they are.
+std::optional<CutRequest> cut_request(const ArrangeSettings& settings, const Arranged& arranged);
 
 /// What was changed, for a certificate.
 struct ChangeRecord {

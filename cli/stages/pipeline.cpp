@@ -2,7 +2,10 @@
 #include <terrane/cli/stages/pipeline.hpp>
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <map>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
@@ -10,6 +13,7 @@
 #include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
+#include <terrane/cli/reports/merge_report.hpp>
 #include <terrane/cli/reports/seal_report.hpp>
 #include <terrane/cli/session/console.hpp>
 #include <terrane/cli/stages/plausibility.hpp>
@@ -97,6 +101,25 @@ Point3 narrowed(const Point3& p) {
     return {narrow(p.x), narrow(p.y), narrow(p.z)};
 }
 
+/// Adds an option that is a positive number, or "auto".
+void add_automatic(CLI::App& command, const std::string& name, double& value, bool& automatic,
+                   const std::string& description) {
+    command
+        .add_option_function<std::string>(
+            name,
+            [name, &value, &automatic](const std::string& text) {
+                automatic = text == "auto";
+                if (automatic) return;
+                const char* end = text.data() + text.size();
+                const auto [at, failed] = std::from_chars(text.data(), end, value);
+                if (failed != std::errc() || at != end || !(value > 0) || !std::isfinite(value))
+                    throw CLI::ValidationError(name,
+                                               "'" + text + "' is no positive number, nor auto");
+            },
+            description)
+        ->type_name("D|auto");
+}
+
 } // namespace
 
 void add_settings(CLI::App& command, ArrangeSettings& settings) {
@@ -121,12 +144,13 @@ void add_settings(CLI::App& command, ArrangeSettings& settings) {
         ->check(CLI::Range(0U, most_rounds).description(""))
         ->type_name("N");
     add_check(command, settings.check);
-    command
-        .add_option(
-            "--seal", settings.seal,
-            "Extend or trim free borders that end short of another surface, or beyond it, by at "
-            "most this distance; every change is listed (default: nothing moves)")
-        ->type_name("D");
+    add_automatic(command, "--seal", settings.seal, settings.seal_automatic,
+                  "Extend or trim free borders that end short of another surface, or beyond it, by "
+                  "at most this distance; every change is listed; auto: the last natural break in "
+                  "the widths of gaps (default: nothing moves)");
+    add_automatic(command, "--min-volume", settings.min_volume, settings.min_volume_automatic,
+                  "Merge smaller blocks with a neighbour, by removing what lies between; auto: a "
+                  "cube of a tenth of the median edge length (default: none)");
     add_volume_options(command, settings.volume);
 }
 
@@ -136,6 +160,10 @@ void add_statistics(Json& statistics, const Arranged& arranged, const Inputs& in
         add_statistics(statistics, *arranged.extended);
         add_constants(statistics, "extend", extension_constants());
         statistics["seconds"]["extend"] = times.latest("extend");
+    }
+    if (arranged.choice) {
+        add_statistics(statistics, *arranged.choice);
+        add_constants(statistics, "seal_choice", seal_choice_constants());
     }
     if (arranged.sealed) {
         add_constants(statistics, "seal", seal_constants());
@@ -149,7 +177,30 @@ void add_statistics(Json& statistics, const Arranged& arranged, const Inputs& in
         add_constants(statistics, "volume_of_interest", boundary_constants());
         statistics["seconds"]["volume_of_interest"] = times.latest("volume of interest");
     }
+    if (arranged.merged) {
+        add_statistics(statistics, *arranged.merged, inputs);
+        add_constants(statistics, "small_blocks", small_block_constants());
+        statistics["seconds"]["small_blocks"] = times.latest("small blocks");
+    }
     add_statistics(statistics, arranged.rounded, times);
+}
+
+ArrangeWithinOptions options_within(const ArrangeSettings& settings, const Inputs& inputs) {
+    return {.arrange = {.search = settings.search},
+            .rounding = {.max_rounds = settings.rounds, .check = check_of(settings.check, inputs)},
+            .seal = settings.seal,
+            .seal_automatic = settings.seal_automatic,
+            .extend = settings.volume.extend,
+            .min_volume = settings.min_volume_automatic ? small_volume_for(inputs.surfaces)
+                                                        : settings.min_volume};
+}
+
+Status check_certifiable(const ArrangeSettings& settings) {
+    if (settings.min_volume == 0 && !settings.min_volume_automatic) return Done{};
+    return Error{ErrorCode::bad_option,
+                 "a certificate can't show yet that only small blocks were merged; leave out "
+                 "--min-volume, or the certificate",
+                 "--certificate"};
 }
 
 Result<Arranged> arrange_and_round(Inputs& inputs, const ArrangeSettings& settings,
@@ -163,13 +214,9 @@ Result<Arranged> arrange_and_round(Inputs& inputs, const ArrangeSettings& settin
     if (const auto sound = examine(inputs, {boundary, settings.blocks}, statistics); !sound)
         return sound.error();
     session.begin("arrange", Phase::computing);
-    auto arranged = arrange_within(
-        std::move(inputs.surfaces), std::move(boundary),
-        {.arrange = {.search = settings.search},
-         .rounding = {.max_rounds = settings.rounds, .check = check_of(settings.check, inputs)},
-         .seal = settings.seal,
-         .extend = settings.volume.extend},
-        session.run());
+    const auto options = options_within(settings, inputs);
+    auto arranged =
+        arrange_within(std::move(inputs.surfaces), std::move(boundary), options, session.run());
     session.end_stage();
     if (!arranged) return arranged;
     inputs.labels = unique_labels(infos_of(arranged->surfaces));
@@ -186,8 +233,10 @@ std::string summary(const Inputs& inputs, const Arranged& arranged) {
     text += surface_table(inputs, arranged);
     text += set_aside(arranged.exact);
     if (arranged.extended) text += text_of(*arranged.extended, inputs);
+    if (arranged.choice) text += text_of(*arranged.choice);
     if (arranged.sealed) text += text_of(*arranged.sealed, inputs);
     if (arranged.cut) text += text_of(*arranged.cut, inputs);
+    if (arranged.merged) text += text_of(*arranged.merged, inputs);
     text += rounding_text(arranged.rounded.report);
     return text;
 }

@@ -24,10 +24,21 @@ struct ArrangeSettings {
     PairCheckOptions check = few_pairs; ///< how the mesh is checked
     VolumeOptions volume;               ///< volume of interest
     double seal = 0;                    ///< distance within which gaps are sealed; 0: not at all
+    bool seal_automatic = false;        ///< the distance is chosen by the widths of the gaps
+    double min_volume = 0;              ///< smaller blocks are merged; 0: none
+    bool min_volume_automatic = false;  ///< the volume is chosen by the edge lengths
     bool blocks = false; ///< whether blocks are wanted, so that surfaces should close some
 };
 
 void add_settings(CLI::App& command, ArrangeSettings& settings);
+
+/// Returns the options of arrange_within() that the settings stand for. Precondition: the surfaces
+/// of `inputs` were not moved from.
+ArrangeWithinOptions options_within(const ArrangeSettings& settings, const Inputs& inputs);
+
+/// Checks before any work is done that a certificate can be made of what the settings ask for.
+/// Errors: bad_option.
+Status check_certifiable(const ArrangeSettings& settings);
 
 /// Arranges and rounds the surfaces of `inputs`, which are moved into the result. Adds to
 /// `statistics`, and to `inputs` the names of the boundary's surfaces. Errors: those of arrange,

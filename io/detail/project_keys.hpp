@@ -9,9 +9,9 @@
 
 namespace terrane::detail {
 
-inline constexpr std::array<std::string_view, 12> project_level{
-    "format", "folder", "threads", "surfaces",   "fill",   "layers", "volume_of_interest",
-    "extend", "seal",   "improve", "tetrahedra", "outputs"};
+inline constexpr std::array<std::string_view, 13> project_level{
+    "format", "folder", "threads",    "surfaces", "fill",       "layers", "volume_of_interest",
+    "extend", "seal",   "min_volume", "improve",  "tetrahedra", "outputs"};
 inline constexpr std::array<std::string_view, 5> surfaces_level{"file", "objects", "name", "role",
                                                                 "depth"};
 inline constexpr std::array<std::string_view, 8> fill_level{
@@ -27,8 +27,9 @@ inline constexpr std::array<std::string_view, 6> rotated_level{"centre",  "corne
 inline constexpr std::array<std::string_view, 2> polygon_level{"corners", "between"};
 inline constexpr std::array<std::string_view, 3> improve_level{"edge_length", "max_deviation",
                                                                "edge_length_of"};
-inline constexpr std::array<std::string_view, 8> tetrahedra_level{
-    "edge_length", "max_volume", "quality", "size_of", "size_in", "split", "outside", "time_limit"};
+inline constexpr std::array<std::string_view, 9> tetrahedra_level{
+    "edge_length", "max_volume", "quality", "split_surfaces", "size_of",
+    "size_in",     "split",      "outside", "time_limit"};
 inline constexpr std::array<std::string_view, 4> outputs_level{"surfaces", "tetrahedra", "blocks",
                                                                "certificate"};
 

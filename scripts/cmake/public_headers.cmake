@@ -32,6 +32,7 @@ set(terrane_headers
     algorithms/volumes/region_points.hpp
     algorithms/volumes/volumes.hpp
     algorithms/structure/free_borders.hpp
+    algorithms/structure/relations.hpp
     algorithms/structure/structure.hpp
     algorithms/structure/structure_meshes.hpp
     algorithms/layers/layers.hpp
@@ -45,6 +46,7 @@ set(terrane_headers
     algorithms/reconstruction/kriging/variogram.hpp
     algorithms/reconstruction/rbf/rbf.hpp
     algorithms/reconstruction/fill.hpp
+    algorithms/sealing/gaps.hpp
     algorithms/sealing/sealing.hpp
     algorithms/volume_of_interest/boundary_surfaces.hpp
     algorithms/volume_of_interest/extension.hpp
@@ -52,6 +54,8 @@ set(terrane_headers
     algorithms/model/arrange_within.hpp
     algorithms/model/model.hpp
     algorithms/model/model_doubts.hpp
+    algorithms/model/seal_advice.hpp
+    algorithms/model/small_blocks.hpp
     algorithms/tetrahedra/check_tetrahedra.hpp
     algorithms/tetrahedra/split_nodes.hpp
     algorithms/tetrahedra/tetrahedra_shape.hpp

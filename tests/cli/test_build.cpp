@@ -170,6 +170,13 @@ TEST_CASE("cli: build: gaps are closed, horizons extended, triangles made better
     CHECK(blocks("sealed") == 4);
     const auto model = Json::parse(c.folder.read("sealed/model/model.json"));
     CHECK_FALSE(model["seal"].empty());
+    json["seal"] = "auto"; // the gaps are a quarter, the triangles' edges six wide
+    CHECK(blocks("automatic") == 4);
+    CHECK(Json::parse(c.folder.read("automatic/statistics.json"))["seal_choice"]["distance"] ==
+          0.5);
+    json["min_volume"] = 100;
+    CHECK(blocks("merged") < 4);
+    json.erase("min_volume");
     json["improve"] = {{"edge_length", 1}, {"edge_length_of", {{"F1", 0.5}}}};
     CHECK(blocks("better") == 4);
     CHECK(contains(c.folder.read("better/log.txt"), ": improve\n"));

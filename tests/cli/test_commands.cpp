@@ -267,7 +267,7 @@ TEST_CASE("cli: tetrahedralize reports checks and shapes", "[cli]") {
     CHECK(check["dihedral"]["min"] < 60);
     CHECK(check["dihedral"]["max"] > 71);
     CHECK(contains(folder.read("a.msh"), "$MeshFormat\n2.2 0 8\n"));
-    CHECK(contains(folder.read("a.msh"), "\n3 2 \"region 1: "));
+    CHECK(contains(folder.read("a.msh"), "\n3 32 \"region 1: ")); // after 3 numbers for each of 10
     CHECK(contains(folder.read("a.inp"), "\n** region 4: "));
     CHECK(contains(folder.read("a.mesh"), "\nTetrahedra\n" + std::to_string(tetrahedra) + "\n"));
 }

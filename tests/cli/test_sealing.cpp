@@ -2,6 +2,7 @@
 //
 // Tests --seal and --extend from outside.
 #include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -188,4 +189,88 @@ TEST_CASE("cli: certificates of tetrahedra in a sealed volume that verify takes"
     INFO(valid.out << valid.err);
     CHECK(valid.status == 0);
     CHECK(contains(valid.out, "m.vtu: holds these tetrahedra, bit for bit\n"));
+}
+
+TEST_CASE("cli: --suggest-seal lists the breaks of gaps and writes nothing", "[cli]") {
+    const Folder folder;
+    const auto in = folder.input("model.obj", gapped_model);
+    const auto r = folder.run("volume " + in + around_gap + " --suggest-seal --stats s.json");
+    REQUIRE(r.status == 0);
+    CHECK(contains(r.out, "chosen distance: 0.2\n"));
+    const Json stats = Json::parse(folder.read("s.json"));
+    CHECK(stats["seal_choice"]["distance"] == 0.2);
+    const Json& trials = stats["seal_trials"]["trials"];
+    REQUIRE(trials.size() == 2);
+    CHECK(trials[0]["blocks"] == 2);
+    CHECK(trials[1]["blocks"] == 3);
+    CHECK(trials[1]["distance"] == 0.2);
+    CHECK(folder.left() == std::set<std::string>{"s.json"});
+
+    const auto both = folder.run("volume " + in + around_gap + " --suggest-seal -o model");
+    CHECK(both.status == 2);
+    CHECK(contains(both.err, "writes no model"));
+    const auto neither = folder.run("volume " + in + around_gap);
+    CHECK(neither.status == 2);
+    CHECK(contains(neither.err, "--output"));
+}
+
+TEST_CASE("cli: --seal auto takes the last break, says so, and its certificate holds", "[cli]") {
+    const Folder folder;
+    const auto in = folder.input("model.obj", gapped_model);
+    const auto r = folder.run("volume " + in + around_gap +
+                              " -o model --seal auto --certificate c.json --stats s.json");
+    REQUIRE(r.status == 0);
+    CHECK(contains(r.out, "sealed by at most 0.2: 1 change"));
+    CHECK(contains(r.out, "3 closed blocks, volume 512 in all\n"));
+    CHECK(folder.run("verify c.json").status == 0);
+    REQUIRE(folder.run("volume " + in + around_gap + " -o stated --seal 0.2").status == 0);
+    CHECK(folder.shell("cmp model/result.vtp stated/result.vtp").status == 0);
+    // Where there is no gap, the certificate is a plain one.
+    REQUIRE(
+        folder.run("arrange model/result.vtp -o a.obj --seal auto --certificate a.json").status ==
+        0);
+    CHECK(folder.run("verify a.json").status == 0);
+    for (const char* bad : {"''", "0", "-1", "nan", "inf", "1m", "Auto"}) {
+        const auto refused = folder.run("volume " + in + " -o bad --seal " + std::string(bad));
+        CHECK(refused.status == 2);
+        CHECK(contains(refused.err, "--seal"));
+    }
+}
+
+TEST_CASE("cli: --min-volume merges small blocks and lists them", "[cli]") {
+    const Folder folder;
+    const auto in = folder.input("model.obj", R"(o top
+v -1 -1 4.001
+v 9 -1 4.001
+v 9 9 4.001
+v -1 9 4.001
+f 1 2 3 4
+o base
+v -1 -1 4
+v 9 -1 4
+v 9 9 4
+v -1 9 4
+f 5 6 7 8
+)");
+    const auto r =
+        folder.run("volume " + in + around_gap + " -o model --min-volume 1 --stats s.json");
+    REQUIRE(r.status == 0);
+    CHECK(contains(r.out, "blocks below 1: 1 merged with a neighbour\n"));
+    CHECK(contains(r.out, "2 closed blocks, volume 512 in all\n"));
+    const Json merged = Json::parse(folder.read("s.json"))["small_blocks"];
+    CHECK(merged["least_volume"] == 1);
+    REQUIRE(merged["merged"].size() == 1);
+    CHECK(merged["merged"][0]["volume"].get<double>() == Approx(0.064));
+    CHECK(merged["merged"][0]["thickness"].get<double>() == Approx(0.001).epsilon(0.01));
+    const auto kept = folder.run("volume " + in + around_gap + " -o kept --min-volume auto");
+    REQUIRE(kept.status == 0); // 0.064 is less than a cubic metre, for edges of 10
+    CHECK(contains(kept.out, "2 closed blocks"));
+    CHECK(contains(folder.run("volume " + in + around_gap + " -o all --min-volume 0.06").out,
+                   "3 closed blocks"));
+    const auto refused =
+        folder.run("volume " + in + around_gap + " -o m --min-volume 1 --certificate c.json");
+    CHECK(refused.status == 2);
+    CHECK(contains(refused.err, "only small blocks were merged"));
+    for (const char* bad : {"''", "0", "-1", "nan", "inf"})
+        CHECK(folder.run("volume " + in + " -o bad --min-volume " + std::string(bad)).status == 2);
 }

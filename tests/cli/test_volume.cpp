@@ -184,3 +184,31 @@ TEST_CASE("cli: volume: a block that only rounding made has the exact volume 0",
         CHECK(block["volume_written"] > 2);
     }
 }
+
+TEST_CASE("cli: tables of relations and juxtapositions", "[cli]") {
+    const Folder folder;
+    const auto in = folder.input("model.obj", R"(o a,b "quoted"
+v -1 -1 3
+v 4 -1 3
+v 4 9 3
+v -1 9 3
+f 1 2 3 4
+o fault
+v 4 -1 -1
+v 4 9 -1
+v 4 9 9
+v 4 -1 9
+f 5 6 7 8
+)");
+    const auto r = folder.run(
+        "volume " + in + " -o model --box 0,0,0,8,8,8 --relations r.csv --juxtaposition j.csv");
+    REQUIRE(r.status == 0);
+    CHECK(contains(r.out, "wrote r.csv\n"));
+    const auto relations = folder.read("r.csv");
+    CHECK(relations.starts_with("surface,kind,other,length,least_gap,largest_gap,x,y,z\n"));
+    CHECK(contains(relations, "\"a,b 'quoted'\",stops at,fault,8,,,4,"));
+    const auto areas = folder.read("j.csv");
+    CHECK(areas.starts_with("surface,block,name,other_block,other_name,area\n"));
+    CHECK(contains(areas, "\"a,b 'quoted'\",1,"));
+    CHECK(contains(areas, ",32\n"));
+}

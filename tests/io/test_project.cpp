@@ -41,9 +41,9 @@ json full() {
         "layers": {"order": [{"surface": "top", "hardness": 1.5},
                              {"surface": "base", "hardness": -2}], "min_thickness": 0.5},
         "volume_of_interest": {"box": {"low": [0, 0, -1.5], "high": [1, 2, 3]}},
-        "extend": 100, "seal": 0.25,
+        "extend": 100, "seal": 0.25, "min_volume": 2.5,
         "improve": {"edge_length": 4, "max_deviation": 0.125, "edge_length_of": {"top": 3}},
-        "tetrahedra": {"edge_length": 2, "max_volume": 3.5, "quality": 1.4,
+        "tetrahedra": {"edge_length": 2, "max_volume": 3.5, "quality": 1.4, "split_surfaces": true,
                        "size_of": {"F1": 0.5, "top": 1}, "size_in": {"2": 0.25, "top/base": 1},
                        "split": ["fault", "top"], "outside": true, "time_limit": 60},
         "outputs": {"surfaces": ["vtp", "obj"], "tetrahedra": ["vtu", "msh", "msh22"],
@@ -64,7 +64,7 @@ std::vector<json> samples() {
         all.back()["volume_of_interest"] = json::parse(volume);
     }
     all.push_back(full());
-    for (const char* key : {"improve", "fill", "layers"}) all.back().erase(key);
+    for (const char* key : {"improve", "fill", "layers", "min_volume"}) all.back().erase(key);
     all.back()["outputs"]["certificate"] = true;
     all.back()["surfaces"][1]["depth"] = false;
     all.push_back(json::parse(R"({"format": "terrane-project 1", "surfaces": [{"file": "a"}],

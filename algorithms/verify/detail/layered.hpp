@@ -21,9 +21,8 @@ namespace terrane::verifier {
 /// (1) R60: indices are in range, numbers are finite, d is not above what is accepted.
 /// (2) R61: the mesh is conforming.
 /// (3) R62: no layer is above one that is higher in the order. For two triangles of different
-/// layers
-///     heights are compared at the corners of the common part of their projections. Exempt is a
-///     common part within 2 d of a border of a surface, where a step can be.
+///     layers heights are compared at the corners of the common part of their projections. Exempt
+///     is a common part within 2 d of a border of a surface, where a step can be.
 /// (4) R63: each triangle of a layer is within d of its surface; or it belongs to a harder layer
 ///     that is higher (lower) in the order, too, and over each place of it the surface is not below
 ///     (above) it, unless the triangle is within d of the surface there, or the place within 2 d of

@@ -30,12 +30,12 @@ namespace terrane::verifier {
 /// |dz/dx| + |dz/dy|, of the surfaces of the layer and of harder ones near a place.
 /// R63: each triangle of a layer is within d of its surface, or of that of a harder layer moved
 ///     along z by a multiple of D. For no part of it (1) or (2) holds by more than d (1 + L).
-/// R65: it faces the side that some surface of a layer faces, moved so, that it is within d of.
+/// R65: it faces the same side as some surface of a layer, moved in this way, within d of it.
 /// R66: for no part of it (3) or (4) holds by more than d (1 + L).
 /// Parts within 2 d of borders of surfaces are exempt, as in R62. All heights are linear over the
 /// common part of the projections of two triangles. There the places where, say, z > a - D by more
 /// than the slack are a convex polygon; those of all b below where not z > b + D are removed from
-/// it, and nothing may be left: the places are exactly decided.
+/// it, and nothing may be left. All of this is decided exactly.
 ///
 /// A point of the mesh that is at most d / 2 away from where it must be is at most (1 + L) d / 2
 /// above or below the right height, and (1) to (4) compare two such heights. Nothing in the slack

@@ -100,6 +100,11 @@ private:
         return surface_count() + 2 * std::uint64_t(surface) + static_cast<std::uint64_t>(side);
     }
 
+    /// The tag of a block as a physical volume, which is none of a surface.
+    [[nodiscard]] std::uint64_t block_tag(std::uint32_t block) const {
+        return 3 * surface_count() + block + 1;
+    }
+
     // --- The start of both versions -------------------------------------------------------------
 
     void read_start(const std::string& version) {
@@ -124,8 +129,8 @@ private:
 
     /// Reads the name of a block, of which only the number is compared.
     void read_block_name(std::uint32_t block) {
-        const std::string start =
-            "3 " + text(block + 1U) + " \"" + (block == 0 ? "outside" : "region " + text(block));
+        const std::string start = "3 " + text(block_tag(block)) + " \"" +
+                                  (block == 0 ? "outside" : "region " + text(block));
         const std::string_view line = in_.next();
         const std::string_view rest =
             line.starts_with(start) ? line.substr(start.size()) : std::string_view();
@@ -157,7 +162,7 @@ private:
     [[nodiscard]] std::vector<Group> volume_groups() const {
         std::vector<Group> groups;
         for (const auto& [block, cells] : blocks_)
-            groups.push_back({block + 1U, {block + 1U}, cells});
+            groups.push_back({block + 1U, {block_tag(block)}, cells});
         return groups;
     }
 
@@ -258,7 +263,7 @@ private:
             in_.end_line();
         };
         for (std::size_t t = 0; t < claim_.tetrahedra.size(); ++t)
-            element(4, claim_.block_of[t] + std::uint64_t(1), claim_.tetrahedra[t]);
+            element(4, block_tag(claim_.block_of[t]), claim_.tetrahedra[t]);
         for (std::size_t f = 0; f < claim_.faces.size(); ++f)
             for (const std::uint32_t s : expected_.surfaces_of[f])
                 element(2, surface_tag(s, sides_[f]), claim_.faces[f]);

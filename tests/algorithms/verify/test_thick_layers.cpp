@@ -190,7 +190,7 @@ TEST_CASE("thick layers: accepted for difficult surfaces", "[layers]") {
         {"stack536_cross.obj", order_of({4, 6, 7, 3, 5, 3})}};
     for (const auto& [name, order] : stacks)
         for (const double thickness : {0.03, 0.25}) {
-            if (thickness < 0.1 && name.find("536") != std::string::npos) continue; // for time
+            if (thickness < 0.1 && name != "partial_mid.obj") continue; // for time
             INFO(name << " " << thickness);
             CHECK(judged(layered_subject({{name, text_in(data + name)}}, order, {"obj"},
                                          thickness)) == "");

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/cli/reports/merge_report.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <terrane/cli/session/console.hpp>
+
+namespace terrane::cli {
+namespace {
+
+constexpr std::size_t most_merged = 20; ///< printed
+
+std::string names_of(const MergedBlock& block, const Inputs& inputs) {
+    std::string names;
+    for (const std::uint32_t s : block.surfaces)
+        names += (names.empty() ? "" : ", ") + inputs.labels[s];
+    return names;
+}
+
+} // namespace
+
+std::string text_of(const BlockMerge& report, const Inputs& inputs) {
+    auto text = fmt::format("blocks below {:.4g}: {} merged with a neighbour\n", report.least,
+                            report.merged.size());
+    for (std::size_t i = 0; i < std::min(report.merged.size(), most_merged); ++i) {
+        const MergedBlock& m = report.merged[i];
+        text += fmt::format("  volume {:.4g}, {:.2g} thick, at {}: {} of {} removed, area {:.4g}\n",
+                            m.volume, m.thickness, text_of(m.place),
+                            counted(m.triangles, "triangle"), names_of(m, inputs), m.area);
+    }
+    if (report.merged.size() > most_merged)
+        text += fmt::format("  and {} more\n", report.merged.size() - most_merged);
+    if (report.kept > 0)
+        text += fmt::format("  {} kept, with no neighbour inside of the model\n", report.kept);
+    return text;
+}
+
+void add_statistics(Json& json, const BlockMerge& report, const Inputs& inputs) {
+    Json merged = Json::array();
+    for (const MergedBlock& m : report.merged) {
+        Json names = Json::array();
+        for (const std::uint32_t s : m.surfaces) names.push_back(inputs.labels[s]);
+        merged.push_back({{"volume", m.volume},
+                          {"thickness", m.thickness},
+                          {"into", std::isfinite(m.into) ? Json(m.into) : Json("outside")},
+                          {"place", {m.place.x, m.place.y, m.place.z}},
+                          {"surfaces", std::move(names)},
+                          {"area", m.area},
+                          {"triangles", m.triangles}});
+    }
+    json["small_blocks"] = {
+        {"least_volume", report.least}, {"kept", report.kept}, {"merged", std::move(merged)}};
+}
+
+} // namespace terrane::cli

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Reports on --min-volume, as text and as JSON.
+#pragma once
+
+#include <string>
+
+#include <terrane/algorithms/model/small_blocks.hpp>
+#include <terrane/cli/options/files.hpp>
+#include <terrane/cli/options/statistics.hpp>
+
+namespace terrane::cli {
+
+/// Lists the blocks that became part of others; 20 at most.
+std::string text_of(const BlockMerge& report, const Inputs& inputs);
+
+/// Adds "small_blocks": least_volume, kept, and merged, one entry per block.
+void add_statistics(Json& json, const BlockMerge& report, const Inputs& inputs);
+
+} // namespace terrane::cli
