@@ -261,6 +261,10 @@ private:
         if (const Json* v = in_.find(json, "outside")) t.outside = in_.truth(*v, path + ".outside");
         if (const Json* v = in_.find(json, "time_limit"))
             t.time_limit = in_.positive(*v, path + ".time_limit");
+        if (const Json* v = in_.find(json, "mesher"))
+            t.mesher = static_cast<Mesher>(std::find(meshers.begin(), meshers.end(),
+                                                     in_.one_of(*v, path + ".mesher", meshers)) -
+                                           meshers.begin()); // in the order of the type
         return t;
     }
 

@@ -10,7 +10,7 @@ packages=(
     cmake ninja-build ccache
     libcgal-dev libgmp-dev libmpfr-dev nettle-dev libeigen3-dev libnanoflann-dev libtbb-dev
     libcli11-dev libfmt-dev nlohmann-json3-dev libpugixml-dev zlib1g-dev
-    libtet1.5-dev catch2 libbenchmark-dev
+    libtet1.5-dev libgmsh-dev catch2 libbenchmark-dev
     python3-vtk9 python3-meshio gmsh # these read the written files back, in tests only
     gappa                            # checks the proofs of error bounds, in tests only
 )

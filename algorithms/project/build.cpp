@@ -151,9 +151,11 @@ TetrahedraRequest request_of(const Project& project) {
     r.options.max_volume = t.max_volume;
     r.options.radius_edge_ratio = t.quality;
     const bool sized = t.edge_length || t.max_volume || !t.size_of.empty() || !t.size_in.empty();
-    if (!t.quality && project.improve && !sized) r.options.radius_edge_ratio = improved_quality;
+    if (!t.quality && project.improve && !sized && t.mesher != Mesher::gmsh)
+        r.options.radius_edge_ratio = improved_quality;
     r.options.split_surfaces = t.split_surfaces;
     r.options.time_limit = t.time_limit;
+    r.options.mesher = t.mesher;
     for (const auto& [name, length] : t.size_of)
         r.size_of.push_back({{name, place("size_of." + name)}, length});
     for (const auto& [name, length] : t.size_in)

@@ -15,6 +15,7 @@
 #include <terrane/algorithms/check/pair_check.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
+#include <terrane/algorithms/tetgen/tetrahedra.hpp>
 #include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
 
 namespace terrane {
@@ -91,6 +92,7 @@ struct ProjectTetrahedra {
     bool split_surfaces = false;         ///< triangles of surfaces may be divided for `quality`
     std::optional<double> max_volume{};  ///< of a tetrahedron, cubic unit
     double time_limit = 600;             ///< seconds, > 0
+    Mesher mesher = Mesher::automatic;   ///< who makes them
     std::vector<ProjectSize> size_of{};  ///< by surface
     std::vector<ProjectSize> size_in{};  ///< by number or name of a block
     std::vector<std::string> split{};    ///< names of surfaces, or "fault" for all with that role

@@ -14,51 +14,69 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr auto file_name = "terrane-tetgen";
+/// A mesher's helper program.
+struct Helper {
+    const char* mesher;
+    const char* file_name;
+    const char* variable; ///< of the environment, which may name the program
+    const char* option;   ///< of TetrahedraOptions
+};
+
+constexpr Helper tetgen{"TetGen", "terrane-tetgen", "TERRANE_TETGEN", "helper"};
+constexpr Helper gmsh{"Gmsh", "terrane-gmsh", "TERRANE_GMSH", "gmsh_helper"};
 
 bool can_be_run(const fs::path& path) {
     std::error_code failed;
     return fs::is_regular_file(path, failed) && access(path.c_str(), X_OK) == 0;
 }
 
-/// Returns the places where the helper is looked for by default, in this order.
-std::vector<fs::path> usual_places() {
+/// Returns the places where a helper is looked for by default, in this order.
+std::vector<fs::path> usual_places(const Helper& helper) {
     std::vector<fs::path> places;
     std::error_code failed;
     const fs::path program = fs::read_symlink("/proc/self/exe", failed);
     if (!failed) {
         const fs::path folder = program.parent_path();
-        places.push_back(folder / file_name);
-        places.push_back(folder.parent_path() / "libexec" / "terrane" / file_name);
+        places.push_back(folder / helper.file_name);
+        places.push_back(folder.parent_path() / "libexec" / "terrane" / helper.file_name);
     }
-    places.emplace_back(fs::path(TERRANE_HELPER_FOLDER) / file_name);
+    places.emplace_back(fs::path(TERRANE_HELPER_FOLDER) / helper.file_name);
     return places;
 }
 
-Result<fs::path> named(const fs::path& path, const char* by) {
+Result<fs::path> named(const Helper& helper, const fs::path& path, const std::string& by) {
     if (can_be_run(path)) return path;
+    return Error{
+        ErrorCode::cannot_open,
+        fmt::format("is no program that can be run; {} names it as {}'s helper", by, helper.mesher),
+        path.string()};
+}
+
+Result<fs::path> find(const Helper& helper, const fs::path& given) {
+    if (!given.empty()) return named(helper, given, fmt::format("the option {}", helper.option));
+    const char* const variable = secure_getenv(helper.variable);
+    if (variable != nullptr && *variable != '\0')
+        return named(helper, variable, fmt::format("the environment variable {}", helper.variable));
+    std::string looked_at;
+    for (const fs::path& place : usual_places(helper)) {
+        if (can_be_run(place)) return place;
+        looked_at += (looked_at.empty() ? "" : ", ") + place.string();
+    }
     return Error{ErrorCode::cannot_open,
-                 fmt::format("is no program that can be run; {} names it as TetGen's helper", by),
-                 path.string()};
+                 fmt::format("{}'s helper program was not found; it was looked for as {}; the "
+                             "environment variable {} can name it",
+                             helper.mesher, looked_at, helper.variable),
+                 ""};
 }
 
 } // namespace
 
 Result<fs::path> find_tetgen_helper(const fs::path& given) {
-    if (!given.empty()) return named(given, "the option helper");
-    const char* const variable = secure_getenv("TERRANE_TETGEN");
-    if (variable != nullptr && *variable != '\0')
-        return named(variable, "the environment variable TERRANE_TETGEN");
-    std::string looked_at;
-    for (const fs::path& place : usual_places()) {
-        if (can_be_run(place)) return place;
-        looked_at += (looked_at.empty() ? "" : ", ") + place.string();
-    }
-    return Error{ErrorCode::cannot_open,
-                 fmt::format("TetGen's helper program was not found; it was looked for as {}; the "
-                             "environment variable TERRANE_TETGEN can name it",
-                             looked_at),
-                 ""};
+    return find(tetgen, given);
+}
+
+Result<fs::path> find_gmsh_helper(const fs::path& given) {
+    return find(gmsh, given);
 }
 
 } // namespace terrane

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Finds the helper program terrane-tetgen, which alone contains TetGen's code.
+// Finds the helper programs terrane-tetgen and terrane-gmsh, which alone are linked with TetGen and
+// Gmsh.
 #pragma once
 
 #include <filesystem>
@@ -16,5 +17,9 @@ namespace terrane {
 ///
 /// Errors: cannot_open, with the places that were looked at.
 Result<std::filesystem::path> find_tetgen_helper(const std::filesystem::path& given = {});
+
+/// Returns the path of Gmsh's helper program, which is found in the same way: terrane-gmsh, and the
+/// environment variable TERRANE_GMSH.
+Result<std::filesystem::path> find_gmsh_helper(const std::filesystem::path& given = {});
 
 } // namespace terrane

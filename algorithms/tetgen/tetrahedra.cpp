@@ -18,6 +18,7 @@
 #include <terrane/algorithms/tetgen/detail/assembly.hpp>
 #include <terrane/algorithms/tetgen/detail/constants.hpp>
 #include <terrane/algorithms/tetgen/detail/process.hpp>
+#include <terrane/algorithms/tetgen/detail/protocol.hpp>
 #include <terrane/algorithms/tetgen/detail/sizes.hpp>
 #include <terrane/algorithms/tetgen/tetgen_helper.hpp>
 #include <terrane/algorithms/tetrahedra/check_tetrahedra.hpp>
@@ -43,6 +44,11 @@ Status check_length(const char* name, const std::optional<double>& value) {
     return Done{};
 }
 
+/// Tells whether Gmsh can do what is asked for.
+bool sizes_for_gmsh(const TetrahedraOptions& options) {
+    return options.block_sizes.empty() && options.surface_sizes.empty() && !options.split_surfaces;
+}
+
 Status check_options(const TetrahedraOptions& options) {
     if (!options.box)
         if (Status margin = check_length("margin", options.margin); !margin) return margin;
@@ -57,6 +63,11 @@ Status check_options(const TetrahedraOptions& options) {
         return bad_option(fmt::format("radius_edge_ratio must be at least {}, not {}",
                                       constants.least_ratio, *ratio));
     if (!(options.time_limit > 0)) return bad_option("time_limit must be positive");
+    if (options.mesher == Mesher::gmsh && !sizes_for_gmsh(options))
+        return bad_option("Gmsh has no sizes of single blocks or surfaces, and divides no surface");
+    if (options.mesher == Mesher::gmsh && options.radius_edge_ratio)
+        return bad_option("Gmsh has no bound on the ratio of circumradius to shortest edge; it "
+                          "makes shapes as good as it can");
     if (Status length = check_length("edge_length", options.edge_length); !length) return length;
     return check_length("max_volume", options.max_volume);
 }
@@ -127,7 +138,7 @@ Result<TetgenDomain> make_domain(const Mesh& mesh, const TetrahedraOptions& opti
     return domain;
 }
 
-// ---- 4. TetGen ----------------------------------------------------------------------------------
+// ---- 4. The meshers -------------------------------------------------------------------------------
 
 /// Scales coordinates by 2^-exponent, to at most 1, which is exact and keeps TetGen from overflow.
 /// If that would lose digits of the smallest coordinates, the exponent is 0.
@@ -241,62 +252,153 @@ Result<TetgenInput> tetgen_input(const Mesh& mesh, const Volumes& volumes,
     return input;
 }
 
-/// Adds to a failure of TetGen the place where it is most likely to have failed.
-Error with_place(Error error, const Mesh& mesh) {
-    if (error.code != ErrorCode::internal || !error.place.empty()) return error;
+/// Adds to a failure what is likely to have caused it, with places.
+Error with_causes(Error error, const Mesh& mesh) {
+    if (error.code == ErrorCode::timed_out || !error.place.empty()) return error;
     const auto sharp = sharpest_angle(mesh);
     if (!sharp) return error;
+    const ShortEdge shortest = shortest_edge(mesh);
+    const auto text = [](const Point3& p) { return fmt::format("({}, {}, {})", p.x, p.y, p.z); };
     error.code = ErrorCode::unsupported;
     error.sentence +=
-        fmt::format(", in every way in which it was tried; the sharpest angle between "
-                    "triangles, {:.2g} degrees, is here",
-                    sharp->degrees);
-    error.place = fmt::format("({}, {}, {})", sharp->place.x, sharp->place.y, sharp->place.z);
+        fmt::format("; the sharpest angle between triangles, {:.2g} degrees, is here, the shortest "
+                    "edge, {:.3g}, at {}; meshers fail at such places; improved surfaces without "
+                    "gaps and slivers have fewer of them",
+                    sharp->degrees, shortest.length, text(shortest.place));
+    error.place = text(sharp->place);
     return error;
 }
 
-/// Tells whether the same failure is to be expected in every other way of asking TetGen. An error
+/// Tells whether the same failure is to be expected in every other way of asking a mesher. An error
 /// with a place is about the helper.
 bool is_final(const Error& error) {
     return error.code == ErrorCode::interrupted || error.code == ErrorCode::out_of_memory ||
            !error.place.empty();
 }
 
-/// Asks TetGen again, in another way, if it fails, runs out of time, or fails the checks: first
-/// without its last step, the improvement of shapes, then with facets split. The points are
-/// inserted along a curve, TetGen's default, and after that in their own order: version 1.5.0 ends
-/// in an assertion with the former for points as regular as those of two overlapping cubes.
-Result<TetrahedralMesh> try_in_turn(const Mesh& mesh, const Volumes& volumes,
-                                    const TetgenDomain& domain, TetgenInput& input,
-                                    const Scale& scale, const Run& run) {
-    struct Way {
-        bool keep_facets, improve, sort_points;
-    };
+const char* name_of(Mesher mesher) {
+    return mesher == Mesher::gmsh ? "Gmsh" : "TetGen";
+}
+
+/// A way of asking a mesher; see TetgenInput.
+struct Way {
+    Mesher mesher = Mesher::tetgen;
+    bool keep_facets = true, improve = true, sort_points = true, parallel_delaunay = false;
+    bool embed_all = false; ///< all triangles are embedded in one region; for Gmsh only
+};
+
+/// Returns the ways of asking TetGen: first with all it can do, then without its last step, the
+/// improvement of shapes, then with facets split. The points are inserted along a curve, TetGen's
+/// default, and after that in their own order: version 1.5.0 ends in an assertion with the former
+/// for points as regular as those of two overlapping cubes.
+std::vector<Way> ways_of_tetgen(bool keep_facets) {
     std::vector<Way> ways;
     for (const bool sort_points : {true, false})
-        for (const bool keep_facets : {true, false})
+        for (const bool keep : {true, false})
             for (const bool improve : {true, false})
-                if (input.keep_facets || !keep_facets)
-                    ways.push_back({keep_facets, improve, sort_points});
-    std::optional<Error> first;
-    for (const auto& [keep_facets, improve, sort_points] : ways) {
-        input.keep_facets = keep_facets;
-        input.improve = improve;
-        input.sort_points = sort_points;
-        Result<TetgenOutput> output = run_tetgen(input, run.stop);
-        if (output) {
-            for (Point3& p : output.value().points) p = scale.up(p);
-            Result<TetrahedralMesh> result = assemble(mesh, domain, std::move(output).value());
-            Status numbered = Done{};
-            if (result) numbered = adopt_volume_numbers(volumes, result.value());
-            if (result && numbered) return result;
-            if (!first) first = result ? numbered.error() : result.error();
-            continue;
+                if (keep_facets || !keep)
+                    ways.push_back({Mesher::tetgen, keep, improve, sort_points, false});
+    return ways;
+}
+
+/// Returns the ways of asking Gmsh. Its newer algorithm is faster and better, but knows no facet
+/// with the same region on both sides. With all triangles in one region, and no vertices but those
+/// that it needs, the other one recovers what it does not as borders of blocks.
+std::vector<Way> ways_of_gmsh(const Volumes& volumes) {
+    std::vector<Way> ways;
+    const bool all_separate = std::all_of(volumes.of_sides.begin(), volumes.of_sides.end(),
+                                          [](const auto& sides) { return sides[0] != sides[1]; });
+    if (all_separate) ways.push_back({Mesher::gmsh, true, true, true, true});
+    ways.push_back({Mesher::gmsh, true, true, true, false});
+    ways.push_back({Mesher::gmsh, true, false, true, false, true});
+    return ways;
+}
+
+/// Asks meshers in different ways until one gives tetrahedra that hold for the checks.
+class Attempts {
+public:
+    Attempts(const Mesh& mesh, const Volumes& volumes, const TetgenDomain& domain,
+             TetgenInput& input, const Scale& scale, const Run& run) :
+        mesh_(mesh),
+        volumes_(volumes), domain_(domain), input_(input), scale_(scale), run_(run) {}
+
+    /// Returns the first result that holds; none if there is none. An error ends the work.
+    Result<std::optional<TetrahedralMesh>> operator()(const std::vector<Way>& ways,
+                                                      const std::filesystem::path& helper) {
+        std::optional<Error> first;
+        for (const Way& way : ways) {
+            auto result = attempt(way, helper);
+            if (result) return std::optional(std::move(result).value());
+            if (is_final(result.error())) return result.error();
+            if (!first) first = result.error();
         }
-        if (is_final(output.error())) return output.error();
-        if (!first) first = output.error();
+        if (!failure_) failure_ = Error{first->code, "", ""};
+        failure_->sentence += failure_->sentence.empty() ? "" : "; ";
+        failure_->sentence += first->sentence;
+        if (ways.size() > 1) failure_->sentence += ", in every way in which it was tried";
+        return std::optional<TetrahedralMesh>();
     }
-    return with_place(*first, mesh);
+
+    /// Returns why no mesher gave a result.
+    [[nodiscard]] Error failure() const { return with_causes(*failure_, mesh_); }
+
+private:
+    Result<TetrahedralMesh> attempt(const Way& way, const std::filesystem::path& helper) {
+        input_.mesher = way.mesher;
+        input_.keep_facets = way.keep_facets;
+        input_.improve = way.improve;
+        input_.sort_points = way.sort_points;
+        input_.parallel_delaunay = way.parallel_delaunay;
+        input_.helper = helper;
+        if (way.mesher == Mesher::gmsh) set_sides(way.embed_all);
+        Result<TetgenOutput> output = run_mesher(input_, run_.stop);
+        if (!output) return output.error();
+        for (Point3& p : output.value().points) p = scale_.up(p);
+        Result<TetrahedralMesh> result =
+            assemble(mesh_, domain_, std::move(output).value(), name_of(way.mesher));
+        if (!result) return Error{result.error().code, result.error().sentence, ""};
+        if (Status numbered = adopt_volume_numbers(volumes_, result.value()); !numbered)
+            return Error{numbered.error().code, numbered.error().sentence, ""};
+        result.value().mesher = name_of(way.mesher);
+        if (failure_) result.value().failure = failure_->sentence;
+        return result;
+    }
+
+    /// Sets what Gmsh wants to know of each facet: the regions on its sides.
+    void set_sides(bool embed_all) {
+        input_.sides.clear();
+        for (const auto& [front, behind] : volumes_.of_sides)
+            input_.sides.push_back(embed_all ? BlockSides{0, 0} : BlockSides{front, behind});
+        while (input_.sides.size() < input_.facets.size()) input_.sides.push_back({0, no_region});
+    }
+
+    const Mesh& mesh_;
+    const Volumes& volumes_;
+    const TetgenDomain& domain_;
+    TetgenInput& input_;
+    const Scale& scale_;
+    const Run& run_;
+    std::optional<Error> failure_;
+};
+
+Result<TetrahedralMesh> try_in_turn(const Mesh& mesh, const Volumes& volumes,
+                                    const TetgenDomain& domain, const TetrahedraOptions& options,
+                                    TetgenInput& input, const Scale& scale, const Run& run) {
+    Attempts attempt(mesh, volumes, domain, input, scale, run);
+    if (options.mesher != Mesher::gmsh) {
+        const auto helper = find_tetgen_helper(options.helper);
+        if (!helper) return helper.error();
+        auto made = attempt(ways_of_tetgen(input.keep_facets), *helper);
+        if (!made) return made.error();
+        if (*made) return std::move(**made);
+        if (options.mesher == Mesher::tetgen || !sizes_for_gmsh(options)) return attempt.failure();
+    }
+    const auto helper = find_gmsh_helper(options.gmsh_helper);
+    if (!helper) return options.mesher == Mesher::gmsh ? helper.error() : attempt.failure();
+    auto made = attempt(ways_of_gmsh(volumes), *helper);
+    if (!made) return made.error();
+    if (*made) return std::move(**made);
+    return attempt.failure();
 }
 
 // ---- 5. The stage -----------------------------------------------------------------------------
@@ -308,14 +410,20 @@ Status proceed(const Run& run, double share) {
     return Done{};
 }
 
+/// Checks that the helper of the mesher that is asked first is there.
+Status find_helper(const TetrahedraOptions& options) {
+    const auto helper = options.mesher == Mesher::gmsh ? find_gmsh_helper(options.gmsh_helper)
+                                                       : find_tetgen_helper(options.helper);
+    return helper ? Status(Done{}) : Status(helper.error());
+}
+
 Result<TetrahedralMesh> fill(const ConformingMesh& mesh, const Volumes& volumes,
                              const TetrahedraOptions& options, const Run& run) {
     if (Status good = check_options(options); !good) return good.error();
     if (Status valid = validate_mesh(*mesh, run); !valid) return valid.error();
     if (volumes.of_sides.size() != mesh->triangles.size())
         return Error{ErrorCode::bad_index, "the volumes are not those of the mesh", ""};
-    const auto helper = find_tetgen_helper(options.helper);
-    if (!helper) return helper.error();
+    if (Status there = find_helper(options); !there) return there.error();
     if (Status go = proceed(run, 0); !go) return go.error();
 
     const Result<TetgenDomain> domain = make_domain(mesh, options);
@@ -325,9 +433,8 @@ Result<TetrahedralMesh> fill(const ConformingMesh& mesh, const Volumes& volumes,
     const Scale scale(domain.value().points);
     Result<TetgenInput> input = tetgen_input(mesh, volumes, domain.value(), options, scale, run);
     if (!input) return input.error();
-    input.value().helper = helper.value();
     Result<TetrahedralMesh> result =
-        try_in_turn(mesh, volumes, domain.value(), input.value(), scale, run);
+        try_in_turn(mesh, volumes, domain.value(), options, input.value(), scale, run);
     if (!result) return result;
     if (Status go = proceed(run, 1); !go) return go.error();
     return result;

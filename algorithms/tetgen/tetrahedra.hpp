@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Fills the blocks of a mesh with tetrahedra, by TetGen. The library does not contain TetGen, whose
-// licence (AGPL) differs: it runs a helper program that does (tetgen_helper.hpp).
+// Fills the blocks of a mesh with tetrahedra, by TetGen or Gmsh. The library contains neither, as
+// their licences (AGPL, GPL) differ: it runs helper programs that do (tetgen_helper.hpp).
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <vector>
@@ -36,12 +37,21 @@ struct BlockSize {
     double edge_length = 0; ///< wanted, > 0, unit of the mesh
 };
 
+/// The program that makes the tetrahedra.
+enum class Mesher : std::uint8_t {
+    automatic, ///< TetGen; where it fails, Gmsh, if its helper is there and no size of a block or
+               ///< surface is wanted. It has no bound on shapes, but optimises them
+    tetgen,    ///< TetGen alone
+    gmsh,      ///< Gmsh alone, which never divides a triangle
+};
+
 /// Options of tetrahedralize().
 struct TetrahedraOptions {
-    std::optional<Box3> box{}; ///< closes the domain; must contain the mesh strictly inside
-    double margin = 0.1;       ///< without a box: enlarges the bounding box on each side by this
-                               ///< share of its longest edge, at least by 2^-40 of the largest
-                               ///< coordinate
+    Mesher mesher = Mesher::automatic; ///< who makes the tetrahedra
+    std::optional<Box3> box{};         ///< closes the domain; must contain the mesh strictly inside
+    double margin = 0.1; ///< without a box: enlarges the bounding box on each side by this
+                         ///< share of its longest edge, at least by 2^-40 of the largest
+                         ///< coordinate
     std::optional<double> edge_length{};       ///< wanted length, unit of the mesh; none: as few
                                                ///< tetrahedra as possible
     std::optional<double> radius_edge_ratio{}; ///< TetGen's quality bound (>= 1.1); none: no bound,
@@ -51,9 +61,10 @@ struct TetrahedraOptions {
     std::optional<double> max_volume{};       ///< largest volume of a tetrahedron, cubic unit
     std::vector<BlockSize> block_sizes{};     ///< instead of edge_length and max_volume there
     std::vector<SurfaceSize> surface_sizes{}; ///< where they are less than any other size there
-    double time_limit = 600;        ///< seconds, > 0, for each way of asking TetGen, which may run
-                                    ///< forever
+    double time_limit = 600;        ///< seconds, > 0, for each way of asking a mesher, which may
+                                    ///< run forever
     std::filesystem::path helper{}; ///< TetGen's helper program; empty: see find_tetgen_helper
+    std::filesystem::path gmsh_helper{}; ///< Gmsh's helper program; empty: see find_gmsh_helper
 };
 
 /// Fills a box with tetrahedra such that every triangle of the mesh is a union of faces. `volumes`
@@ -74,20 +85,21 @@ struct TetrahedraOptions {
 ///     tetrahedra (the paper, section 3: regions one dimension up). They have the numbers of
 ///     find_volumes(mesh). It is checked at every face that regions and volumes correspond one to
 ///     one.
-/// (6) The same arguments give the same result, unless one of the ways of asking TetGen runs out of
-///     time.
+/// (6) The same arguments give the same result, unless one of the ways of asking a mesher runs out
+///     of time.
 ///
-/// The mesh must be conforming, as TetGen may crash or run forever on another. TetGen runs in a
+/// The mesh must be conforming, as meshers may crash or run forever on another. A mesher runs in a
 /// process of its own: nothing is printed, a crash is returned as an error, a stop request ends it
 /// at once, and calls from several threads do not disturb each other. If it fails, or (3) does not
 /// hold, it is asked again in other ways.
 ///
 /// Errors: improper_contact with the place, bad_index, bad_number, bad_option, nothing_to_do (no
 /// triangle and no box), interrupted, timed_out (in all ways), out_of_memory, unsupported (too
-/// large for TetGen, or surfaces too close for its tolerance), internal; cannot_open if the helper
-/// program can't be found or run. An error about the helper has its path as the place.
+/// large for the mesher, or what it can't mesh, with the shortest edge and the sharpest angle),
+/// internal; cannot_open if the helper program can't be found or run. An error about the helper has its path as the place.
 ///
-/// Source: TetGen 1.5 (H. Si).
+/// Source: TetGen 1.5 (H. Si); Gmsh 4.8 (C. Geuzaine and J.-F. Remacle), its algorithms Delaunay and
+/// HXT.
 Result<TetrahedralMesh> tetrahedralize(const ConformingMesh& mesh, const Volumes& volumes,
                                        const TetrahedraOptions& options, const Run& run);
 

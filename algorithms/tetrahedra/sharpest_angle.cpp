@@ -47,4 +47,17 @@ std::optional<SharpAngle> sharpest_angle(const Mesh& mesh) {
     return sharpest;
 }
 
+ShortEdge shortest_edge(const Mesh& mesh) {
+    ShortEdge shortest{HUGE_VAL, {}};
+    for (const Triangle& corners : mesh.triangles)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Point3 &p = mesh.vertices[corners[k]], &q = mesh.vertices[corners[(k + 1) % 3]];
+            const double length = std::hypot(q.x - p.x, q.y - p.y, q.z - p.z);
+            if (length < shortest.length)
+                shortest = {length,
+                            {p.x + (q.x - p.x) / 2, p.y + (q.y - p.y) / 2, p.z + (q.z - p.z) / 2}};
+        }
+    return shortest;
+}
+
 } // namespace terrane

@@ -16,4 +16,12 @@ struct SharpAngle {
 /// two triangles do. This is where tetrahedral meshing is most likely to fail. Cost: linear.
 std::optional<SharpAngle> sharpest_angle(const Mesh& mesh);
 
+struct ShortEdge {
+    double length = 0; ///< unit of the mesh; infinite if there is no triangle
+    Point3 place{};    ///< the middle of the edge
+};
+
+/// Returns the shortest edge of the triangles, in floating point. Cost: linear.
+ShortEdge shortest_edge(const Mesh& mesh);
+
 } // namespace terrane

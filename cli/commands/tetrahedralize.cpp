@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <array>
 #include <charconv>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -228,8 +229,16 @@ void add_tetrahedra_options(CLI::App& app, TetrahedralizeCommand& command) {
     app.add_flag("--split-surfaces", options.split_surfaces,
                  "Let triangles of surfaces be divided for --quality");
     app.add_option("--time-limit", options.time_limit,
-                   "For each of the ways in which TetGen is tried (default: 600)")
+                   "For each of the ways in which a mesher is tried (default: 600)")
         ->type_name("SECONDS");
+    app.add_option("--mesher", options.mesher,
+                   "tetgen, gmsh, or auto: TetGen, and Gmsh where that fails (default: auto)")
+        ->transform(
+            CLI::CheckedTransformer(std::map<std::string, Mesher>{{"auto", Mesher::automatic},
+                                                                  {"tetgen", Mesher::tetgen},
+                                                                  {"gmsh", Mesher::gmsh}})
+                .description(""))
+        ->type_name("PROGRAM");
 }
 
 } // namespace

@@ -183,6 +183,7 @@ std::string filled_text(const FilledBlocks& filled) {
     auto text = fmt::format(
         "{} tetrahedra, {}, {}{}\n", mesh.tetrahedra.size(), counted(mesh.faces.size(), "face"),
         counted(counts.size() - first, "region"), first == 0 ? " with the outside" : "");
+    if (!mesh.failure.empty()) text += fmt::format("made by {}: {}\n", mesh.mesher, mesh.failure);
     for (std::size_t r = first; r < std::min(counts.size(), most_regions); ++r)
         text += fmt::format("  region {:<3} {:>9} tetrahedra  volume {:.6g}{}\n", r, counts[r],
                             filled.report.volumes[r].tetrahedra, r == 0 ? "  (outside)" : "");
@@ -204,7 +205,8 @@ void add_statistics(Json& json, const FilledBlocks& filled, const StageTimes& ti
     json["output"]["volumes"] = mesh.region_count - 1;
     Json volumes = Json::array();
     for (const RegionVolume& region : filled.report.volumes) volumes.push_back(region.tetrahedra);
-    json["tetrahedra"] = {{"tetrahedra", mesh.tetrahedra.size()},
+    json["tetrahedra"] = {{"mesher", mesh.mesher},
+                          {"tetrahedra", mesh.tetrahedra.size()},
                           {"vertices", mesh.vertices.size()},
                           {"faces", mesh.faces.size()},
                           {"regions", mesh.region_count},

@@ -27,9 +27,10 @@ inline constexpr std::array<std::string_view, 6> rotated_level{"centre",  "corne
 inline constexpr std::array<std::string_view, 2> polygon_level{"corners", "between"};
 inline constexpr std::array<std::string_view, 3> improve_level{"edge_length", "max_deviation",
                                                                "edge_length_of"};
-inline constexpr std::array<std::string_view, 9> tetrahedra_level{
+inline constexpr std::array<std::string_view, 10> tetrahedra_level{
     "edge_length", "max_volume", "quality", "split_surfaces", "size_of",
-    "size_in",     "split",      "outside", "time_limit"};
+    "size_in",     "split",      "outside", "time_limit",     "mesher"};
+inline constexpr std::array<std::string_view, 3> meshers{"auto", "tetgen", "gmsh"};
 inline constexpr std::array<std::string_view, 4> outputs_level{"surfaces", "tetrahedra", "blocks",
                                                                "certificate"};
 

@@ -94,7 +94,7 @@ public:
     [[nodiscard]] fs::path path() const { return folder_ / "terrane-tetgen"; }
     [[nodiscard]] Error fails(TetgenInput input, const std::stop_token& stop = {}) const {
         input.helper = path();
-        const auto output = run_tetgen(input, stop);
+        const auto output = run_mesher(input, stop);
         REQUIRE_FALSE(output);
         return output.error();
     }
@@ -115,7 +115,7 @@ inline double seconds_since(Clock::time_point start) {
 inline TetgenOutput true_output() {
     TetgenInput input = cube_input();
     input.helper = find_tetgen_helper().value();
-    auto output = run_tetgen(input, {});
+    auto output = run_mesher(input, {});
     REQUIRE(output);
     return std::move(output).value();
 }

@@ -22,10 +22,6 @@ namespace {
 
 // --------------------------------
 
-Error broken(std::string sentence) {
-    return {ErrorCode::internal, std::move(sentence), ""};
-}
-
 /// A face of a tetrahedron, by its sorted corners.
 struct TetFace {
     Triangle key;
@@ -71,11 +67,13 @@ private:
     std::vector<std::uint32_t> parent_;
 };
 
-/// Checks TetGen's answer and turns it into the result, step by step, without trusting any of it.
+/// Checks a mesher's answer and turns it into the result, step by step, without trusting any of it.
 class Assembly {
 public:
-    Assembly(const Mesh& mesh, const TetgenDomain& domain, TetgenOutput output) :
-        mesh_(mesh), domain_(domain), in_(std::move(output)) {}
+    Assembly(const Mesh& mesh, const TetgenDomain& domain, TetgenOutput output,
+             const char* mesher) :
+        mesh_(mesh),
+        domain_(domain), in_(std::move(output)), mesher_(mesher) {}
 
     Result<TetrahedralMesh> run() {
         for (const auto step :
@@ -87,6 +85,10 @@ public:
     }
 
 private:
+    [[nodiscard]] Error broken(const char* what) const {
+        return {ErrorCode::internal, fmt::format("{} {}", mesher_, what), ""};
+    }
+
     Status check_indices() {
         const std::size_t points = in_.points.size();
         const auto in_range = [&](const auto& corners) {
@@ -98,16 +100,16 @@ private:
                           std::all_of(in_.faces.begin(), in_.faces.end(), in_range) &&
                           std::all_of(in_.face_facet.begin(), in_.face_facet.end(),
                                       [&](std::uint32_t facet) { return facet < facets; });
-        if (!good || in_.tetrahedra.empty()) return broken("TetGen returned indices out of range");
+        if (!good || in_.tetrahedra.empty()) return broken("returned indices out of range");
         return Done{};
     }
 
     Status check_points() {
         if (in_.points.size() < domain_.points.size() ||
             !std::equal(domain_.points.begin(), domain_.points.end(), in_.points.begin()))
-            return broken("TetGen moved a vertex");
+            return broken("moved a vertex");
         if (!std::all_of(in_.points.begin(), in_.points.end(), is_finite))
-            return broken("TetGen added a vertex that is not finite");
+            return broken("added a vertex that is not finite");
         return Done{};
     }
 
@@ -151,7 +153,7 @@ private:
         for (auto& [a, b, c, d] : out_.tetrahedra) {
             const auto& v = out_.vertices;
             const Sign sign = orient3d(v[a], v[b], v[c], v[d]);
-            if (sign == Sign::Zero) return broken("TetGen returned a tetrahedron without volume");
+            if (sign == Sign::Zero) return broken("returned a tetrahedron without volume");
             if (sign == Sign::Negative) std::swap(c, d);
         }
         return Done{};
@@ -198,7 +200,7 @@ private:
         for (const MarkedFace& face : marked_) barriers.push_back(face.key);
         std::sort(barriers.begin(), barriers.end());
         if (std::adjacent_find(barriers.begin(), barriers.end()) != barriers.end())
-            return broken("TetGen put a face on two triangles");
+            return broken("put a face on two triangles");
 
         UnionFind groups(out_.tetrahedra.size());
         auto barrier = barriers.begin();
@@ -207,15 +209,15 @@ private:
             const bool barred = barrier != barriers.end() && *barrier == face.key;
             if (barred) ++barrier;
             if (i + 1 == faces.size() || faces[i + 1].key != face.key) {
-                if (barred || !on_side_of_box(face.key)) return broken("TetGen left a hole");
+                if (barred || !on_side_of_box(face.key)) return broken("left a hole");
                 take_box_face(face);
                 continue;
             }
             const TetFace& twin = faces[++i];
-            if (face.even == twin.even) return broken("TetGen returned tetrahedra that overlap");
+            if (face.even == twin.even) return broken("returned tetrahedra that overlap");
             if (!barred) groups.join(face.tetrahedron, twin.tetrahedron);
         }
-        if (barrier != barriers.end()) return broken("TetGen returned a face of no tetrahedron");
+        if (barrier != barriers.end()) return broken("returned a face of no tetrahedron");
         for (std::uint32_t t = 0; t < out_.tetrahedra.size(); ++t)
             group_of_.push_back(groups.find(t));
         return Done{};
@@ -250,7 +252,7 @@ private:
         const Point3 &low = domain_.box.low, &high = domain_.box.high;
         const Exact box =
             (Exact(high.x) - low.x) * (Exact(high.y) - low.y) * (Exact(high.z) - low.z);
-        if (sum != box * 6) return broken("TetGen's volumes do not add up to the box");
+        if (sum != box * 6) return broken("made volumes that do not add up to the box");
         return Done{};
     }
 
@@ -309,7 +311,7 @@ private:
         }
         const std::uint32_t outside = group_of_[at_box_.front()];
         for (const std::uint32_t t : at_box_)
-            if (group_of_[t] != outside) return broken("the outside fell apart");
+            if (group_of_[t] != outside) return broken("let the outside fall apart");
         std::sort(groups.begin(), groups.end(), [&](std::uint32_t a, std::uint32_t b) {
             return std::pair(a != outside, lowest_position[a]) <
                    std::pair(b != outside, lowest_position[b]);
@@ -332,7 +334,7 @@ private:
                     if (std::find(face->key.begin(), face->key.end(), corner) != face->key.end())
                         corner = no_index;
             if (missing != Triangle{no_index, no_index, no_index})
-                return Error{ErrorCode::internal, "TetGen lost a triangle",
+                return Error{ErrorCode::internal, fmt::format("{} lost a triangle", mesher_),
                              fmt::format("triangle {}", t)};
         }
         return Done{};
@@ -345,6 +347,7 @@ private:
     const Mesh& mesh_;
     const TetgenDomain& domain_;
     TetgenOutput in_;
+    const char* mesher_;
     TetrahedralMesh out_;
     std::vector<MarkedFace> marked_;      ///< those on the mesh, parallel to out_.faces
     std::vector<std::uint32_t> at_box_;   ///< tetrahedra with a face on the box
@@ -353,9 +356,9 @@ private:
 
 } // namespace
 
-Result<TetrahedralMesh> assemble(const Mesh& mesh, const TetgenDomain& domain,
-                                 TetgenOutput output) {
-    return Assembly(mesh, domain, std::move(output)).run();
+Result<TetrahedralMesh> assemble(const Mesh& mesh, const TetgenDomain& domain, TetgenOutput output,
+                                 const char* mesher) {
+    return Assembly(mesh, domain, std::move(output), mesher).run();
 }
 
 } // namespace terrane::tetgen::detail

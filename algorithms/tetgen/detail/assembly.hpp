@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Checks TetGen's answer and turns it into the result.
+// Checks a mesher's answer and turns it into the result.
 #pragma once
 
 #include <vector>
@@ -19,9 +19,10 @@ struct TetgenDomain {
     Box3 box;
 };
 
-/// Turns TetGen's answer into the tetrahedra of the mesh, with proof. The facets of `output` are
+/// Turns the answer of `mesher` into the tetrahedra of the mesh, with proof. The facets of `output` are
 /// the triangles of the domain, then the sides of its box in the order low x, high x, low y, high
 /// y, low z, high z. Errors: internal, if the result would break a guarantee of tetrahedralize().
-Result<TetrahedralMesh> assemble(const Mesh& mesh, const TetgenDomain& domain, TetgenOutput output);
+Result<TetrahedralMesh> assemble(const Mesh& mesh, const TetgenDomain& domain, TetgenOutput output,
+                                 const char* mesher = "TetGen");
 
 } // namespace terrane::tetgen::detail

@@ -125,8 +125,9 @@ int spawn(const std::filesystem::path& program, int talk, int errors, pid_t& pid
     return posix_spawn(&pid, program.c_str(), actions.get(), attributes.get(), arguments, environ);
 }
 
-Error no_process() {
-    return {ErrorCode::out_of_memory, "no process could be started for TetGen", ""};
+Error no_process(const char* mesher) {
+    return {ErrorCode::out_of_memory, fmt::format("no process could be started for {}", mesher),
+            ""};
 }
 
 /// Returns the first line, without characters that a terminal would take for commands.
@@ -147,18 +148,20 @@ HelperProcess::~HelperProcess() {
     kill_and_reap();
 }
 
-Error HelperProcess::broken(std::string sentence) const {
-    return {ErrorCode::internal, "TetGen's helper " + std::move(sentence), program_.string()};
+Error HelperProcess::broken(const std::string& sentence) const {
+    return {ErrorCode::internal, fmt::format("{}'s helper {}", mesher_, sentence),
+            program_.string()};
 }
 
 Status HelperProcess::start() {
     Ends talk, errors;
-    if (!make_socket(talk) || !make_pipe(errors)) return no_process();
+    if (!make_socket(talk) || !make_pipe(errors)) return no_process(mesher_);
     const int failed = spawn(program_, talk[1].get(), errors[1].get(), pid_);
-    if (failed == EAGAIN || failed == ENOMEM) return no_process();
+    if (failed == EAGAIN || failed == ENOMEM) return no_process(mesher_);
     if (failed != 0)
         return Error{ErrorCode::cannot_open,
-                     "TetGen's helper can't be run: " + std::generic_category().message(failed),
+                     fmt::format("{}'s helper can't be run: {}", mesher_,
+                                 std::generic_category().message(failed)),
                      program_.string()};
     talk_ = std::move(talk[0]);
     errors_ = std::move(errors[0]);
@@ -167,11 +170,11 @@ Status HelperProcess::start() {
 
 Status HelperProcess::check_limits() const {
     if (stop_.stop_requested())
-        return Error{ErrorCode::interrupted, "stopped while TetGen ran", ""};
+        return Error{ErrorCode::interrupted, fmt::format("stopped while {} ran", mesher_), ""};
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start_;
     if (taken.count() > time_limit_)
         return Error{ErrorCode::timed_out,
-                     fmt::format("TetGen took longer than {} seconds", time_limit_), ""};
+                     fmt::format("{} took longer than {} seconds", mesher_, time_limit_), ""};
     return Done{};
 }
 
@@ -262,16 +265,17 @@ Error HelperProcess::why_it_ended() {
     const int status = ended.value();
     const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
     if (signal == SIGKILL)
-        return {ErrorCode::out_of_memory, "TetGen was killed, most likely for want of memory", ""};
+        return {ErrorCode::out_of_memory,
+                fmt::format("{} was killed, most likely for want of memory", mesher_), ""};
     if (signal != 0)
-        return {ErrorCode::internal, fmt::format("TetGen crashed (signal {})", signal), ""};
+        return {ErrorCode::internal, fmt::format("{} crashed (signal {})", mesher_, signal), ""};
     if (heard_) return broken("did not end as it should");
-    if (said_.empty()) return {ErrorCode::internal, "TetGen gave up", ""};
-    // The helper discards TetGen's own output, so that this text comes from the loader or a
+    if (said_.empty()) return {ErrorCode::internal, fmt::format("{} gave up", mesher_), ""};
+    // The helper discards the mesher's own output, so that this text comes from the loader or a
     // script's shell.
     return {ErrorCode::cannot_open,
-            fmt::format("TetGen's helper can't be run (exit status {}): {}", WEXITSTATUS(status),
-                        first_line(said_)),
+            fmt::format("{}'s helper can't be run (exit status {}): {}", mesher_,
+                        WEXITSTATUS(status), first_line(said_)),
             program_.string()};
 }
 

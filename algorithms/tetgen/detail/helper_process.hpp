@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Runs TetGen's helper program once, from its start to its end.
+// Runs the helper program of a mesher once, from its start to its end.
 #pragma once
 
 #include <chrono>
@@ -43,11 +43,14 @@ private:
 ///     caller decides about them. No other signal is blocked, even if the caller blocks it.
 /// (3) No signal reaches the caller: data that the helper does not read raise no SIGPIPE.
 ///
-/// Errors about the helper itself, rather than about TetGen, have its path as their place:
+/// Errors about the helper itself, rather than about the mesher, have its path as their place:
 /// cannot_open (it could not be run) and internal (it broke the protocol).
 class HelperProcess {
 public:
-    HelperProcess(std::filesystem::path program, double time_limit, std::stop_token stop) :
+    /// `mesher` is its name in errors: "TetGen" or "Gmsh".
+    HelperProcess(const char* mesher, std::filesystem::path program, double time_limit,
+                  std::stop_token stop) :
+        mesher_(mesher),
         program_(std::move(program)), time_limit_(time_limit), stop_(std::move(stop)) {}
     ~HelperProcess();
     HelperProcess(const HelperProcess&) = delete;
@@ -66,7 +69,10 @@ public:
     Status finish();
 
     /// Makes an error about the helper itself.
-    [[nodiscard]] Error broken(std::string sentence) const;
+    [[nodiscard]] Error broken(const std::string& sentence) const;
+
+    /// The name of the mesher.
+    [[nodiscard]] const char* mesher() const { return mesher_; }
 
 private:
     Result<short> wait_for(short events);
@@ -76,6 +82,7 @@ private:
     Error why_it_ended();
     void kill_and_reap();
 
+    const char* mesher_;
     std::filesystem::path program_;
     double time_limit_; ///< seconds
     std::stop_token stop_;

@@ -15,6 +15,8 @@ namespace terrane::tetgen::detail {
 namespace {
 
 static_assert(sizeof(Point3) == sizeof(Coordinates) && std::is_trivially_copyable_v<Point3>);
+static_assert(sizeof(BlockSides) == sizeof(SidesRecord) &&
+              std::is_trivially_copyable_v<BlockSides>);
 static_assert(sizeof(RegionBound) == sizeof(RegionRecord) &&
               std::is_trivially_copyable_v<RegionBound>);
 
@@ -26,6 +28,7 @@ RequestHeader header_of(const TetgenInput& input) {
     set(input.keep_facets, keep_facets_flag);
     set(input.improve, improve_flag);
     set(input.sort_points, sort_points_flag);
+    set(input.parallel_delaunay, parallel_delaunay_flag);
     set(input.max_volume.has_value(), max_volume_flag);
     set(input.radius_edge_ratio.has_value(), radius_edge_ratio_flag);
     header.max_volume = input.max_volume.value_or(0);
@@ -35,6 +38,7 @@ RequestHeader header_of(const TetgenInput& input) {
     header.corners = input.facets.values.size();
     header.area_bounds = input.max_areas.size();
     header.regions = input.regions.size();
+    header.sides = input.sides.size();
     return header;
 }
 
@@ -44,27 +48,31 @@ Status send(HelperProcess& helper, const TetgenInput& input) {
          {std::as_bytes(std::span(&header, 1)), std::as_bytes(std::span(input.points)),
           std::as_bytes(std::span(input.facets.offsets)),
           std::as_bytes(std::span(input.facets.values)), std::as_bytes(std::span(input.max_areas)),
-          std::as_bytes(std::span(input.regions))})
+          std::as_bytes(std::span(input.regions)), std::as_bytes(std::span(input.sides))})
         if (Status sent = helper.send(part); !sent) return sent;
     return Done{};
 }
 
 // ---- The reply --------------------------------------------------------------------------------
 
-Error from_tetgen(std::int32_t code, const HelperProcess& helper) {
+Error from_mesher(std::int32_t code, const HelperProcess& helper) {
+    const char* const mesher = helper.mesher();
     switch (code) {
     case tetgen_out_of_memory:
-        return {ErrorCode::out_of_memory, "TetGen ran out of memory", ""};
+        return {ErrorCode::out_of_memory, fmt::format("{} ran out of memory", mesher), ""};
     case 3:
     case 4:
     case 5: // the facets do not cross: they are too close for TetGen's tolerance
-        return {ErrorCode::unsupported, "the surfaces come too close to each other for TetGen", ""};
+        return {ErrorCode::unsupported,
+                fmt::format("the surfaces come too close to each other for {}", mesher), ""};
     case 10:
-        return {ErrorCode::internal, "TetGen did not accept its input", ""};
+        return {ErrorCode::internal, fmt::format("{} did not accept its input", mesher), ""};
     case bad_request:
         return helper.broken("did not understand what it was told");
+    case mesher_failed:
+        return {ErrorCode::internal, fmt::format("{} failed", mesher), ""};
     default:
-        return {ErrorCode::internal, fmt::format("TetGen failed with code {}", code), ""};
+        return {ErrorCode::internal, fmt::format("{} failed with code {}", mesher, code), ""};
     }
 }
 
@@ -75,9 +83,9 @@ Status check(const ReplyHeader& header, const HelperProcess& helper) {
         error.code = ErrorCode::unsupported;
         return error;
     }
-    if (header.status != done) return from_tetgen(header.status, helper);
+    if (header.status != done) return from_mesher(header.status, helper);
     if (std::max({header.points, header.tetrahedra, header.faces}) > most_items)
-        return helper.broken("announces more than TetGen can count");
+        return helper.broken("announces more than it can count");
     return Done{};
 }
 
@@ -111,10 +119,11 @@ Result<TetgenOutput> receive(HelperProcess& helper) {
 
 } // namespace
 
-Result<TetgenOutput> run_tetgen(const TetgenInput& input, const std::stop_token& stop) {
+Result<TetgenOutput> run_mesher(const TetgenInput& input, const std::stop_token& stop) {
+    const char* const mesher = input.mesher == Mesher::gmsh ? "Gmsh" : "TetGen";
     if (input.points.size() > most_items || input.facets.size() > most_items)
-        return Error{ErrorCode::unsupported, "too many triangles for TetGen", ""};
-    HelperProcess process(input.helper, input.time_limit, stop);
+        return Error{ErrorCode::unsupported, fmt::format("too many triangles for {}", mesher), ""};
+    HelperProcess process(mesher, input.helper, input.time_limit, stop);
     if (Status started = process.start(); !started) return started.error();
     if (Status sent = send(process, input); !sent) return sent.error();
     return receive(process);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The messages between the library and TetGen's helper program, which run on the same machine.
+// The messages between the library and the helper programs of the meshers TetGen and Gmsh, which run
+// on the same machine.
 //
 // Request: RequestHeader; points as 3 doubles each; facets + 1 offsets into the corners (uint32);
 // corners (uint32); per facet a bound on the area of its faces, infinite for no bound, or no bounds
-// at all (double); regions as x, y, z and the largest volume of a tetrahedron (double).
+// at all (double); regions as x, y, z and the largest volume of a tetrahedron (double); per facet the
+// regions on both its sides, or none at all (uint32).
 //
 // Reply: ReplyHeader. If its status is `done`, there follow: points as 3 doubles each; tetrahedra
 // as 4 corners each (uint32); faces on facets as 3 corners each (uint32); per face 1 + its facet
@@ -24,7 +26,7 @@ inline constexpr std::uint64_t reply_mark = 0x7467'7265'706c'7931;
 
 /// The version of the messages, to be raised with each change. A helper of another version is
 /// refused.
-inline constexpr std::uint32_t protocol_version = 1;
+inline constexpr std::uint32_t protocol_version = 2;
 
 /// The most items of a kind. TetGen counts in int, and up to 4 corners per item.
 inline constexpr std::uint64_t most_items = std::numeric_limits<std::int32_t>::max() / 4;
@@ -36,8 +38,9 @@ enum RequestFlag : std::uint32_t {
     sort_points_flag = 4,
     max_volume_flag = 8,         ///< max_volume has a value
     radius_edge_ratio_flag = 16, ///< radius_edge_ratio has a value
+    parallel_delaunay_flag = 32, ///< Gmsh: its newer algorithm (HXT)
 };
-inline constexpr std::uint32_t all_flags = 31;
+inline constexpr std::uint32_t all_flags = 63;
 
 struct RequestHeader {
     std::uint64_t mark = request_mark;
@@ -48,6 +51,7 @@ struct RequestHeader {
     std::uint64_t corners = 0;
     std::uint64_t area_bounds = 0; ///< 0 or as many as facets
     std::uint64_t regions = 0;
+    std::uint64_t sides = 0; ///< 0 or as many as facets
     double max_volume = 0;
     double radius_edge_ratio = 0;
 };
@@ -69,11 +73,16 @@ inline constexpr std::int32_t tetgen_out_of_memory = 1;
 inline constexpr std::int32_t unknown_exception = 100;
 inline constexpr std::int32_t bad_request = 101;
 inline constexpr std::int32_t other_version = 102;
+inline constexpr std::int32_t mesher_failed = 103;
 
 using Coordinates = std::array<double, 3>;
-using RegionRecord = std::array<double, 4>; ///< x, y, z, largest volume of a tetrahedron
+using RegionRecord = std::array<double, 4>;       ///< x, y, z, largest volume of a tetrahedron
+using SidesRecord = std::array<std::uint32_t, 2>; ///< regions in front of a facet and behind it
 
-static_assert(sizeof(RequestHeader) == 72 && sizeof(ReplyHeader) == 40); // no padding
+/// The side of a facet that is outside of the whole domain.
+inline constexpr std::uint32_t no_region = std::numeric_limits<std::uint32_t>::max();
+
+static_assert(sizeof(RequestHeader) == 80 && sizeof(ReplyHeader) == 40); // no padding
 static_assert(sizeof(Coordinates) == 24 && sizeof(RegionRecord) == 32);
 static_assert(sizeof(int) == sizeof(std::uint32_t) && std::numeric_limits<double>::is_iec559);
 

@@ -116,7 +116,7 @@ bool holds_in_child(const Work& work) {
 bool cube_is_filled(const fs::path& helper) {
     TetgenInput input = cube_input();
     input.helper = helper;
-    const auto output = run_tetgen(input, {});
+    const auto output = run_mesher(input, {});
     return output && output.value().tetrahedra.size() >= 5;
 }
 
@@ -148,7 +148,7 @@ TEST_CASE("TetGen's helper: no channel to it takes the place of a closed standar
     input.time_limit = 1;
     CHECK(holds_in_child([&] {
         for (int fd = 0; fd < 3; ++fd) close(fd);
-        const std::jthread caller([&] { (void)run_tetgen(input, {}); });
+        const std::jthread caller([&] { (void)run_mesher(input, {}); });
         std::this_thread::sleep_for(
             std::chrono::milliseconds(300)); // the helper runs; we may print
         return fcntl(0, F_GETFD) == -1 && fcntl(1, F_GETFD) == -1 && fcntl(2, F_GETFD) == -1;
@@ -228,7 +228,7 @@ TEST_CASE(
         sigaddset(&some, SIGUSR1);
         sigaddset(&some, SIGALRM);
         pthread_sigmask(SIG_BLOCK, &some, nullptr);
-        (void)run_tetgen(input, {});
+        (void)run_mesher(input, {});
         _exit(0);
     }
     const pid_t helper = helper_of(caller);

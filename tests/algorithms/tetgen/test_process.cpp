@@ -40,7 +40,7 @@ TEST_CASE("TetGen's helper: a reply that is as it should be is taken", "[tetrahe
     TetgenInput input = cube_input();
     const Impostor parrot(reply_of(truth), input);
     input.helper = parrot.path();
-    const auto output = run_tetgen(input, {});
+    const auto output = run_mesher(input, {});
     INFO((output ? "" : output.error().message()));
     REQUIRE(output);
     CHECK(output.value().points == truth.points);
@@ -87,7 +87,7 @@ TEST_CASE("TetGen's helper: garbage, other versions and giant lengths are refuse
             header.*length = many;
             const Error error = error_of(header);
             CHECK(error.code == ErrorCode::internal);
-            CHECK(contains(error.sentence, "more than TetGen can count"));
+            CHECK(contains(error.sentence, "more than it can count"));
         }
     CHECK(seconds_since(start) < 20);
     // The largest allowed number is announced, but no item comes: this must not cost memory either.
@@ -136,11 +136,12 @@ TEST_CASE("TetGen's helper: forged numbers never become tetrahedra", "[tetrahedr
                                                                          {8, 9, 11, 10}}})
         input.facets.push_back(side);
     input.helper = find_tetgen_helper().value();
-    const auto truth = run_tetgen(input, {});
+    const auto truth = run_mesher(input, {});
     REQUIRE(truth);
     const auto outcome = [&](const TetgenOutput& output) {
         const Impostor forger(reply_of(output), input);
-        return tetrahedralize(mesh, {.box = box, .helper = forger.path()}, {});
+        return tetrahedralize(
+            mesh, {.mesher = Mesher::tetgen, .box = box, .helper = forger.path()}, {});
     };
     const auto control = outcome(truth.value());
     INFO((control ? "" : control.error().message()));
@@ -168,7 +169,8 @@ TEST_CASE("TetGen's helper: one that is broken is asked once, one whose TetGen f
           "[tetrahedra][helper]") {
     const auto starts_of = [](const std::string& lines, ErrorCode code) {
         const Impostor impostor("echo >>\"${0%/*}/starts\"\n" + lines);
-        const auto made = tetrahedralize(square(), {.helper = impostor.path()}, {});
+        const auto made =
+            tetrahedralize(square(), {.mesher = Mesher::tetgen, .helper = impostor.path()}, {});
         REQUIRE_FALSE(made);
         CHECK(made.error().code == code);
         std::ifstream starts(impostor.path().parent_path() / "starts");
@@ -193,7 +195,7 @@ TEST_CASE("TetGen's helper: it refuses requests that make no sense", "[tetrahedr
     for (std::size_t i = 0; i < bad.size(); ++i) {
         INFO(i);
         bad[i].helper = find_tetgen_helper().value();
-        const auto output = run_tetgen(bad[i], {});
+        const auto output = run_mesher(bad[i], {});
         REQUIRE_FALSE(output);
         CHECK(output.error().code == ErrorCode::internal);
         CHECK(contains(output.error().sentence, "did not understand"));

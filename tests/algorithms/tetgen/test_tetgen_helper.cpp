@@ -80,7 +80,7 @@ TEST_CASE("TetGen's helper: where it vanishes after it was found, the error name
           "[tetrahedra][helper]") {
     TetgenInput input = cube_input();
     input.helper = "/nowhere/terrane-tetgen";
-    const auto output = run_tetgen(input, {});
+    const auto output = run_mesher(input, {});
     REQUIRE_FALSE(output);
     CHECK(output.error().code == ErrorCode::cannot_open);
     CHECK(output.error().message() ==

@@ -351,7 +351,7 @@ TEST_CASE("tetrahedra: what once failed is filled, but for what TetGen cannot do
         const auto surfaces = read_surfaces(entry.path());
         REQUIRE(surfaces);
         const Mesh mesh = rounded(arranged(surfaces.value())).mesh;
-        const auto made = tetrahedralize(mesh, {.time_limit = 2}, {});
+        const auto made = tetrahedralize(mesh, {.mesher = Mesher::tetgen, .time_limit = 2}, {});
         if (beyond_tetgen.contains(name)) {
             REQUIRE_FALSE(made);
             CHECK(made.error().sentence.find("TetGen") == 0);

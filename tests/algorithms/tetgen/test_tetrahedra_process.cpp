@@ -103,7 +103,7 @@ TEST_CASE("tetrahedra: other threads may allocate while TetGen is started", "[te
     cube_of_points.keep_facets = false;
     cube_of_points.time_limit = 60; // it takes milliseconds
     cube_of_points.helper = find_tetgen_helper().value();
-    for (int k = 0; k < 20; ++k) REQUIRE(run_tetgen(cube_of_points, {}));
+    for (int k = 0; k < 20; ++k) REQUIRE(run_mesher(cube_of_points, {}));
 }
 
 TEST_CASE("tetrahedra: nothing is printed, also where TetGen would", "[tetrahedra]") {

@@ -1,34 +1,21 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// terrane-tetgen reads one request (see protocol.hpp) from standard input, has TetGen carry it out
-// and writes one reply to standard output. The library starts it as a process of its own, so that
-// TetGen's asserts, crashes and prints cost the caller nothing, and so that it can be killed.
+// terrane-tetgen has TetGen carry out requests of the library.
 //
 // This file is LGPL. The program made from it contains TetGen, which is AGPL-3.0-or-later, so that
 // the program as a whole is AGPL-3.0-or-later.
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <csignal>
-#include <cstdio>
-#include <cstdlib>
 #include <memory>
 #include <new>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
-
-#include <fcntl.h>
-#include <poll.h>
-#include <sys/prctl.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
 #define TETLIBRARY
 #include <tetgen.h>
 
-#include <terrane/algorithms/tetgen/detail/protocol.hpp>
+#include <terrane/algorithms/tetgen/helper/helper.hpp>
 
 namespace terrane::tetgen::detail {
 namespace {
@@ -38,92 +25,6 @@ constexpr auto usage =
     "The part of Terrane that makes tetrahedra: reads a request on standard input, writes a reply\n"
     "on standard output. The library and the program terrane start it; it is of no use by hand.\n"
     "It contains TetGen and is, as a whole, under the AGPL-3.0-or-later.\n";
-
-// ---- Input and output -------------------------------------------------------------------------
-
-/// Fills the memory from standard input; returns false if that ends too early.
-bool read_all(void* data, std::size_t size) {
-    char* bytes = static_cast<char*>(data);
-    while (size > 0) {
-        const ssize_t got = read(STDIN_FILENO, bytes, size);
-        if (got < 0 && errno == EINTR) continue;
-        if (got <= 0) return false;
-        bytes += got;
-        size -= static_cast<std::size_t>(got);
-    }
-    return true;
-}
-
-template <class T>
-bool read_array(std::vector<T>& array, std::uint64_t length) {
-    array.resize(length);
-    return read_all(array.data(), array.size() * sizeof(T));
-}
-
-void write_all(int fd, const void* data, std::size_t size) {
-    const char* bytes = static_cast<const char*>(data);
-    while (size > 0) {
-        const ssize_t written = write(fd, bytes, size);
-        if (written < 0 && errno == EINTR) continue;
-        if (written <= 0) _exit(EXIT_FAILURE); // the caller is gone
-        bytes += written;
-        size -= static_cast<std::size_t>(written);
-    }
-}
-
-// ---- The request ------------------------------------------------------------------------------
-
-struct Request {
-    RequestHeader header;
-    std::vector<Coordinates> points;
-    std::vector<std::uint32_t> offsets, corners;
-    std::vector<double> area_bounds;
-    std::vector<RegionRecord> regions;
-
-    [[nodiscard]] bool has(RequestFlag flag) const { return (header.flags & flag) != 0; }
-};
-
-bool is_sound(const RequestHeader& header) {
-    const auto is_bound = [](double x) { return std::isfinite(x) && x >= 0; };
-    return (header.flags & ~all_flags) == 0 && header.points <= most_items &&
-           header.facets <= most_items && header.corners <= 4 * most_items &&
-           header.regions <= most_items &&
-           (header.area_bounds == 0 || header.area_bounds == header.facets) &&
-           ((header.flags & max_volume_flag) == 0 || is_bound(header.max_volume)) &&
-           ((header.flags & radius_edge_ratio_flag) == 0 || is_bound(header.radius_edge_ratio));
-}
-
-/// Tells whether each facet has at least three points, all of which exist, and all numbers are
-/// valid.
-bool is_sound(const Request& request) {
-    const auto finite = [](const auto& numbers) {
-        return std::all_of(numbers.begin(), numbers.end(),
-                           [](double x) { return std::isfinite(x); });
-    };
-    const auto& offsets = request.offsets;
-    bool sound = offsets.front() == 0 && offsets.back() == request.corners.size();
-    for (std::size_t i = 0; sound && i + 1 < offsets.size(); ++i)
-        sound = offsets[i] <= offsets[i + 1] && offsets[i + 1] - offsets[i] >= 3;
-    return sound &&
-           std::all_of(request.corners.begin(), request.corners.end(),
-                       [&](std::uint32_t corner) { return corner < request.points.size(); }) &&
-           std::all_of(request.points.begin(), request.points.end(), finite) &&
-           std::all_of(request.area_bounds.begin(), request.area_bounds.end(),
-                       [](double area) { return area >= 0; }) && // infinity: no bound
-           std::all_of(request.regions.begin(), request.regions.end(), finite);
-}
-
-std::int32_t read_request(Request& request) {
-    RequestHeader& header = request.header;
-    if (!read_all(&header, sizeof header) || header.mark != request_mark) return bad_request;
-    if (header.version != protocol_version) return other_version;
-    const bool read = is_sound(header) && read_array(request.points, header.points) &&
-                      read_array(request.offsets, header.facets + 1) &&
-                      read_array(request.corners, header.corners) &&
-                      read_array(request.area_bounds, header.area_bounds) &&
-                      read_array(request.regions, header.regions);
-    return read && is_sound(request) ? done : bad_request;
-}
 
 // ---- TetGen -----------------------------------------------------------------------------------
 
@@ -246,47 +147,12 @@ void reply(int fd, std::int32_t status, const tetgenio& out) {
     write_all(fd, out.trifacemarkerlist, faces * sizeof(int));
 }
 
-// ---- The process ------------------------------------------------------------------------------
-
-/// Makes this process end with the caller: by a signal from now on, or at once if the caller has
-/// ended.
-void end_with_caller() {
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
-    pollfd output{STDOUT_FILENO, 0, 0};
-    if (poll(&output, 1, 0) > 0 && (output.revents & (POLLHUP | POLLERR)) != 0) _exit(EXIT_FAILURE);
-}
-
-/// Lets a crash end this process by its signal, even under a sanitizer, and without a core file;
-/// and makes it the first process to be killed when the machine runs out of memory.
-void be_expendable() {
-    const rlimit no_core{0, 0};
-    setrlimit(RLIMIT_CORE, &no_core);
-    for (const int fatal : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL}) std::signal(fatal, SIG_DFL);
-    const int score = open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC);
-    if (score >= 0) [[maybe_unused]]
-        const auto written = write(score, "1000", 4);
-}
-
-/// Returns a descriptor for the reply, and discards all that TetGen prints.
-int silence() {
-    const int output = fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
-    const int null = open("/dev/null", O_WRONLY | O_CLOEXEC);
-    if (output < 0 || null < 0 || dup2(null, STDOUT_FILENO) < 0 || dup2(null, STDERR_FILENO) < 0)
-        _exit(EXIT_FAILURE);
-    return output;
-}
-
 } // namespace
 } // namespace terrane::tetgen::detail
 
 int main(int argc, char** argv) {
     using namespace terrane::tetgen::detail;
-    if (argc != 1) {
-        const bool asked =
-            std::string_view(argv[1]) == "--version" || std::string_view(argv[1]) == "--help";
-        std::fputs(usage, asked ? stdout : stderr);
-        return asked ? EXIT_SUCCESS : EXIT_FAILURE;
-    }
+    if (argc != 1) return explain(argc, argv, usage);
     end_with_caller();
     be_expendable();
     const int output = silence();
