@@ -48,8 +48,11 @@
 #include <terrane/algorithms/sealing/gaps.hpp>
 #include <terrane/algorithms/sealing/sealing.hpp>
 #include <terrane/algorithms/search/method.hpp>
+#include <terrane/algorithms/structure/block_names.hpp>
+#include <terrane/algorithms/structure/column.hpp>
 #include <terrane/algorithms/structure/free_borders.hpp>
 #include <terrane/algorithms/structure/relations.hpp>
+#include <terrane/algorithms/structure/stated_regions.hpp>
 #include <terrane/algorithms/structure/structure.hpp>
 #include <terrane/algorithms/structure/structure_meshes.hpp>
 #include <terrane/algorithms/tetgen/fill_blocks.hpp>

@@ -44,6 +44,8 @@ Json blocks_json(const Structure& structure, const StructureExtras& extras) {
     for (std::size_t b = 0; b < structure.blocks.size(); ++b) {
         const ModelBlock& block = structure.blocks[b];
         Json json{{"name", block.name}};
+        if (!block.unit.empty()) json["unit"] = block.unit;
+        if (block.age) json["age"] = *block.age;
         if (!extras.exact_volumes.empty()) json["volume"] = number(extras.exact_volumes[b]);
         json["volume_written"] = number(block.volume);
         json["area"] = number(block.area);

@@ -6,7 +6,9 @@
 //   format      "terrane-model 1"
 //   surfaces    the input surfaces: name, role (unknown, horizon, fault, boundary), area,
 //               dangling_area (area of the parts with the same block on both sides)
-//   blocks      [0] is the outside, then the blocks by number: name, volume (of the exact block,
+//   blocks      [0] is the outside, then the blocks by number: name, unit (of a stratigraphic
+//               column, or layer of the file; only where there is one), age (of the base of that
+//               unit, where the column has it), volume (of the exact block,
 //               rounded to the nearest double; null for a block that only rounding made),
 //               volume_written (volume of the rounded mesh, to the nearest double), area, above,
 //               below, beside (surfaces), interfaces (around it), inner_interfaces (dangling in

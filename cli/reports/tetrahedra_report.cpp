@@ -184,8 +184,8 @@ std::string filled_text(const FilledBlocks& filled) {
         "{} tetrahedra, {}, {}{}\n", mesh.tetrahedra.size(), counted(mesh.faces.size(), "face"),
         counted(counts.size() - first, "region"), first == 0 ? " with the outside" : "");
     for (std::size_t r = first; r < std::min(counts.size(), most_regions); ++r)
-        text += fmt::format("  region {:<3} {:>9} tetrahedra  volume {:.6g}{}\n", r, counts[r],
-                            filled.report.volumes[r].tetrahedra, r == 0 ? "  (outside)" : "");
+        text += fmt::format("  region {:<3} {:>9} tetrahedra  volume {:<12.6g} {}\n", r, counts[r],
+                            filled.report.volumes[r].tetrahedra, filled.block_names[r]);
     if (counts.size() > most_regions)
         text += fmt::format("  and {} more\n", counts.size() - most_regions);
     if (!mesh.twins.empty())

@@ -2,15 +2,19 @@
 #include <terrane/cli/stages/blocks.hpp>
 
 #include <algorithm>
+#include <array>
 #include <map>
+#include <span>
 #include <system_error>
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/structure/structure_meshes.hpp>
 #include <terrane/cli/session/console.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/files.hpp>
+#include <terrane/io/meshes/vtm.hpp>
 #include <terrane/io/structure_json.hpp>
 
 namespace terrane::cli {
@@ -108,7 +112,7 @@ public:
     FolderWriter(const Model& model, const std::optional<SealReport>& sealed,
                  const std::string& part_format, const std::filesystem::path& folder) :
         model_(model),
-        part_format_(part_format), folder_(folder) {
+        part_format_(part_format), folder_(folder), labels_(unique_labels(model.mesh->surfaces)) {
         if (!sealed) return;
         extras_.seal_distance = sealed->distance;
         extras_.seal_changes = sealed->changes;
@@ -130,20 +134,49 @@ public:
             if (s.blocks[b].interfaces.empty()) continue;
             extras_.block_files[b] = name("blocks/block_", b);
             const auto part = block_part(model_.mesh, model_.volumes, s, BlockId(b));
-            if (auto done = write_part(part, extras_.block_files[b]); !done) return done;
+            if (auto done = write_part(part, {&s.blocks[b].name, 1}, extras_.block_files[b]); !done)
+                return done;
         }
         for (std::uint32_t i = 0; i < s.interfaces.size(); ++i) {
             if (session.stopped()) return Error{ErrorCode::interrupted, "stopped on request", ""};
             extras_.interface_files.push_back(name("interfaces/interface_", i));
             const auto part = interface_part(model_.mesh, model_.volumes, s, InterfaceId(i));
-            if (auto done = write_part(part, extras_.interface_files[i]); !done) return done;
+            const auto [low, high] = s.interfaces[i].volumes;
+            const std::array names{s.blocks[low].name, s.blocks[high].name};
+            if (auto done = write_part(part, names, extras_.interface_files[i]); !done) return done;
         }
+        if (part_format_ == "vtp")
+            if (auto done = write_file(folder_ / "model.vtm", to_vtm(groups())); !done) return done;
         return write_json();
     }
 
 private:
     [[nodiscard]] std::string name(const char* start, std::uint32_t number) const {
-        return fmt::format("{}{}.{}", start, number, part_format_);
+        return fmt::format("{}{}.{}", start, number,
+                           part_format_ == "msh22" ? "msh" : part_format_);
+    }
+
+    /// Names the blocks on both sides of an interface, and its surfaces.
+    [[nodiscard]] std::string name_of_interface(const ModelInterface& i) const {
+        const auto& blocks = model_.structure.blocks;
+        std::string surfaces;
+        for (const std::uint32_t s : i.surfaces)
+            surfaces += (surfaces.empty() ? "" : " and ") + labels_[s];
+        if (i.dangles()) return fmt::format("{} in {}", surfaces, blocks[i.volumes[0]].name);
+        return fmt::format("{} between {} and {}", surfaces, blocks[i.volumes[0]].name,
+                           blocks[i.volumes[1]].name);
+    }
+
+    [[nodiscard]] std::vector<FileGroup> groups() const {
+        FileGroup blocks{"blocks", {}}, interfaces{"interfaces", {}};
+        const Structure& s = model_.structure;
+        for (std::size_t b = 1; b < s.blocks.size(); ++b)
+            if (!extras_.block_files[b].empty())
+                blocks.files.push_back({s.blocks[b].name, extras_.block_files[b]});
+        for (std::size_t i = 0; i < s.interfaces.size(); ++i)
+            interfaces.files.push_back(
+                {name_of_interface(s.interfaces[i]), extras_.interface_files[i]});
+        return {std::move(blocks), std::move(interfaces)};
     }
 
     Status write_result() {
@@ -151,12 +184,17 @@ private:
                                            {"volume_back", side_cells(model_.volumes, 1)},
                                            {"interface", as_cells(model_.structure.interface_of)},
                                            {"patch", as_cells(model_.structure.patch_of)}};
+        std::vector<std::string> names;
+        for (const ModelBlock& block : model_.structure.blocks) names.push_back(block.name);
         WriteOptions options;
         options.cells = cells;
+        options.region_names = names;
         return write_mesh(model_.mesh, folder_ / "result.vtp", options);
     }
 
-    Status write_part(const MeshPart& part, const std::string& file) {
+    /// Writes a part; `names` are those of the block, or of the blocks on both sides.
+    Status write_part(const MeshPart& part, std::span<const std::string> names,
+                      const std::string& file) {
         std::vector<std::uint32_t> interfaces, patches;
         for (const std::uint32_t t : part.triangles) {
             interfaces.push_back(model_.structure.interface_of[t]);
@@ -166,7 +204,10 @@ private:
                                            {"interface", as_cells(interfaces)},
                                            {"patch", as_cells(patches)}};
         WriteOptions options;
-        if (part_format_ == "vtp") options.cells = cells;
+        options.format = format_named(part_format_);
+        options.ascii = true; // binary STL would round the checked coordinates
+        options.cells = cells;
+        options.region_names = names;
         return write_mesh(part.mesh, folder_ / file, options);
     }
 
@@ -180,6 +221,7 @@ private:
     const Model& model_;
     const std::string& part_format_;
     const std::filesystem::path& folder_;
+    std::vector<std::string> labels_; ///< per surface
     StructureExtras extras_;
 };
 
@@ -205,9 +247,11 @@ void add_statistics(Json& json, const Model& model, const StageTimes& times) {
                        {"free_borders", model.borders.size()}};
 }
 
-Result<Model> find_model(const Arranged& arranged, Session& session, Json& statistics) {
+Result<Model> find_model(const Arranged& arranged, const BlockNaming& naming, Session& session,
+                         Json& statistics) {
     session.begin("volumes", Phase::computing);
-    auto model = make_model(arranged.exact, arranged.rounded.conforming.value(), session.run());
+    auto model =
+        make_model(arranged.exact, arranged.rounded.conforming.value(), session.run(), naming);
     session.end_stage();
     if (model) add_statistics(statistics, *model, session.times());
     return model;
@@ -216,6 +260,11 @@ Result<Model> find_model(const Arranged& arranged, Session& session, Json& stati
 std::string model_text(const Inputs& inputs, const Model& model) {
     return blocks_text(model) + structure_text(model) + dangling_text(inputs, model) +
            leaks_text(inputs, model);
+}
+
+std::vector<std::string> part_formats() {
+    return {"vtp", "obj",   "ts",  "ply",  "off",  "stl",
+            "msh", "msh22", "inp", "mesh", "poly", "smesh"};
 }
 
 Status write_model(const Model& model, const std::optional<SealReport>& sealed,

@@ -31,8 +31,11 @@ set(terrane_headers
     algorithms/rounding/rounding.hpp
     algorithms/volumes/region_points.hpp
     algorithms/volumes/volumes.hpp
+    algorithms/structure/block_names.hpp
+    algorithms/structure/column.hpp
     algorithms/structure/free_borders.hpp
     algorithms/structure/relations.hpp
+    algorithms/structure/stated_regions.hpp
     algorithms/structure/structure.hpp
     algorithms/structure/structure_meshes.hpp
     algorithms/layers/layers.hpp
