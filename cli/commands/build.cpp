@@ -12,7 +12,6 @@
 
 #include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/core/stopwatch.hpp>
-#include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/project/build.hpp>
 #include <terrane/algorithms/tetgen/tetgen_helper.hpp>
 #include <terrane/algorithms/volumes/region_points.hpp>
@@ -167,7 +166,7 @@ private:
         read_ = std::move(*inputs);
         if (auto sound = check_read_names(); !sound) return sound;
         inputs_.surfaces_of_file = read_.surfaces_of_entry;
-        inputs_.labels = unique_labels(infos_of(read_.build.surfaces));
+        describe(read_.build.surfaces, inputs_);
         inputs_.vertices = read_.vertices;
         inputs_.triangles = read_.triangles;
         inputs_.strict = strict_;
@@ -248,7 +247,7 @@ private:
             return doubt(*built.model);
         case BuildStage::tetrahedra:
             add_statistics(statistics_, *built.filled, session_.times());
-            return journal_.say(filled_text(*built.filled));
+            return journal_.say(filled_text(*built.filled, inputs_.unit));
         }
     }
 

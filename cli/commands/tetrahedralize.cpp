@@ -173,7 +173,7 @@ Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Se
     if (const auto sound = examine(*model, *inputs, true, statistics); !sound) return sound.error();
     const auto filled = fill(model.value(), wishes.value(), session, statistics);
     if (!filled) return filled.error();
-    print(summary_stream(files), filled_text(filled.value()));
+    print(summary_stream(files), filled_text(filled.value(), inputs->unit));
     const TetrahedraReport& report = filled.value().report;
     const bool good = report.violations.empty();
     Stopwatch writing;

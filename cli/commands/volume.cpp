@@ -144,7 +144,7 @@ Result<ExitStatus> suggest_seal(const VolumeCommand& command, Session& session) 
                                     options_within(command.settings, *inputs), session.run());
     session.end_stage();
     if (!advice) return advice.error();
-    print(summary_stream(files), text_of(*advice));
+    print(summary_stream(files), text_of(*advice, *inputs));
     add_statistics(statistics, *advice);
     add_constants(statistics, "seal", seal_constants());
     add_constants(statistics, "seal_choice", seal_choice_constants());

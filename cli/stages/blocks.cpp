@@ -12,6 +12,7 @@
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/structure/structure_meshes.hpp>
 #include <terrane/cli/session/console.hpp>
+#include <terrane/cli/session/quantities.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/files.hpp>
 #include <terrane/io/meshes/vtm.hpp>
@@ -25,15 +26,16 @@ constexpr std::size_t most_leaks = 20;
 
 // ---- Text
 
-std::string blocks_text(const Model& model) {
+std::string blocks_text(const Inputs& inputs, const Model& model) {
+    const Quantities quantities(inputs.unit);
     const auto& blocks = model.structure.blocks;
     const std::size_t count = model.block_count();
-    auto text = fmt::format("{}, volume {:.9g} in all\n", counted(count, "closed block"),
-                            model.exact_volumes[0]);
+    auto text = fmt::format("{}, volume {} in all\n", counted(count, "closed block"),
+                            quantities.volume(model.exact_volumes[0], 9));
     for (std::size_t b = 1; b <= std::min(count, most_blocks); ++b)
-        text +=
-            fmt::format("  block {:<4} volume {:<14.9g} {}\n", b, model.exact_volumes[b],
-                        blocks[b].interfaces.empty() ? "(too thin for doubles)" : blocks[b].name);
+        text += fmt::format(
+            "  block {:<4} volume {:<16} {}\n", b, quantities.volume(model.exact_volumes[b], 9),
+            blocks[b].interfaces.empty() ? "(too thin for doubles)" : blocks[b].name);
     if (count > most_blocks) text += fmt::format("  and {} more\n", count - most_blocks);
     if (model.lost > 0)
         text +=
@@ -62,6 +64,7 @@ std::string structure_text(const Model& model) {
 std::string dangling_text(const Inputs& inputs, const Model& model) {
     std::vector<double> area(inputs.labels.size()), dangling(inputs.labels.size()),
         border(inputs.labels.size());
+    const Quantities quantities(inputs.unit);
     for (const ModelInterface& i : model.structure.interfaces)
         for (const std::uint32_t s : i.surfaces) {
             area[s] += i.area;
@@ -72,8 +75,9 @@ std::string dangling_text(const Inputs& inputs, const Model& model) {
     std::string text;
     for (std::size_t s = 0; s < area.size(); ++s)
         if (dangling[s] > 0)
-            text += fmt::format("  {}: {:.3g} of {:.3g} in area dangles, free border {:.3g}\n",
-                                inputs.labels[s], dangling[s], area[s], border[s]);
+            text += fmt::format("  {}: {} of {} in area dangles, free border {}\n",
+                                inputs.labels[s], quantities.area(dangling[s], 3),
+                                quantities.area(area[s], 3), quantities.length(border[s], 3));
     return text.empty() ? "no surface dangles\n" : "surfaces that dangle:\n" + text;
 }
 
@@ -81,12 +85,13 @@ std::string dangling_text(const Inputs& inputs, const Model& model) {
 std::string leaks_text(const Inputs& inputs, const Model& model) {
     const auto leaks = leaks_of(model.borders);
     if (leaks.empty()) return {};
+    const Quantities quantities(inputs.unit);
     std::string text = "free borders, by the surface nearest to them and how far it is:\n";
     for (std::size_t i = 0; i < std::min(leaks.size(), most_leaks); ++i) {
         const Leak& l = leaks[i];
-        text += fmt::format("  {} ends by {}: along {:.4g}, {:.2g} to {:.2g} apart, most at {}\n",
-                            inputs.labels[l.from], inputs.labels[l.to], l.length, l.least,
-                            l.largest, text_of(l.place));
+        text += fmt::format("  {} ends by {}: along {}, {} apart, most at {}\n",
+                            inputs.labels[l.from], inputs.labels[l.to], quantities.length(l.length),
+                            quantities.lengths(l.least, l.largest, 2), text_of(l.place));
     }
     if (leaks.size() > most_leaks)
         text += fmt::format("  and {} more, farther apart\n", leaks.size() - most_leaks);
@@ -258,7 +263,7 @@ Result<Model> find_model(const Arranged& arranged, const BlockNaming& naming, Se
 }
 
 std::string model_text(const Inputs& inputs, const Model& model) {
-    return blocks_text(model) + structure_text(model) + dangling_text(inputs, model) +
+    return blocks_text(inputs, model) + structure_text(model) + dangling_text(inputs, model) +
            leaks_text(inputs, model);
 }
 
