@@ -24,6 +24,7 @@
 #include <terrane/algorithms/mesh/shared_mesh.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
 #include <terrane/algorithms/model/arrange_within.hpp>
+#include <terrane/algorithms/model/leak_advice.hpp>
 #include <terrane/algorithms/model/model.hpp>
 #include <terrane/algorithms/model/model_doubts.hpp>
 #include <terrane/algorithms/model/seal_advice.hpp>
@@ -67,6 +68,7 @@
 #include <terrane/algorithms/volumes/region_points.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 #include <terrane/io/certificate.hpp>
+#include <terrane/io/column.hpp>
 #include <terrane/io/exact_text.hpp>
 #include <terrane/io/files.hpp>
 #include <terrane/io/gocad/gocad.hpp>

@@ -271,7 +271,9 @@ Result<GocadModel> read_model(const fs::path& path) {
 std::vector<StatedRegion> read_stated_regions(const fs::path& path, std::optional<Format> format) {
     const auto chosen = format ? format : format_of(path);
     if (path == "-" || chosen != Format::gocad) return {};
-    const auto model = read_model(path);
+    const auto contents = read_file(path);
+    if (!contents || contents->find("Model3d") == std::string::npos) return {};
+    const auto model = read_gocad_model(*contents, path.string(), path.stem().string());
     return model ? stated_regions_of(*model) : std::vector<StatedRegion>();
 }
 

@@ -81,7 +81,7 @@ Result<GocadModel> read_model(const std::filesystem::path& path);
 
 /// Reads the regions that a file states, by its surfaces in the order of read_surfaces(): those of
 /// the first model of a GOCAD file but the outside, "Universe". There are none in other formats, in
-/// standard input, and where read_model() fails. Cost: that of reading the file again.
+/// standard input, and where read_model() fails. Cost: that of reading a file with a model again.
 std::vector<StatedRegion> read_stated_regions(const std::filesystem::path& path,
                                               std::optional<Format> format = std::nullopt);
 

@@ -212,8 +212,7 @@ private:
                std::size_t{!project_.outputs.tetrahedra.empty()};
     }
 
-    /// Says which stage begins, in log.txt and on standard output at once, so that whoever follows
-    /// the output in a file sees how far the run is.
+    /// Says which stage begins, in log.txt and on standard output at once.
     void begin_stage(const char* name, Phase phase) {
         const auto text = fmt::format("stage {} of {}: {}", ++stages_begun_, stage_count(), name);
         journal_.note(text);
@@ -243,7 +242,8 @@ private:
             return journal_.say(improve_text(*built.improved, inputs_));
         case BuildStage::blocks:
             add_statistics(statistics_, *built.model, session_.times());
-            journal_.say(model_text(inputs_, *built.model));
+            if (auto judged = judge_leaks(built.arranged, *built.model, session_)) leaks_ = *judged;
+            journal_.say(model_text(inputs_, *built.model, leaks_));
             return doubt(*built.model);
         case BuildStage::tetrahedra:
             add_statistics(statistics_, *built.filled, session_.times());
@@ -359,7 +359,7 @@ private:
             return Error{ErrorCode::cannot_open, "cannot be made: " + failed.message(),
                          (to / "model").string()};
         written_.emplace_back("model/");
-        return write_model(*built_.model, built_.arranged.sealed, project_.outputs.blocks,
+        return write_model({*built_.model, built_.arranged.sealed, leaks_}, project_.outputs.blocks,
                            to / "model", session_);
     }
 
@@ -455,8 +455,9 @@ private:
     Inputs inputs_;      ///< names and counts; the surfaces are in built_
     ProjectInputs read_; ///< its surfaces move into the build
     std::size_t stages_begun_ = 0;
-    std::optional<Error> doubts_; ///< about the blocks, with --strict
-    std::string refused_;         ///< why nothing is written; empty: all is well
+    std::optional<Error> doubts_;     ///< about the blocks, with --strict
+    std::optional<LeakAdvice> leaks_; ///< none: not judged
+    std::string refused_;             ///< why nothing is written; empty: all is well
     Built built_;
     std::vector<std::string> written_; ///< names in the folder
 };

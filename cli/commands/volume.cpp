@@ -77,13 +77,11 @@ Examples:
   terrane volume *.ts -o model --polygon licence.txt --between -4000,0
   terrane volume top.ts base.ts F1.ts box.ts -o model --role F1=fault --role box=boundary)";
 
-Status write_folder(const VolumeCommand& command, const Arranged& arranged, const Model& model,
-                    Session& session) {
+Status write_folder(const VolumeCommand& command, const ModelReports& reports, Session& session) {
     session.begin("write", Phase::folder);
     auto folder = NewFolder::create(command.folder);
     if (!folder) return folder.error();
-    if (auto done = write_model(model, arranged.sealed, command.part_format,
-                                folder.value().temporary(), session);
+    if (auto done = write_model(reports, command.part_format, folder.value().temporary(), session);
         !done)
         return done;
     auto published = folder.value().publish();
@@ -186,11 +184,13 @@ Result<ExitStatus> find_blocks(const VolumeCommand& command, Session& session) {
     } else {
         const auto model = find_model(arranged.value(), *naming, session, statistics);
         if (!model) return model.error();
-        print(summary_stream(files), model_text(inputs.value(), model.value()));
+        const auto leaks = judge_leaks(*arranged, *model, session);
+        if (!leaks) return leaks.error();
+        print(summary_stream(files), model_text(*inputs, *model, *leaks));
         if (const auto sound = examine(*model, *inputs, true, statistics); !sound)
             return sound.error();
         Stopwatch writing;
-        const auto written = write_folder(command, arranged.value(), model.value(), session);
+        const auto written = write_folder(command, {*model, arranged->sealed, *leaks}, session);
         if (!written) return written.error();
         print(summary_stream(files), "wrote " + command.folder + "\n");
         if (auto tables = write_tables(command, *model, *inputs, session); !tables)

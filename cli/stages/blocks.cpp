@@ -81,21 +81,58 @@ std::string dangling_text(const Inputs& inputs, const Model& model) {
     return text.empty() ? "no surface dangles\n" : "surfaces that dangle:\n" + text;
 }
 
-/// Lists where surfaces end near others, the smallest gaps first.
-std::string leaks_text(const Inputs& inputs, const Model& model) {
-    const auto leaks = leaks_of(model.borders);
-    if (leaks.empty()) return {};
+std::string leak_line(const Inputs& inputs, const Leak& l) {
     const Quantities quantities(inputs.unit);
-    std::string text = "free borders, by the surface nearest to them and how far it is:\n";
-    for (std::size_t i = 0; i < std::min(leaks.size(), most_leaks); ++i) {
-        const Leak& l = leaks[i];
-        text += fmt::format("  {} ends by {}: along {}, {} apart, most at {}\n",
-                            inputs.labels[l.from], inputs.labels[l.to], quantities.length(l.length),
-                            quantities.lengths(l.least, l.largest, 2), text_of(l.place));
-    }
+    return fmt::format("  {} ends by {}: along {}, {} apart, most at {}\n", inputs.labels[l.from],
+                       inputs.labels[l.to], quantities.length(l.length),
+                       quantities.lengths(l.least, l.largest, 2), text_of(l.place));
+}
+
+std::string leak_lines(const Inputs& inputs, std::span<const Leak> leaks, const char* rest) {
+    std::string text;
+    for (std::size_t i = 0; i < std::min(leaks.size(), most_leaks); ++i)
+        text += leak_line(inputs, leaks[i]);
     if (leaks.size() > most_leaks)
-        text += fmt::format("  and {} more, farther apart\n", leaks.size() - most_leaks);
+        text += fmt::format("  and {} more{}\n", leaks.size() - most_leaks, rest);
     return text;
+}
+
+/// Lists the leaks that separate blocks, counts the harmless ones, and returns the others.
+std::string judged_text(const Inputs& inputs, const LeakAdvice& advice, std::vector<Leak>& leaks) {
+    const Quantities quantities(inputs.unit);
+    const auto distance = quantities.length(advice.distance, 15);
+    auto text =
+        advice.separating.empty()
+            ? fmt::format("leaks: no gap of up to {} separates blocks\n", distance)
+            : fmt::format("leaks: closing gaps of up to {} separates blocks where\n", distance) +
+                  leak_lines(inputs, advice.separating, "");
+    std::vector<Leak> others;
+    std::size_t harmless = 0;
+    double length = 0;
+    for (std::size_t l = 0; l < leaks.size(); ++l) {
+        if (advice.verdicts[l] == LeakVerdict::wide) others.push_back(leaks[l]);
+        if (advice.verdicts[l] != LeakVerdict::harmless) continue;
+        harmless += leaks[l].borders;
+        length += leaks[l].length;
+    }
+    leaks = std::move(others);
+    if (harmless > 0)
+        text += fmt::format("harmless: {} as near to another surface, along {}\n",
+                            counted(harmless, "border"), quantities.length(length));
+    return text;
+}
+
+/// Lists where surfaces end near others: leaks that matter, then the others, the smallest gaps
+/// first.
+std::string leaks_text(const Inputs& inputs, const Model& model,
+                       const std::optional<LeakAdvice>& advice) {
+    auto leaks = leaks_of(model.borders);
+    if (leaks.empty()) return {};
+    std::string text;
+    if (advice && advice->distance > 0) text = judged_text(inputs, *advice, leaks);
+    if (leaks.empty()) return text;
+    return text + "free borders, by the surface nearest to them and how far it is:\n" +
+           leak_lines(inputs, leaks, ", farther apart");
 }
 
 // ---- Files
@@ -114,13 +151,15 @@ std::vector<std::int32_t> side_cells(const Volumes& volumes, std::size_t side) {
 
 class FolderWriter {
 public:
-    FolderWriter(const Model& model, const std::optional<SealReport>& sealed,
-                 const std::string& part_format, const std::filesystem::path& folder) :
-        model_(model),
-        part_format_(part_format), folder_(folder), labels_(unique_labels(model.mesh->surfaces)) {
-        if (!sealed) return;
-        extras_.seal_distance = sealed->distance;
-        extras_.seal_changes = sealed->changes;
+    FolderWriter(const ModelReports& reports, const std::string& part_format,
+                 const std::filesystem::path& folder) :
+        model_(reports.model),
+        part_format_(part_format), folder_(folder),
+        labels_(unique_labels(reports.model.mesh->surfaces)) {
+        if (reports.leaks) extras_.leak_verdicts = reports.leaks->verdicts;
+        if (!reports.sealed) return;
+        extras_.seal_distance = reports.sealed->distance;
+        extras_.seal_changes = reports.sealed->changes;
     }
 
     Status operator()(const Session& session) {
@@ -262,9 +301,20 @@ Result<Model> find_model(const Arranged& arranged, const BlockNaming& naming, Se
     return model;
 }
 
-std::string model_text(const Inputs& inputs, const Model& model) {
+Result<std::optional<LeakAdvice>> judge_leaks(const Arranged& arranged, const Model& model,
+                                              Session& session) {
+    if (arranged.sealed || model.borders.empty()) return std::optional<LeakAdvice>();
+    session.begin("leaks", Phase::computing);
+    auto advice = judge_leaks(arranged, model.borders, {}, session.run());
+    session.end_stage();
+    if (!advice) return advice.error();
+    return std::optional(std::move(*advice));
+}
+
+std::string model_text(const Inputs& inputs, const Model& model,
+                       const std::optional<LeakAdvice>& advice) {
     return blocks_text(inputs, model) + structure_text(model) + dangling_text(inputs, model) +
-           leaks_text(inputs, model);
+           leaks_text(inputs, model, advice);
 }
 
 std::vector<std::string> part_formats() {
@@ -272,10 +322,9 @@ std::vector<std::string> part_formats() {
             "msh", "msh22", "inp", "mesh", "poly", "smesh"};
 }
 
-Status write_model(const Model& model, const std::optional<SealReport>& sealed,
-                   const std::string& part_format, const std::filesystem::path& folder,
-                   const Session& session) {
-    return FolderWriter(model, sealed, part_format, folder)(session);
+Status write_model(const ModelReports& reports, const std::string& part_format,
+                   const std::filesystem::path& folder, const Session& session) {
+    return FolderWriter(reports, part_format, folder)(session);
 }
 
 } // namespace terrane::cli

@@ -151,6 +151,44 @@ TEST_CASE("cli: blocks and interfaces in every format of surfaces", "[cli][names
     CHECK(contains(r.err, "--certificate: is about parts as vtp or obj only"));
 }
 
+TEST_CASE("cli: volumes, areas and lengths have the unit that the files state", "[cli][names]") {
+    const Folder folder;
+    const auto in = folder.input("layers.obj", two_layers);
+    REQUIRE(folder.run("convert " + in + " all.ts").status == 0);
+    const auto with_unit = [&](const std::string& unit) {
+        const auto edit = "sed 's/^ZPOSITIVE/AXIS_UNIT \"" + unit + "\" \"" + unit + "\" \"" +
+                          unit + "\"\\n&/' all.ts > unit.ts";
+        REQUIRE(folder.shell(edit).status == 0);
+        const auto r = folder.run("volume unit.ts -o " + unit + layers_in_box);
+        CHECK(r.status == 0);
+        return r.out;
+    };
+    CHECK(contains(with_unit("m"), "6 closed blocks, volume 512 m3 in all\n"));
+    const auto feet = with_unit("ft");
+    CHECK(contains(feet, "volume 512 ft3 in all\n"));
+    CHECK(contains(feet, "areas of the regions, ft2\n"));
+    CHECK(contains(folder.run("volume " + in + " -o none" + layers_in_box).out,
+                   "volume 512 in all\n"));
+}
+
+TEST_CASE("cli: volume lists the leaks that separate blocks before the others", "[cli][names]") {
+    const Folder folder;
+    const auto r = folder.run("volume $D/../../docs/data/top.ts $D/../../docs/data/base.ts "
+                              "$D/../../docs/data/fault.ts -o out --box 0,0,-1700,2000,1500,-700");
+    INFO(r.err);
+    REQUIRE(r.status == 0);
+    CHECK(contains(r.out, "closed blocks, volume 3 km3 in all\n"));
+    const auto at = r.out.find("leaks: closing gaps of up to 20 m separates blocks where\n"
+                               "  top ends by fault: along ");
+    REQUIRE(at != std::string::npos);
+    CHECK(contains(r.out.substr(at), "\nharmless: "));
+    const auto json = Json::parse(folder.read("out/model.json"));
+    std::size_t separating = 0;
+    for (const auto& leak : json["leaks"])
+        if (leak.value("separates", false)) ++separating;
+    CHECK(separating == 1);
+}
+
 #ifdef TERRANE_HAS_TETGEN
 TEST_CASE("cli: build names blocks and regions by the column of the project", "[cli][names]") {
     const Folder folder;
