@@ -62,9 +62,9 @@ std::string Quantities::volume(double value, int digits) const {
 
 std::string Quantities::with_unit(double value, int digits, int dimension) const {
     if (unit_.empty()) return fmt::format("{:.{}g}", value, digits);
-    digits = digits_without_exponent(value, digits);
     if (unit_ != "m" || std::abs(value) < least_in_kilometres[static_cast<std::size_t>(dimension)])
-        return fmt::format("{:.{}g} {}", value, digits, powered(unit_, dimension));
+        return fmt::format("{:.{}g} {}", value, digits_without_exponent(value, digits),
+                           powered(unit_, dimension));
     return fmt::format("{:.{}g} {}", value / std::pow(1000.0, dimension), digits,
                        powered("km", dimension));
 }
