@@ -24,6 +24,7 @@
 #include <terrane/algorithms/mesh/shared_mesh.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
 #include <terrane/algorithms/model/arrange_within.hpp>
+#include <terrane/algorithms/model/leak_advice.hpp>
 #include <terrane/algorithms/model/model.hpp>
 #include <terrane/algorithms/model/model_doubts.hpp>
 #include <terrane/algorithms/model/seal_advice.hpp>
@@ -48,8 +49,11 @@
 #include <terrane/algorithms/sealing/gaps.hpp>
 #include <terrane/algorithms/sealing/sealing.hpp>
 #include <terrane/algorithms/search/method.hpp>
+#include <terrane/algorithms/structure/block_names.hpp>
+#include <terrane/algorithms/structure/column.hpp>
 #include <terrane/algorithms/structure/free_borders.hpp>
 #include <terrane/algorithms/structure/relations.hpp>
+#include <terrane/algorithms/structure/stated_regions.hpp>
 #include <terrane/algorithms/structure/structure.hpp>
 #include <terrane/algorithms/structure/structure_meshes.hpp>
 #include <terrane/algorithms/tetgen/fill_blocks.hpp>
@@ -64,6 +68,7 @@
 #include <terrane/algorithms/volumes/region_points.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 #include <terrane/io/certificate.hpp>
+#include <terrane/io/column.hpp>
 #include <terrane/io/exact_text.hpp>
 #include <terrane/io/files.hpp>
 #include <terrane/io/gocad/gocad.hpp>

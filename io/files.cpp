@@ -162,7 +162,7 @@ Result<std::string> contents_of(const Mesh& mesh, Format format, const WriteOpti
     case Format::smesh:
         return to_smesh(mesh, options.regions);
     case Format::vtp:
-        return to_vtp(mesh, options.compress, options.cells);
+        return to_vtp(mesh, options.compress, options.cells, options.region_names);
     default:
         break;
     }
@@ -176,7 +176,7 @@ Result<std::string> contents_of(const TetrahedralMesh& mesh, Format format,
                                 const WriteOptions& options) {
     switch (format) {
     case Format::vtu:
-        return to_vtu(mesh, options.compress, options.cells);
+        return to_vtu(mesh, options.compress, options.cells, options.region_names);
     case Format::msh:
         return to_msh(mesh, options.region_names);
     case Format::msh22:
@@ -266,6 +266,24 @@ Result<GocadModel> read_model(const fs::path& path) {
         if (!contents) return contents.error();
         return read_gocad_model(contents.value(), place, path.stem().string());
     });
+}
+
+std::vector<StatedRegion> read_stated_regions(const fs::path& path, std::optional<Format> format) {
+    const auto chosen = format ? format : format_of(path);
+    if (path == "-" || chosen != Format::gocad) return {};
+    const auto contents = read_file(path);
+    if (!contents || contents->find("Model3d") == std::string::npos) return {};
+    const auto model = read_gocad_model(*contents, path.string(), path.stem().string());
+    return model ? stated_regions_of(*model) : std::vector<StatedRegion>();
+}
+
+void append_regions(std::vector<StatedRegion> regions, std::size_t before,
+                    std::vector<StatedRegion>& all) {
+    for (StatedRegion& region : regions) {
+        for (StatedBorder& border : region.borders)
+            border.surface = SurfaceId(border.surface + static_cast<std::uint32_t>(before));
+        all.push_back(std::move(region));
+    }
 }
 
 Result<std::string> format_mesh(const Mesh& mesh, Format format, const WriteOptions& options) {

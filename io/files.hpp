@@ -3,6 +3,7 @@
 // Reading and writing files of any format, which the extension of the file name selects.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -12,6 +13,7 @@
 
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
+#include <terrane/algorithms/structure/stated_regions.hpp>
 #include <terrane/io/gocad/gocad.hpp>
 #include <terrane/io/grids/grid.hpp>
 #include <terrane/io/meshes/cell_array.hpp>
@@ -77,6 +79,16 @@ Result<std::vector<Surface>> parse_surfaces(std::string_view contents, std::stri
 /// Reads a GOCAD model with its parts and regions. Errors: those of read_surfaces.
 Result<GocadModel> read_model(const std::filesystem::path& path);
 
+/// Reads the regions that a file states, by its surfaces in the order of read_surfaces(): those of
+/// the first model of a GOCAD file but the outside, "Universe". There are none in other formats, in
+/// standard input, and where read_model() fails. Cost: that of reading a file with a model again.
+std::vector<StatedRegion> read_stated_regions(const std::filesystem::path& path,
+                                              std::optional<Format> format = std::nullopt);
+
+/// Appends regions of a file whose surfaces follow `before` others.
+void append_regions(std::vector<StatedRegion> regions, std::size_t before,
+                    std::vector<StatedRegion>& all);
+
 /// Options of write_mesh() and write_tetrahedra().
 struct WriteOptions {
     std::optional<Format> format{};     ///< none: by the extension; required for "-"
@@ -84,7 +96,8 @@ struct WriteOptions {
     bool compress = true;               ///< VTP and VTU only: zlib
     std::span<const CellArray> cells{}; ///< VTP and VTU only: further arrays, one value per cell
     std::span<const RegionPoint> regions{}; ///< .poly and .smesh only
-    /// MSH and .inp of tetrahedra only: the name of each region; empty: none
+    /// VTU, MSH and .inp of tetrahedra: the name of each region; VTP: names of blocks, for the field
+    /// block_name; empty: none
     std::span<const std::string> region_names{};
 };
 

@@ -8,6 +8,7 @@
 
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
+#include <terrane/io/detail/column_keys.hpp>
 #include <terrane/io/detail/json_reader.hpp>
 #include <terrane/io/detail/project_keys.hpp>
 #include <terrane/io/text/names.hpp>
@@ -46,6 +47,7 @@ private:
         if (const Json* v = in_.find(json, "folder"))
             project.folder = path_of(in_.text(*v, "folder"));
         if (const Json* v = in_.find(json, "threads")) project.threads = threads(*v);
+        if (const Json* v = in_.find(json, "column")) project.column = column_of(in_, *v);
         if (const Json* v = in_.find(json, "fill"))
             in_.array(*v, "fill", 1, SIZE_MAX, [&](const Json& entry, const std::string& at) {
                 project.fill.push_back(fill(entry, at));
@@ -70,6 +72,9 @@ private:
                 "outputs.certificate",
                 "must be false with fill, layers, improve or depth: a certificate is about whole "
                 "surfaces as their files have them");
+        const std::string& parts = project.outputs.blocks;
+        if (project.outputs.certificate && !parts.empty() && parts != "vtp" && parts != "obj")
+            in_.fail("outputs.certificate", "is about blocks as vtp or obj only");
         if (project.outputs.certificate && project.min_volume)
             in_.fail("outputs.certificate",
                      "must be false with min_volume: a certificate can't show yet that only small "
@@ -286,7 +291,7 @@ private:
         if (const Json* v = in_.find(json, "tetrahedra"))
             o.tetrahedra = in_.words(*v, path + ".tetrahedra", tetrahedra_formats);
         if (const Json* v = in_.find(json, "blocks"))
-            o.blocks = in_.one_of(*v, path + ".blocks", block_formats);
+            o.blocks = in_.one_of(*v, path + ".blocks", surface_formats);
         if (const Json* v = in_.find(json, "certificate"))
             o.certificate = in_.truth(*v, path + ".certificate");
         return o;
@@ -324,6 +329,7 @@ std::vector<std::string> project_keys() {
     };
     add("", project_level);
     add("surfaces[].", surfaces_level);
+    add("column[].", column_level);
     add("fill[].", fill_level);
     add("layers.", layers_level);
     add("layers.order[].", layer_level);

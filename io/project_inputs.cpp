@@ -107,6 +107,9 @@ Result<ProjectInputs> read_inputs(const Project& project, const Run& run) {
             surfaces_of_entry(entry, project, fmt::format("surfaces[{}]", i), read.as_read);
         if (!surfaces) return surfaces.error();
         read.surfaces_of_entry.push_back(surfaces->size());
+        if (entry.objects.empty()) // otherwise numbers are not those of the file
+            append_regions(read_stated_regions(entry.file), read.build.surfaces.size(),
+                           read.build.regions);
         for (Surface& s : *surfaces) {
             read.vertices += s.vertices.size();
             read.triangles += s.triangles.size();

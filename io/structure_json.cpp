@@ -44,6 +44,8 @@ Json blocks_json(const Structure& structure, const StructureExtras& extras) {
     for (std::size_t b = 0; b < structure.blocks.size(); ++b) {
         const ModelBlock& block = structure.blocks[b];
         Json json{{"name", block.name}};
+        if (!block.unit.empty()) json["unit"] = block.unit;
+        if (block.age) json["age"] = *block.age;
         if (!extras.exact_volumes.empty()) json["volume"] = number(extras.exact_volumes[b]);
         json["volume_written"] = number(block.volume);
         json["area"] = number(block.area);
@@ -135,16 +137,19 @@ Json borders_json(std::span<const FreeBorder> borders) {
     return all;
 }
 
-Json leaks_json(std::span<const FreeBorder> borders) {
+Json leaks_json(const StructureExtras& extras) {
     Json all = Json::array();
-    for (const Leak& leak : leaks_of(borders))
-        all.push_back({{"from", std::uint32_t{leak.from}},
-                       {"to", std::uint32_t{leak.to}},
-                       {"borders", leak.borders},
-                       {"length", number(leak.length)},
-                       {"least", number(leak.least)},
-                       {"largest", number(leak.largest)},
-                       {"place", position(leak.place)}});
+    const auto leaks = leaks_of(extras.free_borders);
+    for (std::size_t l = 0; l < leaks.size(); ++l) {
+        const Leak& leak = leaks[l];
+        Json json{{"from", std::uint32_t{leak.from}}, {"to", std::uint32_t{leak.to}},
+                  {"borders", leak.borders},          {"length", number(leak.length)},
+                  {"least", number(leak.least)},      {"largest", number(leak.largest)},
+                  {"place", position(leak.place)}};
+        if (l < extras.leak_verdicts.size() && extras.leak_verdicts[l] != LeakVerdict::wide)
+            json["separates"] = extras.leak_verdicts[l] == LeakVerdict::separates;
+        all.push_back(std::move(json));
+    }
     return all;
 }
 
@@ -199,7 +204,7 @@ std::string to_json(const Mesh& mesh, const Structure& structure, const Structur
     json["lines"] = lines_json(structure);
     json["corners"] = corners_json(mesh, structure);
     json["free_borders"] = borders_json(extras.free_borders);
-    json["leaks"] = leaks_json(extras.free_borders);
+    json["leaks"] = leaks_json(extras);
     if (extras.seal_distance > 0) json["seal"] = seal_json(extras);
     return text_of(json);
 }

@@ -6,7 +6,9 @@
 //   format      "terrane-model 1"
 //   surfaces    the input surfaces: name, role (unknown, horizon, fault, boundary), area,
 //               dangling_area (area of the parts with the same block on both sides)
-//   blocks      [0] is the outside, then the blocks by number: name, volume (of the exact block,
+//   blocks      [0] is the outside, then the blocks by number: name, unit (of a stratigraphic
+//               column, or layer of the file; only where there is one), age (of the base of that
+//               unit, where the column has it), volume (of the exact block,
 //               rounded to the nearest double; null for a block that only rounding made),
 //               volume_written (volume of the rounded mesh, to the nearest double), area, above,
 //               below, beside (surfaces), interfaces (around it), inner_interfaces (dangling in
@@ -24,7 +26,8 @@
 //               surface, length of the part, least and largest distance, place of the largest
 //   leaks       the gaps of all free borders by pairs of surfaces and order of magnitude, the
 //               smallest distances first: from (the surface that ends), to (the nearest one),
-//               borders (number of parts), length, least, largest, place
+//               borders (number of parts), length, least, largest, place; separates (whether closing
+//               it separates blocks) where that is known
 //   seal        only if gaps were closed on request: distance (the one requested), changes: kind
 //               (extended, trimmed), surface, length of the border there, largest distance, place,
 //               triangles (added or removed)
@@ -39,6 +42,7 @@
 #include <vector>
 
 #include <terrane/algorithms/mesh/mesh.hpp>
+#include <terrane/algorithms/model/leak_advice.hpp>
 #include <terrane/algorithms/sealing/sealing.hpp>
 #include <terrane/algorithms/structure/free_borders.hpp>
 #include <terrane/algorithms/structure/structure.hpp>
@@ -47,12 +51,14 @@ namespace terrane {
 
 /// The contents of the file beyond the structure.
 struct StructureExtras {
-    std::vector<double> exact_volumes{};        ///< per volume; NaN if it has none
-    std::vector<std::string> block_files{};     ///< per volume; empty: none
-    std::vector<std::string> interface_files{}; ///< per interface; empty: none
-    std::span<const FreeBorder> free_borders{}; ///< all of the structure
-    double seal_distance = 0;                   ///< 0: not requested
-    std::span<const SealChange> seal_changes{}; ///< what sealing did
+    std::vector<double> exact_volumes{};          ///< per volume; NaN if it has none
+    std::vector<std::string> block_files{};       ///< per volume; empty: none
+    std::vector<std::string> interface_files{};   ///< per interface; empty: none
+    std::span<const FreeBorder> free_borders{};   ///< all of the structure
+    std::span<const LeakVerdict> leak_verdicts{}; ///< per entry of leaks_of(free_borders); empty:
+                                                  ///< they were not judged
+    double seal_distance = 0;                     ///< 0: not requested
+    std::span<const SealChange> seal_changes{};   ///< what sealing did
 };
 
 /// Returns the JSON text. Precondition: the lists of extras are empty or have the lengths stated.

@@ -37,7 +37,8 @@ Result<Arrangement> arrange_or_seal(const ArrangeWithinOptions& options, const R
     auto sealed = seal(std::move(arranged.surfaces), {options.seal, options.arrange}, run);
     if (!sealed) return sealed.error();
     arranged.surfaces = std::move(sealed->surfaces);
-    arranged.sealed = SealReport{options.seal, std::move(sealed->changes), sealed->left};
+    arranged.sealed = SealReport{options.seal, std::move(sealed->changes),
+                                 std::move(sealed->closed), sealed->left};
     return std::move(sealed->arrangement);
 }
 
@@ -76,13 +77,16 @@ Result<SealChoice> choose_seal(const std::vector<Surface>& surfaces,
     ArrangeWithinOptions unsealed = options;
     unsealed.seal = unsealed.min_volume = 0;
     unsealed.seal_automatic = false;
-    SealChoice choice;
-    choice.edge_length = median_edge_length(surfaces);
-    choice.widest = widest_gap * choice.edge_length;
-    if (!(choice.widest > 0)) return choice;
+    const double edge_length = median_edge_length(surfaces);
+    if (!(edge_length > 0)) return SealChoice{};
     const auto arranged = arrange_exactly_within(surfaces, boundary, unsealed, run);
     if (!arranged) return arranged.error();
-    const auto gaps = find_gaps(arranged->exact, break_beyond * choice.widest, run);
+    return choose_seal(arranged->exact, edge_length, run);
+}
+
+Result<SealChoice> choose_seal(const Arrangement& arrangement, double edge_length, const Run& run) {
+    SealChoice choice{.edge_length = edge_length, .widest = widest_gap * edge_length};
+    const auto gaps = find_gaps(arrangement, break_beyond * choice.widest, run);
     if (!gaps) return gaps.error();
     choice.breaks = find_breaks(*gaps, break_beyond * choice.widest);
     std::erase_if(choice.breaks, [&](const GapBreak& b) { return b.low > choice.widest; });
@@ -110,6 +114,7 @@ Result<Arranged> arrange_exactly_within(std::vector<Surface> surfaces,
     }
     std::vector<std::uint32_t> sides(boundary.size()); // indices of the boundary's surfaces
     std::iota(sides.begin(), sides.end(), static_cast<std::uint32_t>(surfaces.size()));
+    arranged.boundary_count = boundary.size();
     arranged.surfaces = std::move(surfaces);
     std::move(boundary.begin(), boundary.end(), std::back_inserter(arranged.surfaces));
     if (chosen.extend != 0 || chosen.seal != 0)

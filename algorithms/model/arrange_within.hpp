@@ -45,6 +45,7 @@ struct SealChoice {
 struct SealReport {
     double distance = 0;               ///< the option seal
     std::vector<SealChange> changes{}; ///< see Sealed
+    std::vector<ClosedGap> closed{};   ///< see Sealed
     double left = 0;                   ///< see Sealed
 };
 
@@ -66,6 +67,7 @@ struct Arranged {
     std::optional<BlockMerge> merged;                    ///< with min_volume
     std::optional<std::vector<ExtendedBorder>> extended; ///< where asked for
     std::vector<SurfaceGrowth> growth; ///< per surface of the input; with seal or extend
+    std::size_t boundary_count = 0;    ///< of the surfaces; they come last
 };
 
 /// Arranges and rounds the surfaces. `boundary` is that of a volume of interest; empty: there is
@@ -85,6 +87,10 @@ Result<Arranged> arrange_exactly_within(std::vector<Surface> surfaces,
 Result<SealChoice> choose_seal(const std::vector<Surface>& surfaces,
                                const std::vector<Surface>& boundary,
                                const ArrangeWithinOptions& options = {}, const Run& run = {});
+
+/// Does the same by an arrangement that was not sealed; `edge_length` is the median of the edges.
+Result<SealChoice> choose_seal(const Arrangement& arrangement, double edge_length,
+                               const Run& run = {});
 
 /// Lists the constants that decide the choice.
 std::vector<NamedConstant> seal_choice_constants();

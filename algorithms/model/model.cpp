@@ -5,15 +5,30 @@
 #include <numeric>
 #include <utility>
 
+#include <terrane/algorithms/core/no_index.hpp>
 #include <terrane/algorithms/core/stage_timer.hpp>
 
 namespace terrane {
 namespace {
 
+/// Returns the names that are given to the exact blocks.
+GivenNames names_given(const Arrangement& arrangement, const Volumes& exact,
+                       const BlockNaming& naming) {
+    GivenNames given{.column = naming.column};
+    if (naming.regions.empty()) return given;
+    for (const std::uint32_t r : match_regions(arrangement, exact, naming.regions)) {
+        given.regions.push_back(r == no_index ? "" : naming.regions[r].name);
+        given.layers.push_back(r == no_index ? "" : naming.regions[r].layer);
+    }
+    return given;
+}
+
 /// Adds what follows from the volumes: structure, free borders and times.
-Result<Model> finished(Model model, const Run& run) {
+Result<Model> finished(Model model, const GivenNames& given, const Run& run) {
     StageTimer timer(run, "structure");
     model.structure = build_structure(model.mesh, model.volumes);
+    if (!given.column.empty() || !given.regions.empty())
+        name_blocks(model.mesh, model.volumes, given, model.structure);
     model.borders = find_free_borders(model.mesh, model.structure);
     timer.stop();
     if (run.stop.stop_requested()) return Error{ErrorCode::interrupted, "stopped on request", ""};
@@ -41,8 +56,8 @@ std::vector<std::uint32_t> own_numbers(const Volumes& volumes) {
 
 } // namespace
 
-Result<Model> make_model(const Arrangement& arrangement, const ConformingMesh& mesh,
-                         const Run& run) {
+Result<Model> make_model(const Arrangement& arrangement, const ConformingMesh& mesh, const Run& run,
+                         const BlockNaming& naming) {
     StageTimer timer(run, "volumes");
     const Run inner = timer.inside();
     const auto exact = find_volumes(arrangement, inner);
@@ -51,19 +66,20 @@ Result<Model> make_model(const Arrangement& arrangement, const ConformingMesh& m
     if (!rounded) return rounded.error();
     Model model{.mesh = mesh, .exact_volumes = exact->measures};
     number(*rounded, match_volumes(arrangement, *exact, mesh, *rounded), model);
+    const GivenNames given = names_given(arrangement, *exact, naming);
     timer.stop();
-    return finished(std::move(model), run);
+    return finished(std::move(model), given, run);
 }
 
 Result<Model> make_model(const Arrangement& arrangement, const ConformingMesh& rounded,
-                         const Improved& improved, const Run& run) {
+                         const Improved& improved, const Run& run, const BlockNaming& naming) {
     StageTimer timer(run, "volumes");
     Model model{.mesh = improved.conforming.value()};
     if (!improved.report.sides_kept) {
         model.exact_volumes = improved.volumes.measures;
         number(improved.volumes, own_numbers(improved.volumes), model);
         timer.stop();
-        return finished(std::move(model), run);
+        return finished(std::move(model), {.column = naming.column}, run);
     }
     const auto exact = find_volumes(arrangement, timer.inside());
     if (!exact) return exact.error();
@@ -74,8 +90,9 @@ Result<Model> make_model(const Arrangement& arrangement, const ConformingMesh& r
     number(improved.volumes, match, model);
     for (std::size_t v = 0; v < match.size(); ++v)
         if (match[v] != UINT32_MAX) model.exact_volumes[match[v]] = improved.volumes.measures[v];
+    const GivenNames given = names_given(arrangement, *exact, naming);
     timer.stop();
-    return finished(std::move(model), run);
+    return finished(std::move(model), given, run);
 }
 
 Volumes volumes_as_found(const Model& model) {

@@ -3,7 +3,6 @@
 // A model consists of a conforming mesh, its blocks and its structure. Blocks have the numbers of
 // the exact arrangement, so that rounding, which may lose thin blocks, changes no number: every
 // stage and every file uses the same number for a block.
-// file calls a block by the same one.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +14,9 @@
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/quality/improve.hpp>
+#include <terrane/algorithms/structure/block_names.hpp>
 #include <terrane/algorithms/structure/free_borders.hpp>
+#include <terrane/algorithms/structure/stated_regions.hpp>
 #include <terrane/algorithms/structure/structure.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 
@@ -38,19 +39,26 @@ struct Model {
     [[nodiscard]] std::size_t block_count() const { return exact_volumes.size() - 1; }
 };
 
-/// Finds the volumes of the arrangement and of its rounded mesh, matches them, and builds the
-/// structure. Precondition: `rounded` was made from `exact`. Cost: that of find_volumes, twice, and
+/// What people said about the blocks.
+struct BlockNaming {
+    StratigraphicColumn column{};        ///< empty: none
+    std::vector<StatedRegion> regions{}; ///< that files state, by the surfaces of the arrangement
+};
+
+/// Finds the volumes of the arrangement and of its rounded mesh, matches them, builds the structure
+/// and names the blocks. Precondition: `rounded` was made from `exact`. Cost: that of find_volumes, twice, and
 /// of sorting. Errors: those of find_volumes, interrupted.
 Result<Model> make_model(const Arrangement& exact, const ConformingMesh& rounded,
-                         const Run& run = {});
+                         const Run& run = {}, const BlockNaming& naming = {});
 
 /// Makes the model of an improved mesh. Precondition: `exact` was rounded, and the result improved.
 /// Blocks keep the numbers of the exact ones; exact_volumes are those of the improved mesh, except
 /// for blocks that rounding lost. If report.sides_kept is false, blocks can't be matched: they have
-/// the numbers of find_volumes(mesh). Cost: that of find_volumes, once. Errors: those of
+/// the numbers of find_volumes(mesh), and stated regions do not name them. Cost: that of find_volumes, once. Errors: those of
 /// find_volumes, interrupted.
 Result<Model> make_model(const Arrangement& exact, const ConformingMesh& rounded,
-                         const Improved& improved, const Run& run = {});
+                         const Improved& improved, const Run& run = {},
+                         const BlockNaming& naming = {});
 
 /// Returns the volumes of the mesh by the numbers of find_volumes(mesh), without finding them
 /// again.

@@ -36,6 +36,8 @@ public:
         input_(std::move(input)), run_(run), observer_(observer) {}
 
     Result<Built> operator()() {
+        if (auto sound = check_column(project_.column, infos_of(input_.surfaces)); !sound)
+            return at_key(project_, sound.error().place, sound.error().sentence);
         const bool preprocessing = !project_.fill.empty() || project_.layers;
         if (preprocessing)
             if (auto done = stage(BuildStage::preprocess, &Builder::preprocess_surfaces); !done)
@@ -118,8 +120,11 @@ private:
 
     Status find_blocks() {
         const Arrangement& exact = built_.arranged.exact;
-        auto model = built_.improved ? make_model(exact, rounded(), built_.improved->improved, run_)
-                                     : make_model(exact, rounded(), run_);
+        BlockNaming naming{.column = project_.column};
+        if (!project_.layers) naming.regions = std::move(input_.regions);
+        auto model = built_.improved
+                         ? make_model(exact, rounded(), built_.improved->improved, run_, naming)
+                         : make_model(exact, rounded(), run_, naming);
         if (!model) return model.error();
         built_.model = std::move(*model);
         return Done{};

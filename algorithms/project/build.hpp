@@ -33,8 +33,10 @@ namespace terrane {
 
 /// The surfaces in the files of a project.
 struct BuildInput {
-    std::vector<Surface> surfaces{}; ///< with the names and roles that the project gives them
-    std::vector<Surface> boundary{}; ///< of the volume of interest; empty: there is none
+    std::vector<Surface> surfaces{};     ///< with the names and roles that the project gives them
+    std::vector<Surface> boundary{};     ///< of the volume of interest; empty: there is none
+    std::vector<StatedRegion> regions{}; ///< that the files state, by the surfaces; without use
+                                         ///< where layers are put in order
 };
 
 /// The stages in their order. A stage that the project does not ask for is left out.

@@ -15,6 +15,7 @@
 #include <terrane/algorithms/check/pair_check.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
+#include <terrane/algorithms/structure/column.hpp>
 #include <terrane/algorithms/tetgen/tetrahedra.hpp>
 #include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
 
@@ -108,7 +109,7 @@ struct ProjectOutputs {
     std::vector<std::string> surfaces{}; ///< names for format_named
     std::vector<std::string>
         tetrahedra{};         ///< names for format_named; empty: no tetrahedra are made
-    std::string blocks{};     ///< "vtp", "obj"; empty: none
+    std::string blocks{};     ///< name for format_named; empty: none
     bool certificate = false; ///< whether to write one
 };
 
@@ -119,6 +120,7 @@ struct Project {
     std::vector<ProjectSurfaces> surfaces{}; ///< >= 1
     std::variant<std::monostate, ProjectBox, RotatedBox, ProjectPolygon, ProjectWithin>
         volume{};                          ///< the volume of interest
+    StratigraphicColumn column{};          ///< empty: none
     std::vector<ProjectFill> fill{};       ///< no surface is in two of them
     std::optional<ProjectLayers> layers{}; ///< none: horizons are not put in order
     std::optional<double> extend{}; ///< limit of the extension of horizons that end in the volume,

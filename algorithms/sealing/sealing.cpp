@@ -198,6 +198,7 @@ private:
     void finish() {
         list_extended();
         list_trimmed();
+        list_closed();
         std::sort(sealed_.changes.begin(), sealed_.changes.end(),
                   [](const SealChange& a, const SealChange& b) {
                       return std::tie(a.kind, a.surface, a.place, a.length) <
@@ -249,6 +250,28 @@ private:
         for (const Overshoot& shoot : judged_.overshoots)
             sealed_.changes.push_back({SealKind::trimmed, shoot.surface, shoot.length,
                                        shoot.largest, shoot.place, shoot.triangles.size()});
+    }
+
+    void list_closed() {
+        const auto by_input = strips_by_input(whole_, strips_);
+        std::map<std::uint32_t, ClosedGap> closed; // by piece
+        for (std::uint32_t i = 0; i < by_input.size(); ++i) {
+            if (by_input[i] == no_index) continue;
+            const ExtensionTriangle& t = strips_[by_input[i]];
+            if (t.is_fan) continue;
+            const Gap& gap = gaps_[t.piece];
+            ClosedGap& entry = closed[t.piece];
+            entry.from = SurfaceId(t.surface);
+            entry.to = SurfaceId(gap.to);
+            entry.length = gap.length;
+            entry.width = gap.largest;
+            entry.place = gap.place;
+            entry.triangles.push_back(i);
+        }
+        for (auto& [piece, gap] : closed) sealed_.closed.push_back(std::move(gap));
+        std::ranges::stable_sort(sealed_.closed, {}, [](const ClosedGap& gap) {
+            return std::tuple(gap.from, gap.to, gap.place);
+        });
     }
 
     const std::vector<Surface> surfaces_; ///< those of the input

@@ -52,12 +52,24 @@ struct SealChange {
     std::size_t triangles = 0; ///< of the arrangement: added, or removed
 };
 
+/// The free part of a border edge that a strip extends to another surface.
+struct ClosedGap {
+    SurfaceId from{};                       ///< the surface that ended there
+    SurfaceId to{};                         ///< the surface nearest to `place`
+    double length = 0;                      ///< of the free part
+    double width = 0;                       ///< largest distance from the nearest other surface
+    Point3 place{};                         ///< where that is
+    std::vector<std::uint32_t> triangles{}; ///< of its strip, as input triangles of the
+                                            ///< arrangement, ascending
+};
+
 /// The arrangement of surfaces whose gaps are closed.
 struct Sealed {
     std::vector<Surface> surfaces;   ///< those of the input; triangles of strips come last in each
                                      ///< and count as input triangles of the arrangement
     Arrangement arrangement;         ///< restricted to the kept triangles
     std::vector<SealChange> changes; ///< by kind, surface, place
+    std::vector<ClosedGap> closed;   ///< by extension: by from, to, place
     unsigned passes = 0;             ///< passes in which strips were built
     double left = 0; ///< length of the input's free borders that remain this near to another
                      ///< surface, for example where that surface ends beside them

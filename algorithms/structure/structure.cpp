@@ -9,6 +9,7 @@
 #include <utility>
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
+#include <terrane/algorithms/structure/block_names.hpp>
 #include <terrane/algorithms/structure/detail/parts.hpp>
 
 namespace terrane {
@@ -55,6 +56,7 @@ public:
         find_patches();
         add_lines(mesh_, edges_, ranks_, out_);
         add_blocks(mesh_, volumes_, out_);
+        name_blocks(mesh_, volumes_, {}, out_);
         return std::move(out_);
     }
 

@@ -18,6 +18,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -83,8 +84,9 @@ struct ModelInterface {
 /// as beside otherwise. A surface is above, below or beside the block if at least a tenth of its
 /// area at the block is, and where most of it is.
 struct ModelBlock {
-    std::string name{}; ///< "top/base|fault": above/below|beside, "-" for none, "+" between two;
-                        ///< made unique by " 2", " 3", ...
+    std::string name{}; ///< different for all; see block_names.hpp
+    std::string unit{}; ///< of a stratigraphic column, or layer that a file states; empty: none
+    std::optional<double> age{};                   ///< of the base of that unit, as in the column
     std::vector<std::uint32_t> above{};            ///< surfaces above it, ascending
     std::vector<std::uint32_t> below{};            ///< surfaces below it, ascending
     std::vector<std::uint32_t> beside{};           ///< surfaces beside it, ascending
@@ -106,7 +108,8 @@ struct Structure {
     std::vector<std::uint32_t> interface_of{}; ///< per triangle
 };
 
-/// Builds the structure. `volumes` must be those of the mesh; roles come from its surfaces.
+/// Builds the structure. `volumes` must be those of the mesh; roles come from its surfaces. Blocks
+/// are named by what bounds them; name_blocks() gives them names that people gave.
 Structure build_structure(const Mesh& mesh, const Volumes& volumes);
 
 /// Lists the constants that decide the result and are not options.

@@ -12,7 +12,6 @@
 
 #include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/core/stopwatch.hpp>
-#include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/project/build.hpp>
 #include <terrane/algorithms/tetgen/tetgen_helper.hpp>
 #include <terrane/algorithms/volumes/region_points.hpp>
@@ -167,7 +166,7 @@ private:
         read_ = std::move(*inputs);
         if (auto sound = check_read_names(); !sound) return sound;
         inputs_.surfaces_of_file = read_.surfaces_of_entry;
-        inputs_.labels = unique_labels(infos_of(read_.build.surfaces));
+        describe(read_.build.surfaces, inputs_);
         inputs_.vertices = read_.vertices;
         inputs_.triangles = read_.triangles;
         inputs_.strict = strict_;
@@ -213,8 +212,7 @@ private:
                std::size_t{!project_.outputs.tetrahedra.empty()};
     }
 
-    /// Says which stage begins, in log.txt and on standard output at once, so that whoever follows
-    /// the output in a file sees how far the run is.
+    /// Says which stage begins, in log.txt and on standard output at once.
     void begin_stage(const char* name, Phase phase) {
         const auto text = fmt::format("stage {} of {}: {}", ++stages_begun_, stage_count(), name);
         journal_.note(text);
@@ -244,11 +242,12 @@ private:
             return journal_.say(improve_text(*built.improved, inputs_));
         case BuildStage::blocks:
             add_statistics(statistics_, *built.model, session_.times());
-            journal_.say(model_text(inputs_, *built.model));
+            if (auto judged = judge_leaks(built.arranged, *built.model, session_)) leaks_ = *judged;
+            journal_.say(model_text(inputs_, *built.model, leaks_));
             return doubt(*built.model);
         case BuildStage::tetrahedra:
             add_statistics(statistics_, *built.filled, session_.times());
-            return journal_.say(filled_text(*built.filled));
+            return journal_.say(filled_text(*built.filled, inputs_.unit));
         }
     }
 
@@ -360,7 +359,7 @@ private:
             return Error{ErrorCode::cannot_open, "cannot be made: " + failed.message(),
                          (to / "model").string()};
         written_.emplace_back("model/");
-        return write_model(*built_.model, built_.arranged.sealed, project_.outputs.blocks,
+        return write_model({*built_.model, built_.arranged.sealed, leaks_}, project_.outputs.blocks,
                            to / "model", session_);
     }
 
@@ -456,8 +455,9 @@ private:
     Inputs inputs_;      ///< names and counts; the surfaces are in built_
     ProjectInputs read_; ///< its surfaces move into the build
     std::size_t stages_begun_ = 0;
-    std::optional<Error> doubts_; ///< about the blocks, with --strict
-    std::string refused_;         ///< why nothing is written; empty: all is well
+    std::optional<Error> doubts_;     ///< about the blocks, with --strict
+    std::optional<LeakAdvice> leaks_; ///< none: not judged
+    std::string refused_;             ///< why nothing is written; empty: all is well
     Built built_;
     std::vector<std::string> written_; ///< names in the folder
 };

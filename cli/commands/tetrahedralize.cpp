@@ -16,6 +16,7 @@
 #include <terrane/algorithms/tetgen/fill_blocks.hpp>
 #include <terrane/algorithms/tetgen/tetgen_helper.hpp>
 #include <terrane/cli/commands/command.hpp>
+#include <terrane/cli/options/column.hpp>
 #include <terrane/cli/options/roles.hpp>
 #include <terrane/cli/reports/tetrahedra_report.hpp>
 #include <terrane/cli/stages/block_certificate.hpp>
@@ -34,6 +35,7 @@ struct TetrahedralizeCommand {
     std::vector<std::string> roles;            ///< NAME=ROLE
     std::vector<std::string> size_of, size_in; ///< NAME=L
     std::vector<std::string> split;
+    std::string column; ///< file; empty: none
     bool blocks_only = false;
     std::string certificate; ///< file; empty: none
 };
@@ -53,8 +55,8 @@ edge.
 VTU has arrays region, surface and parent; MSH physical groups; Abaqus INP element sets, node sets
 and surfaces; MEDIT references: region and surface + 1.
 
-Names of blocks are those of `terrane volume`: "top/base|F1" has top above, base below and F1 beside
-it. With --split two tetrahedra at a surface share a node only where they hang together round it
+Names of blocks are those of `terrane volume`: units of --column, regions of a GOCAD model, or "below
+top, above base, west of F1". With --split two tetrahedra at a surface share a node only where they hang together round it
 without crossing what is split: a surface that ends inside keeps one node at its border, and each
 sector where surfaces cross has its own. VTU then has the arrays twin and cut_side, MSH groups for
 both sides and $Periodic, INP pairs as unsorted node sets, MEDIT references and comments.
@@ -150,6 +152,8 @@ Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Se
     if (!inputs) return inputs.error();
     const auto roles = roles_of(inputs.value());
     if (const auto set = set_roles(command.roles, inputs.value()); !set) return set.error();
+    const auto naming = naming_of(command.column, *inputs);
+    if (!naming) return naming.error();
     Json statistics = statistics_of(inputs.value(), session.times());
 
     auto arranged = arrange_and_round(inputs.value(), command.settings, session, statistics);
@@ -164,13 +168,13 @@ Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Se
     }
 
     session.begin("volumes", Phase::computing);
-    const auto model =
-        make_model(arranged.value().exact, *arranged.value().rounded.conforming, session.run());
+    const auto model = make_model(arranged.value().exact, *arranged.value().rounded.conforming,
+                                  session.run(), *naming);
     if (!model) return model.error();
     if (const auto sound = examine(*model, *inputs, true, statistics); !sound) return sound.error();
     const auto filled = fill(model.value(), wishes.value(), session, statistics);
     if (!filled) return filled.error();
-    print(summary_stream(files), filled_text(filled.value()));
+    print(summary_stream(files), filled_text(filled.value(), inputs->unit));
     const TetrahedraReport& report = filled.value().report;
     const bool good = report.violations.empty();
     Stopwatch writing;
@@ -253,6 +257,7 @@ Command tetrahedralize_command(CLI::App& program) {
         "File for the tetrahedra, .vtu .msh .inp .mesh; - is standard output; may be repeated");
     add_msh(*app, command->files);
     add_roles(*app, command->roles);
+    add_column(*app, command->column);
     add_tetrahedra_options(*app, *command);
     add_certificate(*app, command->certificate);
     add_settings(*app, command->settings);

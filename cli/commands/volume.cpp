@@ -5,6 +5,7 @@
 
 #include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/cli/commands/command.hpp>
+#include <terrane/cli/options/column.hpp>
 #include <terrane/cli/options/roles.hpp>
 #include <terrane/cli/reports/relation_report.hpp>
 #include <terrane/cli/reports/seal_report.hpp>
@@ -24,6 +25,7 @@ struct VolumeCommand {
     std::string folder;
     std::vector<std::string> roles; ///< NAME=ROLE
     std::string part_format = "vtp";
+    std::string column;        ///< file; empty: none
     std::string certificate;   ///< file; empty: none
     std::string relations;     ///< file for the table of relations; here and below, empty: none
     std::string juxtaposition; ///< file for the table of areas between blocks
@@ -36,6 +38,7 @@ a conforming mesh nothing is written, and the exit status is 1. Blocks are the v
 surfaces enclose, 1, 2, ...; 0 is the outside. DIR must not exist, or be empty. It gets
 
   model.json         blocks, interfaces, lines, corners, free borders and leaks
+  model.vtm          all blocks and interfaces under their names, for ParaView
   result.vtp         the whole mesh; arrays volume_front, volume_back, interface, patch
   blocks/            the closed boundary of each block, wound outward
   interfaces/        what lies between the same two blocks and in the same surfaces
@@ -54,6 +57,10 @@ With a volume of interest (--box, --rotated-box, --polygon, --within) all surfac
 boundary, exactly, the inside is kept, and the boundary closes it: its faces are surfaces of their
 own, "boundary top", "boundary side 1", ... --extend D extends horizons that end inside.
 
+Blocks are named by the units of --column FILE.json, else as a GOCAD model names its regions, else by
+what bounds them: "below top, above base, west of F1". A column lists the units from the top down with
+the horizons at their bases: {"column": [{"unit": "Cover", "surface": "top"}, {"unit": "Basement"}]}
+
 --relations FILE.csv lists which surface stops at which other one, crosses it, or ends near it, along
 which length and with which gap; --juxtaposition FILE.csv lists which blocks face each other across which
 surface, and the area.
@@ -70,13 +77,11 @@ Examples:
   terrane volume *.ts -o model --polygon licence.txt --between -4000,0
   terrane volume top.ts base.ts F1.ts box.ts -o model --role F1=fault --role box=boundary)";
 
-Status write_folder(const VolumeCommand& command, const Arranged& arranged, const Model& model,
-                    Session& session) {
+Status write_folder(const VolumeCommand& command, const ModelReports& reports, Session& session) {
     session.begin("write", Phase::folder);
     auto folder = NewFolder::create(command.folder);
     if (!folder) return folder.error();
-    if (auto done = write_model(model, arranged.sealed, command.part_format,
-                                folder.value().temporary(), session);
+    if (auto done = write_model(reports, command.part_format, folder.value().temporary(), session);
         !done)
         return done;
     auto published = folder.value().publish();
@@ -86,6 +91,9 @@ Status write_folder(const VolumeCommand& command, const Arranged& arranged, cons
 
 /// Checks before any work is done that the folder is given and will do, or that none is wanted.
 Status check_output(const VolumeCommand& command) {
+    if (!command.certificate.empty() && command.part_format != "vtp" &&
+        command.part_format != "obj")
+        return Error{ErrorCode::bad_option, "is about parts as vtp or obj only", "--certificate"};
     if (!command.suggests) {
         if (!command.folder.empty()) return check_new_folder(command.folder);
         return Error{ErrorCode::bad_option, "the folder for the model is missing", "--output"};
@@ -134,7 +142,7 @@ Result<ExitStatus> suggest_seal(const VolumeCommand& command, Session& session) 
                                     options_within(command.settings, *inputs), session.run());
     session.end_stage();
     if (!advice) return advice.error();
-    print(summary_stream(files), text_of(*advice));
+    print(summary_stream(files), text_of(*advice, *inputs));
     add_statistics(statistics, *advice);
     add_constants(statistics, "seal", seal_constants());
     add_constants(statistics, "seal_choice", seal_choice_constants());
@@ -162,6 +170,8 @@ Result<ExitStatus> find_blocks(const VolumeCommand& command, Session& session) {
     if (!inputs) return inputs.error();
     const auto roles = roles_of(inputs.value());
     if (const auto set = set_roles(command.roles, inputs.value()); !set) return set.error();
+    const auto naming = naming_of(command.column, *inputs);
+    if (!naming) return naming.error();
     Json statistics = statistics_of(inputs.value(), session.times());
 
     auto arranged = arrange_and_round(inputs.value(), command.settings, session, statistics);
@@ -172,13 +182,15 @@ Result<ExitStatus> find_blocks(const VolumeCommand& command, Session& session) {
         print(stderr, offending_pairs(inputs.value(), arranged.value()));
         print(stderr, "terrane: no blocks without a conforming mesh; nothing written\n");
     } else {
-        const auto model = find_model(arranged.value(), session, statistics);
+        const auto model = find_model(arranged.value(), *naming, session, statistics);
         if (!model) return model.error();
-        print(summary_stream(files), model_text(inputs.value(), model.value()));
+        const auto leaks = judge_leaks(*arranged, *model, session);
+        if (!leaks) return leaks.error();
+        print(summary_stream(files), model_text(*inputs, *model, *leaks));
         if (const auto sound = examine(*model, *inputs, true, statistics); !sound)
             return sound.error();
         Stopwatch writing;
-        const auto written = write_folder(command, arranged.value(), model.value(), session);
+        const auto written = write_folder(command, {*model, arranged->sealed, *leaks}, session);
         if (!written) return written.error();
         print(summary_stream(files), "wrote " + command.folder + "\n");
         if (auto tables = write_tables(command, *model, *inputs, session); !tables)
@@ -209,8 +221,11 @@ Command volume_command(CLI::App& program) {
                   "List natural breaks in the widths of gaps, and the blocks for each distance; "
                   "write nothing");
     add_roles(*app, command->roles);
-    app->add_option("--parts", command->part_format, "Format of blocks and interfaces: vtp, obj")
-        ->check(CLI::IsMember({"vtp", "obj"}).description(""))
+    add_column(*app, command->column);
+    app->add_option("--parts", command->part_format,
+                    "Format of blocks and interfaces: vtp, obj, ts, ply, off, stl, msh, msh22, "
+                    "inp, mesh, poly, smesh")
+        ->check(CLI::IsMember(part_formats()).description(""))
         ->type_name("FORMAT");
     app->add_option("--relations", command->relations,
                     "Which surface stops at, crosses or ends near which other one, as a table")

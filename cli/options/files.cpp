@@ -11,6 +11,7 @@
 #include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/cli/session/console.hpp>
+#include <terrane/cli/session/quantities.hpp>
 
 namespace terrane::cli {
 
@@ -189,6 +190,8 @@ Result<Inputs> read_inputs(const FileOptions& options, Session& session) {
             return read.error();
         }
         all.surfaces_of_file.push_back(read.value().size());
+        append_regions(read_stated_regions(path, format_of_input(options, path)),
+                       all.surfaces.size(), all.regions);
         for (Surface& s : read.value()) {
             all.vertices += s.vertices.size();
             all.triangles += s.triangles.size();
@@ -199,10 +202,15 @@ Result<Inputs> read_inputs(const FileOptions& options, Session& session) {
     session.end_stage();
     if (std::max(all.vertices, all.triangles) >= UINT32_MAX)
         return Error{ErrorCode::unsupported, "more than 4294967294 vertices or triangles", ""};
-    all.labels = unique_labels(infos_of(all.surfaces));
+    describe(all.surfaces, all);
     all.statistics_wanted = !options.stats.empty();
     all.strict = options.strict;
     return all;
+}
+
+void describe(std::span<const Surface> surfaces, Inputs& inputs) {
+    inputs.labels = unique_labels(infos_of(surfaces));
+    inputs.unit = common_unit(surfaces);
 }
 
 std::string name_of_inputs(const FileOptions& options) {

@@ -67,7 +67,9 @@ struct Inputs {
     std::vector<Surface> surfaces;
     std::vector<std::string> files;            ///< per surface: the file it was read from
     std::vector<std::size_t> surfaces_of_file; ///< per input: number of surfaces read from it
-    std::vector<std::string> labels;           ///< per surface: its name, made unique, on one line
+    std::vector<StatedRegion> regions;         ///< that files state, by the surfaces
+    std::string unit;                ///< of all coordinates, where files state one; else empty
+    std::vector<std::string> labels; ///< per surface: its name, made unique, on one line
     std::size_t vertices = 0, triangles = 0;
     bool statistics_wanted = false; ///< whether --stats is given
     bool strict = false;            ///< warnings about them are errors
@@ -76,6 +78,9 @@ struct Inputs {
 /// Reads all inputs. Errors: those of read_surfaces; interrupted; unsupported if 32 bits can't
 /// count all vertices or triangles.
 Result<Inputs> read_inputs(const FileOptions& options, Session& session);
+
+/// Sets the labels and the unit of the inputs by their surfaces.
+void describe(std::span<const Surface> surfaces, Inputs& inputs);
 
 /// Returns a short name of the inputs: "basin.ts", "basin.ts and 3 more files".
 std::string name_of_inputs(const FileOptions& options);

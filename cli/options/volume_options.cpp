@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 
 #include <terrane/cli/session/console.hpp>
+#include <terrane/cli/session/quantities.hpp>
 #include <terrane/io/points/outline.hpp>
 
 namespace terrane::cli {
@@ -245,6 +246,7 @@ Result<VolumeRecord> record_of(const Project& project, const std::string& path) 
 }
 
 std::string text_of(const VolumeReport& report, const Inputs& inputs) {
+    const Quantities quantities(inputs.unit);
     std::string text = "volume of interest: areas inside, of all, and where surfaces end inside\n";
     std::size_t width = 7, shown = 0, outside = 0;
     for (const auto& label : inputs.labels) width = std::max(width, label.size());
@@ -257,20 +259,20 @@ std::string text_of(const VolumeReport& report, const Inputs& inputs) {
             continue;
         }
         if (++shown > most_surfaces_cut) continue;
-        text +=
-            fmt::format("  {:<{}}  {:>10.4g} of {:>10.4g}, {}", inputs.labels[s], width,
-                        cut.area_inside + cut.area_on_boundary, all, counted(cut.pieces, "piece"));
+        text += fmt::format("  {:<{}}  {:>13} of {:>13}, {}", inputs.labels[s], width,
+                            quantities.area(cut.area_inside + cut.area_on_boundary),
+                            quantities.area(all), counted(cut.pieces, "piece"));
         if (cut.open_borders > 0)
-            text += fmt::format("; ends inside along {:.4g}", cut.open_length);
+            text += fmt::format("; ends inside along {}", quantities.length(cut.open_length));
         text += '\n';
     }
     if (shown > most_surfaces_cut)
         text += fmt::format("  and {} more\n", shown - most_surfaces_cut);
     if (outside > 0) text += fmt::format("  {} outside\n", counted(outside, "surface"));
     for (std::size_t b = 0; b < std::min(report.borders.size(), most_borders); ++b)
-        text += fmt::format("  {} ends inside: along {:.4g} at {}\n",
-                            inputs.labels[report.borders[b].surface], report.borders[b].length,
-                            text_of(report.borders[b].place));
+        text += fmt::format(
+            "  {} ends inside: along {} at {}\n", inputs.labels[report.borders[b].surface],
+            quantities.length(report.borders[b].length), text_of(report.borders[b].place));
     if (report.borders.size() > most_borders)
         text += fmt::format("  and {} more\n", report.borders.size() - most_borders);
     return text;
@@ -278,10 +280,11 @@ std::string text_of(const VolumeReport& report, const Inputs& inputs) {
 
 std::string text_of(std::span<const ExtendedBorder> borders, const Inputs& inputs) {
     if (borders.empty()) return "extended: no surface ends inside\n";
+    const Quantities quantities(inputs.unit);
     std::string text = "borders inside the volume, extended to its boundary or too far from it\n";
     for (std::size_t b = 0; b < std::min(borders.size(), most_borders); ++b)
-        text += fmt::format("  {}: along {:.4g} at {}: {}\n", inputs.labels[borders[b].surface],
-                            borders[b].length, text_of(borders[b].place),
+        text += fmt::format("  {}: along {} at {}: {}\n", inputs.labels[borders[b].surface],
+                            quantities.length(borders[b].length), text_of(borders[b].place),
                             borders[b].reached ? "extended" : "too far");
     if (borders.size() > most_borders)
         text += fmt::format("  and {} more\n", borders.size() - most_borders);

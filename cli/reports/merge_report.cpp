@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <terrane/cli/session/console.hpp>
+#include <terrane/cli/session/quantities.hpp>
 
 namespace terrane::cli {
 namespace {
@@ -25,13 +26,15 @@ std::string names_of(const MergedBlock& block, const Inputs& inputs) {
 } // namespace
 
 std::string text_of(const BlockMerge& report, const Inputs& inputs) {
-    auto text = fmt::format("blocks below {:.4g}: {} merged with a neighbour\n", report.least,
-                            report.merged.size());
+    const Quantities quantities(inputs.unit);
+    auto text = fmt::format("blocks below {}: {} merged with a neighbour\n",
+                            quantities.volume(report.least, 4), report.merged.size());
     for (std::size_t i = 0; i < std::min(report.merged.size(), most_merged); ++i) {
         const MergedBlock& m = report.merged[i];
-        text += fmt::format("  volume {:.4g}, {:.2g} thick, at {}: {} of {} removed, area {:.4g}\n",
-                            m.volume, m.thickness, text_of(m.place),
-                            counted(m.triangles, "triangle"), names_of(m, inputs), m.area);
+        text += fmt::format("  volume {}, {} thick, at {}: {} of {} removed, area {}\n",
+                            quantities.volume(m.volume, 4), quantities.length(m.thickness, 2),
+                            text_of(m.place), counted(m.triangles, "triangle"), names_of(m, inputs),
+                            quantities.area(m.area));
     }
     if (report.merged.size() > most_merged)
         text += fmt::format("  and {} more\n", report.merged.size() - most_merged);

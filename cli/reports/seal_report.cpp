@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <terrane/cli/session/console.hpp>
+#include <terrane/cli/session/quantities.hpp>
 
 namespace terrane::cli {
 namespace {
@@ -21,24 +22,27 @@ const char* name_of(SealKind kind) {
 } // namespace
 
 std::string text_of(const SealReport& report, const Inputs& inputs) {
+    const Quantities quantities(inputs.unit);
+    const auto distance = quantities.length(report.distance, 15);
     if (report.changes.empty())
-        return fmt::format("sealed by at most {}: no gap is so small\n", report.distance);
+        return fmt::format("sealed by at most {}: no gap is so small\n", distance);
     double length = 0;
     for (const SealChange& c : report.changes) length += c.length;
-    auto text = fmt::format("sealed by at most {}: {}, along {:.4g}\n", report.distance,
-                            counted(report.changes.size(), "change"), length);
+    auto text = fmt::format("sealed by at most {}: {}, along {}\n", distance,
+                            counted(report.changes.size(), "change"), quantities.length(length));
     for (std::size_t i = 0; i < std::min(report.changes.size(), most_changes); ++i) {
         const SealChange& c = report.changes[i];
-        text += fmt::format("  {} {} along {:.4g}, by up to {:.2g} at {}: {} {}\n",
-                            inputs.labels[c.surface], name_of(c.kind), c.length, c.largest,
-                            text_of(c.place), counted(c.triangles, "triangle"),
+        text += fmt::format("  {} {} along {}, by up to {} at {}: {} {}\n",
+                            inputs.labels[c.surface], name_of(c.kind), quantities.length(c.length),
+                            quantities.length(c.largest, 2), text_of(c.place),
+                            counted(c.triangles, "triangle"),
                             c.kind == SealKind::extended ? "more" : "less");
     }
     if (report.changes.size() > most_changes)
         text += fmt::format("  and {} more\n", report.changes.size() - most_changes);
     if (report.left > 0)
-        text += fmt::format("  free borders this near to another surface are left along {:.4g}\n",
-                            report.left);
+        text += fmt::format("  free borders this near to another surface are left along {}\n",
+                            quantities.length(report.left));
     return text;
 }
 
@@ -54,13 +58,16 @@ Json json_of(const SealReport& report) {
     return {{"distance", report.distance}, {"changes", std::move(changes)}, {"left", report.left}};
 }
 
-std::string text_of(const SealChoice& choice) {
-    auto text = fmt::format("gaps up to {:.3g}, a fifth of the median edge:\n", choice.widest);
+std::string text_of(const SealChoice& choice, const Inputs& inputs) {
+    const Quantities quantities(inputs.unit);
+    auto text = fmt::format("gaps up to {}, a fifth of the median edge:\n",
+                            quantities.length(choice.widest, 3));
     for (const GapBreak& b : choice.breaks)
-        text += fmt::format("  {} of up to {:.3g}, along {:.4g}; next to none up to {:.3g}\n",
-                            counted(b.gaps, "border edge"), b.low, b.length, b.high);
+        text += fmt::format("  {} of up to {}, along {}; next to none up to {}\n",
+                            counted(b.gaps, "border edge"), quantities.length(b.low, 3),
+                            quantities.length(b.length), quantities.length(b.high, 3));
     if (choice.breaks.empty()) return text + "  no natural break: nothing is sealed\n";
-    return text + fmt::format("  chosen distance: {}\n", choice.distance);
+    return text + fmt::format("  chosen distance: {}\n", quantities.length(choice.distance, 15));
 }
 
 void add_statistics(Json& json, const SealChoice& choice) {
@@ -77,17 +84,18 @@ void add_statistics(Json& json, const SealChoice& choice) {
                            {"distance", choice.distance}};
 }
 
-std::string text_of(const SealAdvice& advice) {
-    auto text = text_of(advice.choice);
+std::string text_of(const SealAdvice& advice, const Inputs& inputs) {
+    const Quantities quantities(inputs.unit);
+    auto text = text_of(advice.choice, inputs);
     text += fmt::format("  {:>10}  {:>6}  {:>5}  {:>7}  {:>9}  {:>10}  {:>10}\n", "distance",
                         "blocks", "small", "changes", "triangles", "along", "left open");
     for (const SealTrial& t : advice.trials)
         text += fmt::format("  {:>10}  {:>6}  {:>5}  {:>7}  {:>9}  {:>10.4g}  {:>10.4g}\n",
                             t.distance == 0 ? "none" : fmt::format("{}", t.distance), t.blocks,
                             t.small, t.changes, t.triangles, t.length, t.left);
-    return text + fmt::format("small: below {:.3g}, see --min-volume auto; triangles: added or "
+    return text + fmt::format("small: below {}, see --min-volume auto; triangles: added or "
                               "removed; along: the borders that change\n",
-                              advice.small_volume);
+                              quantities.volume(advice.small_volume, 3));
 }
 
 void add_statistics(Json& json, const SealAdvice& advice) {

@@ -18,13 +18,13 @@ std::string text_of(const SealReport& report, const Inputs& inputs);
 Json json_of(const SealReport& report);
 
 /// Reports the natural breaks in the widths of gaps, and the distance that was chosen.
-std::string text_of(const SealChoice& choice);
+std::string text_of(const SealChoice& choice, const Inputs& inputs);
 
 /// Adds "seal_choice": edge_length, widest, breaks, distance.
 void add_statistics(Json& json, const SealChoice& choice);
 
 /// Reports the models that the distances lead to, as a table.
-std::string text_of(const SealAdvice& advice);
+std::string text_of(const SealAdvice& advice, const Inputs& inputs);
 
 /// Adds "seal_choice" and "seal_trials".
 void add_statistics(Json& json, const SealAdvice& advice);

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <terrane/cli/session/console.hpp>
+#include <terrane/cli/session/quantities.hpp>
 
 namespace terrane::cli {
 namespace {
@@ -176,7 +177,8 @@ Json report_json(const TetrahedraReport& report) {
     return json;
 }
 
-std::string filled_text(const FilledBlocks& filled) {
+std::string filled_text(const FilledBlocks& filled, const std::string& unit) {
+    const Quantities quantities(unit);
     const TetrahedralMesh& mesh = filled.tetrahedra;
     const auto counts = counts_of_regions(mesh);
     const std::size_t first = counts[0] == 0 ? 1 : 0;
@@ -185,8 +187,9 @@ std::string filled_text(const FilledBlocks& filled) {
         counted(counts.size() - first, "region"), first == 0 ? " with the outside" : "");
     if (!mesh.failure.empty()) text += fmt::format("made by {}: {}\n", mesh.mesher, mesh.failure);
     for (std::size_t r = first; r < std::min(counts.size(), most_regions); ++r)
-        text += fmt::format("  region {:<3} {:>9} tetrahedra  volume {:.6g}{}\n", r, counts[r],
-                            filled.report.volumes[r].tetrahedra, r == 0 ? "  (outside)" : "");
+        text += fmt::format("  region {:<3} {:>9} tetrahedra  volume {:<14} {}\n", r, counts[r],
+                            quantities.volume(filled.report.volumes[r].tetrahedra, 6),
+                            filled.block_names[r]);
     if (counts.size() > most_regions)
         text += fmt::format("  and {} more\n", counts.size() - most_regions);
     if (!mesh.twins.empty())

@@ -21,8 +21,9 @@ std::string violations_text(const TetrahedraReport& report);
 /// (docs/reference/statistics.md).
 Json report_json(const TetrahedraReport& report);
 
-/// Reports the counts, in all and per region, the checks and the shapes.
-std::string filled_text(const FilledBlocks& filled);
+/// Reports the counts, in all and per region, the checks and the shapes. `unit` is that of the
+/// coordinates; empty: unknown.
+std::string filled_text(const FilledBlocks& filled, const std::string& unit);
 
 /// Adds counts, volumes, checks and times of the tetrahedra.
 void add_statistics(Json& json, const FilledBlocks& filled, const StageTimes& times);

@@ -50,8 +50,9 @@ std::string areas_text(const std::vector<double>& areas) {
 std::string surface_table(const Inputs& inputs, const Arranged& arranged) {
     std::size_t width = 7;
     for (const auto& label : inputs.labels) width = std::max(width, label.size());
-    auto text = fmt::format("  {:<{}}  {:>9}  {:>9}  {:>7}  areas of the regions\n", "surface",
-                            width, "triangles", "-> output", "regions");
+    auto text = fmt::format("  {:<{}}  {:>9}  {:>9}  {:>7}  areas of the regions{}\n", "surface",
+                            width, "triangles", "-> output", "regions",
+                            inputs.unit.empty() ? "" : ", " + inputs.unit + "2");
     const auto tallies = tally(arranged.rounded);
     for (std::size_t s = 0; s < std::min(tallies.size(), most_surfaces); ++s)
         text += fmt::format("  {:<{}}  {:>9}  {:>9}  {:>7}  {}\n", inputs.labels[s], width,
@@ -233,7 +234,7 @@ std::string summary(const Inputs& inputs, const Arranged& arranged) {
     text += surface_table(inputs, arranged);
     text += set_aside(arranged.exact);
     if (arranged.extended) text += text_of(*arranged.extended, inputs);
-    if (arranged.choice) text += text_of(*arranged.choice);
+    if (arranged.choice) text += text_of(*arranged.choice, inputs);
     if (arranged.sealed) text += text_of(*arranged.sealed, inputs);
     if (arranged.cut) text += text_of(*arranged.cut, inputs);
     if (arranged.merged) text += text_of(*arranged.merged, inputs);

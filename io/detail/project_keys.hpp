@@ -9,9 +9,11 @@
 
 namespace terrane::detail {
 
-inline constexpr std::array<std::string_view, 13> project_level{
-    "format", "folder", "threads",    "surfaces", "fill",       "layers", "volume_of_interest",
-    "extend", "seal",   "min_volume", "improve",  "tetrahedra", "outputs"};
+inline constexpr std::array<std::string_view, 14> project_level{
+    "format",     "folder", "threads",    "surfaces",
+    "column",     "fill",   "layers",     "volume_of_interest",
+    "extend",     "seal",   "min_volume", "improve",
+    "tetrahedra", "outputs"};
 inline constexpr std::array<std::string_view, 5> surfaces_level{"file", "objects", "name", "role",
                                                                 "depth"};
 inline constexpr std::array<std::string_view, 8> fill_level{
@@ -42,7 +44,6 @@ inline constexpr std::array<std::string_view, 12> surface_formats{
     "vtp", "obj", "ts", "ply", "off", "stl", "msh", "msh22", "inp", "mesh", "poly", "smesh"};
 inline constexpr std::array<std::string_view, 5> tetrahedra_formats{"vtu", "msh", "msh22", "inp",
                                                                     "mesh"};
-inline constexpr std::array<std::string_view, 2> block_formats{"vtp", "obj"};
 inline constexpr std::array<std::string_view, 1> formats{"terrane-project 1"};
 
 inline constexpr double smallest_quality = 1.1;

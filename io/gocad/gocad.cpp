@@ -193,6 +193,25 @@ Result<std::vector<Surface>> read_gocad(std::string_view contents, std::string_v
     return surfaces;
 }
 
+std::vector<StatedRegion> stated_regions_of(const GocadModel& model) {
+    std::vector<StatedRegion> regions;
+    for (const ModelRegion& region : model.regions) {
+        if (same_ignoring_case(region.name, "Universe")) continue;
+        StatedRegion& stated = regions.emplace_back();
+        stated.name = region.name;
+        for (const ModelLayer& layer : model.layers)
+            if (std::ranges::count(layer.regions, region.id) > 0 && stated.layer.empty())
+                stated.layer = layer.name;
+        for (const ModelSide& side : region.sides) {
+            const auto is_same = [&](const ModelSide& s) { return s.part == side.part; };
+            if (std::ranges::count_if(region.sides, is_same) > 1) continue;
+            const ModelPart& part = model.parts[side.part];
+            stated.borders.push_back({part.surface, part.first_triangle, part.triangle_count});
+        }
+    }
+    return regions;
+}
+
 Result<GocadModel> read_gocad_model(std::string_view contents, std::string_view source,
                                     std::string_view name) {
     LineParser in(contents, source);

@@ -11,6 +11,7 @@
 #include <terrane/algorithms/core/id.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
+#include <terrane/algorithms/structure/stated_regions.hpp>
 
 namespace terrane {
 
@@ -74,6 +75,10 @@ struct GocadModel {
 /// Model3d.
 Result<GocadModel> read_gocad_model(std::string_view contents, std::string_view source,
                                     std::string_view name);
+
+/// Lists the regions of a model but the outside, with the parts that have the region on one side
+/// only. A region is of the first layer that names it.
+std::vector<StatedRegion> stated_regions_of(const GocadModel& model);
 
 /// Writes one TSurf per surface, with z up (ZPOSITIVE Elevation) and the vertices that the surface
 /// uses, in the order of the mesh. A triangle of several surfaces is written in each of them. Names

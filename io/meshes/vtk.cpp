@@ -125,7 +125,8 @@ public:
     }
 
     void field(const std::vector<SurfaceInfo>& surfaces,
-               const IndexLists<std::uint32_t>& surfaces_of) {
+               const IndexLists<std::uint32_t>& surfaces_of, std::string_view name_of_names,
+               std::span<const std::string> further_names) {
         text("<FieldData>");
         in_field_ = true;
         std::vector<std::string_view> names, roles;
@@ -139,6 +140,8 @@ public:
             array("surfaces_offset", as<std::int64_t>(surfaces_of.offsets));
             array("surfaces", as<std::int64_t>(surfaces_of.values));
         }
+        if (!further_names.empty())
+            strings(name_of_names, {further_names.begin(), further_names.end()});
         in_field_ = false;
         text("</FieldData>");
     }
@@ -258,11 +261,12 @@ void write_tetrahedron_data(VtkWriter& out, const TetrahedralMesh& mesh) {
 
 } // namespace
 
-Result<std::string> to_vtp(const Mesh& mesh, bool compress, std::span<const CellArray> cells) {
+Result<std::string> to_vtp(const Mesh& mesh, bool compress, std::span<const CellArray> cells,
+                           std::span<const std::string> block_names) {
     if (auto trouble = check_lengths(cells, mesh.triangles.size())) return *trouble;
     VtkWriter out(compress);
     out.begin_file("PolyData");
-    out.field(mesh.surfaces, mesh.surfaces_of);
+    out.field(mesh.surfaces, mesh.surfaces_of, "block_name", block_names);
     out.text(fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"0\" "
                          "NumberOfStrips=\"0\" NumberOfPolys=\"{}\">",
                          mesh.vertices.size(), mesh.triangles.size()));
@@ -282,12 +286,13 @@ Result<std::string> to_vtp(const Mesh& mesh, bool compress, std::span<const Cell
 }
 
 Result<std::string> to_vtu(const TetrahedralMesh& mesh, bool compress,
-                           std::span<const CellArray> cells) {
+                           std::span<const CellArray> cells,
+                           std::span<const std::string> region_names) {
     const auto count = mesh.tetrahedra.size() + mesh.faces.size();
     if (auto trouble = check_lengths(cells, count)) return *trouble;
     VtkWriter out(compress);
     out.begin_file("UnstructuredGrid");
-    out.field(mesh.surfaces, mesh.surfaces_of);
+    out.field(mesh.surfaces, mesh.surfaces_of, "region_name", region_names);
     out.text(fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">", mesh.vertices.size(),
                          count));
     out.text("<CellData Scalars=\"region\">");

@@ -21,9 +21,11 @@ namespace terrane {
 /// followed by `cells`. The field arrays are surface_name and surface_role (strings, one per
 /// surface) and, if some triangle has several surfaces, surfaces and surfaces_offset (Int64):
 /// triangle i belongs to surfaces[surfaces_offset[i] .. surfaces_offset[i + 1]).
+/// If there are `block_names`, they are the field array block_name (strings).
 /// Errors: bad_option if an array of `cells` does not have one value per triangle.
 Result<std::string> to_vtp(const Mesh& mesh, bool compress = true,
-                           std::span<const CellArray> cells = {});
+                           std::span<const CellArray> cells = {},
+                           std::span<const std::string> block_names = {});
 
 /// Writes the tetrahedra, then their faces on surfaces as triangles. The cell arrays (Int32) are
 ///   region   of the tetrahedron; -1 for a face
@@ -35,9 +37,11 @@ Result<std::string> to_vtp(const Mesh& mesh, bool compress = true,
 ///   cut_side 1 in front of the cut, 2 behind it, 0 for any other cell
 /// followed by `cells`. The field arrays are those of to_vtp; their lists count faces only. Names
 /// and roles are arrays of character codes (UInt8), each string ended by a 0: meshio refuses grids
-/// with arrays of strings. Errors: bad_option if an array of `cells` does not have one value per
+/// with arrays of strings. If there are `region_names`, one per region, they are the field array
+/// region_name, of codes as well. Errors: bad_option if an array of `cells` does not have one value per
 /// tetrahedron and face.
 Result<std::string> to_vtu(const TetrahedralMesh& mesh, bool compress = true,
-                           std::span<const CellArray> cells = {});
+                           std::span<const CellArray> cells = {},
+                           std::span<const std::string> region_names = {});
 
 } // namespace terrane

@@ -31,8 +31,11 @@ set(terrane_headers
     algorithms/rounding/rounding.hpp
     algorithms/volumes/region_points.hpp
     algorithms/volumes/volumes.hpp
+    algorithms/structure/block_names.hpp
+    algorithms/structure/column.hpp
     algorithms/structure/free_borders.hpp
     algorithms/structure/relations.hpp
+    algorithms/structure/stated_regions.hpp
     algorithms/structure/structure.hpp
     algorithms/structure/structure_meshes.hpp
     algorithms/layers/layers.hpp
@@ -52,6 +55,7 @@ set(terrane_headers
     algorithms/volume_of_interest/extension.hpp
     algorithms/volume_of_interest/volume_of_interest.hpp
     algorithms/model/arrange_within.hpp
+    algorithms/model/leak_advice.hpp
     algorithms/model/model.hpp
     algorithms/model/model_doubts.hpp
     algorithms/model/seal_advice.hpp
@@ -66,6 +70,7 @@ set(terrane_headers
     algorithms/project/preprocess.hpp
     algorithms/project/project.hpp
     io/certificate.hpp
+    io/column.hpp
     io/exact_text.hpp
     io/files.hpp
     io/gocad/gocad.hpp

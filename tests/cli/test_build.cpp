@@ -311,7 +311,7 @@ TEST_CASE("cli: build: tetrahedra with sizes and cuts, by name", "[cli]") {
     const auto msh = c.folder.read("fine/tetrahedra.msh");
     CHECK(contains(msh, "\"F1 front\""));
     CHECK(contains(msh, "$Periodic"));
-    CHECK(contains(msh, "\"region 2: top/base|"));
+    CHECK(contains(msh, "\"region 2: below top, above base"));
     CHECK(contains(c.folder.read("fine/tetrahedra.inp"), "NSET=F1_PAIRS_BACK, UNSORTED"));
     // The same block is named by its name instead of its number, and the outside is filled.
     const auto name_at = msh.find("\"region 2: ") + 11;

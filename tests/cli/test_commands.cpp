@@ -279,7 +279,7 @@ TEST_CASE("cli: tetrahedralize finds the regions that the models state", "[cli]"
                                   ".ml -o out.vtu -o "
                                   "out.msh --stats s.json");
         CHECK(r.status == 0);
-        CHECK(contains(r.out, "  (outside)\n"));
+        CHECK(contains(r.out, " outside\n"));
         const auto json = Json::parse(folder.read("s.json"));
         CHECK(json["output"]["volumes"] == json["tetrahedra"]["regions"].get<int>() - 1);
         return json["tetrahedra"]["regions"].get<int>();

@@ -69,7 +69,7 @@ TEST_CASE("cli: volume finds the blocks and writes them", "[cli]") {
     REQUIRE(r.status == 0);
     CHECK(r.err.empty());
     CHECK(contains(r.out, "3 closed blocks, volume 512 in all\n"));
-    CHECK(contains(r.out, "  block 2    volume 128            top/base|box\n"));
+    CHECK(contains(r.out, "  block 2    volume 128              below top, above base\n"));
     CHECK(contains(r.out, "F1: 50 of 50 in area dangles"));
     CHECK(contains(r.out, "wrote out\n"));
     CHECK(folder.left() == std::set<std::string>{"out", "s.json"});
@@ -148,7 +148,7 @@ TEST_CASE("cli: volume refuses what it can't do, and leaves nothing", "[cli]") {
     refused("-o nowhere/out", 2, "there is no folder nowhere");
     refused("-o in", 2, "not empty");
     refused("-o " + in, 2, "this is no folder");
-    refused("-o out --parts stl", 2, "");
+    refused("-o out --parts vtu", 2, "");
     CHECK(folder.left().empty());
     const auto tiny = folder.input("tiny.off", tiny_triangles());
     const auto unclean = folder.run("volume " + tiny + " -o out --rounds 0");

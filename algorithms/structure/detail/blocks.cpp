@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <set>
 #include <utility>
 
 #include <terrane/algorithms/structure/detail/constants.hpp>
@@ -52,26 +51,6 @@ void describe(const std::map<std::uint32_t, Shares>& shares, ModelBlock& block) 
     }
 }
 
-std::string joined(const Mesh& mesh, const std::vector<std::uint32_t>& surfaces) {
-    std::string text;
-    for (const std::uint32_t s : surfaces)
-        text += (text.empty() ? "" : "+") + mesh.surfaces[s].name;
-    return text.empty() ? "-" : text;
-}
-
-void name_blocks(const Mesh& mesh, std::vector<ModelBlock>& blocks) {
-    std::set<std::string> taken{"outside"};
-    blocks[0].name = "outside";
-    for (std::size_t b = 1; b < blocks.size(); ++b) {
-        ModelBlock& block = blocks[b];
-        std::string name = joined(mesh, block.above) + "/" + joined(mesh, block.below);
-        if (!block.beside.empty()) name += "|" + joined(mesh, block.beside);
-        block.name = name;
-        for (int k = 2; !taken.insert(block.name).second; ++k)
-            block.name = name + " " + std::to_string(k);
-    }
-}
-
 } // namespace
 
 namespace structure::detail {
@@ -101,13 +80,17 @@ void add_blocks(const Mesh& mesh, const Volumes& volumes, Structure& structure) 
         blocks[b].volume = volumes.measures[b];
         if (b > 0) describe(shares[b], blocks[b]);
     }
-    name_blocks(mesh, blocks);
 }
 
 } // namespace structure::detail
 
 std::vector<NamedConstant> structure_constants() {
-    return {{"least_share", block_name_constants.least_share}};
+    const BlockNameConstants& c = block_name_constants;
+    return {{"least_share", c.least_share},
+            {"least_resultant", c.least_resultant},
+            {"most_listed", static_cast<double>(c.most_listed)},
+            {"most_added", static_cast<double>(c.most_added)},
+            {"least_common", region_constants.least_common}};
 }
 
 } // namespace terrane

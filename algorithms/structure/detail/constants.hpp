@@ -1,15 +1,34 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The constant of the names of blocks.
+// The constants of the names of blocks.
 #pragma once
+
+#include <cstddef>
 
 namespace terrane::structure::detail {
 
 struct BlockNameConstants {
-    /// Least share of a surface's area at a block to be named above, below or beside it. Larger:
-    /// shorter names, of which more are equal.
+    /// Least share of a surface's area at a block to be listed above, below or beside it, and of
+    /// the area above or below a block for a surface to be in its name. Larger: shorter names, of
+    /// which more are equal.
     double least_share = 0.1;
+    /// A surface is at one side of a block if the sum of its area vectors there is at least this
+    /// share of its area; otherwise it is around the block, or in it. Larger: sharper folds count
+    /// as closed.
+    double least_resultant = 0.5;
+    /// Most surfaces above a block, and below it, that its name lists. Larger: longer names.
+    std::size_t most_listed = 2;
+    /// Most surfaces that are added to names until they differ; a number follows if they still
+    /// don't. Larger: longer names with fewer numbers.
+    std::size_t most_added = 3;
 };
 inline constexpr BlockNameConstants block_name_constants;
+
+struct RegionConstants {
+    /// Least share of the stated borders around a block that must be those of a region. Less: a
+    /// block of several regions may get the name of one of them.
+    double least_common = 0.99;
+};
+inline constexpr RegionConstants region_constants;
 
 } // namespace terrane::structure::detail

@@ -19,7 +19,7 @@ std::vector<std::uint32_t> ranks_of(const std::vector<Point3>& vertices);
 void add_lines(const Mesh& mesh, const EdgeSides& edges, const std::vector<std::uint32_t>& ranks,
                Structure& structure);
 
-/// Adds blocks with their names; interfaces must be known.
+/// Adds blocks, without names; interfaces must be known.
 void add_blocks(const Mesh& mesh, const Volumes& volumes, Structure& structure);
 
 /// Returns twice the area times the unit normal on the front side.

@@ -28,6 +28,8 @@ public:
         rest_.remove_prefix(text.size());
         return *this;
     }
+    /// Whether the rest of the line begins so.
+    [[nodiscard]] bool begins(std::string_view text) const { return rest_.starts_with(text); }
     /// Passes a number, or null.
     Follower& number() {
         if (rest_.starts_with("null")) return expect("null");
@@ -225,7 +227,10 @@ private:
 
     void block(Follower& line, std::uint32_t b) const {
         const Around& around = around_[b];
-        line.expect("{\"name\":").string().expect(",\"volume\":").number();
+        line.expect("{\"name\":").string(); // names are not compared
+        if (line.begins(",\"unit\":")) line.expect(",\"unit\":").string();
+        if (line.begins(",\"age\":")) line.expect(",\"age\":").number();
+        line.expect(",\"volume\":").number();
         line.expect(",\"volume_written\":").number(b == 0 ? outside_volume() : lists_.volumes[b]);
         line.expect(",\"area\":").near(around.area.value, around.area.slack);
         for (const std::string_view place : {"above", "below", "beside"})

@@ -104,7 +104,22 @@ void VtkScanner::field_data(std::span<const SurfaceInfo> surfaces,
         array<std::int64_t>("surfaces", {surfaces_of.values.begin(), surfaces_of.values.end()});
     }
     in_field_ = false;
-    in_.expect("</FieldData>");
+    end_field_data();
+}
+
+/// Passes the names of blocks, if there are any, which are not compared, and the end of the data.
+void VtkScanner::end_field_data() {
+    const std::string start = has_strings_ ? "<Array type=\"String\" Name=\"block_name\" "
+                                           : "<DataArray type=\"UInt8\" Name=\"region_name\" ";
+    std::string_view line = in_.next();
+    if (line.starts_with(start)) {
+        const std::string_view end = has_strings_ ? "</Array>" : "</DataArray>";
+        for (line = in_.next(); line != end; line = in_.next())
+            if (line.find_first_not_of("0123456789 ") != std::string_view::npos)
+                in_.fail("codes of characters are needed");
+        line = in_.next();
+    }
+    if (line != "</FieldData>") in_.fail("</FieldData> is needed");
 }
 
 void VtkScanner::points(const std::vector<Point3>& vertices) {

@@ -35,6 +35,7 @@ public:
     void array(const std::string& name, const std::vector<T>& expected, int components = 1);
 
 private:
+    void end_field_data();
     void strings(const std::string& name, const std::vector<std::string_view>& values);
     [[nodiscard]] std::string plain(std::string_view text, std::size_t size) const;
     [[nodiscard]] std::string inflated(std::string_view text, std::size_t size) const;

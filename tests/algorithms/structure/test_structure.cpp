@@ -154,12 +154,12 @@ TEST_CASE("structure: a cube of six surfaces has eight corners and twelve lines"
     CHECK(b.structure.blocks.size() == 2);
     CHECK(b.structure.blocks[1].area == Approx(6));
     CHECK(kinds(b.structure) == std::map<LineKind, int>{{LineKind::boundary, 12}});
-    CHECK(b.structure.blocks[1].name == "side1/side0|side2+side3+side4+side5");
+    CHECK(b.structure.blocks[1].name == "inside the boundary");
     check_laws(b);
     const Built one = build({whole});
     CHECK(one.structure.lines.empty());
     CHECK(one.structure.patches.size() == 1);
-    CHECK(one.structure.blocks[1].name == "cube/cube|cube");
+    CHECK(one.structure.blocks[1].name == "inside cube");
 }
 
 TEST_CASE("structure: two horizons and a fault in a box have the expected entities",
@@ -170,10 +170,10 @@ TEST_CASE("structure: two horizons and a fault in a box have the expected entiti
                            with_role(wall(4, -1, 4, 9, "fault"), Role::fault)});
     const Structure& s = b.structure;
     REQUIRE(s.blocks.size() == 7);
-    CHECK(s.blocks[1].name == "base/box|box+fault");
-    CHECK(s.blocks[2].name == "top/base|box+fault");
-    CHECK(s.blocks[3].name == "box/top|box+fault");
-    CHECK(s.blocks[4].name == "base/box|box+fault 2");
+    CHECK(s.blocks[1].name == "below base, west of fault");
+    CHECK(s.blocks[2].name == "below top, above base, west of fault");
+    CHECK(s.blocks[3].name == "above top, west of fault");
+    CHECK(s.blocks[4].name == "below base, east of fault");
     CHECK(s.blocks[1].neighbours == std::vector<std::uint32_t>{0, 2, 4});
     CHECK(s.blocks[2].neighbours == std::vector<std::uint32_t>{0, 1, 3, 5});
     CHECK(s.blocks[2].volume == 4 * 8 * 2);
@@ -233,7 +233,7 @@ TEST_CASE("structure: modelA1 has the entities that RINGMesh counts", "[structur
 
 TEST_CASE("structure: the laws hold for the certified inputs", "[structure]") {
     std::size_t built = 0;
-    for (const Model& model : certified_inputs(150)) {
+    for (const test_support::Model& model : certified_inputs(150)) {
         INFO(model.name);
         if (const auto b = try_build(model.surfaces)) {
             check_laws(*b);

@@ -54,6 +54,27 @@ TEST_CASE("GOCAD models: parts, regions and layers", "[io][gocad]") {
     CHECK(model.layers[0].regions == std::vector<std::uint32_t>{4});
 }
 
+TEST_CASE("GOCAD models: the regions that are stated", "[io][gocad]") {
+    const auto result = read_gocad_model(
+        model3d(lists + "REGION 3 universe\n -1 \n 0\nREGION 4 in side\n +1 -2 +2 0\n"
+                        "REGION 5 other\n +2 0\nLAYER one\n 4 0\nLAYER two\n 4 5 0\n") +
+            box,
+        "a.ml", "a");
+    REQUIRE(message_of(result) == "no error");
+    const auto regions = stated_regions_of(result.value());
+    REQUIRE(regions.size() == 2);
+    CHECK(regions[0].name == "in side");
+    CHECK(regions[0].layer == "one");
+    CHECK(regions[0].borders == std::vector<StatedBorder>{{SurfaceId(0), 0, 1}}); // TFACE 2 dangles
+    CHECK(regions[1].layer == "two");
+    CHECK(regions[1].borders == std::vector<StatedBorder>{{SurfaceId(0), 1, 2}});
+    CHECK(read_stated_regions(data / "ringmesh" / "modelA2.ml").size() == 12);
+    CHECK(read_stated_regions("/there/is/no/file.ml").empty());
+    std::vector<StatedRegion> all;
+    append_regions(regions, 3, all);
+    CHECK(all[1].borders == std::vector<StatedBorder>{{SurfaceId(3), 1, 2}});
+}
+
 TEST_CASE("GOCAD models: broken files", "[io][gocad]") {
     using enum ErrorCode;
     const auto named = model3d("TSURF other\n") + box;

@@ -138,6 +138,17 @@ TEST_CASE("VTU: what is in it", "[io][vtk]") {
     CHECK(values<std::uint8_t>(topology, "types") == std::vector<std::uint8_t>{10, 10, 5, 5});
 }
 
+TEST_CASE("VTK: names of blocks", "[io][vtk]") {
+    const std::vector<std::string> names{"outside", "", "a <b>, \"c\""};
+    pugi::xml_document polygons, grid;
+    REQUIRE(polygons.load_string(to_vtp(awkward_mesh(), false, {}, names).value().c_str()));
+    REQUIRE(grid.load_string(to_vtu(two_tetrahedra(), false, {}, names).value().c_str()));
+    const auto of_polygons = polygons.child("VTKFile").child("PolyData").child("FieldData");
+    CHECK(strings(of_polygons, "block_name") == names);
+    const auto of_grid = grid.child("VTKFile").child("UnstructuredGrid").child("FieldData");
+    CHECK(strings(of_grid, "region_name", "DataArray") == names);
+}
+
 TEST_CASE("VTK: a cell array has one value per cell", "[io][vtk]") {
     const std::vector<CellArray> wrong{{"quality", std::vector<double>(3)}};
     for (const auto& result :
