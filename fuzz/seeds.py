@@ -380,7 +380,7 @@ def other_programs():
     """Small files that VTK, gmsh and meshio wrote, by format, and DXF and GeoJSON as others write them."""
     data = pathlib.Path(__file__).parent.parent / "tests" / "data" / "other_programs"
     files = {fmt: {path.stem: path.read_bytes() for path in sorted(data.glob("*." + fmt))}
-             for fmt in ("vtp", "vtk", "msh")}
+             for fmt in ("vtp", "vtu", "vtk", "msh")}
     corners = [(0, 0, 0), (2, 0, 0), (2, 1, 0.5), (0, 1, 0.5)]
     face = "".join(f"1{k}\n{x}\n2{k}\n{y}\n3{k}\n{z}\n" for k, (x, y, z) in enumerate(corners))
     files["dxf"] = {"face": "0\nSECTION\n2\nENTITIES\n0\n3DFACE\n8\ntop\n" + face +

@@ -39,19 +39,19 @@ namespace {
 /// The largest file that is read. It has at least 3 bytes per vertex, so 32-bit indices suffice.
 constexpr std::uint64_t max_bytes = 3 * (std::uint64_t(1) << 32) - 3;
 
-constexpr std::array<std::pair<std::string_view, Format>, 35> names{{
-    {"ts", Format::gocad},    {"ml", Format::gocad},   {"gp", Format::gocad},
-    {"mx", Format::gocad},    {"obj", Format::obj},    {"off", Format::off},
-    {"stl", Format::stl},     {"ply", Format::ply},    {"vtp", Format::vtp},
-    {"vtu", Format::vtu},     {"msh", Format::msh},    {"msh22", Format::msh22},
-    {"inp", Format::inp},     {"mesh", Format::medit}, {"poly", Format::poly},
-    {"smesh", Format::smesh}, {"irap", Format::irap},  {"gri", Format::irap},
-    {"fgr", Format::irap},    {"zmap", Format::zmap},  {"zycor", Format::zmap},
-    {"cps3", Format::cps3},   {"cps", Format::cps3},   {"asc", Format::esri},
-    {"agr", Format::esri},    {"xyz", Format::xyz},    {"csv", Format::xyz},
-    {"txt", Format::xyz},     {"dat", Format::xyz},    {"poi", Format::xyz},
-    {"pol", Format::xyz},     {"vs", Format::vset},    {"pl", Format::vset},
-    {"vtk", Format::vtk},     {"dxf", Format::dxf},
+constexpr std::array<std::pair<std::string_view, Format>, 36> names{{
+    {"ts", Format::gocad},    {"ml", Format::gocad},    {"gp", Format::gocad},
+    {"mx", Format::gocad},    {"gm", Format::gocad},    {"obj", Format::obj},
+    {"off", Format::off},     {"stl", Format::stl},     {"ply", Format::ply},
+    {"vtp", Format::vtp},     {"vtu", Format::vtu},     {"msh", Format::msh},
+    {"msh22", Format::msh22}, {"inp", Format::inp},     {"mesh", Format::medit},
+    {"poly", Format::poly},   {"smesh", Format::smesh}, {"irap", Format::irap},
+    {"gri", Format::irap},    {"fgr", Format::irap},    {"zmap", Format::zmap},
+    {"zycor", Format::zmap},  {"cps3", Format::cps3},   {"cps", Format::cps3},
+    {"asc", Format::esri},    {"agr", Format::esri},    {"xyz", Format::xyz},
+    {"csv", Format::xyz},     {"txt", Format::xyz},     {"dat", Format::xyz},
+    {"poi", Format::xyz},     {"pol", Format::xyz},     {"vs", Format::vset},
+    {"pl", Format::vset},     {"vtk", Format::vtk},     {"dxf", Format::dxf},
 }};
 
 std::string place_of(const fs::path& path, bool reading) {
@@ -101,6 +101,8 @@ Result<std::vector<Surface>> parse_as_stated(std::string_view contents, std::str
         return read_ply(contents, source, name);
     case Format::vtp:
         return read_vtp(contents, source, name);
+    case Format::vtu:
+        return read_vtu(contents, source, name);
     case Format::msh:
         return read_msh(contents, source, name);
     case Format::vtk:
@@ -157,6 +159,8 @@ Result<std::string> contents_of(const Mesh& mesh, Format format, const WriteOpti
         return to_abaqus(mesh);
     case Format::medit:
         return to_medit(mesh);
+    case Format::vtk:
+        return to_vtk(mesh);
     case Format::poly:
         return to_poly(mesh, options.regions);
     case Format::smesh:
@@ -167,8 +171,8 @@ Result<std::string> contents_of(const Mesh& mesh, Format format, const WriteOpti
         break;
     }
     return Error{ErrorCode::unsupported,
-                 is_read(format) ? "this format is read, not written"
-                                 : "this format is for tetrahedra, not for surfaces",
+                 holds_tetrahedra(format) ? "this format is for tetrahedra, not for surfaces"
+                                          : "this format is read, not written",
                  ""};
 }
 
@@ -214,7 +218,9 @@ bool is_read(Format format) {
     case Format::stl:
     case Format::ply:
     case Format::vtp:
+    case Format::vtu:
     case Format::msh:
+    case Format::vtk:
         return true;
     default:
         return format >= Format::irap;

@@ -95,7 +95,7 @@ void add_inputs(CLI::App& command, FileOptions& options) {
         ->type_name("FILE");
     command
         .add_option("--format", options.format,
-                    "Format of whatever is -: ts, ml, obj, off, stl, ply, vtp, vtu, msh, inp, "
+                    "Format of whatever is -: ts, ml, obj, off, stl, ply, vtp, vtu, vtk, msh, inp, "
                     "mesh, poly, smesh")
         ->type_name("FORMAT");
     add_reading(command, options);
@@ -165,9 +165,9 @@ Result<std::vector<Output>> plan_outputs(const FileOptions& options, OutputKind 
         if (!fits(format.value(), kind))
             return Error{ErrorCode::unsupported,
                          kind == OutputKind::surfaces
-                             ? is_read(format.value())
-                                   ? "this format is read, not written"
-                                   : "this format is for tetrahedra, not for surfaces"
+                             ? holds_tetrahedra(format.value())
+                                   ? "this format is for tetrahedra, not for surfaces"
+                                   : "this format is read, not written"
                              : "tetrahedra are written as .vtu, .msh, .inp or .mesh",
                          path};
         if (const auto folder = check_folder(path); !folder) return folder.error();
