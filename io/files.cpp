@@ -21,6 +21,7 @@
 #include <terrane/io/meshes/vtk.hpp>
 #include <terrane/io/meshes/vtp_reader.hpp>
 #include <terrane/io/points/points.hpp>
+#include <terrane/io/points/sticks.hpp>
 #include <terrane/io/surfaces/dxf.hpp>
 #include <terrane/io/surfaces/obj.hpp>
 #include <terrane/io/surfaces/off.hpp>
@@ -39,19 +40,20 @@ namespace {
 /// The largest file that is read. It has at least 3 bytes per vertex, so 32-bit indices suffice.
 constexpr std::uint64_t max_bytes = 3 * (std::uint64_t(1) << 32) - 3;
 
-constexpr std::array<std::pair<std::string_view, Format>, 36> names{{
-    {"ts", Format::gocad},    {"ml", Format::gocad},    {"gp", Format::gocad},
-    {"mx", Format::gocad},    {"gm", Format::gocad},    {"obj", Format::obj},
-    {"off", Format::off},     {"stl", Format::stl},     {"ply", Format::ply},
-    {"vtp", Format::vtp},     {"vtu", Format::vtu},     {"msh", Format::msh},
-    {"msh22", Format::msh22}, {"inp", Format::inp},     {"mesh", Format::medit},
-    {"poly", Format::poly},   {"smesh", Format::smesh}, {"irap", Format::irap},
-    {"gri", Format::irap},    {"fgr", Format::irap},    {"zmap", Format::zmap},
-    {"zycor", Format::zmap},  {"cps3", Format::cps3},   {"cps", Format::cps3},
-    {"asc", Format::esri},    {"agr", Format::esri},    {"xyz", Format::xyz},
-    {"csv", Format::xyz},     {"txt", Format::xyz},     {"dat", Format::xyz},
-    {"poi", Format::xyz},     {"pol", Format::xyz},     {"vs", Format::vset},
-    {"pl", Format::vset},     {"vtk", Format::vtk},     {"dxf", Format::dxf},
+constexpr std::array<std::pair<std::string_view, Format>, 37> names{{
+    {"ts", Format::gocad},      {"ml", Format::gocad},    {"gp", Format::gocad},
+    {"mx", Format::gocad},      {"gm", Format::gocad},    {"obj", Format::obj},
+    {"off", Format::off},       {"stl", Format::stl},     {"ply", Format::ply},
+    {"vtp", Format::vtp},       {"vtu", Format::vtu},     {"msh", Format::msh},
+    {"msh22", Format::msh22},   {"inp", Format::inp},     {"mesh", Format::medit},
+    {"poly", Format::poly},     {"smesh", Format::smesh}, {"irap", Format::irap},
+    {"gri", Format::irap},      {"fgr", Format::irap},    {"zmap", Format::zmap},
+    {"zycor", Format::zmap},    {"cps3", Format::cps3},   {"cps", Format::cps3},
+    {"asc", Format::esri},      {"agr", Format::esri},    {"xyz", Format::xyz},
+    {"csv", Format::xyz},       {"txt", Format::xyz},     {"dat", Format::xyz},
+    {"poi", Format::xyz},       {"pol", Format::xyz},     {"vs", Format::vset},
+    {"pl", Format::vset},       {"vtk", Format::vtk},     {"dxf", Format::dxf},
+    {"sticks", Format::sticks},
 }};
 
 std::string place_of(const fs::path& path, bool reading) {
@@ -119,6 +121,8 @@ Result<std::vector<Surface>> parse_as_stated(std::string_view contents, std::str
         return surfaces_of(read_esri(contents, source, name), source, options);
     case Format::xyz:
         return read_points(contents, source, name, options);
+    case Format::sticks:
+        return read_sticks(contents, source, name, options);
     case Format::vset:
         return read_gocad_points(contents, source, name, options);
     default:

@@ -106,7 +106,7 @@ void add_reading(CLI::App& command, FileOptions& options) {
     command
         .add_option("--input-format", options.input_format,
                     "Format of IN, where its extension does not tell; of grids and points: irap, "
-                    "zmap, cps3, asc, xyz, vs")
+                    "zmap, cps3, asc, xyz, vs, sticks")
         ->type_name("FORMAT");
     command.add_flag("--depth", options.read.depth,
                      "Grids and points: heights are depths, positive down");
