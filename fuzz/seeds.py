@@ -385,6 +385,10 @@ def other_programs():
     face = "".join(f"1{k}\n{x}\n2{k}\n{y}\n3{k}\n{z}\n" for k, (x, y, z) in enumerate(corners))
     files["dxf"] = {"face": "0\nSECTION\n2\nENTITIES\n0\n3DFACE\n8\ntop\n" + face +
                             "0\nENDSEC\n0\nEOF\n"}
+    pillars = "\n".join(f"{x} {y} 0 {x + lean} {y} 9" for y in (0, 5) for x, lean in ((0, 0), (4, 1), (8, 0)))
+    files["grdecl"] = {"fault": "-- two columns\nSPECGRID\n2 1 2 1 F /\nCOORD\n" + pillars + "\n/\nZCORN\n" +
+                                "".join(f"2*{z} 2*{z + 1.5}\n2*{z} {z + 1} {z - 0.5}\n" for z in (1, 3, 3, 5)) +
+                                "/\nACTNUM\n3*1 0 /\nFAULTS\n'F1' 1 1 1 1 1 2 'I' /\n/\n"}
     files["sticks"] = {"charisma": "".join(f"INLINE- {i} 60 {i} {y} {-2 * y - 1} F 1 {i}\n" for i in (1, 2, 4)
                                            for y in range(i + 1)),
                        "heading": "x;y;depth;fault;stick\n0;0;1;A;1\n0;1;2;A;1\n3;0;1;A;2\n0;0;1;B;1\n5;5;5;B;2\n5;6;6;B;2\n",

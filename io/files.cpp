@@ -8,6 +8,7 @@
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/grids/cps3.hpp>
 #include <terrane/io/grids/esri.hpp>
+#include <terrane/io/grids/grdecl.hpp>
 #include <terrane/io/grids/grid_text.hpp>
 #include <terrane/io/grids/irap.hpp>
 #include <terrane/io/grids/zmap.hpp>
@@ -40,20 +41,20 @@ namespace {
 /// The largest file that is read. It has at least 3 bytes per vertex, so 32-bit indices suffice.
 constexpr std::uint64_t max_bytes = 3 * (std::uint64_t(1) << 32) - 3;
 
-constexpr std::array<std::pair<std::string_view, Format>, 37> names{{
-    {"ts", Format::gocad},      {"ml", Format::gocad},    {"gp", Format::gocad},
-    {"mx", Format::gocad},      {"gm", Format::gocad},    {"obj", Format::obj},
-    {"off", Format::off},       {"stl", Format::stl},     {"ply", Format::ply},
-    {"vtp", Format::vtp},       {"vtu", Format::vtu},     {"msh", Format::msh},
-    {"msh22", Format::msh22},   {"inp", Format::inp},     {"mesh", Format::medit},
-    {"poly", Format::poly},     {"smesh", Format::smesh}, {"irap", Format::irap},
-    {"gri", Format::irap},      {"fgr", Format::irap},    {"zmap", Format::zmap},
-    {"zycor", Format::zmap},    {"cps3", Format::cps3},   {"cps", Format::cps3},
-    {"asc", Format::esri},      {"agr", Format::esri},    {"xyz", Format::xyz},
-    {"csv", Format::xyz},       {"txt", Format::xyz},     {"dat", Format::xyz},
-    {"poi", Format::xyz},       {"pol", Format::xyz},     {"vs", Format::vset},
-    {"pl", Format::vset},       {"vtk", Format::vtk},     {"dxf", Format::dxf},
-    {"sticks", Format::sticks},
+constexpr std::array<std::pair<std::string_view, Format>, 38> names{{
+    {"ts", Format::gocad},      {"ml", Format::gocad},      {"gp", Format::gocad},
+    {"mx", Format::gocad},      {"gm", Format::gocad},      {"obj", Format::obj},
+    {"off", Format::off},       {"stl", Format::stl},       {"ply", Format::ply},
+    {"vtp", Format::vtp},       {"vtu", Format::vtu},       {"msh", Format::msh},
+    {"msh22", Format::msh22},   {"inp", Format::inp},       {"mesh", Format::medit},
+    {"poly", Format::poly},     {"smesh", Format::smesh},   {"irap", Format::irap},
+    {"gri", Format::irap},      {"fgr", Format::irap},      {"zmap", Format::zmap},
+    {"zycor", Format::zmap},    {"cps3", Format::cps3},     {"cps", Format::cps3},
+    {"asc", Format::esri},      {"agr", Format::esri},      {"xyz", Format::xyz},
+    {"csv", Format::xyz},       {"txt", Format::xyz},       {"dat", Format::xyz},
+    {"poi", Format::xyz},       {"pol", Format::xyz},       {"vs", Format::vset},
+    {"pl", Format::vset},       {"vtk", Format::vtk},       {"dxf", Format::dxf},
+    {"grdecl", Format::grdecl}, {"sticks", Format::sticks},
 }};
 
 std::string place_of(const fs::path& path, bool reading) {
@@ -111,6 +112,8 @@ Result<std::vector<Surface>> parse_as_stated(std::string_view contents, std::str
         return read_vtk(contents, source, name);
     case Format::dxf:
         return read_dxf(contents, source, name);
+    case Format::grdecl:
+        return read_grdecl(contents, source);
     case Format::irap:
         return surfaces_of(read_irap(contents, source, name), source, options);
     case Format::zmap:

@@ -42,6 +42,7 @@ enum class Format {
     xyz,    ///< .xyz .csv .txt .dat .poi .pol, read only: points
     vset,   ///< .vs .pl, read only: points of GOCAD's VSet and PLine
     dxf,    ///< .dxf, read only: 3DFACE
+    grdecl, ///< .grdecl, read only: corner-point grids
     sticks, ///< .sticks, read only: fault sticks
 };
 

@@ -16,11 +16,11 @@ struct ConvertCommand {
 
 constexpr auto convert_footer =
     R"(Nothing is arranged, merged or repaired: the same triangles with the same coordinates, bit by bit.
-Binary STL holds float32 only, which is said. Reads .ts .ml .obj .off .stl .ply .vtp .vtu .vtk .msh .dxf
+Binary STL holds float32 only, which is said. Reads .ts .ml .obj .off .stl .ply .vtp .vtu .vtk .msh .dxf .grdecl
 .sticks, writes .vtp .vtk .obj .ts .ply .off .stl .msh .inp .mesh .poly .smesh.
 Grids (Irap .irap .gri, ZMAP+ .zmap, CPS-3 .cps3, ESRI .asc) become surfaces with holes where heights
 are missing, points (.xyz .csv .dat .txt .poi .pol, GOCAD .vs .pl) by Delaunay triangles without
-edges longer than --max-edge.
+edges longer than --max-edge. Corner-point grids (.grdecl) become top, base, layers, faults and sides.
 
 Examples:
   terrane convert faults.ts faults.obj
