@@ -380,11 +380,19 @@ def other_programs():
     """Small files that VTK, gmsh and meshio wrote, by format, and DXF and GeoJSON as others write them."""
     data = pathlib.Path(__file__).parent.parent / "tests" / "data" / "other_programs"
     files = {fmt: {path.stem: path.read_bytes() for path in sorted(data.glob("*." + fmt))}
-             for fmt in ("vtp", "vtk", "msh")}
+             for fmt in ("vtp", "vtu", "vtk", "msh")}
     corners = [(0, 0, 0), (2, 0, 0), (2, 1, 0.5), (0, 1, 0.5)]
     face = "".join(f"1{k}\n{x}\n2{k}\n{y}\n3{k}\n{z}\n" for k, (x, y, z) in enumerate(corners))
     files["dxf"] = {"face": "0\nSECTION\n2\nENTITIES\n0\n3DFACE\n8\ntop\n" + face +
                             "0\nENDSEC\n0\nEOF\n"}
+    pillars = "\n".join(f"{x} {y} 0 {x + lean} {y} 9" for y in (0, 5) for x, lean in ((0, 0), (4, 1), (8, 0)))
+    files["grdecl"] = {"fault": "-- two columns\nSPECGRID\n2 1 2 1 F /\nCOORD\n" + pillars + "\n/\nZCORN\n" +
+                                "".join(f"2*{z} 2*{z + 1.5}\n2*{z} {z + 1} {z - 0.5}\n" for z in (1, 3, 3, 5)) +
+                                "/\nACTNUM\n3*1 0 /\nFAULTS\n'F1' 1 1 1 1 1 2 'I' /\n/\n"}
+    files["sticks"] = {"charisma": "".join(f"INLINE- {i} 60 {i} {y} {-2 * y - 1} F 1 {i}\n" for i in (1, 2, 4)
+                                           for y in range(i + 1)),
+                       "heading": "x;y;depth;fault;stick\n0;0;1;A;1\n0;1;2;A;1\n3;0;1;A;2\n0;0;1;B;1\n5;5;5;B;2\n5;6;6;B;2\n",
+                       "breaks": "0 0 0\n0 0 -3\n999 999 999\n4 0 -3\n4 0 0\n999 999 999\nEOD\n"}
     polygon = '{"type": "Polygon", "coordinates": [[[0, 0], [4, 0], [4, 3.5], [0, 0]]]}'
     files["geojson"] = {"polygon": polygon,
                         "feature": '{"type": "FeatureCollection", "features": [{"type": "Feature", '

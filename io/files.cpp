@@ -8,6 +8,7 @@
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/grids/cps3.hpp>
 #include <terrane/io/grids/esri.hpp>
+#include <terrane/io/grids/grdecl.hpp>
 #include <terrane/io/grids/grid_text.hpp>
 #include <terrane/io/grids/irap.hpp>
 #include <terrane/io/grids/zmap.hpp>
@@ -21,6 +22,7 @@
 #include <terrane/io/meshes/vtk.hpp>
 #include <terrane/io/meshes/vtp_reader.hpp>
 #include <terrane/io/points/points.hpp>
+#include <terrane/io/points/sticks.hpp>
 #include <terrane/io/surfaces/dxf.hpp>
 #include <terrane/io/surfaces/obj.hpp>
 #include <terrane/io/surfaces/off.hpp>
@@ -39,19 +41,20 @@ namespace {
 /// The largest file that is read. It has at least 3 bytes per vertex, so 32-bit indices suffice.
 constexpr std::uint64_t max_bytes = 3 * (std::uint64_t(1) << 32) - 3;
 
-constexpr std::array<std::pair<std::string_view, Format>, 35> names{{
-    {"ts", Format::gocad},    {"ml", Format::gocad},   {"gp", Format::gocad},
-    {"mx", Format::gocad},    {"obj", Format::obj},    {"off", Format::off},
-    {"stl", Format::stl},     {"ply", Format::ply},    {"vtp", Format::vtp},
-    {"vtu", Format::vtu},     {"msh", Format::msh},    {"msh22", Format::msh22},
-    {"inp", Format::inp},     {"mesh", Format::medit}, {"poly", Format::poly},
-    {"smesh", Format::smesh}, {"irap", Format::irap},  {"gri", Format::irap},
-    {"fgr", Format::irap},    {"zmap", Format::zmap},  {"zycor", Format::zmap},
-    {"cps3", Format::cps3},   {"cps", Format::cps3},   {"asc", Format::esri},
-    {"agr", Format::esri},    {"xyz", Format::xyz},    {"csv", Format::xyz},
-    {"txt", Format::xyz},     {"dat", Format::xyz},    {"poi", Format::xyz},
-    {"pol", Format::xyz},     {"vs", Format::vset},    {"pl", Format::vset},
-    {"vtk", Format::vtk},     {"dxf", Format::dxf},
+constexpr std::array<std::pair<std::string_view, Format>, 38> names{{
+    {"ts", Format::gocad},      {"ml", Format::gocad},      {"gp", Format::gocad},
+    {"mx", Format::gocad},      {"gm", Format::gocad},      {"obj", Format::obj},
+    {"off", Format::off},       {"stl", Format::stl},       {"ply", Format::ply},
+    {"vtp", Format::vtp},       {"vtu", Format::vtu},       {"msh", Format::msh},
+    {"msh22", Format::msh22},   {"inp", Format::inp},       {"mesh", Format::medit},
+    {"poly", Format::poly},     {"smesh", Format::smesh},   {"irap", Format::irap},
+    {"gri", Format::irap},      {"fgr", Format::irap},      {"zmap", Format::zmap},
+    {"zycor", Format::zmap},    {"cps3", Format::cps3},     {"cps", Format::cps3},
+    {"asc", Format::esri},      {"agr", Format::esri},      {"xyz", Format::xyz},
+    {"csv", Format::xyz},       {"txt", Format::xyz},       {"dat", Format::xyz},
+    {"poi", Format::xyz},       {"pol", Format::xyz},       {"vs", Format::vset},
+    {"pl", Format::vset},       {"vtk", Format::vtk},       {"dxf", Format::dxf},
+    {"grdecl", Format::grdecl}, {"sticks", Format::sticks},
 }};
 
 std::string place_of(const fs::path& path, bool reading) {
@@ -101,12 +104,16 @@ Result<std::vector<Surface>> parse_as_stated(std::string_view contents, std::str
         return read_ply(contents, source, name);
     case Format::vtp:
         return read_vtp(contents, source, name);
+    case Format::vtu:
+        return read_vtu(contents, source, name);
     case Format::msh:
         return read_msh(contents, source, name);
     case Format::vtk:
         return read_vtk(contents, source, name);
     case Format::dxf:
         return read_dxf(contents, source, name);
+    case Format::grdecl:
+        return read_grdecl(contents, source);
     case Format::irap:
         return surfaces_of(read_irap(contents, source, name), source, options);
     case Format::zmap:
@@ -117,6 +124,8 @@ Result<std::vector<Surface>> parse_as_stated(std::string_view contents, std::str
         return surfaces_of(read_esri(contents, source, name), source, options);
     case Format::xyz:
         return read_points(contents, source, name, options);
+    case Format::sticks:
+        return read_sticks(contents, source, name, options);
     case Format::vset:
         return read_gocad_points(contents, source, name, options);
     default:
@@ -157,6 +166,8 @@ Result<std::string> contents_of(const Mesh& mesh, Format format, const WriteOpti
         return to_abaqus(mesh);
     case Format::medit:
         return to_medit(mesh);
+    case Format::vtk:
+        return to_vtk(mesh);
     case Format::poly:
         return to_poly(mesh, options.regions);
     case Format::smesh:
@@ -167,8 +178,8 @@ Result<std::string> contents_of(const Mesh& mesh, Format format, const WriteOpti
         break;
     }
     return Error{ErrorCode::unsupported,
-                 is_read(format) ? "this format is read, not written"
-                                 : "this format is for tetrahedra, not for surfaces",
+                 holds_tetrahedra(format) ? "this format is for tetrahedra, not for surfaces"
+                                          : "this format is read, not written",
                  ""};
 }
 
@@ -214,7 +225,9 @@ bool is_read(Format format) {
     case Format::stl:
     case Format::ply:
     case Format::vtp:
+    case Format::vtu:
     case Format::msh:
+    case Format::vtk:
         return true;
     default:
         return format >= Format::irap;

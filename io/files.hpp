@@ -23,27 +23,29 @@ namespace terrane {
 
 /// The file formats.
 enum class Format {
-    gocad, ///< .ts .ml .gp .mx
-    obj,   ///< .obj
-    off,   ///< .off
-    stl,   ///< .stl (float32)
-    ply,   ///< .ply
-    vtp,   ///< .vtp
-    vtu,   ///< .vtu, written only: tetrahedra
-    msh,   ///< .msh: MSH 4.1; also MSH 2.2 where it is read
-    msh22, ///< written only: MSH 2.2; no extension selects it, only its name
-    inp,   ///< .inp, written only: Abaqus
-    medit, ///< .mesh, written only
-    poly,  ///< .poly, written only: TetGen, surfaces
-    smesh, ///< .smesh, written only: TetGen, surfaces
-    irap,  ///< .irap .gri .fgr, read only: a grid, text or binary
-    zmap,  ///< .zmap .zycor, read only: a grid
-    cps3,  ///< .cps3 .cps, read only: a grid
-    esri,  ///< .asc .agr, read only: a grid
-    xyz,   ///< .xyz .csv .txt .dat .poi .pol, read only: points
-    vset,  ///< .vs .pl, read only: points of GOCAD's VSet and PLine
-    vtk,   ///< .vtk, read only: legacy VTK, POLYDATA
-    dxf,   ///< .dxf, read only: 3DFACE
+    gocad,  ///< .ts .ml .gp .mx .gm
+    obj,    ///< .obj
+    off,    ///< .off
+    stl,    ///< .stl (float32)
+    ply,    ///< .ply
+    vtp,    ///< .vtp
+    vtu,    ///< .vtu: tetrahedra; the faces among its cells are read
+    msh,    ///< .msh: MSH 4.1; also MSH 2.2 where it is read
+    msh22,  ///< written only: MSH 2.2; no extension selects it, only its name
+    inp,    ///< .inp, written only: Abaqus
+    medit,  ///< .mesh, written only
+    poly,   ///< .poly, written only: TetGen, surfaces
+    smesh,  ///< .smesh, written only: TetGen, surfaces
+    vtk,    ///< .vtk: legacy VTK, POLYDATA
+    irap,   ///< .irap .gri .fgr, read only: a grid, text or binary
+    zmap,   ///< .zmap .zycor, read only: a grid
+    cps3,   ///< .cps3 .cps, read only: a grid
+    esri,   ///< .asc .agr, read only: a grid
+    xyz,    ///< .xyz .csv .txt .dat .poi .pol, read only: points
+    vset,   ///< .vs .pl, read only: points of GOCAD's VSet and PLine
+    dxf,    ///< .dxf, read only: 3DFACE
+    grdecl, ///< .grdecl, read only: corner-point grids
+    sticks, ///< .sticks, read only: fault sticks
 };
 
 /// Tells whether surfaces can be read from this format.

@@ -16,11 +16,11 @@ struct ConvertCommand {
 
 constexpr auto convert_footer =
     R"(Nothing is arranged, merged or repaired: the same triangles with the same coordinates, bit by bit.
-Binary STL holds float32 only, which is said. Reads .ts .ml .obj .off .stl .ply .vtp .vtk .msh .dxf, writes .vtp .obj
-.ts .ply .off .stl .msh .inp .mesh .poly .smesh.
+Binary STL holds float32 only, which is said. Reads .ts .ml .obj .off .stl .ply .vtp .vtu .vtk .msh .dxf .grdecl
+.sticks, writes .vtp .vtk .obj .ts .ply .off .stl .msh .inp .mesh .poly .smesh.
 Grids (Irap .irap .gri, ZMAP+ .zmap, CPS-3 .cps3, ESRI .asc) become surfaces with holes where heights
 are missing, points (.xyz .csv .dat .txt .poi .pol, GOCAD .vs .pl) by Delaunay triangles without
-edges longer than --max-edge.
+edges longer than --max-edge. Corner-point grids (.grdecl) become top, base, layers, faults and sides.
 
 Examples:
   terrane convert faults.ts faults.obj
@@ -66,7 +66,7 @@ Command convert_command(CLI::App& program) {
         ->required()
         ->type_name("FILE");
     app->add_option("--format", options->files.format,
-                    "Format of whatever is -: ts, ml, obj, off, stl, ply, vtp, msh, inp, "
+                    "Format of whatever is -: ts, ml, obj, off, stl, ply, vtp, vtu, vtk, msh, inp, "
                     "mesh, poly, smesh")
         ->type_name("FORMAT");
     app->add_option("--output-format", options->files.output_format,

@@ -96,7 +96,7 @@ void add_inputs(CLI::App& command, FileOptions& options) {
         ->type_name("FILE");
     command
         .add_option("--format", options.format,
-                    "Format of whatever is -: ts, ml, obj, off, stl, ply, vtp, vtu, msh, inp, "
+                    "Format of whatever is -: ts, ml, obj, off, stl, ply, vtp, vtu, vtk, msh, inp, "
                     "mesh, poly, smesh")
         ->type_name("FORMAT");
     add_reading(command, options);
@@ -107,7 +107,7 @@ void add_reading(CLI::App& command, FileOptions& options) {
     command
         .add_option("--input-format", options.input_format,
                     "Format of IN, where its extension does not tell; of grids and points: irap, "
-                    "zmap, cps3, asc, xyz, vs")
+                    "zmap, cps3, asc, xyz, vs, sticks")
         ->type_name("FORMAT");
     command.add_flag("--depth", options.read.depth,
                      "Grids and points: heights are depths, positive down");
@@ -166,9 +166,9 @@ Result<std::vector<Output>> plan_outputs(const FileOptions& options, OutputKind 
         if (!fits(format.value(), kind))
             return Error{ErrorCode::unsupported,
                          kind == OutputKind::surfaces
-                             ? is_read(format.value())
-                                   ? "this format is read, not written"
-                                   : "this format is for tetrahedra, not for surfaces"
+                             ? holds_tetrahedra(format.value())
+                                   ? "this format is for tetrahedra, not for surfaces"
+                                   : "this format is read, not written"
                              : "tetrahedra are written as .vtu, .msh, .inp or .mesh",
                          path};
         if (const auto folder = check_folder(path); !folder) return folder.error();

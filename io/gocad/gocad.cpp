@@ -34,6 +34,8 @@ Error no_tsurf(const LineParser& in, const GocadFile& file) {
     for (const auto& [type, count] : file.others)
         found += fmt::format("{}{} {}", found.empty() ? "" : ", ", count, type);
     if (file.model) found += found.empty() ? "1 Model3d" : ", 1 Model3d";
+    if (file.others.contains("VSet") || file.others.contains("PLine"))
+        found += "; --input-format vs connects their points";
     return in.file_error(ErrorCode::nothing_to_do, "there is no TSurf, only " + found);
 }
 

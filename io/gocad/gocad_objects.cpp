@@ -168,16 +168,20 @@ MaybeError read_model3d(LineParser& in, ModelObject& model) {
 }
 
 MaybeError read_gocad_file(LineParser& in, GocadFile& file) {
-    bool found = false;
+    bool found = false, is_archive = false;
     while (in.next()) {
+        if (in.number() == 1) is_archive = in.line().starts_with("PK\x03\x04");
         Tokens tokens(in.line());
         if (tokens.next() != "GOCAD") continue;
         found = true;
         if (auto trouble = read_object(in, tokens.next(), file)) return trouble;
     }
-    if (!found)
-        return in.file_error(ErrorCode::bad_syntax, "not a GOCAD file: no line begins with GOCAD");
-    return std::nullopt;
+    if (found) return std::nullopt;
+    return in.file_error(is_archive ? ErrorCode::unsupported : ErrorCode::bad_syntax,
+                         is_archive
+                             ? "this is a ZIP archive, as RINGMesh writes with the extension "
+                               ".gm; save the model as .ml or its surfaces as .ts"
+                             : "not a GOCAD file: no line begins with GOCAD");
 }
 
 } // namespace terrane::detail

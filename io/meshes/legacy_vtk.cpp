@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -12,6 +13,7 @@
 
 #include <terrane/io/meshes/detail/parts.hpp>
 #include <terrane/io/meshes/detail/vtk_data.hpp>
+#include <terrane/io/text/names.hpp>
 #include <terrane/io/text/text.hpp>
 
 namespace terrane {
@@ -57,7 +59,11 @@ public:
         }
         if (auto trouble = make_triangles()) return *trouble;
         std::vector<FilePart> parts;
-        parts.push_back({std::string(name_), Role::unknown, std::move(triangles_)});
+        if (fields_.contains("surface_name")) {
+            if (auto trouble = divide(parts)) return *trouble;
+        } else {
+            parts.push_back({std::string(name_), Role::unknown, std::move(triangles_)});
+        }
         auto surfaces = surfaces_of_parts(vertices_, std::move(parts));
         if (surfaces.empty())
             return Error{ErrorCode::nothing_to_do, "there is no triangle", std::string(source_)};
@@ -131,7 +137,7 @@ private:
             }
             return std::nullopt;
         }
-        if (section == "field") return pass_field();
+        if (section == "field") return read_field();
         return error(ErrorCode::bad_syntax,
                      fmt::format("{} is no section of POLYDATA", shown(section)));
     }
@@ -264,13 +270,14 @@ private:
         return std::nullopt;
     }
 
-    /// Passes over arrays that belong to the whole file.
-    MaybeError pass_field() {
+    /// Reads arrays that belong to the whole file, and keeps those that to_vtk() writes.
+    MaybeError read_field() {
         token(); // its name
         std::size_t arrays = 0;
         if (auto trouble = read_count(arrays)) return trouble;
         for (std::size_t a = 0; a < arrays; ++a) {
-            if (token().empty()) return no_number({});
+            const std::string name(token());
+            if (name.empty()) return no_number({});
             std::size_t components = 0, tuples = 0;
             LegacyType type{};
             if (auto trouble = read_count(components)) return trouble;
@@ -278,8 +285,9 @@ private:
             if (auto trouble = read_type(type)) return trouble;
             if (components != 0 && tuples > contents_.size() / components)
                 return error(ErrorCode::bad_syntax, "the array is longer than the file");
-            std::vector<double> unused;
-            if (auto trouble = read_numbers(components * tuples, type, unused)) return trouble;
+            std::vector<double> values;
+            if (auto trouble = read_numbers(components * tuples, type, values)) return trouble;
+            if (name.starts_with("surface")) fields_[name] = std::move(values);
         }
         return std::nullopt;
     }
@@ -289,6 +297,49 @@ private:
             if (auto trouble = add(cells, append_fan)) return trouble;
         for (const Cells& cells : strips_)
             if (auto trouble = add(cells, append_strip)) return trouble;
+        return std::nullopt;
+    }
+
+    /// Returns the texts in an array of character codes, each ended by a 0.
+    [[nodiscard]] std::vector<std::string> texts(const std::string& array) const {
+        std::vector<std::string> texts;
+        std::string text;
+        const auto codes = fields_.find(array);
+        if (codes == fields_.end()) return texts;
+        for (const double code : codes->second) {
+            if (code > 0 && code < 256)
+                text += static_cast<char>(static_cast<unsigned char>(code));
+            else
+                texts.push_back(std::exchange(text, {}));
+        }
+        return texts;
+    }
+
+    /// Gives the triangles to the surfaces that the field arrays name.
+    MaybeError divide(std::vector<FilePart>& parts) {
+        const auto names = texts("surface_name"), roles = texts("surface_role");
+        for (std::size_t s = 0; s < names.size(); ++s) {
+            FilePart& part = parts.emplace_back();
+            part.name = names[s].empty() ? std::string(name_) : names[s];
+            for (std::size_t r = 0; r < role_names.size(); ++r)
+                if (s < roles.size() && roles[s] == role_names[r]) part.role = Role(r);
+        }
+        const auto& offsets = fields_["surfaces_offset"];
+        const auto& lists = fields_["surfaces"];
+        bool sound = offsets.size() == triangles_.size() + 1 && offsets.front() == 0 &&
+                     offsets.back() == static_cast<double>(lists.size()) &&
+                     std::is_sorted(offsets.begin(), offsets.end());
+        for (const double offset : offsets)
+            sound = sound && offset >= 0 && offset <= static_cast<double>(lists.size());
+        for (const double s : lists)
+            sound = sound && s >= 0 && s < static_cast<double>(parts.size());
+        if (!sound)
+            return Error{ErrorCode::bad_index, "the lists of surfaces do not fit the triangles",
+                         std::string(source_)};
+        for (std::size_t t = 0; t < triangles_.size(); ++t)
+            for (auto i = static_cast<std::size_t>(offsets[t]);
+                 i < static_cast<std::size_t>(offsets[t + 1]); ++i)
+                parts[static_cast<std::size_t>(lists[i])].triangles.push_back(triangles_[t]);
         return std::nullopt;
     }
 
@@ -317,6 +368,7 @@ private:
     std::vector<Point3> vertices_;
     std::vector<Cells> polygons_, strips_;
     std::vector<Triangle> triangles_;
+    std::map<std::string, std::vector<double>> fields_; ///< arrays that to_vtk() writes
 };
 
 } // namespace

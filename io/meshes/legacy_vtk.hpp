@@ -1,22 +1,32 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Reading VTK's legacy format (.vtk).
+// VTK's legacy format (.vtk).
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include <terrane/algorithms/core/result.hpp>
-#include <terrane/algorithms/mesh/surface.hpp>
+#include <terrane/algorithms/mesh/mesh.hpp>
 
 namespace terrane {
 
 /// Reads POLYDATA, text or binary, of versions 1 to 5: the polygons and triangle strips become one
-/// surface, `name`; vertices and lines are passed over, and what follows the geometry is not read.
+/// surface, `name`; vertices and lines are passed over, and what follows the geometry is not read. A
+/// file that to_vtk() wrote gives its surfaces back, with names and roles.
 /// Polygons become fans round their first corner. The surface has only the vertices that it uses.
 /// Errors: bad_syntax, bad_number, bad_index with "source:line", or "source, byte n" where the data
 /// are binary; unsupported (another DATASET); nothing_to_do if there is no triangle. Cost: linear.
 Result<std::vector<Surface>> read_vtk(std::string_view contents, std::string_view source,
                                       std::string_view name);
+
+/// Writes the triangles as POLYDATA in text, version 3.0. The cell array `surface` (int) is the number
+/// of the first surface of each triangle, `surface_count` the number of its surfaces. Field arrays:
+/// surface_name and surface_role (unsigned_char), the codes of the characters of all names and roles,
+/// each ended by a 0; surfaces_offset and surfaces (int): triangle i belongs to
+/// surfaces[surfaces_offset[i] .. surfaces_offset[i + 1]). Numbers read back as the same doubles.
+/// Defined in legacy_vtk_writer.cpp.
+std::string to_vtk(const Mesh& mesh);
 
 } // namespace terrane

@@ -43,23 +43,64 @@ struct Ownership {
     [[nodiscard]] bool empty() const { return surface.empty(); }
 };
 
-class VtpReader {
+/// What a cell of an unstructured grid is to a surface.
+enum class CellKind { passed_over, polygon, pixel, strip, curved };
+
+/// Returns the kind of a cell by its number in VTK (vtkCellType.h).
+CellKind kind_of_cell(std::int64_t type) {
+    switch (type) {
+    case 5: // triangle
+    case 7: // polygon
+    case 9: // quadrilateral
+        return CellKind::polygon;
+    case 6:
+        return CellKind::strip;
+    case 8:
+        return CellKind::pixel;
+    case 22: // quadratic and others of higher order
+    case 23:
+    case 28:
+    case 30:
+    case 34:
+    case 36:
+    case 69:
+    case 70:
+    case 76:
+    case 77:
+        return CellKind::curved;
+    default:
+        return CellKind::passed_over; // points, lines, volumes
+    }
+}
+
+/// Reads PolyData, or the faces of an UnstructuredGrid.
+class VtkXmlReader {
 public:
-    VtpReader(std::string_view contents, std::string_view source, std::string_view name) :
-        contents_(contents), source_(source), name_(name) {}
+    VtkXmlReader(std::string_view contents, std::string_view source, std::string_view name,
+                 std::string_view type) :
+        contents_(contents),
+        source_(source), name_(name), type_(type) {}
 
     Result<std::vector<Surface>> read() {
         if (auto trouble = parse()) return *trouble;
         if (auto trouble = read_header()) return *trouble;
-        const pugi::xml_node data = root_.child("PolyData");
-        if (!data) return error(root_, ErrorCode::bad_syntax, "there is no element PolyData");
+        const pugi::xml_node data = root_.child(std::string(type_).c_str());
+        if (!data)
+            return error(root_, ErrorCode::bad_syntax,
+                         fmt::format("there is no element {}", type_));
         if (auto trouble = read_names(data)) return *trouble;
         if (parts_.empty()) parts_.push_back({std::string(name_), Role::unknown, {}});
         for (const pugi::xml_node piece : data.children("Piece"))
             if (auto trouble = read_piece(data, piece)) return *trouble;
         auto surfaces = surfaces_of_parts(vertices_, std::move(parts_));
         if (surfaces.empty())
-            return Error{ErrorCode::nothing_to_do, "there is no triangle", std::string(source_)};
+            return Error{ErrorCode::nothing_to_do,
+                         other_cells_ == 0
+                             ? "there is no triangle"
+                             : fmt::format("there is no triangle, only {} other cells; ParaView's "
+                                           "Extract Surface makes triangles of them",
+                                           other_cells_),
+                         std::string(source_)};
         return surfaces;
     }
 
@@ -106,9 +147,9 @@ private:
 
     MaybeError read_header() {
         const std::string_view type = root_.attribute("type").value();
-        if (type != "PolyData")
+        if (type != type_)
             return error(root_, ErrorCode::unsupported,
-                         fmt::format("the file has {}; only PolyData is read", shown(type)));
+                         fmt::format("the file has {}; only {} is read", shown(type), type_));
         const std::string_view compressor = root_.attribute("compressor").value();
         if (!compressor.empty() && compressor != "vtkZLibDataCompressor")
             return error(
@@ -276,13 +317,20 @@ private:
         return std::nullopt;
     }
 
-    /// Reads which surfaces the polygons of a piece are of, where the file says it.
+    /// Reads which surfaces the polygons of a piece are of, where the file says it. Where cells have
+    /// `kinds`, only polygons among them count.
     MaybeError read_ownership(const pugi::xml_node& data, const pugi::xml_node& piece,
-                              Ownership& of) {
+                              Ownership& of, const std::vector<CellKind>& kinds = {}) {
         if (!has_names_) return std::nullopt;
         const auto surface = array_named(piece.child("CellData"), "surface");
         if (!surface) return std::nullopt;
         if (auto trouble = values_of(surface, of.surface)) return trouble;
+        if (!kinds.empty()) {
+            std::size_t kept = 0;
+            for (std::size_t k = 0; k < std::min(kinds.size(), of.surface.size()); ++k)
+                if (kinds[k] == CellKind::polygon) of.surface[kept++] = of.surface[k];
+            of.surface.resize(kept);
+        }
         const auto lists = array_named(data.child("FieldData"), "surfaces"),
                    offsets = array_named(data.child("FieldData"), "surfaces_offset");
         if (!lists || !offsets) return std::nullopt;
@@ -326,6 +374,7 @@ private:
         std::size_t points = 0;
         Ownership of;
         if (auto trouble = read_points(piece, points)) return trouble;
+        if (type_ == "UnstructuredGrid") return read_grid_cells(data, piece, points);
         if (auto trouble = read_ownership(data, piece, of)) return trouble;
         const auto polygon = [&](std::size_t k, const Corners& corners) {
             return add_polygon(piece, of, k, corners);
@@ -338,7 +387,50 @@ private:
         return for_each_cell(piece.child("Strips"), points, strip);
     }
 
+    /// Reads the types of the cells of a grid, as kinds. Fails at cells with curved sides.
+    MaybeError read_kinds(const pugi::xml_node& cells, std::vector<CellKind>& kinds) {
+        const auto node = array_named(cells, "types");
+        Integers types;
+        if (!node) return std::nullopt;
+        if (auto trouble = values_of(node, types)) return trouble;
+        for (const std::int64_t type : types) {
+            kinds.push_back(kind_of_cell(type));
+            if (kinds.back() == CellKind::passed_over) ++other_cells_;
+            if (kinds.back() == CellKind::curved)
+                return error(node, ErrorCode::unsupported,
+                             fmt::format("cell {} is of type {}, with curved sides, which is not "
+                                         "read",
+                                         kinds.size() - 1, type));
+        }
+        return std::nullopt;
+    }
+
+    /// Reads the faces of a grid.
+    MaybeError read_grid_cells(const pugi::xml_node& data, const pugi::xml_node& piece,
+                               std::size_t points) {
+        const auto cells = piece.child("Cells");
+        std::vector<CellKind> kinds;
+        Ownership of;
+        if (auto trouble = read_kinds(cells, kinds)) return trouble;
+        if (auto trouble = read_ownership(data, piece, of, kinds)) return trouble;
+        std::size_t polygons = 0;
+        const auto use = [&](std::size_t k, const Corners& corners) -> MaybeError {
+            if (k >= kinds.size())
+                return error(cells, ErrorCode::bad_index,
+                             fmt::format("the array types has no value for cell {}", k));
+            if (kinds[k] == CellKind::polygon) return add_polygon(piece, of, polygons++, corners);
+            if (kinds[k] == CellKind::strip) append_strip(corners, parts_[0].triangles);
+            if (kinds[k] == CellKind::pixel && corners.size() == 4)
+                append_fan(Corners{corners[0], corners[1], corners[3], corners[2]},
+                           parts_[0].triangles);
+            return std::nullopt;
+        };
+        return for_each_cell(cells, points, use);
+    }
+
     std::string_view contents_, source_, name_;
+    std::string_view type_;       ///< of the data that are read: PolyData or UnstructuredGrid
+    std::size_t other_cells_ = 0; ///< cells of a grid that are no faces
     pugi::xml_document document_;
     pugi::xml_node root_;
     VtkEncoding encoding_;
@@ -355,7 +447,12 @@ private:
 
 Result<std::vector<Surface>> read_vtp(std::string_view contents, std::string_view source,
                                       std::string_view name) {
-    return VtpReader(contents, source, name).read();
+    return VtkXmlReader(contents, source, name, "PolyData").read();
+}
+
+Result<std::vector<Surface>> read_vtu(std::string_view contents, std::string_view source,
+                                      std::string_view name) {
+    return VtkXmlReader(contents, source, name, "UnstructuredGrid").read();
 }
 
 } // namespace terrane

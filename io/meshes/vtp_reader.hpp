@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Reading VTK XML PolyData (.vtp).
+// Reading VTK XML PolyData (.vtp) and the faces of an UnstructuredGrid (.vtu).
 #pragma once
 
 #include <string_view>
@@ -24,6 +24,13 @@ namespace terrane {
 /// unsupported (another type of data, another compressor); nothing_to_do if there is no triangle.
 /// Cost: linear in the size of the data, decompressed.
 Result<std::vector<Surface>> read_vtp(std::string_view contents, std::string_view source,
+                                      std::string_view name);
+
+/// Reads the triangles, quadrilaterals, polygons, pixels and triangle strips of all pieces, as read_vtp
+/// reads polygons; points, lines and volumes are passed over. A file that to_vtu() wrote gives the
+/// faces of its tetrahedra on surfaces. Errors: those of read_vtp; unsupported for faces with curved
+/// sides.
+Result<std::vector<Surface>> read_vtu(std::string_view contents, std::string_view source,
                                       std::string_view name);
 
 } // namespace terrane

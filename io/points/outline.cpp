@@ -132,8 +132,15 @@ private:
     std::optional<Ring> ring_;
 };
 
+/// Tells whether a number is one of the three with which RMS ends a line.
+bool is_end_of_line(std::string_view token) {
+    double value = 0;
+    return parse_double(token, value) == NumberState::ok && value == 999;
+}
+
 Result<Ring> read_columns(std::string_view contents, std::string_view source) {
     Ring corners;
+    bool ended = false;
     LineParser lines(contents, source);
     while (lines.next()) {
         std::string line(lines.line().substr(0, lines.line().find('#')));
@@ -142,6 +149,14 @@ Result<Ring> read_columns(std::string_view contents, std::string_view source) {
         const auto first = tokens.next();
         if (first.empty()) continue;
         const auto second = tokens.next();
+        if (is_end_of_line(first) && is_end_of_line(second) && is_end_of_line(tokens.next())) {
+            ended = true;
+            continue;
+        }
+        if (ended)
+            return lines.error(ErrorCode::unsupported,
+                               "a second polygon begins here; an outline is one, so keep one in "
+                               "the file");
         auto& p = corners.emplace_back();
         if (second.empty()) return lines.error(ErrorCode::bad_syntax, "a corner needs two numbers");
         if (auto flaw = lines.read_number(first, p[0])) return *flaw;

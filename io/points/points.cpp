@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
 #include <optional>
 
@@ -12,6 +11,7 @@
 #include <terrane/algorithms/triangulation/point_surface.hpp>
 #include <terrane/io/gocad/gocad_objects.hpp>
 #include <terrane/io/points/detail/heading.hpp>
+#include <terrane/io/points/detail/point_lines.hpp>
 #include <terrane/io/text/text.hpp>
 
 namespace terrane {
@@ -20,15 +20,6 @@ using namespace detail;
 using namespace points::detail;
 
 namespace {
-
-bool is_no_height(double z) {
-    return std::abs(z) >= 1e29 || z == -99999 || z == -9999 || z == -999.25;
-}
-
-bool is_number(std::string_view token) {
-    double value = 0;
-    return parse_double(token, value) != NumberState::not_a_number;
-}
 
 class PointReader {
 public:
@@ -39,7 +30,7 @@ public:
         while (in_.next()) {
             const auto line = trimmed(in_.line());
             if (line.empty()) continue;
-            if (line == "EOD" || line == "EOB") break;
+            if (ends_points(line)) break;
             if (is_comment(line)) {
                 look_for_names(line);
             } else if (auto trouble = read_line(line, surfaces)) {
@@ -51,11 +42,6 @@ public:
     }
 
 private:
-    static bool is_comment(std::string_view line) {
-        return line.starts_with('#') || line.starts_with('!') || line.starts_with('@') ||
-               line.starts_with("//");
-    }
-
     void look_for_names(std::string_view line) {
         if (chosen_) return;
         while (!line.empty() && std::string_view("#!@/ \t").find(line[0]) != std::string_view::npos)

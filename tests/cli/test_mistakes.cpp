@@ -107,6 +107,23 @@ Sheet utm_in_float32() {
     return s;
 }
 
+/// A corner-point grid of one cell over the sheets, at these depths.
+std::string grdecl(double top, double base) {
+    std::string text = "SPECGRID\n1 1 1 1 F /\nCOORD\n";
+    for (const int y : {0, 1000})
+        for (const int x : {0, 1000}) text += fmt::format("{0} {1} 0 {0} {1} 1\n", x, y);
+    return text + fmt::format("/\nZCORN\n4*{} 4*{} /\n", top, base);
+}
+
+/// Two sticks of a fault with these values of z.
+std::string sticks(double first, double last) {
+    std::string text;
+    for (const int y : {300, 700})
+        for (const double z : {first, last})
+            text += fmt::format("INLINE- 1 1 500 {} {} F1 {}\n", y, z, y);
+    return text;
+}
+
 using Files = std::map<std::string, std::string>;
 
 struct Mistake {
@@ -130,6 +147,10 @@ std::vector<Mistake> heights_units_and_systems() {
          "arrange in/a.ts in/b.ts in/c.csv -o out.obj", "heights_mixed", "--depth"},
         {"a grid of depths beside ZPOSITIVE Depth", {{"a.ts", ts("top", at_height(900), units("m", "m", "Depth"))}, {"b.asc", esri(1400)}},
          "arrange in/a.ts in/b.asc -o out.obj", "depths_unstated", "top counts z downward"},
+        {"a grid of depths beside a corner-point grid", {{"a.grdecl", grdecl(900, 1300)}, {"b.asc", esri(1400)}},
+         "arrange in/a.grdecl in/b.asc -o out.obj", "depths_unstated", "counts z downward"},
+        {"sticks of depths beside heights", {{"a.ts", top}, {"b.ts", base}, {"c.sticks", sticks(1000, 1300)}},
+         "arrange in/a.ts in/b.ts in/c.sticks -o out.obj", "heights_mixed", "z of F1 is between 1000 and 1300"},
         {"a column called depth", {{"a.csv", csv("x,y,depth", at_height(1400))}},
          "arrange in/a.csv -o out.obj", "depths_unstated", "a column called depth, with positive values"},
         {"a column called TVDSS", {{"a.csv", csv("X;Y;TVDSS", at_height(1400))}},
@@ -219,6 +240,13 @@ std::vector<Mistake> refused() {
         {"an unknown extension", {{"a.doc", top}}, "arrange in/a.doc -o out.obj", "", "doc"},
         {"an empty file", {{"a.ts", ""}}, "arrange in/a.ts -o out.obj", "", "in/a.ts"},
         {"a truncated file", {{"a.ts", top.substr(0, top.size() - 4)}}, "arrange in/a.ts -o out.obj", "", "has no END"},
+        {"an archive of RINGMesh", {{"a.gm", "PK\3\4mesh"}}, "arrange in/a.gm -o out.obj", "", "this is a ZIP archive"},
+        {"points of GOCAD as surfaces", {{"a.gp", "GOCAD VSet 1\nVRTX 1 0 0 0\nEND\n"}}, "arrange in/a.gp -o out.obj", "", "--input-format vs"},
+        {"a corner-point grid that includes files", {{"a.grdecl", "INCLUDE\n 'geo.inc' /\n"}}, "arrange in/a.grdecl -o out.obj", "", "INCLUDE names the file \"geo.inc\""},
+        {"a grid of blocks without corners", {{"a.grdecl", "DIMENS\n1 1 1 /\nDX\n1*9 /\n"}}, "arrange in/a.grdecl -o out.obj", "", "only corner-point grids are read"},
+        {"a fault of one stick", {{"a.sticks", "0 0 0\n0 0 -9\n"}}, "arrange in/a.sticks -o out.obj", "", "no fault has two sticks"},
+        {"polygons called a grid", {{"a.vtu", "<VTKFile type=\"PolyData\"/>"}}, "arrange in/a.vtu -o out.obj", "", "only UnstructuredGrid is read"},
+        {"a polygon of which only a corner is repeated", two, volume_of + " --polygon 0,0,1,1,0,0 --between 0,1", "", "a polygon needs three corners"},
         {"units mixed in a file", {{"a.ts", ts("top", at_height(-900), units("m", "m")) + ts("base", at_height(-900), units("m", "ft"))}}, "arrange in/a.ts -o out.obj", "", "AXIS_UNIT"},
         {"a box of five numbers", two, volume_of + " --box 0,0,0,1,1", "", "--box"},
         {"a box without extent", two, volume_of + " --box 0,0,0,0,1,1", "", "the first corner must be below"},
@@ -311,6 +339,17 @@ TEST_CASE("cli: inputs that fit together are not warned of", "[cli][plausibility
         CHECK(made.status == 0);
         CHECK(made.err.empty());
     }
+    // GOCAD names coordinate systems after how an object was made.
+    const auto shape =
+        folder.input("shape.ts", ts("F1", wall(500), system_called("from_Shape", "Unknown")));
+    const auto column = folder.input(
+        "column.ts", ts("moho", at_height(-1400), system_called("\" gocad Local\"", "Unknown")));
+    const auto named =
+        folder.input("named.ts", ts("top", at_height(-900), system_called("UTM 11N", "Unknown")));
+    const auto systems =
+        folder.run("arrange " + shape + " " + column + " " + named + " -o systems.obj --strict");
+    INFO(systems.err);
+    CHECK(systems.status == 0);
     const auto faults = folder.run(
         "arrange $D/arch-platform/faults.ts $D/arch-platform/mnt.ts -o out.obj --strict");
     INFO(faults.err);

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Opens what Terrane writes with VTK, gmsh and meshio and compares it with what was meant.
 
-VTK reads VTP and VTU, gmsh MSH 4.1, MSH 2.2 and MEDIT, meshio VTU and Abaqus files; *SURFACE, which meshio
+VTK reads VTP, VTU and its legacy format, gmsh MSH 4.1, MSH 2.2 and MEDIT, meshio VTU and Abaqus files; *SURFACE, which meshio
 leaves out, is read by the few lines below, from Abaqus' description of the keywords. (TetGen's
 formats are tested in test_poly.cpp.)
 
@@ -20,6 +20,7 @@ import tempfile
 from collections import Counter
 
 import meshio
+from vtkmodules.vtkIOLegacy import vtkPolyDataReader
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLUnstructuredGridReader
 
 
@@ -82,6 +83,26 @@ def check_vtk(path, meant):
     check(found == meant["names"], f"{path}: names {found}")
     check_lists(field, meant["surfaces_of"], path)
     check_cell_data(path, grid.GetCellData(), meant)
+
+
+def check_legacy(path, meant):
+    reader = vtkPolyDataReader()
+    reader.SetFileName(path)
+    reader.ReadAllFieldsOn()
+    reader.ReadAllScalarsOn()
+    reader.Update()
+    mesh = reader.GetOutput()
+    points = tuples(mesh.GetPoints().GetData())
+    check([same_numbers(a, b) for a, b in zip(points, meant["points"])] == [True] * len(meant["points"]),
+          f"{path}: points")
+    cells = [[mesh.GetCell(i).GetPointIds().GetId(k) for k in range(3)]
+             for i in range(mesh.GetNumberOfCells())]
+    check(cells == meant["cells"], f"{path}: cells")
+    check(texts(scalars(mesh.GetFieldData(), "surface_name")) == meant["names"], f"{path}: names")
+    check_lists(mesh.GetFieldData(), meant["surfaces_of"], path)
+    for name, values in (("surface", [entry[0] for entry in meant["surfaces_of"]]),
+                         ("surface_count", [len(entry) for entry in meant["surfaces_of"]])):
+        check(scalars(mesh.GetCellData(), name) == values, f"{path}: array {name}")
 
 
 def texts(codes):
@@ -387,6 +408,8 @@ def main():
                 meant = json.load(file)
             check_vtk(base + extension, meant)
             check_vtk(base + "_plain" + extension, meant)
+            if extension == ".vtp":
+                check_legacy(base + ".vtk", meant)
             if extension == ".vtu":  # meshio does not know VTP
                 check_meshio_vtu(base + extension, meant)
                 check_meshio_vtu(base + "_plain" + extension, meant)

@@ -25,10 +25,10 @@ using namespace test_support;
 
 namespace {
 
-constexpr Format readable[] = {Format::gocad, Format::obj,  Format::off,  Format::stl,
-                               Format::ply,   Format::irap, Format::zmap, Format::cps3,
-                               Format::esri,  Format::xyz,  Format::vset, Format::vtp,
-                               Format::msh,   Format::vtk,  Format::dxf};
+constexpr Format readable[] = {
+    Format::gocad, Format::obj,  Format::off,  Format::stl,    Format::ply,  Format::irap,
+    Format::zmap,  Format::cps3, Format::esri, Format::xyz,    Format::vset, Format::vtp,
+    Format::msh,   Format::vtk,  Format::dxf,  Format::grdecl, Format::vtu,  Format::sticks};
 
 bool keeps_its_promises(const std::vector<Surface>& surfaces) {
     bool any = false;
@@ -92,8 +92,8 @@ TEST_CASE("readers are total", "[io][files]") {
     std::vector<std::string> seeds{to_gocad(mesh), to_obj(mesh),       to_off(mesh),
                                    to_ply(mesh),   to_stl_ascii(mesh), to_stl(mesh).value()};
     seeds.push_back(read_file(test_data() + "/ringmesh/split_cube.ml").value());
-    for (const std::string format :
-         {"irap", "zmap", "cps3", "asc", "xyz", "vs", "vtp", "vtk", "msh", "dxf"})
+    for (const std::string format : {"irap", "zmap", "cps3", "asc", "xyz", "vs", "vtp", "vtk",
+                                     "msh", "dxf", "grdecl", "vtu", "sticks"})
         for (const auto& seed :
              std::filesystem::directory_iterator(source_dir() + "/fuzz/corpus/read_" + format))
             seeds.push_back(read_file(seed.path()).value());

@@ -67,8 +67,8 @@ TEST_CASE("files: what is written reads back", "[io][files]") {
 
 TEST_CASE("files: what holds surfaces, and what tetrahedra", "[io][files]") {
     TemporaryFolder folder;
-    const std::vector<std::string> names{"ts",  "obj",   "off", "stl",  "ply",  "vtp",  "vtu",
-                                         "msh", "msh22", "inp", "mesh", "poly", "smesh"};
+    const std::vector<std::string> names{"ts",  "obj",   "off", "stl",  "ply",  "vtp",   "vtu",
+                                         "msh", "msh22", "inp", "mesh", "poly", "smesh", "vtk"};
     std::string of_surfaces, of_tetrahedra;
     for (const auto& name : names) {
         const auto format = format_named(name);
@@ -81,7 +81,7 @@ TEST_CASE("files: what holds surfaces, and what tetrahedra", "[io][files]") {
         if (surfaces) of_surfaces += name + " ";
         if (tetrahedra) of_tetrahedra += name + " ";
     }
-    CHECK(of_surfaces == "ts obj off stl ply vtp msh msh22 inp mesh poly smesh ");
+    CHECK(of_surfaces == "ts obj off stl ply vtp msh msh22 inp mesh poly smesh vtk ");
     CHECK(of_tetrahedra == "vtu msh msh22 inp mesh ");
 }
 
@@ -101,17 +101,17 @@ TEST_CASE("files: reading what can't be read", "[io][files]") {
     check(read_surfaces(folder / "folder.obj"), cannot_open,
           (folder / "folder.obj").string() + ": cannot be read: Is a directory");
     const std::string list_of_readable =
-        "; read are ts, ml, gp, mx, obj, off, stl, ply, vtp, msh, irap, gri, fgr, "
+        "; read are ts, ml, gp, mx, gm, obj, off, stl, ply, vtp, vtu, msh, irap, gri, fgr, "
         "zmap, zycor, cps3, cps, asc, agr, xyz, csv, txt, dat, poi, pol, "
-        "vs, pl, vtk, dxf";
+        "vs, pl, vtk, dxf, grdecl, sticks";
     check(read_surfaces("a.abc"), unknown_format,
           "a.abc: unknown format \".abc\"" + list_of_readable);
     check(read_surfaces("a"), unknown_format,
           "a: the file name has no extension that tells the format" + list_of_readable);
     check(read_surfaces("-"), unknown_format,
           "standard input: the format must be given" + list_of_readable);
-    check(parse_surfaces("x", "a.vtu", Format::vtu), unsupported,
-          "a.vtu: this format is written, not read" + list_of_readable);
+    check(parse_surfaces("x", "a.inp", Format::inp), unsupported,
+          "a.inp: this format is written, not read" + list_of_readable);
     check(parse_surfaces("", "b/a.off", Format::off), nothing_to_do, "b/a.off: the file is empty");
 }
 

@@ -84,6 +84,7 @@ void save(const std::filesystem::path& folder, const std::string& name, const An
     };
     write(name + vtk, {});
     write(name + "_plain" + vtk, {.compress = false});
+    if (vtk == ".vtp") write(name + ".vtk", {});
     write(name + ".msh", {});
     write(name + "_22.msh", {.format = Format::msh22});
     write(name + ".mesh", {});

@@ -43,6 +43,16 @@ private:
     std::unordered_map<std::int64_t, std::uint32_t> indices_;
 };
 
+/// Tells whether a name in a coordinate system says nothing about it: GOCAD gives such names to
+/// systems of its own, after how an object was made ("from_Shape") or the program ("gocad Local").
+bool says_nothing(std::string_view name) {
+    const auto text = lower(trimmed(name));
+    for (const char* nothing : {"", "default", "unknown", "undefined", "none", "local",
+                                "gocad local", "skua local", "pdgm_epic local"})
+        if (text == nothing) return true;
+    return text.starts_with("from_");
+}
+
 class TsurfReader {
 public:
     TsurfReader(LineParser& in, TsurfObject& object) : in_(in), object_(object) {}
@@ -146,16 +156,14 @@ void TsurfReader::read_units(Tokens tokens) {
     if (units.size() > 2) frame.vertical_unit = unit_named(units[2]);
 }
 
-/// Takes NAME, PROJECTION and DATUM within the coordinate system; "Default" and "Unknown" state
-/// nothing.
+/// Takes NAME, PROJECTION and DATUM within the coordinate system, unless they say nothing.
 void TsurfReader::read_system(std::string_view keyword, std::string_view value) {
     if (keyword == "GOCAD_ORIGINAL_COORDINATE_SYSTEM") object_.in_system = true;
     if (keyword == "END_ORIGINAL_COORDINATE_SYSTEM") object_.in_system = false;
     if (!object_.in_system || (keyword != "NAME" && keyword != "PROJECTION" && keyword != "DATUM"))
         return;
     const auto text = unquoted(value);
-    for (const char* nothing : {"", "Default", "Unknown", "Local", "none"})
-        if (same_ignoring_case(text, nothing)) return;
+    if (says_nothing(text)) return;
     object_.surface.frame.system += (object_.surface.frame.system.empty() ? "" : ", ") + text;
 }
 

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Writes the files of this folder with VTK, gmsh and meshio (Debian's python3-vtk9, gmsh, python3-meshio).
 
+The .vtu files have a tetrahedron below it, an edge and a point as well.
 All of them hold the same roof: six points, two triangles and a quadrilateral; the gmsh files hold a square
 that is divided into two named physical surfaces.
 
@@ -15,9 +16,11 @@ import tempfile
 import meshio
 import numpy
 from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+from vtkmodules.vtkCommonDataModel import (VTK_LINE, VTK_PIXEL, VTK_QUAD, VTK_TETRA, VTK_TRIANGLE,
+                                           VTK_VERTEX, vtkCellArray, vtkPolyData,
+                                           vtkUnstructuredGrid)
 from vtkmodules.vtkIOLegacy import vtkPolyDataWriter
-from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
+from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter, vtkXMLUnstructuredGridWriter
 
 POINTS = [(0, 0, 0), (2, 0, 0), (2, 1, 0.5), (0, 1, 0.5), (0, 2, 0.1), (2, 2, 0.1)]
 TRIANGLES = [(3, 2, 4), (4, 2, 5)]
@@ -52,10 +55,22 @@ def roof(with_strip=False):
     return data
 
 
+def grid(pixel=False):
+    """The roof among cells of other kinds."""
+    data = vtkUnstructuredGrid()
+    data.SetPoints(roof().GetPoints())
+    for kind, corners in ((VTK_TETRA, (0, 1, 2, 3)), (VTK_LINE, (0, 1)),
+                          (VTK_PIXEL, (0, 1, 3, 2)) if pixel else (VTK_QUAD, QUADRILATERAL),
+                          (VTK_VERTEX, (5,)), *((VTK_TRIANGLE, t) for t in TRIANGLES)):
+        data.InsertNextCell(kind, len(corners), corners)
+    return data
+
+
 def write_xml(path, mode, compress, big_endian=False, encode=True, wide=False):
-    writer = vtkXMLPolyDataWriter()
+    is_grid = path.suffix == ".vtu"
+    writer = vtkXMLUnstructuredGridWriter() if is_grid else vtkXMLPolyDataWriter()
     writer.SetFileName(str(path))
-    writer.SetInputData(roof())
+    writer.SetInputData(grid(pixel=mode == "ascii") if is_grid else roof())
     {"ascii": writer.SetDataModeToAscii, "binary": writer.SetDataModeToBinary,
      "appended": writer.SetDataModeToAppended}[mode]()
     if compress:
@@ -99,6 +114,9 @@ def main():
     write_xml(folder / "vtk_appended_raw_zlib.vtp", "appended", True, encode=False)
     write_xml(folder / "vtk_appended_zlib.vtp", "appended", True, encode=True)
     write_xml(folder / "vtk_big_endian.vtp", "appended", True, big_endian=True)
+    write_xml(folder / "vtk_ascii.vtu", "ascii", False)
+    write_xml(folder / "vtk_binary_zlib.vtu", "binary", True, wide=True)
+    write_xml(folder / "vtk_appended_raw.vtu", "appended", False, encode=False)
     write_legacy(folder / "vtk_ascii_42.vtk", False, 42)
     write_legacy(folder / "vtk_binary_42.vtk", True, 42)
     write_legacy(folder / "vtk_ascii_51.vtk", False, 51)
@@ -107,6 +125,7 @@ def main():
     mesh = meshio.Mesh(numpy.array(POINTS, dtype=float),
                        [("quad", [QUADRILATERAL]), ("triangle", TRIANGLES)])
     meshio.write(folder / "meshio_22.msh", mesh, file_format="gmsh22", binary=False)
+    meshio.write(folder / "meshio.vtu", mesh)
     triangles = meshio.Mesh(numpy.array(POINTS, dtype=float), [("triangle", TRIANGLES)])
     meshio.write(folder / "meshio_41.msh", triangles, file_format="gmsh", binary=False)
 

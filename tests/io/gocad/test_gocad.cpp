@@ -109,7 +109,10 @@ TEST_CASE("GOCAD: broken files", "[io][gocad]") {
         {"", bad_syntax, "a.ts: not a GOCAD file: no line begins with GOCAD"},
         {"v 0 0 0\n", bad_syntax, "a.ts: not a GOCAD file: no line begins with GOCAD"},
         {"GOCAD PLine 1\nEND\nGOCAD VSet 1\nEND\nGOCAD VSet 1\nEND\n", nothing_to_do,
-         "a.ts: there is no TSurf, only 1 PLine, 2 VSet"},
+         "a.ts: there is no TSurf, only 1 PLine, 2 VSet; --input-format vs connects their points"},
+        {"PK\3\4mesh\n", unsupported,
+         "a.ts: this is a ZIP archive, as RINGMesh writes with the extension .gm; save the model "
+         "as .ml or its surfaces as .ts"},
         {"GOCAD\n", nothing_to_do, "a.ts: there is no TSurf, only 1 object without a type"},
         {"GOCAD TSurf 1\nTFACE\nEND\n", nothing_to_do, "a.ts: there is no triangle"},
         {"GOCAD TSurf 1\nVRTX 1 0 0 0\n", bad_syntax,

@@ -13,6 +13,7 @@
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/files.hpp>
 
+#include "support/files.hpp"
 #include "support/paths.hpp"
 #include "support/samples.hpp"
 
@@ -67,6 +68,64 @@ TEST_CASE("VTP: files of VTK in every encoding", "[io][vtk]") {
         CHECK(read->front().vertices.size() == 6);
         CHECK(places_of(read->front()) == roof());
     }
+}
+
+TEST_CASE("VTU: the faces among the cells, in files of VTK and meshio", "[io][vtk]") {
+    for (const std::string name : {"vtk_ascii", "vtk_binary_zlib", "vtk_appended_raw", "meshio"}) {
+        const auto read = read_surfaces(other(name + ".vtu"));
+        INFO(name);
+        if (!read) FAIL(read.error().message());
+        REQUIRE(read->size() == 1);
+        CHECK(read->front().name == name);
+        CHECK(places_of(read->front()) == roof());
+    }
+}
+
+TEST_CASE("VTU: tetrahedra that are written give their surfaces back", "[io][vtk]") {
+    const TetrahedralMesh mesh = two_tetrahedra();
+    for (const bool compress : {false, true}) {
+        TemporaryFolder folder;
+        const auto file = folder / "a.vtu";
+        REQUIRE(write_tetrahedra(mesh, file, {.compress = compress}));
+        const auto read = read_surfaces(file);
+        if (!read) FAIL(read.error().message());
+        std::vector<std::vector<std::array<Point3, 3>>> wanted(mesh.surfaces.size());
+        for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+            for (const auto s : mesh.surfaces_of[f])
+                wanted[s].push_back({mesh.vertices[mesh.faces[f][0]],
+                                     mesh.vertices[mesh.faces[f][1]],
+                                     mesh.vertices[mesh.faces[f][2]]});
+        std::size_t found = 0;
+        for (std::size_t s = 0; s < wanted.size(); ++s) {
+            if (wanted[s].empty()) continue;
+            REQUIRE(found < read->size());
+            const Surface& surface = (*read)[found++];
+            CHECK(surface.name == mesh.surfaces[s].name);
+            CHECK(surface.role == mesh.surfaces[s].role);
+            CHECK(places_of(surface) == wanted[s]);
+        }
+        CHECK(found == read->size());
+    }
+}
+
+TEST_CASE("VTU: what can't be read is named with its line", "[io][vtk]") {
+    using enum ErrorCode;
+    const std::string good = read_file(other("vtk_ascii.vtu")).value();
+    REQUIRE(parse_surfaces(good, "a", Format::vtu));
+    check_error("<VTKFile type=\"PolyData\"/>", Format::vtu, unsupported,
+                "a:1: the file has \"PolyData\"; only UnstructuredGrid is read");
+    check_error("<VTKFile type=\"UnstructuredGrid\"/>", Format::vtu, bad_syntax,
+                "a:1: there is no element UnstructuredGrid");
+    const std::string types = "10 3 8 1 5 5";
+    check_error(replaced(good, types, "10 3 1 1 3 3"), Format::vtu, nothing_to_do,
+                "a: there is no triangle, only 6 other cells; ParaView's Extract Surface makes "
+                "triangles of them");
+    check_error(replaced(good, types, "10 3 8 1 22 5"), Format::vtu, unsupported,
+                "a:33: cell 4 is of type 22, with curved sides, which is not read");
+    check_error(replaced(good, types, "10 3 8 1 5"), Format::vtu, bad_index,
+                "a:24: the array types has no value for cell 5");
+    check_error(replaced(good, "0 1 2 3 0 1", "0 1 2 3 0 6"), Format::vtu, bad_index,
+                "a:25: cell 1 names point 6, but there are 6");
 }
 
 TEST_CASE("legacy VTK: files of VTK, text and binary, old and new", "[io][vtk]") {
@@ -138,6 +197,30 @@ TEST_CASE("VTP and MSH: what is written is read back", "[io][vtk][msh]") {
                 CHECK(there == wanted);
             }
         }
+}
+
+TEST_CASE("legacy VTK: what is written is read back", "[io][vtk]") {
+    const Mesh mesh = awkward_mesh();
+    const auto meant = surfaces_of_mesh(mesh);
+    const auto text = format_mesh(mesh, Format::vtk);
+    REQUIRE(text);
+    const auto read = parse_surfaces(*text, "a", Format::vtk);
+    if (!read) FAIL(read.error().message());
+    REQUIRE(read->size() == meant.size());
+    for (std::size_t s = 0; s < meant.size(); ++s) {
+        CHECK((*read)[s].name == meant[s].name);
+        CHECK((*read)[s].role == meant[s].role);
+        CHECK((*read)[s].vertices == meant[s].vertices);
+        CHECK(places_of((*read)[s]) == places_of(meant[s]));
+    }
+    const auto check = [&](const std::string& from, const std::string& to) {
+        check_error(replaced(*text, from, to), Format::vtk, ErrorCode::bad_index,
+                    "a: the lists of surfaces do not fit the triangles");
+    };
+    check("surfaces_offset 1 5 int\n0 1 3 4 5", "surfaces_offset 1 5 int\n0 1 3 4 6");
+    check("surfaces_offset 1 5 int\n0 1 3 4 5", "surfaces_offset 1 5 int\n0 3 1 4 5");
+    check("surfaces 1 5 int\n0 0 1 1 2", "surfaces 1 5 int\n0 0 1 1 3");
+    check("surfaces_offset 1 5 int\n0 1 3 4 5", "other 1 5 int\n0 1 3 4 5");
 }
 
 TEST_CASE("VTP: what can't be read is named with its line", "[io][vtk]") {

@@ -32,6 +32,13 @@ TEST_CASE("outline: columns of numbers", "[io][outline]") {
     const auto read = read_outline("# licence\n0 0\n4,0 # east\n\n4\t3.5 17\n0 0\n", "a.txt");
     REQUIRE(read);
     CHECK(*read == outline_ring);
+    // RMS ends each polygon so, and repeats the first corner.
+    const auto ended = read_outline("0 0 -9\n4 0 -9\n4 3.5 -9\n0 0 -9\n999.0 999 999\n", "a.pol");
+    REQUIRE(ended);
+    CHECK(*ended == outline_ring);
+    CHECK(read_outline("999 999\n0 0\n1 1\n", "a").value().size() == 3); // two numbers are a corner
+    CHECK(read_outline("0 0 0\n999 999 999\n4 4 0\n", "a").error().message() ==
+          "a:3: a second polygon begins here; an outline is one, so keep one in the file");
     CHECK(read_outline("0 0\n4\n", "a").error().message() == "a:2: a corner needs two numbers");
     CHECK(read_outline("# nothing\n", "a").error().message() == "a: there is no corner");
 }
