@@ -162,6 +162,20 @@ TEST_CASE("rbf: neither order, winding, axes, unit nor origin change a graph", "
     check([](const Point3& p) { return Point3{p.x + 5000, p.y - 700, p.z + 40}; }, 1);
 }
 
+TEST_CASE("rbf: grooves are followed into the hole, whatever their direction", "[rbf]") {
+    const auto grooves = [](double x, double y) {
+        return 0.2 * std::asin(std::sin(3 * x)) + 0.1 * y;
+    };
+    const auto along_y = fitted(data_round_hole(holed(grooves)));
+    const auto along_x =
+        fitted(data_round_hole(holed([&](double x, double y) { return grooves(y, 10 - x); })));
+    CHECK(along_y.kriging->anisotropy()[1] < 1);
+    for (const double u : {4.2, 4.8, 5.3, 5.9}) {
+        CHECK(height_at(along_y, u, 5.2) == Approx(grooves(u, 5.2)).margin(0.1));
+        CHECK(height_at(along_x, 4.8, u) == Approx(height_at(along_y, u, 5.2)).margin(1e-3));
+    }
+}
+
 TEST_CASE("rbf: a steep sheet is a graph along its own normal, a cliff none", "[rbf]") {
     const SheetShape wall = [](double u, double v) { return Point3{0.1 * std::sin(v), u, v}; };
     const Surface s = punched(sheet(wall, 0, 0, 10, 10, 30, 30, 0.2),
@@ -195,7 +209,7 @@ TEST_CASE("rbf: estimates and variances of a graph agree with the whole kriging 
         HeightSystem system(data, RbfKernel::linear, 1);
         REQUIRE(system.determined());
         REQUIRE(system.factorise(nugget, {}));
-        const auto values = system.values(places), deviations = system.deviations(places, {});
+        const auto values = system.values(places), deviations = system.deviations(places, 1, {});
         // The same in Lagrange's form, with covariance -h.
         Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(43, 43);
         Eigen::VectorXd z(40);
