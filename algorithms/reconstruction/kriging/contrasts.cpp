@@ -22,12 +22,13 @@ using Eigen::VectorXd;
 
 NoiseAlone::NoiseAlone(const VectorXd& contrasts) {
     const auto n = static_cast<double>(contrasts.size());
+    price = std::log(n) / 2;
     variance = contrasts.squaredNorm() / n;
     if (variance > 0) likelihood = -n * std::log(variance) / 2;
 }
 
 double NoiseAlone::probability_of(const LikelyNugget& likely, double parameters) const {
-    return 1 / (1 + std::exp(likelihood + parameters - likely.likelihood));
+    return 1 / (1 + std::exp(likelihood + parameters * price - likely.likelihood));
 }
 
 TridiagonalKernel::TridiagonalKernel(const MatrixXd& kernel, const VectorXd& contrasts) {

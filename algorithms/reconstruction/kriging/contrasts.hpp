@@ -33,6 +33,7 @@ struct NoiseAlone {
 
     double likelihood = -HUGE_VAL; ///< its logarithm, up to the same constant
     double variance = 0;           ///< of single data
+    double price = 0;              ///< of a parameter, in logarithms of likelihoods
 };
 
 /// A kernel between contrasts in coordinates in which it is tridiagonal, so that each nugget costs

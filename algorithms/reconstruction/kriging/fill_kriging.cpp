@@ -10,6 +10,7 @@
 
 #include <terrane/algorithms/reconstruction/kriging/contrasts.hpp>
 #include <terrane/algorithms/reconstruction/kriging/detail/choice.hpp>
+#include <terrane/algorithms/reconstruction/kriging/detail/direction_doubt.hpp>
 #include <terrane/algorithms/reconstruction/kriging/detail/kriging.hpp>
 #include <terrane/algorithms/reconstruction/kriging/flat_hole.hpp>
 
@@ -22,16 +23,21 @@ namespace {
 /// The model, and what its standard deviations are worth.
 struct FittedModel {
     Kriging kriging;
+    DirectionDoubt doubt;
     bool determined = true;
     double rounding = 0; ///< least expected error
 };
 
 KnownHeights heights_of(const FittedModel& model, std::span<const Point3> places, const Run& run) {
     KnownHeights known;
-    for (const Estimate& e : model.kriging.at(places, run)) {
+    const auto estimates = model.kriging.at(places, run);
+    const auto doubts = model.doubt.at(places, run);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const Estimate& e = estimates[i];
         known.heights.push_back(e.value);
-        known.expected.push_back(model.determined ? std::hypot(e.standard_deviation, model.rounding)
-                                                  : std::numeric_limits<double>::quiet_NaN());
+        known.expected.push_back(model.determined
+                                     ? std::hypot(e.standard_deviation, model.rounding, doubts[i])
+                                     : std::numeric_limits<double>::quiet_NaN());
     }
     return known;
 }
@@ -51,7 +57,9 @@ FittedModel model_of(const FlatHole& hole, const KrigingOptions& options, FillRe
                      const Run& run) {
     const auto& data = hole.data();
     const auto choice = choose_model({data, hole.border(), hole.radius()}, options.variogram, run);
-    FittedModel model{Kriging(thinned(data, hole.border()), choice.variogram, choice.degree, run),
+    FittedModel model{Kriging(thinned(data, hole.border()), choice.variogram, choice.degree, run,
+                              choice.validation.noise_share),
+                      DirectionDoubt(error_data(data, hole.border()), choice, run),
                       choice.determined, rounding_of(data)};
     report.data = data.size();
     report.validated_error = choice.validation.blocks > 0

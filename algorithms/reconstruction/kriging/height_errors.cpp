@@ -1,45 +1,29 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/algorithms/reconstruction/kriging/height_errors.hpp>
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 #include <terrane/algorithms/reconstruction/kriging/contrasts.hpp>
 #include <terrane/algorithms/reconstruction/kriging/detail/choice.hpp>
-#include <terrane/algorithms/reconstruction/kriging/detail/constants.hpp>
+#include <terrane/algorithms/reconstruction/kriging/detail/direction_doubt.hpp>
 #include <terrane/algorithms/reconstruction/kriging/detail/kriging.hpp>
 
 namespace terrane {
 
 using namespace kriging::detail;
 
-namespace {
-
-using kriging::detail::constants;
-
-/// Keeps up to `most_error_data`, half of them on the border.
-std::vector<Point3> some_of(std::span<const Point3> data, std::size_t border) {
-    const std::size_t most = constants.most_error_data;
-    if (data.size() <= most) return {data.begin(), data.end()};
-    const auto near = data.first(border), far = data.subspan(border);
-    std::vector<Point3> some;
-    for (const auto i : well_spread_in_plane(near, std::min(most / 2, border)))
-        some.push_back(near[i]);
-    for (const auto i : well_spread_in_plane(far, most - some.size())) some.push_back(far[i]);
-    return some;
-}
-
-} // namespace
-
 struct HeightErrors::State {
     State(std::span<const Point3> data, std::size_t border, double radius, const Run& run) :
         choice(choose_model({data, border, radius}, {}, run)),
-        kriging(some_of(data, border), choice.variogram, choice.degree, run),
-        rounding(rounding_of(data)) {}
+        kriging(error_data(data, border), choice.variogram, choice.degree, run,
+                choice.validation.noise_share),
+        doubt(error_data(data, border), choice, run), rounding(rounding_of(data)) {}
 
     ModelChoice choice;
     Kriging kriging;
+    DirectionDoubt doubt;
     double rounding = 0; ///< least expected error
 };
 
@@ -56,10 +40,12 @@ std::vector<double> HeightErrors::at(std::span<const Point3> heights, const Run&
     if (!s.choice.determined)
         return std::vector<double>(heights.size(), std::numeric_limits<double>::quiet_NaN());
     const auto estimates = s.kriging.at(heights, run);
+    const auto doubts = s.doubt.at(heights, run);
     std::vector<double> errors;
     for (std::size_t i = 0; i < heights.size(); ++i)
         errors.push_back(std::hypot(estimates[i].standard_deviation,
-                                    estimates[i].value - heights[i].z, s.rounding));
+                                    estimates[i].value - heights[i].z,
+                                    std::hypot(s.rounding, doubts[i])));
     return errors;
 }
 
@@ -74,6 +60,12 @@ bool HeightErrors::determined() const {
 
 double HeightErrors::noise() const {
     return std::sqrt(state_->choice.variogram.nugget);
+}
+
+std::array<double, 2> HeightErrors::anisotropy() const {
+    const Variogram& v = state_->choice.variogram;
+    if (v.model == VariogramModel::gaussian) return {0, 1};
+    return {v.angle, v.ratio};
 }
 
 } // namespace terrane

@@ -3,6 +3,7 @@
 // Estimates how far heights in a hole are from the truth, whatever method made them.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -38,6 +39,11 @@ public:
 
     /// Standard deviation of single data.
     [[nodiscard]] double noise() const;
+
+    /// The main direction of the variogram, in degrees from x, counterclockwise, and its range
+    /// across divided by that along: 1 without anisotropy, and for infinitely smooth surfaces,
+    /// which polynomials follow in any direction.
+    [[nodiscard]] std::array<double, 2> anisotropy() const;
 
     /// Tells whether there are enough data for expected errors: 20.
     [[nodiscard]] bool determined() const;

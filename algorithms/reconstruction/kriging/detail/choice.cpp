@@ -25,6 +25,16 @@ std::vector<Point3> selected(std::span<const Point3> points,
     return result;
 }
 
+/// Reduces the sill as far as the data may as well be noise about the trend.
+void weigh(const Likelihood& likelihood, double most_nugget, Likely& best) {
+    constexpr double parameters = 2; // sill and range
+    Variogram& v = best.variogram;
+    const NoiseAlone alone = likelihood.noise_alone();
+    const double share = alone.probability_of({best.likelihood, v.sill, v.nugget}, parameters);
+    v.nugget = share * v.nugget + (1 - share) * std::min(alone.variance, most_nugget);
+    v.sill *= std::max(share, constants.least_share);
+}
+
 /// The shapes of an automatic choice, each rougher than the next.
 std::vector<Variogram> shapes(const VariogramFitOptions& options) {
     const auto shape = [](VariogramModel model, double exponent) {
@@ -64,7 +74,8 @@ public:
         likelihood_(data.points, trend_degree), least_range_(constants.gaps_per_range * data.gap),
         options_(options), run_(run) {}
 
-    Variogram operator()() {
+    /// Returns the most likely variogram; `plain`: without anisotropy, if that one has it.
+    Variogram operator()(std::optional<Variogram>& plain) {
         Variogram none;
         none.model = options_.model.value_or(VariogramModel::spherical);
         none.range = std::max(likelihood_.extent(), std::numeric_limits<double>::min());
@@ -77,9 +88,11 @@ public:
                                       : 0;
             if (found.likelihood > best.likelihood + margin) best = found;
         }
+        const Likely straight = best;
         if (options_.anisotropy) turn(best);
         if (!(best.variogram.sill > 0)) return none;
-        if (!options_.model) weigh(best);
+        if (!options_.model) weigh(likelihood_, options_.most_nugget, best);
+        if (best.variogram.ratio != 1) plain = straight.variogram;
         return best.variogram;
     }
 
@@ -148,16 +161,6 @@ private:
         if (turned.likelihood > best.likelihood + constants.worth_turned) best = turned;
     }
 
-    /// Reduces the sill as far as the data may as well be noise about the trend.
-    void weigh(Likely& best) const {
-        constexpr double parameters = 2; // sill and range
-        Variogram& v = best.variogram;
-        const NoiseAlone alone = likelihood_.noise_alone();
-        const double share = alone.probability_of({best.likelihood, v.sill, v.nugget}, parameters);
-        v.nugget = share * v.nugget + (1 - share) * std::min(alone.variance, options_.most_nugget);
-        v.sill *= std::max(share, constants.least_share);
-    }
-
     Likelihood likelihood_;
     double least_range_; ///< shorter ones can't be told from noise
     const VariogramFitOptions& options_;
@@ -190,6 +193,13 @@ BlockValidation validate(const DataAroundHole& around, const Variogram& variogra
     const System system(data, variogram, degree, run);
     if (!system.ready()) return result;
     const Eigen::MatrixXd projection = system.projection();
+    // The weights have the covariance P if the nugget is right. Where it is the least one that is
+    // tried, the data may have far less noise, and the errors other covariances.
+    const double share = system.weights().squaredNorm() / projection.trace();
+    if (share < constants.least_noise_share) result.noise_share = share;
+    Eigen::MatrixXd told = projection; // covariance of the weights
+    if (result.noise_share < 1)
+        told -= ((1 - result.noise_share) * variogram.nugget) * (projection * projection);
     double squares = 0, ratios = 0;
     std::size_t count = 0;
     for (const auto& block : blocks_of(data, centres, around.radius)) {
@@ -197,8 +207,12 @@ BlockValidation validate(const DataAroundHole& around, const Variogram& variogra
         const Eigen::MatrixXd covariance =
             projection(block, block).inverse(); // of the errors, nugget included
         const Eigen::VectorXd errors = covariance * system.weights()(block);
-        const double square = errors.squaredNorm(), expected = covariance.trace();
+        const double square = errors.squaredNorm();
+        const double expected = result.noise_share < 1
+                                    ? (covariance * told(block, block) * covariance).trace()
+                                    : covariance.trace();
         if (!(expected > 0) || !std::isfinite(square)) continue;
+        result.most = std::max(result.most, square / expected);
         squares += square;
         ratios += square / expected;
         count += block.size();
@@ -210,6 +224,14 @@ BlockValidation validate(const DataAroundHole& around, const Variogram& variogra
     return result;
 }
 
+/// Tells whether blocks are missed by less than a tenth of before, or else by little more than
+/// their noise, and what is not noise has shrunk to a tenth of its square.
+bool is_far_better(const BlockValidation& now, const BlockValidation& before, double noise) {
+    if (now.error < constants.worth_degree * before.error) return true;
+    const double left = now.error * now.error - noise;
+    return left < noise && left < constants.worth_degree * (before.error * before.error - noise);
+}
+
 /// Takes a trend of degree 2 if blocks are then missed by far less, as those of a paraboloid.
 void raise_degree(const DataAroundHole& around, const FittedData& fitted, double most_nugget,
                   ModelChoice& choice, const Run& run) {
@@ -218,13 +240,14 @@ void raise_degree(const DataAroundHole& around, const FittedData& fitted, double
     Variogram variogram = choice.variogram;
     variogram.sill = variogram.nugget = 0;
     if (!likelihood.trend_only()) {
-        const Likely found = likelihood.at(choice.variogram, most_nugget);
+        Likely found = likelihood.at(choice.variogram, most_nugget);
         if (!(found.variogram.sill > 0)) return;
+        weigh(likelihood, most_nugget, found);
         variogram = found.variogram;
     }
     const auto validation = validate(around, variogram, higher_degree, run);
     if (validation.blocks < choice.validation.blocks ||
-        !(validation.error < constants.worth_degree * choice.validation.error))
+        !is_far_better(validation, choice.validation, variogram.nugget))
         return;
     choice.degree = higher_degree;
     choice.variogram = variogram;
@@ -233,10 +256,12 @@ void raise_degree(const DataAroundHole& around, const FittedData& fitted, double
 
 /// Computes the factor of nugget and sill. Blocks overlap, so that many count as `most_counted`;
 /// they are beside the hole, not in it: if they are missed by less than expected, the hole need not
-/// be.
+/// be, unless all of them agree.
 double calibration(const BlockValidation& validation) {
     const double n = std::min(static_cast<double>(validation.blocks), constants.most_counted);
     const double square = validation.ratio * validation.ratio;
+    if (validation.blocks >= constants.least_shrinking && validation.most < constants.shrinking)
+        return std::max(validation.most, constants.shrinking);
     return std::max(1.0, (n * square + constants.block_prior) / (n + constants.block_prior));
 }
 
@@ -250,8 +275,12 @@ ModelChoice choose_model(const DataAroundHole& around, const VariogramFitOptions
     VariogramFitOptions fit = options;
     fit.anisotropy = options.anisotropy && choice.determined;
     const FittedData fitted(around.data);
-    choice.variogram = Search(fitted, fit, run)();
+    choice.variogram = Search(fitted, fit, run)(choice.plain);
     choice.validation = validate(around, choice.variogram, choice.degree, run);
+    if (choice.plain) {
+        const auto plain = validate(around, *choice.plain, choice.degree, run);
+        choice.doubt = constants.doubt * std::min(1.0, choice.validation.error / plain.error);
+    }
     if (choice.determined) raise_degree(around, fitted, options.most_nugget, choice, run);
     const double factor = calibration(choice.validation);
     choice.variogram.sill *= factor;

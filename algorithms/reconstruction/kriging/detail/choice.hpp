@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -20,6 +21,8 @@ struct BlockValidation {
     double error = 0;       ///< root mean square
     double ratio = 0;       ///< root mean square over blocks of error / standard deviation, nugget
                             ///< included
+    double noise_share = 1; ///< of the nugget that is noise
+    double most = 0;        ///< largest square of that ratio of a block
 };
 
 struct ModelChoice {
@@ -27,6 +30,10 @@ struct ModelChoice {
     unsigned degree = 1;    ///< of the trend
     bool determined = true; ///< whether there are enough data to tell an expected error
     BlockValidation validation;
+    std::optional<Variogram> plain{}; ///< if the variogram has anisotropy: the most likely one that
+                                      ///< has none
+    double doubt = 0; ///< share of the distance between the estimates of both that is expected as
+                      ///< an error
 };
 
 /// Data and the hole among them.
@@ -41,7 +48,11 @@ struct DataAroundHole {
 /// A gaussian model must be more likely by a margin, as must anisotropy. Then blocks as wide as the
 /// hole are left out in turn: if they are missed by more than the model expects, nugget and sill
 /// grow by the square of that ratio. The model counts for 2 blocks in it, and all blocks for at
-/// most 12. The trend has degree 1, or 2 if blocks are then missed by less than a tenth.
+/// most 12. If each of at least 8 blocks is missed by less than half of what the model expects,
+/// nugget and sill shrink to the largest square of these ratios, but not below a quarter. The trend
+/// has degree 1, or 2 if blocks are then missed by less than a tenth, or by little more than noise.
+/// The data may have less noise than the least nugget that is tried: then the weights of the data
+/// are smaller than it expects, and only that share of it is noise.
 /// Stops early if the run is stopped; the choice is of no use then.
 ModelChoice choose_model(const DataAroundHole& around, const VariogramFitOptions& options,
                          const Run& run);

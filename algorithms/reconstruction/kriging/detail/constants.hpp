@@ -116,6 +116,16 @@ struct KrigingConstants {
     double block_prior = 2;
     /// Blocks that all of them count for at most in the calibration, since they overlap.
     double most_counted = 12;
+    /// Share of the nugget that is noise, by the weights of the data, above which all of it counts
+    /// as such.
+    double least_noise_share = 0.5;
+    /// Blocks from which nugget and sill may shrink.
+    std::size_t least_shrinking = 8;
+    /// The largest squared ratio of blocks must be less for that; the least factor.
+    double shrinking = 0.25;
+    /// Share of the distance between estimates with and without anisotropy that is expected as an
+    /// error, if both miss blocks by as much.
+    double doubt = 0.5;
     /// Share of the error of blocks below which a trend of degree 2 is taken.
     double worth_degree = 0.1;
     /// A block with more than this share of the data is not left out.
@@ -199,6 +209,10 @@ inline std::vector<NamedConstant> named_constants() {
         {"most_block_data", static_cast<double>(constants.most_block_data)},
         {"block_prior", constants.block_prior},
         {"most_counted", constants.most_counted},
+        {"least_noise_share", constants.least_noise_share},
+        {"least_shrinking", static_cast<double>(constants.least_shrinking)},
+        {"shrinking", constants.shrinking},
+        {"doubt", constants.doubt},
         {"worth_degree", constants.worth_degree},
         {"most_of_all", constants.most_of_all},
         {"most_deviations", static_cast<double>(constants.most_deviations)},

@@ -79,8 +79,10 @@ std::vector<Point3> sorted(std::span<const Point3> data) {
 } // namespace
 
 struct Kriging::State {
-    State(std::span<const Point3> points, const Variogram& v, unsigned degree, const Run& run) :
-        data(sorted(points)), trend(data, degree), trend_degree(degree), variogram(v) {
+    State(std::span<const Point3> points, const Variogram& v, unsigned degree, const Run& run,
+          double share) :
+        data(sorted(points)),
+        trend(data, degree), trend_degree(degree), variogram(v), noise_share(share) {
         for (Point3& p : data) p.z -= trend.at(p.x, p.y);
         const double angle = v.angle * std::numbers::pi / 180;
         cosine = std::cos(angle);
@@ -157,8 +159,8 @@ struct Kriging::State {
     [[nodiscard]] std::vector<Estimate> at(std::span<const Point3> places,
                                            const System* deviations) const {
         std::vector<Estimate> result;
-        const auto together =
-            deviations ? deviations->standard_deviations(places) : std::vector<double>{};
+        const auto together = deviations ? deviations->standard_deviations(places, noise_share)
+                                         : std::vector<double>{};
         for (std::size_t i = 0; i < places.size(); ++i) {
             const Point3& p = places[i];
             Estimate e;
@@ -182,6 +184,7 @@ struct Kriging::State {
     Trend trend;
     unsigned trend_degree;
     Variogram variogram;
+    double noise_share;
     double cosine = 1, sine = 0;
     double spacing = 0; ///< of the data
     std::vector<std::unique_ptr<Level>> levels;
@@ -189,8 +192,8 @@ struct Kriging::State {
 };
 
 Kriging::Kriging(std::span<const Point3> data, const Variogram& variogram, unsigned degree,
-                 const Run& run) :
-    state_(std::make_unique<State>(data, variogram, degree, run)) {}
+                 const Run& run, double noise_share) :
+    state_(std::make_unique<State>(data, variogram, degree, run, noise_share)) {}
 
 Kriging::Kriging(Kriging&&) noexcept = default;
 Kriging::~Kriging() = default;
@@ -232,6 +235,16 @@ std::vector<Estimate> Kriging::at(std::span<const Point3> places, const Run& run
         };
         with_threads(run,
                      [&] { tbb::parallel_for(std::size_t{0}, (count + grain - 1) / grain, some); });
+    }
+    return result;
+}
+
+std::vector<double> Kriging::values(std::span<const Point3> places, const Run& run) const {
+    const State& s = *state_;
+    std::vector<double> result(places.size(), 0);
+    for (std::size_t i = 0; i < places.size() && s.system && !run.stop.stop_requested(); ++i) {
+        const Point3& p = places[i];
+        result[i] = s.system->value(p.x, p.y) + s.trend.at(p.x, p.y);
     }
     return result;
 }

@@ -47,8 +47,9 @@ public:
 
     /// `data`: at least one; `variogram`: of the residuals of the trend. When the run is stopped,
     /// all estimates are useless.
+    /// `noise_share`: of the nugget, for standard deviations.
     Kriging(std::span<const Point3> data, const Variogram& variogram, unsigned degree = 1,
-            const Run& run = {});
+            const Run& run = {}, double noise_share = 1);
     Kriging(Kriging&&) noexcept;
     ~Kriging();
 
@@ -59,6 +60,9 @@ public:
     /// 600 data and from the neighbours alone: both are larger than that from all. When the run is
     /// stopped, the remaining estimates are zero.
     [[nodiscard]] std::vector<Estimate> at(std::span<const Point3> places, const Run& run) const;
+
+    /// Estimates places without their standard deviations; needs all data at once. Cost: n each.
+    [[nodiscard]] std::vector<double> values(std::span<const Point3> places, const Run& run) const;
 
 private:
     struct State;

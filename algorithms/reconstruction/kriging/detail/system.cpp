@@ -134,7 +134,8 @@ double System::value(double x, double y) const {
     return sum;
 }
 
-std::vector<double> System::standard_deviations(std::span<const Point3> places) const {
+std::vector<double> System::standard_deviations(std::span<const Point3> places,
+                                                double noise_share) const {
     constexpr std::size_t most_columns = 64; // that the factor meets at once
     const auto n = static_cast<Index>(places_.size()), m = terms_.size();
     const MatrixXd upper = qr_.matrixQR().topLeftCorner(m, m);
@@ -155,12 +156,19 @@ std::vector<double> System::standard_deviations(std::span<const Point3> places) 
         MatrixXd left = k.bottomRows(n - m) - top_.rightCols(n - m).transpose() * share;
         factor_.triangularView<Eigen::Lower>().solveInPlace(left);
         const MatrixXd own = top_.leftCols(m) * share;
+        MatrixXd weights;
+        if (noise_share < 1)
+            weights = factor_.transpose().triangularView<Eigen::Upper>().solve(left);
         for (Index c = 0; c < count; ++c) {
             const double open = share.col(c).dot(own.col(c) - 2 * k.col(c).head(m)),
                          known = left.col(c).squaredNorm();
+            double noise = 0; // that the data do not have
+            if (noise_share < 1)
+                noise = (1 - noise_share) * model_.nugget *
+                        (share.col(c).squaredNorm() + weights.col(c).squaredNorm());
             // Less than the rounding of this difference would be no more than luck.
             const double least = std::numeric_limits<double>::epsilon() * known;
-            result.push_back(std::sqrt(std::max(open - known, least)));
+            result.push_back(std::sqrt(std::max(open - known - noise, least)));
         }
     }
     return result;

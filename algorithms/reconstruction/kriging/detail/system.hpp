@@ -50,7 +50,8 @@ public:
     [[nodiscard]] bool ready() const { return ready_; }
     [[nodiscard]] double value(double x, double y) const;
     /// Computes the square roots of the kriging variances, for blocks of places at once.
-    [[nodiscard]] std::vector<double> standard_deviations(std::span<const Point3> places) const;
+    [[nodiscard]] std::vector<double> standard_deviations(std::span<const Point3> places,
+                                                          double noise_share = 1) const;
     /// The matrix P for which P z are the weights of the data: if data B are left out, they are
     /// missed by inverse(P_BB) (P z)_B, with these variances and covariances: inverse(P_BB).
     [[nodiscard]] Eigen::MatrixXd projection() const;

@@ -156,6 +156,9 @@ struct RbfConstants {
     std::size_t height_blocks = 12;
     /// Data that are left out of a graph in such blocks, well spread.
     std::size_t height_validation = 300;
+    /// Share of the nugget that is noise, by the weights of the data, above which all of it counts
+    /// as such.
+    double least_noise_share = 0.5;
     /// Least factor of a kernel whose data may as well be noise.
     double least_share = 1e-6;
     /// The model of kriging is believed up to so many times the error of the fit at such blocks.
@@ -234,6 +237,7 @@ inline std::vector<NamedConstant> named_constants_of_fit() {
         {"height_pairs", static_cast<double>(constants.height_pairs)},
         {"height_blocks", static_cast<double>(constants.height_blocks)},
         {"height_validation", static_cast<double>(constants.height_validation)},
+        {"least_noise_share", constants.least_noise_share},
         {"least_share", constants.least_share},
         {"worth_own", constants.worth_own},
         {"most_own_noise", constants.most_own_noise},

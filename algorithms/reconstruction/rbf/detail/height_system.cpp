@@ -132,7 +132,8 @@ std::vector<double> HeightSystem::values(std::span<const Point3> places) const {
     return result;
 }
 
-std::vector<double> HeightSystem::some_deviations(std::span<const Point3> places) const {
+std::vector<double> HeightSystem::some_deviations(std::span<const Point3> places,
+                                                  double noise_share) const {
     const Index n = heights_.size(), count = static_cast<Index>(places.size());
     MatrixXd k(n, count), share(m_, count);
     for (Index c = 0; c < count; ++c) {
@@ -151,19 +152,26 @@ std::vector<double> HeightSystem::some_deviations(std::span<const Point3> places
     MatrixXd left = k.bottomRows(n - m_) - beside.transpose() * share;
     factor_.triangularView<Eigen::Lower>().solveInPlace(left);
     const MatrixXd own = top * share;
+    MatrixXd weights;
+    if (noise_share < 1) weights = factor_.transpose().triangularView<Eigen::Upper>().solve(left);
     std::vector<double> result;
     for (Index c = 0; c < count; ++c) {
         const double open = share.col(c).dot(own.col(c) - 2 * k.col(c).head(m_)) +
                             nugget_ * share.col(c).squaredNorm(),
                      told = left.col(c).squaredNorm();
+        double noise = 0; // that the data do not have
+        if (noise_share < 1)
+            noise = (1 - noise_share) * nugget_ *
+                    (share.col(c).squaredNorm() + weights.col(c).squaredNorm());
         // Less than the rounding of this difference would be no more than luck.
         const double least = std::numeric_limits<double>::epsilon() * told;
-        result.push_back(std::sqrt(std::max(open - told, least)));
+        result.push_back(std::sqrt(std::max(open - told - noise, least)));
     }
     return result;
 }
 
-std::vector<double> HeightSystem::deviations(std::span<const Point3> places, const Run& run) const {
+std::vector<double> HeightSystem::deviations(std::span<const Point3> places, double noise_share,
+                                             const Run& run) const {
     constexpr std::size_t most_columns = 64; // that the factor meets at once
     std::vector<double> result(places.size());
     for_ranges((places.size() + most_columns - 1) / most_columns, run,
@@ -171,7 +179,8 @@ std::vector<double> HeightSystem::deviations(std::span<const Point3> places, con
                    for (std::size_t k = first; k < last && !run.stop.stop_requested(); ++k) {
                        const std::size_t start = k * most_columns;
                        const auto some = some_deviations(
-                           places.subspan(start, std::min(most_columns, places.size() - start)));
+                           places.subspan(start, std::min(most_columns, places.size() - start)),
+                           noise_share);
                        std::copy(some.begin(), some.end(),
                                  result.begin() + static_cast<std::ptrdiff_t>(start));
                    }

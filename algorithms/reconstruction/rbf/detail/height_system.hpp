@@ -59,16 +59,17 @@ public:
     [[nodiscard]] double condition() const;
     /// Estimates g, without the noise of the data. Cost: n per place.
     [[nodiscard]] std::vector<double> values(std::span<const Point3> places) const;
-    /// Computes the standard deviations of such estimates, for a kernel with the factor 1. Cost:
-    /// n^2 per place.
-    [[nodiscard]] std::vector<double> deviations(std::span<const Point3> places,
+    /// Computes the standard deviations of such estimates, for a kernel with the factor 1, if the
+    /// noise of the data is this share of the nugget. Cost: n^2 per place.
+    [[nodiscard]] std::vector<double> deviations(std::span<const Point3> places, double noise_share,
                                                  const Run& run) const;
     [[nodiscard]] std::size_t size() const { return data_.size(); }
     [[nodiscard]] std::span<const Point3> data() const { return data_; }
 
 private:
     [[nodiscard]] Eigen::VectorXd solved() const;
-    [[nodiscard]] std::vector<double> some_deviations(std::span<const Point3> places) const;
+    [[nodiscard]] std::vector<double> some_deviations(std::span<const Point3> places,
+                                                      double noise_share) const;
 
     std::vector<Point3> data_;
     RbfKernel kernel_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -29,15 +30,28 @@ std::span<const double> values_of(const VectorXd& vector) {
 
 using Blocks = std::vector<std::vector<Index>>;
 
+/// All centres, scaled.
+struct HeightData {
+    std::vector<Point3> places, border;
+    std::vector<double> distances; ///< per place: from the border, not scaled
+    double radius = 0;             ///< of the hole
+    double beside = 0;             ///< data nearer to the border than this are left out at once
+    double stretch = 1;            ///< of places across the main direction; 1 / that along it
+
+    /// Tells whether places are no farther from each other than the hole's radius.
+    [[nodiscard]] bool are_near(const Point3& p, const Point3& q) const {
+        return std::hypot((p.x - q.x) * stretch, (p.y - q.y) / stretch) <= radius;
+    }
+};
+
 /// Lists what is left out at a time: the data nearer to a place of the border than the hole's
 /// radius.
-Blocks blocks_of(std::span<const Point3> data, std::span<const Point3> border, double radius) {
+Blocks blocks_of(std::span<const Point3> data, const HeightData& of) {
     Blocks blocks;
-    for (const auto c : well_spread_in_plane(border, constants.height_blocks)) {
+    for (const auto c : well_spread_in_plane(of.border, constants.height_blocks)) {
         std::vector<Index> block;
         for (std::size_t i = 0; i < data.size(); ++i)
-            if (std::hypot(data[i].x - border[c].x, data[i].y - border[c].y) <= radius)
-                block.push_back(static_cast<Index>(i));
+            if (of.are_near(data[i], of.border[c])) block.push_back(static_cast<Index>(i));
         const double most = constants.most_of_all * static_cast<double>(data.size());
         if (!block.empty() && static_cast<double>(block.size()) <= most)
             blocks.push_back(std::move(block));
@@ -66,14 +80,6 @@ struct HeightTrial {
     double missed = beside; ///< the same of blocks as wide as the hole, left out in turn
 };
 
-/// All centres, scaled.
-struct HeightData {
-    std::vector<Point3> places, border;
-    std::vector<double> distances; ///< per place: from the border, not scaled
-    double radius = 0;             ///< of the hole
-    double beside = 0;             ///< data nearer to the border than this are left out at once
-};
-
 /// Steps (2) and (3).
 class HeightChoice {
 public:
@@ -87,7 +93,7 @@ public:
             some_.push_back(data.places[i]);
         }
         if (!near.empty() && near.size() < some_.size()) beside_.push_back(near);
-        blocks_ = blocks_of(some_, data.border, data.radius);
+        blocks_ = blocks_of(some_, data);
     }
 
     HeightTrial operator()() {
@@ -157,11 +163,15 @@ std::optional<HeightSystem> some_heights(const HeightData& data, const HeightFor
     return system;
 }
 
-/// Computes the root mean square error of blocks of its data, left out in turn; NaN if there are
-/// none.
-double validated(const HeightSystem& system, const HeightData& data) {
-    return missed_blocks(system.projection(), system.weights(),
-                         blocks_of(system.data(), data.border, data.radius));
+/// Validates a fit by blocks of some of its data, left out in turn, and finds the share of its
+/// nugget that is noise: the weights have the covariance P if all of it is.
+void validate(const HeightData& data, double unit, HeightFit& fit) {
+    if (!fit.some) return;
+    const MatrixXd projection = fit.some->projection();
+    const VectorXd weights = fit.some->weights();
+    fit.validated = unit * missed_blocks(projection, weights, blocks_of(fit.some->data(), data));
+    const double share = weights.squaredNorm() / (fit.sill * projection.trace());
+    if (share < constants.least_noise_share) fit.noise_share = share;
 }
 
 /// Returns the distance from the border of the data that are left out at once.
@@ -273,6 +283,17 @@ std::optional<GraphSolution> solve_graph(std::span<const Point3> places, const H
     return solution;
 }
 
+/// Turns the first axis into the main direction of a variogram, and stretches both so that
+/// distances across it count for more. An area stays as large.
+std::array<Point3, 3> stretched(const std::array<Point3, 3>& axes, double angle, double stretch) {
+    const double a = angle * std::numbers::pi / 180, c = std::cos(a), s = std::sin(a);
+    const auto sum = [&](double u, double v) {
+        return Point3{u * axes[0].x + v * axes[1].x, u * axes[0].y + v * axes[1].y,
+                      u * axes[0].z + v * axes[1].z};
+    };
+    return {sum(c / stretch, s / stretch), sum(-s * stretch, c * stretch), axes[2]};
+}
+
 Point3 along_axes(const Point3& p, const std::array<Point3, 3>& axes) {
     return {dot(p, axes[0]), dot(p, axes[1]), dot(p, axes[2])};
 }
@@ -307,15 +328,21 @@ std::optional<HeightFit> fit_heights(const RbfData& data, const std::array<Point
                                  : options.most_centres;
     std::vector<Point3> heights;
     for (const Point3& p : data.points) heights.push_back(along_axes(p, axes));
-    std::vector<Point3> centres;
+    std::vector<Point3> centres, upright;
     HeightData centre_data;
     for (const auto i : height_centres(data, heights, most)) {
         centres.push_back(data.points[i]);
+        upright.push_back(heights[i]);
         centre_data.distances.push_back(data.distances[i]);
     }
+    if (has_cliff(upright)) return std::nullopt;
     HeightFit fit;
     fit.axes = axes;
-    RbfPolynomial basis{options.degree > 0 ? options.degree : 1, axes};
+    fit.kriging.emplace(heights, data.next.size(), data.radius, run);
+    const auto [angle, ratio] = fit.kriging->anisotropy();
+    centre_data.stretch = 1 / std::sqrt(ratio);
+    RbfPolynomial basis{options.degree > 0 ? options.degree : 1,
+                        stretched(axes, angle, centre_data.stretch)};
     if (!fit.f.smooth.set_centres(centres, basis)) return std::nullopt;
     const double unit = fit.f.smooth.unit();
     for (const Point3& p : centres) centre_data.places.push_back(scaled(fit.f.smooth, p));
@@ -323,7 +350,6 @@ std::optional<HeightFit> fit_heights(const RbfData& data, const std::array<Point
         centre_data.border.push_back(scaled(fit.f.smooth, p));
     centre_data.radius = data.radius / unit;
     centre_data.beside = beside_hole(data);
-    if (has_cliff(centre_data.places)) return std::nullopt;
     // A polynomial of high degree might miss the data by less than is wanted.
     const unsigned degree = options.smoothing.value_or(0) > 0 ? basis.degree : options.degree;
     const HeightTrial chosen = HeightChoice(centre_data, degree, run)();
@@ -336,9 +362,9 @@ std::optional<HeightFit> fit_heights(const RbfData& data, const std::array<Point
     fit.kernel = chosen.form.kernel;
     fit.noise = unit * std::sqrt(chosen.form.nugget * chosen.sill);
     fit.some = some_heights(centre_data, chosen.form, run);
-    if (fit.some) fit.validated = unit * validated(*fit.some, centre_data);
-    fit.known.emplace(std::move(solution->system));
     fit.sill = chosen.sill;
+    validate(centre_data, unit, fit);
+    fit.known.emplace(std::move(solution->system));
     fit.rounding = rounding_of(heights);
     report.data = data.points.size();
     report.centres = centres.size();
@@ -349,7 +375,6 @@ std::optional<HeightFit> fit_heights(const RbfData& data, const std::array<Point
     RbfOptions smoothed = options;
     smoothed.smoothing = 0; // errors are noted, no more
     interpolate_rest(fit.f, data, smoothed, {}, report, run);
-    fit.kriging.emplace(heights, data.next.size(), data.radius, run);
     fit.believed = is_believed(fit);
     return fit;
 }
@@ -372,7 +397,8 @@ std::vector<double> expected_errors(const HeightFit& fit, std::span<const Point3
     for (const Point3& p : points) places.push_back(scaled(fit.f.smooth, p));
     const auto n = static_cast<double>(fit.known->size());
     const bool many = n * n * static_cast<double>(places.size()) > constants.most_operations;
-    const auto deviations = (many && fit.some ? *fit.some : *fit.known).deviations(places, run);
+    const auto deviations =
+        (many && fit.some ? *fit.some : *fit.known).deviations(places, fit.noise_share, run);
     const auto values = fit.known->values(places);
     const double unit = fit.f.smooth.unit(), root = std::sqrt(fit.sill);
     std::vector<double> errors;

@@ -5,6 +5,9 @@
 // constraints off the surface, a third of those in space.
 //
 // Steps:
+//   (0) directions: where the model of kriging for the same data has anisotropy, u and v are
+//       stretched by it, so that kernels follow grooves (not if the surface is infinitely smooth,
+//       as polynomials follow that);
 //   (1) centres: all data; if there are more than are allowed, half of them those nearest to the
 //       border, the others well spread;
 //   (2) kernel: of h, h^2 log h and h^3 the one that is most likely for well-spread data
@@ -46,6 +49,7 @@ struct HeightFit {
     std::optional<HeightSystem> known;   ///< of the centres, scaled, with the noise of the data
     std::optional<HeightSystem> some;    ///< the same of fewer, well-spread centres
     double sill = 0;                     ///< factor of its kernel
+    double noise_share = 1;              ///< of its nugget that is noise of the data
     double rounding = 0;                 ///< least expected error
     std::optional<HeightErrors> kriging; ///< by another model of the data
     bool believed = true;                ///< rather than that other model

@@ -15,6 +15,7 @@
 
 #include "support/effort.hpp"
 #include "support/points.hpp"
+#include <terrane/algorithms/reconstruction/kriging/detail/direction_doubt.hpp>
 #include <terrane/algorithms/reconstruction/kriging/detail/kriging.hpp>
 #include <terrane/algorithms/reconstruction/kriging/detail/system.hpp>
 #include <terrane/algorithms/reconstruction/kriging/height_errors.hpp>
@@ -167,6 +168,59 @@ TEST_CASE("kriging: the order of the data changes no bit of an estimate", "[krig
         CHECK(first[k].value == second[k].value);
         CHECK(first[k].standard_deviation == second[k].standard_deviation);
     }
+}
+
+TEST_CASE("kriging: variances are those of the same weights with less noise", "[kriging]") {
+    Random random(36);
+    Ring ring = ring_of(random);
+    draw(random, ring);
+    ring.data.resize(30);
+    const Variogram v{VariogramModel::matern, 2, 90, 300, 1.5, 30, 0.5};
+    const auto all = System(ring.data, v, 1).standard_deviations(ring.places),
+               none = System(ring.data, v, 1).standard_deviations(ring.places, 0);
+    for (std::size_t k = 0; k < 5; ++k) {
+        double squares = 0; // of the weights of single data
+        for (std::size_t i = 0; i < ring.data.size(); ++i) {
+            auto unit = ring.data;
+            for (Point3& p : unit) p.z = 0;
+            unit[i].z = 1;
+            const double w = System(unit, v, 1).value(ring.places[k].x, ring.places[k].y);
+            squares += w * w;
+        }
+        CHECK(all[k] * all[k] - none[k] * none[k] == Approx(v.nugget * squares));
+    }
+}
+
+TEST_CASE("kriging: exact data have less noise than the least that is tried, others have it all",
+          "[kriging]") {
+    const auto wave = [](double x, double y) {
+        return 20 * std::sin(x / 60) * std::cos(y / 70 + 1);
+    };
+    Random random(37);
+    Ring ring = ring_of(random);
+    heights(wave, 0)(random, ring);
+    CHECK(choose_model(ring.around(), {}, {}).validation.noise_share < 0.5);
+    heights(wave, 0.5)(random, ring);
+    CHECK(choose_model(ring.around(), {}, {}).validation.noise_share == 1);
+}
+
+TEST_CASE("kriging: grooves round a hole need not continue in it", "[kriging]") {
+    const auto grooves = [](double x, double y) { return std::sin(x / 9) + 0.002 * x * y / 60; };
+    Random random(38);
+    Ring ring = ring_of(random);
+    heights(grooves, 0.05)(random, ring);
+    const auto choice = choose_model(ring.around(), {}, {});
+    REQUIRE(choice.plain);
+    CHECK(choice.variogram.ratio < 1);
+    CHECK(choice.plain->ratio == 1);
+    CHECK(choice.doubt > 0);
+    CHECK(choice.doubt <= constants.doubt);
+    const auto doubts = DirectionDoubt(ring.data, choice, {}).at(ring.places, {});
+    CHECK(*std::max_element(doubts.begin(), doubts.end()) > 0);
+    auto straight = choice;
+    straight.plain.reset();
+    for (const double d : DirectionDoubt(ring.data, straight, {}).at(ring.places, {}))
+        CHECK(d == 0);
 }
 
 TEST_CASE("kriging: heights of any method are judged by the model of the data", "[kriging]") {

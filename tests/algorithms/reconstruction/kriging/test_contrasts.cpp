@@ -65,7 +65,8 @@ TEST_CASE("kriging: noise alone is the limit of a large nugget, and a surface mu
     CHECK(likely.likelihood > alone.likelihood - 0.1); // the largest nugget is nearly alone
     CHECK(alone.probability_of(likely, 2) < 0.6);
     LikelyNugget even = likely;
-    even.likelihood = alone.likelihood + 2;
+    CHECK(alone.price == Approx(std::log(40) / 2)); // more data, less luck
+    even.likelihood = alone.likelihood + 2 * alone.price;
     CHECK(alone.probability_of(even, 2) == Approx(0.5));
     CHECK(alone.probability_of(even, 1) > 0.5);
     const Eigen::VectorXd surface = 10 * root * Eigen::VectorXd::Random(40);

@@ -43,14 +43,15 @@ Surface holed(const std::function<double(double, double)>& height) {
     return punched(sheet(graph(height), 0, 0, 10, 10, 30, 30, 0.2), disk(5, 5, 1.6));
 }
 
-/// Gives the vertices heights with exponential covariance.
-void draw(std::mt19937_64& random, Surface& s) {
+/// Gives the vertices heights with exponential covariance, with grooves along y if `groove` is
+/// above 1.
+void draw(std::mt19937_64& random, Surface& s, double groove = 1) {
     const auto n = static_cast<Eigen::Index>(s.vertices.size());
     Eigen::MatrixXd c(n, n);
     for (Eigen::Index i = 0; i < n; ++i)
         for (Eigen::Index j = 0; j < n; ++j) {
             const Point3 &p = s.vertices[std::size_t(i)], &q = s.vertices[std::size_t(j)];
-            c(i, j) = std::exp(-std::hypot(p.x - q.x, p.y - q.y) / 2);
+            c(i, j) = std::exp(-std::hypot(groove * (p.x - q.x), (p.y - q.y) / groove) / 2);
         }
     std::normal_distribution<double> normal;
     Eigen::VectorXd free(n);
@@ -162,6 +163,19 @@ TEST_CASE("rbf: neither order, winding, axes, unit nor origin change a graph", "
     check([](const Point3& p) { return Point3{p.x + 5000, p.y - 700, p.z + 40}; }, 1);
 }
 
+TEST_CASE("rbf: kernels are stretched along grooves, whatever their direction", "[rbf]") {
+    std::mt19937_64 random(10);
+    Surface s = holed([](double, double) { return 0.0; });
+    draw(random, s, 3);
+    Surface turned = s;
+    for (Point3& p : turned.vertices) p = {-p.y, p.x, p.z};
+    const auto plain = fitted(data_round_hole(s)), other = fitted(data_round_hole(turned));
+    CHECK(plain.kriging->anisotropy()[1] < 0.5);
+    CHECK(other.kriging->anisotropy()[1] == plain.kriging->anisotropy()[1]);
+    for (const double x : {4.2, 5.0, 5.9})
+        CHECK(height_at(other, -5.3, x) == Approx(height_at(plain, x, 5.3)).margin(1e-6));
+}
+
 TEST_CASE("rbf: a steep sheet is a graph along its own normal, a cliff none", "[rbf]") {
     const SheetShape wall = [](double u, double v) { return Point3{0.1 * std::sin(v), u, v}; };
     const Surface s = punched(sheet(wall, 0, 0, 10, 10, 30, 30, 0.2),
@@ -195,7 +209,7 @@ TEST_CASE("rbf: estimates and variances of a graph agree with the whole kriging 
         HeightSystem system(data, RbfKernel::linear, 1);
         REQUIRE(system.determined());
         REQUIRE(system.factorise(nugget, {}));
-        const auto values = system.values(places), deviations = system.deviations(places, {});
+        const auto values = system.values(places), deviations = system.deviations(places, 1, {});
         // The same in Lagrange's form, with covariance -h.
         Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(43, 43);
         Eigen::VectorXd z(40);
