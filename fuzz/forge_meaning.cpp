@@ -249,9 +249,7 @@ std::optional<TetrahedralMesh> tetrahedra_of(const Subject& s, const Certificate
                          claim.triangle_of,
                          {},
                          claim.twins,
-                         static_cast<std::uint32_t>(c.blocks->volumes.size()),
-                         {},
-                         {}};
+                         static_cast<std::uint32_t>(c.blocks->volumes.size())};
     const std::array box{static_cast<std::uint32_t>(mesh.surfaces.size())};
     if (claim.box) mesh.surfaces.push_back({"box", Role::boundary});
     for (const std::uint32_t t : claim.triangle_of) {

@@ -54,8 +54,8 @@ struct TetrahedralMesh {
         twins; ///< pairs of faces, in front of and behind a cut (split_nodes.hpp): corner by
                ///< corner at the same place; none: nodes are not split
     std::uint32_t region_count = 0; ///< with the outside
-    std::string mesher;             ///< the program that made it: "TetGen" or "Gmsh"
-    std::string failure;            ///< why another mesher, asked before, made none; or empty
+    std::string mesher{};           ///< the program that made it: "TetGen" or "Gmsh"
+    std::string failure{};          ///< why another mesher, asked before, made none; or empty
 };
 
 } // namespace terrane
