@@ -95,7 +95,9 @@ MODELS = [
           "SCEC, GFM 2020 (no licence is stated; not in this repository)",
           "20 boundaries of blocks and the Moho, each cut at the others by hand, with gaps of up to 10 m in "
           "900 km, and 48 000 triangles that occur twice.",
-          [f"terrane volume $IN -o blocks {SCEC_BOX} --seal auto --min-volume auto"]),
+          [f"terrane volume $IN -o blocks {SCEC_BOX} --seal auto --min-volume auto",
+           f"terrane improve $IN -o better.vtp {SCEC_BOX} --seal auto --min-volume auto --edge-length 6000",
+           "terrane tetrahedralize better.vtp -o model.vtu --blocks-only"]),
 ]
 # Files of an archive that belong to the model, where not all do.
 PARTS = {"blocks of southern California": ("fault_boundaries/*.ts", "moho_extended_crop.ts")}
