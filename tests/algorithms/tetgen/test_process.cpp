@@ -140,8 +140,8 @@ TEST_CASE("TetGen's helper: forged numbers never become tetrahedra", "[tetrahedr
     REQUIRE(truth);
     const auto outcome = [&](const TetgenOutput& output) {
         const Impostor forger(reply_of(output), input);
-        return tetrahedralize(
-            mesh, {.mesher = Mesher::tetgen, .box = box, .helper = forger.path()}, {});
+        return tetrahedralize(mesh, {.mesher = Mesher::tetgen, .box = box, .helper = forger.path()},
+                              {});
     };
     const auto control = outcome(truth.value());
     INFO((control ? "" : control.error().message()));
