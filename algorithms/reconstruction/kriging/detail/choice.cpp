@@ -228,8 +228,9 @@ BlockValidation validate(const DataAroundHole& around, const Variogram& variogra
 /// their noise, and what is not noise has shrunk to a tenth of its square.
 bool is_far_better(const BlockValidation& now, const BlockValidation& before, double noise) {
     if (now.error < constants.worth_degree * before.error) return true;
-    const double left = now.error * now.error - noise;
-    return left < noise && left < constants.worth_degree * (before.error * before.error - noise);
+    const double left = now.error * now.error - noise, was = before.error * before.error - noise;
+    // Noise alone explains neither what was missed before nor a difference below its own size.
+    return was > noise && left < noise && left < constants.worth_degree * was;
 }
 
 /// Takes a trend of degree 2 if blocks are then missed by far less, as those of a paraboloid.
