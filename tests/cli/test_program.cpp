@@ -85,7 +85,7 @@ TEST_CASE("cli: bad files are named with the line, and nothing is written", "[cl
         refused(folder, on(folder.input("empty.obj", "")), 2, "terrane: in/empty.obj: ");
         refused(folder, on(folder.input("empty.stl", "")), 2, "terrane: in/empty.stl: ");
         refused(folder, on(folder.input("a.vtp", "x")), 2, "in/a.vtp:1: this is not well-formed");
-        refused(folder, on(folder.input("a.vtu", "x")), 2, "in/a.vtu: this format is written");
+        refused(folder, on(folder.input("a.inp", "x")), 2, "in/a.inp: this format is written");
     }
 }
 
