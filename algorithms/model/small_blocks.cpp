@@ -151,7 +151,8 @@ private:
     std::vector<Point3> places_; ///< per vertex
 };
 
-/// Merges again after a small move of the vertices, and whatever was removed before.
+/// Returns a function that repeats the removal of triangles for an arrangement whose vertices have
+/// moved a little: first what `before` removes, then the interfaces of small blocks.
 std::function<Result<Arrangement>(Arrangement, const Run&)>
 merged_again(std::function<Result<Arrangement>(Arrangement, const Run&)> before, double least) {
     return

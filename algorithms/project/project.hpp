@@ -101,7 +101,8 @@ struct ProjectTetrahedra {
                                          ///< volume of interest
 };
 
-/// The bound of circumradius / shortest edge for tetrahedra of improved surfaces.
+/// Project files with `improve` ask for tetrahedra whose ratio of circumradius to shortest edge is
+/// at most this, unless they state another bound.
 inline constexpr double improved_quality = 1.4;
 
 /// The formats of the files in the folder of results.

@@ -36,8 +36,8 @@ struct NoiseAlone {
     double price = 0;              ///< of a parameter, in logarithms of likelihoods
 };
 
-/// A kernel between contrasts in coordinates in which it is tridiagonal, so that each nugget costs
-/// O(n). Cost: 4/3 n^3 once.
+/// Holds the covariance matrix of contrasts in a basis in which it is tridiagonal. The likelihood of
+/// another nugget then costs O(n). Cost of the basis: 4/3 n^3.
 class TridiagonalKernel {
 public:
     TridiagonalKernel(const Eigen::MatrixXd& kernel, const Eigen::VectorXd& contrasts);

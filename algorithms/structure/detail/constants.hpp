@@ -8,9 +8,9 @@
 namespace terrane::structure::detail {
 
 struct BlockNameConstants {
-    /// Least share of a surface's area at a block to be listed above, below or beside it, and of
-    /// the area above or below a block for a surface to be in its name. Larger: shorter names, of
-    /// which more are equal.
+    /// A surface is listed above, below or beside a block if at least this share of its area at the
+    /// block lies there. It is in the block's name if it makes up at least this share of the area
+    /// above or below the block. A larger share gives shorter names, more of which are equal.
     double least_share = 0.1;
     /// A surface is at one side of a block if the sum of its area vectors there is at least this
     /// share of its area; otherwise it is around the block, or in it. Larger: sharper folds count

@@ -114,7 +114,8 @@ struct KrigingConstants {
     std::size_t most_block_data = 300;
     /// Blocks of the expected error that the model itself counts for in the calibration.
     double block_prior = 2;
-    /// Blocks that all of them count for at most in the calibration, since they overlap.
+    /// The calibration weighs all blocks together as at most this number of independent ones, since
+    /// they overlap.
     double most_counted = 12;
     /// Share of the nugget that is noise, by the weights of the data, above which all of it counts
     /// as such.

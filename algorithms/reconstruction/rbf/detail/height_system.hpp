@@ -54,8 +54,8 @@ public:
     [[nodiscard]] Eigen::VectorXd polynomial() const;
     /// The matrix P for which P z are the weights.
     [[nodiscard]] Eigen::MatrixXd projection() const;
-    /// Ratio of the largest and the least entry of the diagonal of the factor, squared: a lower
-    /// bound of the condition.
+    /// Returns a lower bound of the condition number: the squared ratio of the largest to the least
+    /// diagonal entry of the Cholesky factor.
     [[nodiscard]] double condition() const;
     /// Estimates g, without the noise of the data. Cost: n per place.
     [[nodiscard]] std::vector<double> values(std::span<const Point3> places) const;
