@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <terrane/algorithms/core/no_index.hpp>
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/volumes/shells.hpp>
 #include <terrane/io/detail/certificate_writer.hpp>
 
@@ -79,11 +80,13 @@ std::string text_of(std::string_view kind, const Certified& certified,
 
 std::string to_certificate(const Certified& certified, const CertifiedBlocks& blocks,
                            const Run& run) {
+    const StandardArithmetic guard;
     return text_of("volumes", certified, blocks, nullptr, run);
 }
 
 std::string to_certificate(const Certified& certified, const CertifiedBlocks& blocks,
                            const TetrahedralMesh& tetrahedra, const Run& run) {
+    const StandardArithmetic guard;
     return text_of("tetrahedra", certified, blocks, &tetrahedra, run);
 }
 

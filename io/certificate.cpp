@@ -7,6 +7,7 @@
 #include <terrane/algorithms/arrangement/digest.hpp>
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/algorithms/core/sha256.hpp>
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/detail/certificate_writer.hpp>
 
@@ -96,6 +97,7 @@ void write_rounded(CertificateWriter& out, const Arrangement& exact, const Round
 } // namespace
 
 double stated_deviation(const Arrangement& exact, const RoundedMesh& rounded) {
+    const StandardArithmetic guard;
     // With other triangles than those of the arrangement the verifier's bound is up to 5/2 times
     // the sum of all moves.
     constexpr double proof_slack = 4;
@@ -141,6 +143,7 @@ std::string certified_name(const fs::path& path, const fs::path& certificate) {
 }
 
 std::string to_certificate(const Certified& certified, const Run& run) {
+    const StandardArithmetic guard;
     std::string text;
     text.reserve(200 * certified.exact.triangles.size() + 4096);
     CertificateWriter out(text);
@@ -152,6 +155,7 @@ std::string to_certificate(const Certified& certified, const Run& run) {
 
 std::string to_improved_certificate(const Certified& before, const Mesh& improved,
                                     std::span<const double> limits, const Run& run) {
+    const StandardArithmetic guard;
     std::string text;
     CertificateWriter out(text);
     write_head(out, "improved", before);

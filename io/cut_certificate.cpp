@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/io/certificate.hpp>
 #include <terrane/io/detail/certificate_writer.hpp>
 #include <terrane/io/detail/growth_writer.hpp>
@@ -110,6 +111,7 @@ std::vector<Surface> surfaces_in_files(const Certified& cut, const CutRecord& re
 
 Result<CutSections> cut_sections(const Certified& cut, const CutRecord& record,
                                  const ArrangeOptions& options, const Run& run) {
+    const StandardArithmetic guard;
     auto whole = arrange(cut.surfaces, options, run);
     if (!whole) return whole.error();
     auto dropped = dropped_triangles(whole.value(), cut.exact);
@@ -132,6 +134,7 @@ Result<CutSections> cut_sections(const Certified& cut, const CutRecord& record,
 
 Result<std::string> to_cut_certificate(const Certified& cut, const CutRecord& record,
                                        const ArrangeOptions& options, const Run& run) {
+    const StandardArithmetic guard;
     const auto sections = cut_sections(cut, record, options, run);
     if (!sections) return sections.error();
     Certified certified = cut;
@@ -147,6 +150,7 @@ Result<std::string> to_cut_certificate(const Certified& cut, const CutRecord& re
 Result<std::string> to_cut_certificate(const Certified& cut, const VolumeRecord& volume,
                                        std::size_t boundary_count, const ArrangeOptions& options,
                                        const Run& run) {
+    const StandardArithmetic guard;
     return to_cut_certificate(cut, {&volume, boundary_count, {}}, options, run);
 }
 

@@ -9,6 +9,7 @@
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/io/text/names.hpp>
 #include <terrane/io/text/text.hpp>
 #include <terrane/kernel/fraction.hpp>
@@ -18,6 +19,7 @@ namespace terrane {
 using namespace detail;
 
 ExactText to_exact(const Arrangement& a, const Run& run) {
+    const StandardArithmetic guard;
     ExactText exact;
     exact.surfaces = a.surfaces;
     for (std::size_t s = 0; s < a.surfaces.size(); ++s) {

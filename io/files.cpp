@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <terrane/algorithms/core/guarded.hpp>
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/grids/cps3.hpp>
 #include <terrane/io/grids/esri.hpp>
@@ -273,6 +274,7 @@ Result<std::vector<Surface>> read_surfaces(const fs::path& path, std::optional<F
 }
 
 Result<GocadModel> read_model(const fs::path& path) {
+    const StandardArithmetic guard;
     const auto place = place_of(path, true);
     return guard_memory(place, [&]() -> Result<GocadModel> {
         const auto contents = read_file(path);
@@ -282,6 +284,7 @@ Result<GocadModel> read_model(const fs::path& path) {
 }
 
 std::vector<StatedRegion> read_stated_regions(const fs::path& path, std::optional<Format> format) {
+    const StandardArithmetic guard;
     const auto chosen = format ? format : format_of(path);
     if (path == "-" || chosen != Format::gocad) return {};
     const auto contents = read_file(path);

@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/io/certificate.hpp>
 #include <terrane/io/detail/certificate_writer.hpp>
@@ -101,6 +102,7 @@ std::string to_filled_certificate(std::span<const InputRecord> files,
                                   std::span<const Surface> surfaces,
                                   std::span<const OutputRecord> outputs,
                                   std::span<const FilledRecord> filled) {
+    const StandardArithmetic guard;
     std::vector<Surface> all;
     for (const FilledRecord& record : filled) all.push_back(*record.filled);
     const Mesh mesh = concatenate(all);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/io/certificate.hpp>
 #include <terrane/io/detail/certificate_writer.hpp>
 
@@ -11,6 +12,7 @@ namespace terrane {
 using namespace detail;
 
 double stated_deviation(const Layered& layered) {
+    const StandardArithmetic guard;
     // Vertices were rounded twice: to the nearest doubles, and after the final arrangement. What
     // the verifier shows is up to four times as large.
     constexpr double slack = 4;
@@ -26,6 +28,7 @@ std::string to_layered_certificate(std::span<const InputRecord> files,
                                    std::span<const Surface> surfaces,
                                    std::span<const OutputRecord> outputs,
                                    std::span<const Layer> order, const Layered& layered) {
+    const StandardArithmetic guard;
     const Mesh& mesh = layered.rounded.mesh;
     std::string text;
     CertificateWriter out(text);

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <terrane/algorithms/core/no_index.hpp>
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/io/text/names.hpp>
 
 namespace terrane {
@@ -196,6 +197,7 @@ Json seal_json(const StructureExtras& extras) {
 } // namespace
 
 std::string to_json(const Mesh& mesh, const Structure& structure, const StructureExtras& extras) {
+    const StandardArithmetic guard;
     Json json{{"format", "terrane-model 1"}};
     json["surfaces"] = surfaces_json(mesh, structure);
     json["blocks"] = blocks_json(structure, extras);

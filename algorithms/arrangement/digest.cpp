@@ -11,6 +11,7 @@
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/core/sha256.hpp>
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/kernel/fraction.hpp>
 
 namespace terrane {
@@ -133,6 +134,7 @@ private:
 
 std::string canonical_digest(std::span<const Surface> inputs, const Arrangement& arrangement,
                              const Run& run) {
+    const StandardArithmetic guard;
     const Run unstoppable{.threads = run.threads}; // hashing takes only a moment
     return Digest(inputs, arrangement, unstoppable)();
 }

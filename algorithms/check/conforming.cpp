@@ -10,6 +10,7 @@
 #include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/check/count_pairs.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/intersection/injective_patches.hpp>
 #include <terrane/algorithms/intersection/intersection.hpp>
 #include <terrane/algorithms/mesh/edges.hpp>
@@ -84,6 +85,7 @@ std::optional<CandidatePair> first_contact(std::span<const Point3> points,
 
 Status conforming(std::span<const Point3> points, std::span<const Triangle> triangles,
                   std::span<const std::uint32_t> label_of, const Run& run) {
+    const StandardArithmetic guard;
     const auto proof = conforming(points, triangles, label_of, PairCheckOptions{}, run);
     if (!proof) return proof.error();
     return Done{};
@@ -93,6 +95,7 @@ Result<std::optional<PairCounts>> conforming(std::span<const Point3> points,
                                              std::span<const Triangle> triangles,
                                              std::span<const std::uint32_t> label_of,
                                              const PairCheckOptions& check, const Run& run) {
+    const StandardArithmetic guard;
     if (auto valid = validate_areas(points, triangles, run); !valid) return valid.error();
     if (auto distinct = distinct_points(points, triangles); !distinct) return distinct.error();
     if (auto distinct = distinct_triangles(triangles); !distinct) return distinct.error();
@@ -117,17 +120,20 @@ Result<std::optional<PairCounts>> conforming(std::span<const Point3> points,
 
 Result<ConformingMesh> prove_conforming(Mesh mesh, std::span<const std::uint32_t> label_of,
                                         const Run& run) {
+    const StandardArithmetic guard;
     return prove_conforming(std::move(mesh), label_of, PairCheckOptions{}, run);
 }
 
 Result<ConformingMesh> prove_conforming(Mesh mesh, std::span<const std::uint32_t> label_of,
                                         const PairCheckOptions& check, const Run& run) {
+    const StandardArithmetic guard;
     const auto proof = conforming(mesh.vertices, mesh.triangles, label_of, check, run);
     if (!proof) return proof.error();
     return ConformingMesh(std::move(mesh), proof.value());
 }
 
 Result<ConformingMesh> prove_conforming(Mesh mesh, const Run& run) {
+    const StandardArithmetic guard;
     std::vector<std::uint32_t> labels(mesh.triangles.size());
     for (std::size_t t = 0; t < std::min(labels.size(), mesh.surfaces_of.size()); ++t)
         if (!mesh.surfaces_of[t].empty()) labels[t] = mesh.surfaces_of[t][0];

@@ -8,14 +8,16 @@
 #include <utility>
 
 #include <terrane/algorithms/core/result.hpp>
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 
 namespace terrane {
 
 /// Calls `work` and returns its Result. Lack of memory and arrays beyond the largest possible
-/// length become out_of_memory at `place`.
+/// length become out_of_memory at `place`. The work has StandardArithmetic.
 template <class Work>
 auto guard_memory(std::string place, const Work& work,
                   std::string sentence = "there is not enough memory") -> decltype(work()) {
+    const StandardArithmetic arithmetic;
     try {
         return work();
     } catch (const std::bad_alloc&) {

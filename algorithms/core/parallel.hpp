@@ -12,6 +12,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 #include <tbb/task_arena.h>
+#include <tbb/task_group.h>
 
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/kernel/numbers.hpp>
@@ -29,6 +30,15 @@ void with_threads(const Run& run, const Work& work) {
     if (tbb::this_task_arena::max_concurrency() == threads) return work();
     tbb::task_arena arena(threads);
     arena.execute(work);
+}
+
+/// Calls work(i) for each i < count, several at a time. The threads get the floating-point
+/// environment of this one; by default they would have that of the thread that used TBB first.
+template <class Work>
+void for_each_index(std::size_t count, const Work& work) {
+    tbb::task_group_context context(tbb::task_group_context::bound,
+                                    tbb::task_group_context::fp_settings);
+    tbb::parallel_for(std::size_t{0}, count, work, context);
 }
 
 /// Cuts [0, count) into blocks of fixed size, so that the result cannot depend on the threads, and
@@ -51,7 +61,7 @@ std::vector<Block> for_blocks(std::size_t count, std::size_t block_size, const R
     if (run.threads <= 1 || blocks.size() <= 1) {
         for (std::size_t b = 0; b < blocks.size(); ++b) one(b);
     } else {
-        with_threads(run, [&] { tbb::parallel_for(std::size_t{0}, blocks.size(), one); });
+        with_threads(run, [&] { for_each_index(blocks.size(), one); });
     }
     return blocks;
 }
@@ -66,9 +76,8 @@ void for_ranges(std::size_t count, const Run& run, const Work& work,
         run.threads <= 1 ? 1 : std::min(ranges_per_thread * run.threads, count / least + 1);
     if (ranges == 1) return work(std::size_t{0}, count);
     with_threads(run, [&] {
-        tbb::parallel_for(std::size_t{0}, ranges, [&](std::size_t r) {
-            work(count * r / ranges, count * (r + 1) / ranges);
-        });
+        for_each_index(ranges,
+                       [&](std::size_t r) { work(count * r / ranges, count * (r + 1) / ranges); });
     });
 }
 
@@ -109,7 +118,11 @@ void both(const Run& run, const First& first, const Second& second) {
         second();
         return;
     }
-    with_threads(run, [&] { tbb::parallel_invoke(first, second); });
+    with_threads(run, [&] {
+        tbb::task_group_context context(tbb::task_group_context::bound,
+                                        tbb::task_group_context::fp_settings);
+        tbb::parallel_invoke(first, second, context);
+    });
 }
 
 } // namespace terrane

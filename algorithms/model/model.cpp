@@ -7,6 +7,7 @@
 
 #include <terrane/algorithms/core/no_index.hpp>
 #include <terrane/algorithms/core/stage_timer.hpp>
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 
 namespace terrane {
 namespace {
@@ -58,6 +59,7 @@ std::vector<std::uint32_t> own_numbers(const Volumes& volumes) {
 
 Result<Model> make_model(const Arrangement& arrangement, const ConformingMesh& mesh, const Run& run,
                          const BlockNaming& naming) {
+    const StandardArithmetic guard;
     StageTimer timer(run, "volumes");
     const Run inner = timer.inside();
     const auto exact = find_volumes(arrangement, inner);
@@ -73,6 +75,7 @@ Result<Model> make_model(const Arrangement& arrangement, const ConformingMesh& m
 
 Result<Model> make_model(const Arrangement& arrangement, const ConformingMesh& rounded,
                          const Improved& improved, const Run& run, const BlockNaming& naming) {
+    const StandardArithmetic guard;
     StageTimer timer(run, "volumes");
     Model model{.mesh = improved.conforming.value()};
     if (!improved.report.sides_kept) {

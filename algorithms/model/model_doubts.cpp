@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
 
 namespace terrane {
@@ -58,6 +59,7 @@ std::map<Pair, double> crossings(const Model& model) {
 } // namespace
 
 std::vector<PlausibilityWarning> find_model_doubts(const Model& model, bool blocks) {
+    const StandardArithmetic guard;
     const auto labels = unique_labels(model.mesh->surfaces);
     std::vector<PlausibilityWarning> warnings;
     if (blocks && model.block_count() == 0)

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 
 namespace terrane {
@@ -41,6 +42,7 @@ Result<SealTrial> try_distance(double distance, double small_volume,
 Result<SealAdvice> advise_seal(const std::vector<Surface>& surfaces,
                                const std::vector<Surface>& boundary,
                                const ArrangeWithinOptions& options, const Run& run) {
+    const StandardArithmetic guard;
     SealAdvice advice;
     auto choice = choose_seal(surfaces, boundary, options, run);
     if (!choice) return choice.error();

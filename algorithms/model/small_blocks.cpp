@@ -15,6 +15,7 @@
 #include <terrane/algorithms/arrangement/restricted.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/stage_timer.hpp>
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 
@@ -195,6 +196,7 @@ Result<WithoutSmallBlocks> merge_small_blocks(Arrangement arrangement, double le
 }
 
 double median_edge_length(std::span<const Surface> surfaces) {
+    const StandardArithmetic guard;
     std::vector<double> lengths;
     for (const Surface& s : surfaces)
         for (const Triangle& t : s.triangles)
@@ -207,6 +209,7 @@ double median_edge_length(std::span<const Surface> surfaces) {
 }
 
 double small_volume_for(std::span<const Surface> surfaces) {
+    const StandardArithmetic guard;
     const double edge = small_edge * median_edge_length(surfaces);
     return edge * edge * edge;
 }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/plausibility/detail/examination.hpp>
 #include <terrane/algorithms/plausibility/detail/thresholds.hpp>
@@ -74,6 +75,7 @@ std::string_view name_of(Doubt doubt) {
 
 std::vector<PlausibilityWarning> find_doubts(std::span<const Surface> surfaces,
                                              const PlausibilityContext& context) {
+    const StandardArithmetic guard;
     using namespace plausibility::detail;
     Examination examination(surfaces, context);
     check_heights(examination);

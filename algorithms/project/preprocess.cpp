@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <terrane/algorithms/core/stage_timer.hpp>
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
 
 namespace terrane {
@@ -151,6 +152,7 @@ bool Preprocessed::good() const {
 
 Result<Preprocessed> preprocess(const Project& project, std::vector<Surface>& surfaces,
                                 const Run& run) {
+    const StandardArithmetic guard;
     const Names names(surfaces);
     const auto tasks = tasks_of(project, names);
     if (!tasks) return tasks.error();

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <terrane/algorithms/core/parallel.hpp>
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/algorithms/mesh/triangle_tree.hpp>
 
@@ -68,6 +69,7 @@ std::array<Corners, 4> quarters(const Corners& c) {
 } // namespace
 
 double sampled_distance(const Surface& from, const Surface& to, const Run& run) {
+    const StandardArithmetic guard;
     if (to.triangles.empty()) return from.triangles.empty() ? 0 : endless;
     const TriangleTree tree(to.vertices, to.triangles);
     constexpr std::array<std::array<double, 3>, 13> weights{{{1, 0, 0},
@@ -98,6 +100,7 @@ double sampled_distance(const Surface& from, const Surface& to, const Run& run) 
 }
 
 double distance_bound(const Surface& from, const Surface& to, double tolerance, const Run& run) {
+    const StandardArithmetic guard;
     if (to.triangles.empty()) return from.triangles.empty() ? 0 : endless;
     const TriangleTree tree(to.vertices, to.triangles);
     std::priority_queue<Part> front;
@@ -117,6 +120,7 @@ double distance_bound(const Surface& from, const Surface& to, double tolerance, 
 }
 
 std::vector<Deviation> deviations_of(const Mesh& before, const Mesh& after, const Run& run) {
+    const StandardArithmetic guard;
     std::vector<Deviation> all;
     for (std::uint32_t s = 0; s < before.surfaces.size(); ++s) {
         if (run.stop.stop_requested()) break;

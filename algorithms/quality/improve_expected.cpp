@@ -3,18 +3,21 @@
 
 #include <cmath>
 
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/quality/detail/reference_surface.hpp>
 
 namespace terrane {
 
 double least_deviation(double largest_coordinate) {
+    const StandardArithmetic guard;
     using quality::detail::ReferenceSurface;
     return quality::detail::constants.least_bound *
            ReferenceSurface::rounding_at(largest_coordinate);
 }
 
 double expected_triangles(std::span<const Surface> surfaces, const ImproveOptions& options) {
+    const StandardArithmetic guard;
     double sum = 0;
     for (std::size_t s = 0; s < surfaces.size(); ++s) {
         const bool is_exception =

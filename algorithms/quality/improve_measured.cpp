@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <terrane/algorithms/core/stage_timer.hpp>
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/quality/improve_back.hpp>
 
 namespace terrane {
@@ -16,6 +17,7 @@ bool ImprovedAndMeasured::is_near_back() const {
 
 Result<ImprovedAndMeasured> improve_and_measure(const ConformingMesh& mesh,
                                                 const ImproveOptions& options, const Run& run) {
+    const StandardArithmetic guard;
     if (run.progress) run.progress("improve", 0);
     auto improved = improve(mesh, options, run);
     if (!improved) return improved.error();

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include <terrane/algorithms/core/parallel.hpp>
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/triangle_tree.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 
@@ -238,6 +239,7 @@ std::vector<double> sampled(const Surface& from, const TriangleTree& tree, const
 } // namespace
 
 double measured_distance(const Surface& from, const Surface& to, const Run& run) {
+    const StandardArithmetic guard;
     if (from.triangles.empty()) return 0;
     if (to.triangles.empty()) return anywhere;
     const TriangleTree tree(to.vertices, to.triangles);

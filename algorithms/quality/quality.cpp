@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <terrane/algorithms/core/parallel.hpp>
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/edges.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 
@@ -73,6 +74,7 @@ std::array<double, 3> angles_of(const Point3& a, const Point3& b, const Point3& 
 }
 
 Spread spread_of(std::vector<double> values) {
+    const StandardArithmetic guard;
     Spread spread;
     if (values.empty()) return spread;
     double sum = 0;
@@ -96,6 +98,7 @@ Spread spread_of(std::vector<double> values) {
 
 QualityReport measure_quality(std::span<const Point3> vertices, std::span<const Triangle> triangles,
                               const Run& run) {
+    const StandardArithmetic guard;
     QualityReport report;
     report.triangles = triangles.size();
     if (triangles.empty()) return report;

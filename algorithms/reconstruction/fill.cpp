@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/reconstruction/rbf/rbf_join.hpp>
 
@@ -101,6 +102,7 @@ std::optional<VariogramModel> variogram_model_named(std::string_view name) {
 
 Result<FillWork> find_holes(std::span<const Surface> surfaces, std::span<const FillTask> tasks,
                             const Run& run) {
+    const StandardArithmetic guard;
     FillWork work;
     announce(run, "holes");
     const auto labels = unique_labels(infos_of(surfaces));
@@ -138,6 +140,7 @@ std::vector<bool> wanted_holes(const FillWork& work) {
 
 Status fill_holes(std::span<const Surface> surfaces, const std::vector<bool>& chosen,
                   FillWork& work, const Run& run) {
+    const StandardArithmetic guard;
     for (std::size_t i = 0; i < work.holes.size(); ++i) {
         if (!chosen[i]) continue;
         NumberedHole& hole = work.holes[i];
@@ -159,6 +162,7 @@ Status fill_holes(std::span<const Surface> surfaces, const std::vector<bool>& ch
 }
 
 Result<std::vector<NewContact>> contacts_of_new(const FillWork& work, const Run& run) {
+    const StandardArithmetic guard;
     std::vector<NewContact> found;
     for (std::size_t task = 0; task < work.surfaces.size(); ++task) {
         const HoledSurface& s = work.surfaces[task];
@@ -177,6 +181,7 @@ Result<std::vector<NewContact>> contacts_of_new(const FillWork& work, const Run&
 
 Result<FillWork> fill_surfaces(std::span<const Surface> surfaces, std::span<const FillTask> tasks,
                                const Run& run) {
+    const StandardArithmetic guard;
     auto work = find_holes(surfaces, tasks, run);
     if (!work) return work;
     if (auto done = fill_holes(surfaces, wanted_holes(*work), *work, run); !done)

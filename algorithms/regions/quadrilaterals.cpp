@@ -6,6 +6,7 @@
 #include <span>
 
 #include <terrane/algorithms/core/no_index.hpp>
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/diffusion.hpp>
 
 namespace terrane {
@@ -94,6 +95,7 @@ Surface triangles_of(const QuadSurface& surface) {
 }
 
 Result<QuadCells> quad_cells(const Mesh& mesh, const InputTriangles& inputs, SurfaceId surface) {
+    const StandardArithmetic guard;
     if (std::size_t{surface} + 1 >= inputs.first.size())
         return Error{ErrorCode::bad_index, "there is no such surface",
                      "surface " + std::to_string(surface)};

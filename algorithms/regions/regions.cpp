@@ -9,6 +9,7 @@
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/no_index.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/edges.hpp>
 #include <terrane/algorithms/regions/regions_over.hpp>
 
@@ -225,12 +226,14 @@ private:
 Regions find_regions(std::span<const Point3> vertices, std::span<const Triangle> triangles,
                      const IndexLists<std::uint32_t>& surfaces_of, const Adjacency& adjacency,
                      std::span<const Edge> intersection_edges, const Run& run) {
+    const StandardArithmetic guard;
     Diffusion diffusion(triangles, surfaces_of, intersection_edges, run);
     diffusion.spread(adjacency);
     return diffusion.number(vertices);
 }
 
 Regions find_regions(const Mesh& mesh, const Run& run) {
+    const StandardArithmetic guard;
     // Without parents any edge may be an intersection, so none is taken for an inner one.
     const Labels labels = mesh.parents_of.size() == mesh.triangles.size()
                               ? labels_of(mesh.surfaces_of, mesh.parents_of)

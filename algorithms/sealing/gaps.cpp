@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include <terrane/algorithms/core/guarded.hpp>
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/sealing/border_extension.hpp>
 #include <terrane/algorithms/sealing/detail/gap_distances.hpp>
 
@@ -64,6 +65,7 @@ Result<std::vector<SurfaceGap>> find_gaps(const Arrangement& arrangement, double
 }
 
 std::vector<GapBreak> find_breaks(std::span<const SurfaceGap> gaps, double widest) {
+    const StandardArithmetic guard;
     double all = 0;
     for (const SurfaceGap& gap : gaps) all += gap.length;
     std::vector<GapBreak> breaks;

@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/structure/detail/block_contacts.hpp>
 #include <terrane/algorithms/structure/detail/block_units.hpp>
@@ -161,6 +162,7 @@ std::string at_block(const std::vector<std::string>& names, std::size_t block) {
 
 void name_blocks(const Mesh& mesh, const Volumes& volumes, const GivenNames& given,
                  Structure& structure) {
+    const StandardArithmetic guard;
     const BlockDescriptions descriptions(mesh, find_contacts(mesh, volumes));
     const ColumnInMesh column(given.column, mesh);
     std::vector<std::string> names{"outside"};

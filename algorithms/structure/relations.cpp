@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/edges.hpp>
 
 namespace terrane {
@@ -109,6 +110,7 @@ std::string_view name_of(RelationKind kind) {
 
 std::vector<SurfaceRelation> find_relations(const Mesh& mesh, const Structure& structure,
                                             std::span<const FreeBorder> borders) {
+    const StandardArithmetic guard;
     const auto at = triangles_at_lines(mesh, structure);
     Relations lines;
     for (std::size_t l = 0; l < structure.lines.size(); ++l)
@@ -125,6 +127,7 @@ std::vector<SurfaceRelation> find_relations(const Mesh& mesh, const Structure& s
 }
 
 std::vector<Juxtaposition> find_juxtapositions(const Structure& structure) {
+    const StandardArithmetic guard;
     std::map<std::pair<std::uint32_t, std::array<std::uint32_t, 2>>, double> areas;
     for (const ModelInterface& between : structure.interfaces) {
         if (between.dangles()) continue;

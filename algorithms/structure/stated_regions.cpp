@@ -6,6 +6,7 @@
 #include <map>
 
 #include <terrane/algorithms/core/no_index.hpp>
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/structure/detail/constants.hpp>
 
@@ -98,6 +99,7 @@ std::uint32_t region_of(const std::map<std::uint32_t, double>& block, const Bord
 
 std::vector<std::uint32_t> match_regions(const Arrangement& arrangement, const Volumes& volumes,
                                          std::span<const StatedRegion> regions) {
+    const StandardArithmetic guard;
     std::vector<std::uint32_t> match(volumes.measures.size(), no_index);
     if (regions.empty()) return match;
     const Borders borders = number_borders(arrangement, regions);

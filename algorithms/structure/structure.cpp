@@ -9,6 +9,7 @@
 #include <utility>
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/structure/block_names.hpp>
 #include <terrane/algorithms/structure/detail/parts.hpp>
 
@@ -169,6 +170,7 @@ Point3 area_vector(const Mesh& mesh, std::uint32_t triangle) {
 } // namespace structure::detail
 
 Structure build_structure(const Mesh& mesh, const Volumes& volumes) {
+    const StandardArithmetic guard;
     return Builder(mesh, volumes)();
 }
 

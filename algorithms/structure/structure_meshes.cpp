@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/submesh.hpp>
 
 namespace terrane {
@@ -32,6 +33,7 @@ MeshPart part_of(const Mesh& mesh, std::vector<std::uint32_t> triangles, const I
 
 MeshPart block_part(const Mesh& mesh, const Volumes& volumes, const Structure& structure,
                     BlockId block) {
+    const StandardArithmetic guard;
     std::vector<std::uint32_t> triangles;
     for (const std::uint32_t i : structure.blocks[block].interfaces) {
         const auto& more = structure.interfaces[i].triangles;
@@ -44,6 +46,7 @@ MeshPart block_part(const Mesh& mesh, const Volumes& volumes, const Structure& s
 
 MeshPart interface_part(const Mesh& mesh, const Volumes& volumes, const Structure& structure,
                         InterfaceId interface) {
+    const StandardArithmetic guard;
     const ModelInterface& i = structure.interfaces[interface];
     return part_of(mesh, i.triangles,
                    [&](std::uint32_t t) { return volumes.of_sides[t][0] == i.volumes[1]; });

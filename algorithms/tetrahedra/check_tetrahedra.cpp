@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/tetrahedra/detail/allowance.hpp>
 #include <terrane/algorithms/tetrahedra/detail/cell_faces.hpp>
 #include <terrane/algorithms/tetrahedra/detail/cover.hpp>
@@ -104,6 +105,7 @@ std::string message(const TetrahedraViolation& violation) {
 
 TetrahedraReport check_tetrahedra(const TetrahedralMesh& tetrahedra, const Mesh& mesh,
                                   const Volumes& volumes) {
+    const StandardArithmetic guard;
     TetrahedraReport report;
     Findings findings;
     const bool whole = tetrahedra.surfaces.size() > mesh.surfaces.size();

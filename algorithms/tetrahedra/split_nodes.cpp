@@ -7,6 +7,7 @@
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/no_index.hpp>
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/diffusion.hpp>
 #include <terrane/algorithms/mesh/face_sides.hpp>
 
@@ -154,6 +155,7 @@ private:
 
 Result<TetrahedralMesh> split_nodes(const TetrahedralMesh& mesh,
                                     std::span<const std::uint32_t> surfaces) {
+    const StandardArithmetic guard;
     constexpr std::size_t most = std::size_t(1) << 30;
     for (const std::uint32_t s : surfaces)
         if (s >= mesh.surfaces.size())
@@ -165,6 +167,7 @@ Result<TetrahedralMesh> split_nodes(const TetrahedralMesh& mesh,
 }
 
 std::vector<std::vector<NodePair>> node_pairs(const TetrahedralMesh& mesh) {
+    const StandardArithmetic guard;
     std::vector<std::vector<NodePair>> pairs(mesh.surfaces.size());
     for (const auto& [front, back] : mesh.twins)
         for (std::size_t k = 0; k < 3; ++k) {

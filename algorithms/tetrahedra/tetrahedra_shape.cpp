@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/kernel/polynomials.hpp>
 
 namespace terrane {
@@ -209,6 +210,7 @@ double mean_ratio(const std::array<Point3, 4>& input) {
 }
 
 TetrahedraShape shape_of(const TetrahedralMesh& mesh) {
+    const StandardArithmetic guard;
     TetrahedraShape shape;
     Gather dihedral, radius_edge, sicn, ratio_of_means;
     shape.count = mesh.tetrahedra.size();

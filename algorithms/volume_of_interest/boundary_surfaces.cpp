@@ -12,6 +12,7 @@
 #include <terrane/algorithms/arrangement/soup.hpp>
 #include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/core/disjoint_sets.hpp>
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/edges.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/algorithms/search/search.hpp>
@@ -274,6 +275,7 @@ std::optional<Error> open_edge(std::span<const Surface> surfaces, const Run& run
 } // namespace
 
 Result<std::vector<Surface>> closed_boundary(std::span<const Surface> surfaces, const Run& run) {
+    const StandardArithmetic guard;
     const auto report = check(surfaces, run);
     if (!report) return report.error();
     if (const auto open = open_edge(surfaces, run)) return *open;
@@ -286,6 +288,7 @@ Result<std::vector<Surface>> closed_boundary(std::span<const Surface> surfaces, 
 }
 
 Result<std::vector<Surface>> box_boundary(const Point3& low, const Point3& high) {
+    const StandardArithmetic guard;
     if (!is_finite(low) || !is_finite(high))
         return Error{ErrorCode::bad_number, "a corner is not finite", "box"};
     if (!(low.x < high.x && low.y < high.y && low.z < high.z))
@@ -296,6 +299,7 @@ Result<std::vector<Surface>> box_boundary(const Point3& low, const Point3& high)
 }
 
 Result<std::vector<Surface>> rotated_box_boundary(const RotatedBox& box) {
+    const StandardArithmetic guard;
     for (const double length : box.lengths)
         if (!(length > 0))
             return Error{ErrorCode::bad_option, "the lengths of its edges must be positive",
@@ -318,6 +322,7 @@ Result<std::vector<Surface>> rotated_box_boundary(const RotatedBox& box) {
 
 Result<std::vector<Surface>> polygon_boundary(std::span<const Point2> corners, double low,
                                               double high) {
+    const StandardArithmetic guard;
     if (!std::isfinite(low) || !std::isfinite(high))
         return Error{ErrorCode::bad_number, "a depth is not finite", "polygon"};
     if (low == high) return Error{ErrorCode::bad_option, "the two depths are equal", "polygon"};

@@ -14,6 +14,7 @@
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/stage_timer.hpp>
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 
@@ -162,6 +163,7 @@ void count_pieces(const Arrangement& a, std::vector<SurfaceCut>& cuts) {
 } // namespace
 
 std::vector<OpenBorder> open_borders(const Arrangement& a, std::span<const std::uint32_t> but) {
+    const StandardArithmetic guard;
     const auto places = places_of(a);
     std::map<std::uint32_t, std::vector<Edge>> edges; // by surface
     for (std::size_t e = 0; e < a.state->adjacency.edges.size(); ++e) {
@@ -196,6 +198,7 @@ std::vector<OpenBorder> open_borders(const Arrangement& a, std::span<const std::
 
 Result<std::vector<Where>> locate(const Arrangement& a, std::span<const std::uint32_t> boundary,
                                   const Run& run) {
+    const StandardArithmetic guard;
     const auto in_boundary = triangles_in(a, boundary);
     const auto volumes = find_volumes(a, run);
     if (!volumes) return volumes.error();

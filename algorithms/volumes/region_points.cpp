@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/kernel/numbers.hpp>
 #include <terrane/kernel/polynomials.hpp>
@@ -178,6 +179,7 @@ std::optional<Point3> point_near(const BlockSide& side, BlockId block, const Mes
 
 std::optional<BlockId> volume_around(const Point3& place, const Mesh& mesh,
                                      const Volumes& volumes) {
+    const StandardArithmetic guard;
     for (const Point3& end : ends_outside(mesh, place)) {
         const auto [how, volume] = walk(place, end, mesh, volumes);
         if (how == Walk::on_triangle) return std::nullopt;
@@ -188,6 +190,7 @@ std::optional<BlockId> volume_around(const Point3& place, const Mesh& mesh,
 
 Result<std::vector<RegionPoint>> region_points(const Mesh& mesh, const Volumes& volumes,
                                                const Run& run) {
+    const StandardArithmetic guard;
     const auto sides = largest_sides(mesh, volumes);
     std::vector<RegionPoint> points;
     for (std::uint32_t block = 1; block < sides.size(); ++block)

@@ -14,6 +14,7 @@
 #include <terrane/algorithms/core/invariants.hpp>
 #include <terrane/algorithms/core/no_index.hpp>
 #include <terrane/algorithms/core/stage_timer.hpp>
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/algorithms/mesh/work_hook.hpp>
 #include <terrane/algorithms/volumes/detail/exact_volumes.hpp>
@@ -226,6 +227,7 @@ Result<Volumes> find_volumes(const Mesh& mesh, const Run& run) {
 }
 
 std::vector<std::string> exact_volumes(const Arrangement& a, const Volumes& volumes, int base) {
+    const StandardArithmetic guard;
     const auto planes = planes_of(a);
     const auto edges = group_edges(a.triangles, a.vertices.size());
     return exact_measures({a.state->points, a.vertices, a.triangles, edges, planes, &a.parents_of},
@@ -233,6 +235,7 @@ std::vector<std::string> exact_volumes(const Arrangement& a, const Volumes& volu
 }
 
 std::vector<std::string> exact_volumes(const Mesh& mesh, const Volumes& volumes, int base) {
+    const StandardArithmetic guard;
     return exact_measures(MeshSheets(mesh).view(), volumes.of_sides, volumes.measures.size(), base);
 }
 

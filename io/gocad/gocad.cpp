@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/io/gocad/gocad_objects.hpp>
 
 namespace terrane {
@@ -185,6 +186,7 @@ private:
 
 Result<std::vector<Surface>> read_gocad(std::string_view contents, std::string_view source,
                                         std::string_view name, bool mixed_units) {
+    const StandardArithmetic guard;
     LineParser in(contents, source);
     GocadFile file;
     if (auto trouble = read_objects(in, file, mixed_units)) return *trouble;
@@ -216,6 +218,7 @@ std::vector<StatedRegion> stated_regions_of(const GocadModel& model) {
 
 Result<GocadModel> read_gocad_model(std::string_view contents, std::string_view source,
                                     std::string_view name) {
+    const StandardArithmetic guard;
     LineParser in(contents, source);
     GocadFile file;
     if (auto trouble = read_objects(in, file)) return *trouble;

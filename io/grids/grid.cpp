@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include <terrane/algorithms/core/no_index.hpp>
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
 
 namespace terrane {
@@ -113,6 +114,7 @@ private:
 } // namespace
 
 Result<Surface> surface_of_grid(const Grid& grid, bool depth) {
+    const StandardArithmetic guard;
     if (grid.values.size() != std::size_t{grid.nx} * grid.ny || grid.dx == 0 || grid.dy == 0)
         return Error{ErrorCode::bad_option, "the grid has no steps or not nx ny values", ""};
     auto surface = GridSurface(grid, depth).make();
@@ -121,6 +123,7 @@ Result<Surface> surface_of_grid(const Grid& grid, bool depth) {
 }
 
 double height_at(const Grid& grid, double x, double y) {
+    const StandardArithmetic guard;
     constexpr double missing = std::numeric_limits<double>::quiet_NaN();
     const Turn turn(grid.rotation);
     const double u = ((x - grid.x) * turn.cosine + (y - grid.y) * turn.sine) / grid.dx;

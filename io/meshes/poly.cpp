@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/io/meshes/detail/groups.hpp>
 #include <terrane/io/text/text.hpp>
 
@@ -63,10 +64,12 @@ std::string written(const Mesh& mesh, std::span<const RegionPoint> regions, bool
 } // namespace
 
 std::string to_poly(const Mesh& mesh, std::span<const RegionPoint> regions) {
+    const StandardArithmetic guard;
     return written(mesh, regions, false);
 }
 
 std::string to_smesh(const Mesh& mesh, std::span<const RegionPoint> regions) {
+    const StandardArithmetic guard;
     return written(mesh, regions, true);
 }
 

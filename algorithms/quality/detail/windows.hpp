@@ -10,6 +10,7 @@
 
 #include <tbb/parallel_for.h>
 #include <tbb/partitioner.h>
+#include <tbb/task_group.h>
 
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/quality/detail/constants.hpp>
@@ -100,6 +101,8 @@ std::size_t in_windows(RemeshContext& context, const std::vector<Item>& items,
     };
     context.touched_at.resize(mesh.points.size(), 0);
     with_threads(context.run, [&] {
+        tbb::task_group_context arithmetic(tbb::task_group_context::bound,
+                                           tbb::task_group_context::fp_settings);
         tbb::affinity_partitioner where; // each thread keeps its part of the window
         for (std::size_t w = 0; w < windows && !context.run.stop.stop_requested(); ++w) {
             ++mesh.now;
@@ -112,7 +115,7 @@ std::size_t in_windows(RemeshContext& context, const std::vector<Item>& items,
             if (context.run.threads <= 1 || count < few)
                 for (std::size_t k = 0; k < count; ++k) look(k);
             else
-                tbb::parallel_for(std::size_t{0}, count, look, where);
+                tbb::parallel_for(std::size_t{0}, count, look, where, arithmetic);
             for (std::size_t k = 0; k < count; ++k) {
                 Proposal& p = context.window[k];
                 const Item& item = items[w + k * windows];

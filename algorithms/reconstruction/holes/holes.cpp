@@ -8,6 +8,7 @@
 
 #include <terrane/algorithms/arrangement/soup.hpp>
 #include <terrane/algorithms/core/disjoint_sets.hpp>
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/algorithms/reconstruction/holes/detail/constants.hpp>
 #include <terrane/algorithms/reconstruction/holes/detail/shape.hpp>
@@ -201,6 +202,7 @@ bool before(const BorderLoop& a, const BorderLoop& b) {
 
 Result<std::vector<BorderLoop>> find_border_loops(const Surface& surface, const Run& run,
                                                   const GapRule& rule) {
+    const StandardArithmetic guard;
     if (const auto status = validate(std::span(&surface, 1)); !status) return status.error();
     const Soup soup = merge_surfaces(std::span(&surface, 1), run);
     BorderTracer tracer(soup);

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/reconstruction/kriging/detail/constants.hpp>
 
 namespace terrane {
@@ -252,6 +253,7 @@ std::string description(const Variogram& v) {
 std::vector<VariogramBin>
 experimental_variogram(std::span<const Point3> points,
                        std::span<const std::array<std::uint32_t, 2>> close, double longest) {
+    const StandardArithmetic guard;
     Classes classes(longest);
     const auto chosen = std::min(points.size(), constants.most_variogram_points);
     const auto pick = [&](std::size_t k) { return points[k * points.size() / chosen]; };
@@ -262,6 +264,7 @@ experimental_variogram(std::span<const Point3> points,
 }
 
 Variogram fit_variogram(std::span<const VariogramBin> bins, const VariogramFitOptions& options) {
+    const StandardArithmetic guard;
     const auto differs = [](const VariogramBin& bin) { return bin.gamma > 0; };
     if (std::none_of(bins.begin(), bins.end(), differs))
         return {options.model.value_or(VariogramModel::spherical)};

@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 
 #include <terrane/algorithms/core/guarded.hpp>
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/edges.hpp>
 #include <terrane/algorithms/mesh/triangle_tree.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
@@ -396,6 +397,7 @@ Result<Filling> fill_valid_graph(const Surface& surface, const BorderLoop& loop,
 
 Result<Filling> fill_by_rbf(const Surface& surface, const BorderLoop& loop,
                             const RbfOptions& options, RbfReport& report, const Run& run) {
+    const StandardArithmetic guard;
     report = {};
     if (const auto good = validate_options(options); !good) return good.error();
     return guarded("for the filling", "fill",
@@ -404,12 +406,14 @@ Result<Filling> fill_by_rbf(const Surface& surface, const BorderLoop& loop,
 
 Result<Filling> fill_by_rbf(const Surface& surface, const BorderLoop& loop,
                             const RbfOptions& options, const Run& run) {
+    const StandardArithmetic guard;
     RbfReport report;
     return fill_by_rbf(surface, loop, options, report, run);
 }
 
 Result<Filling> fill_graph_by_rbf(const Surface& surface, const BorderLoop& loop,
                                   const RbfOptions& options, RbfReport& report, const Run& run) {
+    const StandardArithmetic guard;
     report = {};
     if (const auto good = validate_options(options); !good) return good.error();
     return guarded("for the filling", "fill",

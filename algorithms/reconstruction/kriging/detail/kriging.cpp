@@ -8,7 +8,6 @@
 #include <unordered_set>
 
 #include <Eigen/Dense>
-#include <tbb/parallel_for.h>
 
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/reconstruction/kriging/contrasts.hpp>
@@ -233,8 +232,7 @@ std::vector<Estimate> Kriging::at(std::span<const Point3> places, const Run& run
             std::copy(estimates.begin(), estimates.end(),
                       result.begin() + static_cast<std::ptrdiff_t>(start));
         };
-        with_threads(run,
-                     [&] { tbb::parallel_for(std::size_t{0}, (count + grain - 1) / grain, some); });
+        with_threads(run, [&] { for_each_index((count + grain - 1) / grain, some); });
     }
     return result;
 }

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Tests that the floating-point environment of a caller changes no bit of any result, and that it
+// is given back: a host program may round upward, flush denormals to zero, or have other threads
+// that do.
+#include <catch2/catch.hpp>
+
+#include <cfenv>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#ifdef __SSE2__
+#include <xmmintrin.h>
+#endif
+
+#include "support/paths.hpp"
+#include "support/shapes.hpp"
+#include <terrane/algorithms/arrangement/digest.hpp>
+#include <terrane/algorithms/check/check.hpp>
+#include <terrane/algorithms/layers/layers.hpp>
+#include <terrane/algorithms/model/model.hpp>
+#include <terrane/algorithms/project/build.hpp>
+#include <terrane/algorithms/quality/improve_measured.hpp>
+#include <terrane/algorithms/reconstruction/holes/holes.hpp>
+#include <terrane/algorithms/reconstruction/kriging/fill_kriging.hpp>
+#include <terrane/algorithms/reconstruction/rbf/rbf.hpp>
+#include <terrane/algorithms/sealing/sealing.hpp>
+#include <terrane/io/exact_text.hpp>
+#include <terrane/io/files.hpp>
+#include <terrane/io/structure_json.hpp>
+
+using namespace terrane;
+using namespace test_support;
+
+namespace {
+
+/// The bytes of a file, read while nothing is foreign yet.
+std::string contents_of(const std::string& name) {
+    std::ifstream file(std::filesystem::path(test_data()) / name, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::string bits_of(const std::vector<double>& numbers) {
+    return {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(double)};
+}
+
+std::string bits_of(const Surface& s) {
+    std::vector<double> numbers;
+    for (const Point3& p : s.vertices) numbers.insert(numbers.end(), {p.x, p.y, p.z});
+    for (const Triangle& t : s.triangles) numbers.insert(numbers.end(), t.begin(), t.end());
+    return bits_of(numbers);
+}
+
+/// The results of all stages, as bytes, by their names.
+using Results = std::map<std::string, std::string>;
+
+/// What the stages work on.
+struct Subject {
+    std::string crossing = contents_of("ringmesh/modelA2.ml");
+    Surface dome = punched(sheet(graph([](double x, double y) {
+                                     return 50 * std::exp(-(x * x + y * y) / 2e4) + 0.1 * x;
+                                 }),
+                                 -150, -150, 150, 150, 20, 20, 0.2),
+                           disk(20, 10, 45));
+    Surface plane = sheet(graph([](double x, double y) { return 0.3 * x - 0.1 * y + 20; }), -150,
+                          -150, 150, 150, 7, 7, 0.1);
+
+    [[nodiscard]] Results operator()(unsigned threads) const {
+        Results all;
+        Run run;
+        run.threads = threads;
+        add_model(all, run);
+        add_fillings(all, run);
+        const std::vector<Surface> stack{dome, plane};
+        if (const auto layered = stack_layers(
+                stack, std::vector<Layer>{{SurfaceId(0), 1}, {SurfaceId(1), 2}}, {}, run))
+            all["layers"] = format_mesh(layered->rounded.mesh, Format::obj).value_or("none");
+        return all;
+    }
+
+private:
+    void add_model(Results& all, const Run& run) const {
+        const auto read = parse_surfaces(crossing, "a.ml", Format::gocad);
+        if (!read) return;
+        std::string input;
+        for (const Surface& s : *read) input += bits_of(s);
+        all["read"] = input;
+        const auto found = check(*read, run);
+        if (found) all["check"] = std::to_string(found->contacts.size());
+        const auto exact = arrange(*read, {}, run);
+        if (!exact) return;
+        all["arrange"] = canonical_digest(*read, *exact, run);
+        const auto rounded = round_to_doubles(*exact, {}, run);
+        if (!rounded || !rounded->conforming) return;
+        all["rounded"] = format_mesh(rounded->mesh, Format::vtp).value_or("none");
+        all["rounding"] = bits_of({rounded->report.max_move, rounded->report.deviation});
+        const auto model = make_model(*exact, *rounded->conforming, run);
+        if (model) {
+            StructureExtras extras;
+            extras.exact_volumes = model->exact_volumes;
+            extras.free_borders = model->borders;
+            all["model"] = to_json(model->mesh, model->structure, extras);
+        }
+        ImproveOptions options;
+        options.edge_length = 1500;
+        const auto improved = improve_and_measure(*rounded->conforming, options, run);
+        if (!improved) return;
+        all["improve"] = format_mesh(improved->improved.mesh, Format::ply).value_or("none");
+        std::vector<double> measured = improved->bounds_back;
+        for (const Deviation& d : improved->deviations)
+            measured.insert(measured.end(), {d.out, d.back});
+        measured.push_back(improved->improved.report.after.q.mean);
+        all["measured"] = bits_of(measured);
+        const auto sealed = seal(*read, {.distance = 20}, run);
+        if (sealed) all["seal"] = canonical_digest(sealed->surfaces, sealed->arrangement, run);
+    }
+
+    void add_fillings(Results& all, const Run& run) const {
+        const auto loops = find_border_loops(dome, run);
+        if (!loops) return;
+        for (const BorderLoop& loop : *loops) {
+            if (loop.kind != LoopKind::hole) continue;
+            if (const auto kriged = fill_by_kriging(dome, loop, {}, run))
+                all["kriging"] += bits_of(kriged->surface) + bits_of(kriged->expected_error);
+            if (const auto filled = fill_by_rbf(dome, loop, {}, run))
+                all["rbf"] += bits_of(filled->surface) + bits_of(filled->expected_error);
+        }
+    }
+};
+
+/// Sets a rounding mode, and on request that denormals are zero, while it lives.
+class Foreign {
+public:
+    Foreign(int mode, bool flushes) {
+        std::fegetenv(&before_);
+        std::fesetround(mode);
+#ifdef __SSE2__
+        if (flushes) _mm_setcsr(_mm_getcsr() | 0x8040U);
+#endif
+    }
+    ~Foreign() {
+        std::fesetenv(&before_);
+    }
+    Foreign(const Foreign&) = delete;
+    Foreign& operator=(const Foreign&) = delete;
+
+private:
+    std::fenv_t before_{};
+};
+
+unsigned control_word() {
+#ifdef __SSE2__
+    return _mm_getcsr() & 0xFFC0U; // without the flags of exceptions
+#else
+    return static_cast<unsigned>(std::fegetround());
+#endif
+}
+
+} // namespace
+
+TEST_CASE("foreign arithmetic: a caller's rounding mode changes no bit, and is given back",
+          "[environment]") {
+    const Subject subject;
+    const Results expected = subject(1);
+    for (const char* stage : {"read", "check", "arrange", "rounded", "model", "improve", "measured",
+                              "seal", "kriging", "rbf", "layers"}) {
+        INFO(stage);
+        REQUIRE(expected.contains(stage));
+    }
+    for (const unsigned threads : {1U, 2U})
+        for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO, FE_TONEAREST}) {
+            Results results;
+            unsigned before = 0, after = 0;
+            {
+                const Foreign foreign(mode, mode == FE_TONEAREST);
+                before = control_word();
+                results = subject(threads);
+                after = control_word();
+            }
+            INFO("mode " << mode << ", " << threads << " threads");
+            CHECK(before == after);
+            for (const auto& [stage, bytes] : expected) {
+                INFO(stage);
+                CHECK((results[stage] == bytes)); // too long to print
+            }
+        }
+}
