@@ -164,13 +164,5 @@ void reply(int fd, std::int32_t status, const Request& request, const Made& made
 
 int main(int argc, char** argv) {
     using namespace terrane::tetgen::detail;
-    if (argc != 1) return explain(argc, argv, usage);
-    end_with_caller();
-    be_expendable();
-    const int output = silence();
-    Request request;
-    Made made;
-    const std::int32_t status = carry_out(request, made);
-    reply(output, status, request, made);
-    _exit(EXIT_SUCCESS); // skips Gmsh's clean-up
+    return run_helper<Made>(argc, argv, usage, carry_out, reply);
 }

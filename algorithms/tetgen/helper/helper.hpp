@@ -153,4 +153,19 @@ inline int explain(int argc, char** argv, const char* usage) {
     return asked ? EXIT_SUCCESS : EXIT_FAILURE;
 }
 
+/// Runs a helper program: `carry_out` turns a request into a Made, `reply` writes that to a
+/// descriptor. Without arguments it ends without destructors of the mesher's data.
+template <class Made, class CarryOut, class Reply>
+int run_helper(int argc, char** argv, const char* usage, CarryOut carry_out, Reply reply) {
+    if (argc != 1) return explain(argc, argv, usage);
+    end_with_caller();
+    be_expendable();
+    const int output = silence();
+    Request request;
+    Made made;
+    const std::int32_t status = carry_out(request, made);
+    reply(output, status, request, made);
+    _exit(EXIT_SUCCESS);
+}
+
 } // namespace terrane::tetgen::detail

@@ -130,7 +130,7 @@ std::int32_t carry_out(Request& request, tetgenio& out) {
     }
 }
 
-void reply(int fd, std::int32_t status, const tetgenio& out) {
+void reply(int fd, std::int32_t status, const Request&, const tetgenio& out) {
     ReplyHeader header;
     header.status = status;
     if (status != done) return write_all(fd, &header, sizeof header);
@@ -152,13 +152,5 @@ void reply(int fd, std::int32_t status, const tetgenio& out) {
 
 int main(int argc, char** argv) {
     using namespace terrane::tetgen::detail;
-    if (argc != 1) return explain(argc, argv, usage);
-    end_with_caller();
-    be_expendable();
-    const int output = silence();
-    Request request;
-    tetgenio out;
-    const std::int32_t status = carry_out(request, out);
-    reply(output, status, out);
-    _exit(EXIT_SUCCESS); // skips the destructors of TetGen's data
+    return run_helper<tetgenio>(argc, argv, usage, carry_out, reply);
 }
