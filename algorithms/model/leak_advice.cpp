@@ -9,6 +9,7 @@
 
 #include <terrane/algorithms/core/no_index.hpp>
 #include <terrane/algorithms/core/stage_timer.hpp>
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 
 namespace terrane {
@@ -41,14 +42,8 @@ std::vector<Leak> by_pairs(std::span<const ClosedGap> gaps, const std::vector<bo
     for (std::size_t g = 0; g < gaps.size(); ++g) {
         if (!wanted[g]) continue;
         const ClosedGap& gap = gaps[g];
-        const Leak fresh{gap.from, gap.to, 0, 0, 0, gap.width, gap.width, gap.place};
-        Leak& leak = pairs.try_emplace({gap.from, gap.to}, fresh).first->second;
-        ++leak.borders;
-        leak.length += gap.length;
-        leak.least = std::min(leak.least, gap.width);
-        if (gap.width <= leak.largest) continue;
-        leak.largest = gap.width;
-        leak.place = gap.place;
+        pairs.try_emplace({gap.from, gap.to}, Leak{gap.from, gap.to})
+            .first->second.add({gap.to, 0, gap.length, gap.width, gap.width, gap.place});
     }
     std::vector<Leak> leaks;
     for (const auto& [pair, leak] : pairs) leaks.push_back(leak);
@@ -70,6 +65,7 @@ LeakVerdict verdict_of(const Leak& leak, const LeakAdvice& advice) {
 
 Result<LeakAdvice> judge_leaks(const Arranged& arranged, std::span<const FreeBorder> borders,
                                const ArrangeWithinOptions& options, const Run& run) {
+    const StandardArithmetic guard;
     if (arranged.sealed)
         return Error{ErrorCode::bad_option, "leaks are judged before they are sealed", "seal"};
     const StageTimer timer(run, "leaks");

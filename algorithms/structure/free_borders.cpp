@@ -10,6 +10,7 @@
 #include <tuple>
 #include <utility>
 
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/triangle_tree.hpp>
 
 namespace terrane {
@@ -111,6 +112,7 @@ std::vector<BorderGap> gaps_along(const Mesh& mesh, const ModelLine& line,
 } // namespace
 
 std::vector<FreeBorder> find_free_borders(const Mesh& mesh, const Structure& structure) {
+    const StandardArithmetic guard;
     const SurfaceTrees trees(mesh);
     std::vector<FreeBorder> borders;
     for (std::uint32_t l = 0; l < structure.lines.size(); ++l) {
@@ -123,22 +125,25 @@ std::vector<FreeBorder> find_free_borders(const Mesh& mesh, const Structure& str
     return borders;
 }
 
+void Leak::add(const BorderGap& gap) {
+    const bool first = borders == 0;
+    ++borders;
+    length += gap.length;
+    least = first ? gap.least : std::min(least, gap.least);
+    if (!first && gap.largest <= largest) return;
+    largest = gap.largest;
+    place = gap.place;
+}
+
 std::vector<Leak> leaks_of(std::span<const FreeBorder> borders) {
     std::map<std::tuple<int, std::uint32_t, std::uint32_t>, Leak> leaks;
     for (const FreeBorder& border : borders)
         for (const std::uint32_t from : border.surfaces)
-            for (const BorderGap& gap : border.gaps) {
-                const Leak fresh{SurfaceId(from), gap.surface, gap.decade, 0, 0,
-                                 gap.least,       gap.largest, gap.place};
-                Leak& leak =
-                    leaks.try_emplace({gap.decade, from, gap.surface}, fresh).first->second;
-                ++leak.borders;
-                leak.length += gap.length;
-                leak.least = std::min(leak.least, gap.least);
-                if (gap.largest <= leak.largest) continue;
-                leak.largest = gap.largest;
-                leak.place = gap.place;
-            }
+            for (const BorderGap& gap : border.gaps)
+                leaks
+                    .try_emplace({gap.decade, from, gap.surface},
+                                 Leak{SurfaceId(from), gap.surface, gap.decade})
+                    .first->second.add(gap);
     std::vector<Leak> all;
     for (const auto& [key, leak] : leaks) all.push_back(leak);
     return all;

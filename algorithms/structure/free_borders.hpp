@@ -46,6 +46,9 @@ struct Leak {
     double least = 0;        ///< smallest distance
     double largest = 0;      ///< largest distance
     Point3 place{};          ///< where it is largest
+
+    /// Adds a part of a border of the surface `from`.
+    void add(const BorderGap& gap);
 };
 
 /// Finds all free borders, in the order of their lines. Each edge counts for the surface nearest to
