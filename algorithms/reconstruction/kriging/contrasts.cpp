@@ -199,9 +199,9 @@ double rounding_of(std::span<const Point3> data) {
     double largest = 0;
     for (const Point3& p : data) largest = std::max(largest, std::abs(p.z));
     const double unit = std::nextafter(largest, HUGE_VAL) - largest;
-    // Of the data, of the estimate, and of four sums between them; each is spread evenly over a
-    // unit.
-    return unit * std::sqrt(6 / 12.0);
+    // Of the true height, of the estimate, and of a sum before it; each is spread evenly over a unit.
+    // That of the data averages out.
+    return unit * std::sqrt(3 / 12.0);
 }
 
 } // namespace terrane

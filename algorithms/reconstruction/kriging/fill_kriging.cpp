@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/reconstruction/kriging/contrasts.hpp>
 #include <terrane/algorithms/reconstruction/kriging/detail/choice.hpp>
 #include <terrane/algorithms/reconstruction/kriging/detail/direction_doubt.hpp>
@@ -57,10 +58,11 @@ FittedModel model_of(const FlatHole& hole, const KrigingOptions& options, FillRe
                      const Run& run) {
     const auto& data = hole.data();
     const auto choice = choose_model({data, hole.border(), hole.radius()}, options.variogram, run);
-    FittedModel model{Kriging(thinned(data, hole.border()), choice.variogram, choice.degree, run,
-                              choice.validation.noise_share),
-                      DirectionDoubt(error_data(data, hole.border()), choice, run),
-                      choice.determined, rounding_of(data)};
+    FittedModel model{
+        Kriging(thinned(data, hole.border()), choice.variogram, choice.degree, run,
+                choice.validation.noise_share),
+        DirectionDoubt(error_data(data, hole.border(), choice.variogram), choice, run),
+        choice.determined, rounding_of(data)};
     report.data = data.size();
     report.validated_error = choice.validation.blocks > 0
                                  ? choice.validation.error
@@ -79,6 +81,7 @@ FittedModel model_of(const FlatHole& hole, const KrigingOptions& options, FillRe
 
 Result<Filling> fill_by_kriging(const Surface& surface, const BorderLoop& loop,
                                 const KrigingOptions& options, const Run& run) {
+    const StandardArithmetic guard;
     if (options.rings < 1 || !(options.mesh_size >= 0) || !std::isfinite(options.mesh_size))
         return Error{ErrorCode::bad_option, "rings and mesh size must be positive", ""};
     const Error interrupted{ErrorCode::interrupted, "interrupted", ""};

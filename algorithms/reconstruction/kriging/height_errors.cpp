@@ -17,9 +17,10 @@ using namespace kriging::detail;
 struct HeightErrors::State {
     State(std::span<const Point3> data, std::size_t border, double radius, const Run& run) :
         choice(choose_model({data, border, radius}, {}, run)),
-        kriging(error_data(data, border), choice.variogram, choice.degree, run,
+        kriging(error_data(data, border, choice.variogram), choice.variogram, choice.degree, run,
                 choice.validation.noise_share),
-        doubt(error_data(data, border), choice, run), rounding(rounding_of(data)) {}
+        doubt(error_data(data, border, choice.variogram), choice, run),
+        rounding(rounding_of(data)) {}
 
     ModelChoice choice;
     Kriging kriging;

@@ -134,10 +134,22 @@ private:
         return best;
     }
 
-    /// Tries anisotropy of the best shape: every second direction and ratio, then the neighbours of
-    /// the best one. The ratio changes neither the area nor the shape near h = 0.
+    /// Tries anisotropy of the best shape with several ranges.
     void turn(Likely& best) const {
-        const Variogram plain = best.variogram;
+        Likely turned;
+        for (const double factor : constants.turned_ranges) {
+            Variogram plain = best.variogram;
+            plain.range *= factor;
+            if (factor < 1 && plain.range < least_range_) break;
+            const Likely found = turned_as(plain);
+            if (found.likelihood > turned.likelihood) turned = found;
+        }
+        if (turned.likelihood > best.likelihood + constants.worth_turned) best = turned;
+    }
+
+    /// Tries every second direction and ratio, then the neighbours of the best one. The ratio
+    /// changes neither the area nor the shape near h = 0.
+    [[nodiscard]] Likely turned_as(const Variogram& plain) const {
         Likely turned;
         std::array<std::size_t, 2> at_best{};
         const auto& ratios = constants.anisotropy_ratios;
@@ -158,7 +170,7 @@ private:
         for (const auto other : {d + 1, d + directions - 1}) attempt(other, k);
         for (const auto other : {k - 1, k + 1})
             if (other < ratios.size()) attempt(at_best[0], other);
-        if (turned.likelihood > best.likelihood + constants.worth_turned) best = turned;
+        return turned;
     }
 
     Likelihood likelihood_;

@@ -86,6 +86,9 @@ struct KrigingConstants {
     double worth_gaussian = 8;
     /// By how much the log-likelihood with anisotropy must exceed that without.
     double worth_turned = 6;
+    /// Factors of the most likely range without anisotropy that are tried with it. Where grooves are
+    /// taken for noise that range says nothing of them.
+    std::array<double, 3> turned_ranges{1, 0.3, 0.1};
     /// Least range that is tried, in extents of the data.
     double least_range = 0.03;
     /// Largest range that is tried, in extents of the data.
@@ -135,6 +138,11 @@ struct KrigingConstants {
     std::size_t most_deviations = 600;
     /// Data that determine the expected errors of another method's heights.
     std::size_t most_error_data = 300;
+    /// The same if the data are noisy.
+    std::size_t most_noisy_data = 800;
+    /// Ratio of nugget and sill above which data are noisy. Exact data have the least nugget that is
+    /// tried.
+    double noisy = 1e-8;
     /// Multiplications between looks at the stop token.
     double operations_per_check = 5e8;
     /// Multiplications above which all of them would take too long.
@@ -195,6 +203,9 @@ inline std::vector<NamedConstant> named_constants() {
         {"gaps_per_range", constants.gaps_per_range},
         {"worth_gaussian", constants.worth_gaussian},
         {"worth_turned", constants.worth_turned},
+        {"turned_ranges_1", constants.turned_ranges[0]},
+        {"turned_ranges_2", constants.turned_ranges[1]},
+        {"turned_ranges_3", constants.turned_ranges[2]},
         {"least_range", constants.least_range},
         {"most_range", constants.most_range},
         {"most_smooth_range", constants.most_smooth_range},
@@ -218,6 +229,8 @@ inline std::vector<NamedConstant> named_constants() {
         {"most_of_all", constants.most_of_all},
         {"most_deviations", static_cast<double>(constants.most_deviations)},
         {"most_error_data", static_cast<double>(constants.most_error_data)},
+        {"most_noisy_data", static_cast<double>(constants.most_noisy_data)},
+        {"noisy", constants.noisy},
         {"operations_per_check", constants.operations_per_check},
         {"most_operations", constants.most_operations},
     };

@@ -9,8 +9,10 @@
 
 namespace terrane::kriging::detail {
 
-std::vector<Point3> error_data(std::span<const Point3> data, std::size_t border) {
-    const std::size_t most = constants.most_error_data;
+std::vector<Point3> error_data(std::span<const Point3> data, std::size_t border,
+                               const Variogram& variogram) {
+    const bool noisy = variogram.nugget > constants.noisy * variogram.sill;
+    const std::size_t most = noisy ? constants.most_noisy_data : constants.most_error_data;
     if (data.size() <= most) return {data.begin(), data.end()};
     const auto near = data.first(border), far = data.subspan(border);
     std::vector<Point3> some;

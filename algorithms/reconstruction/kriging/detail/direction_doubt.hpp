@@ -15,8 +15,10 @@
 
 namespace terrane::kriging::detail {
 
-/// Keeps up to `most_error_data` of the data, half of them on the border, well spread.
-std::vector<Point3> error_data(std::span<const Point3> data, std::size_t border);
+/// Keeps up to `most_error_data` of the data, half of them on the border, well spread; up to
+/// `most_noisy_data` if they are noisy, as the more there are the less noise is left in an estimate.
+std::vector<Point3> error_data(std::span<const Point3> data, std::size_t border,
+                               const Variogram& variogram);
 
 /// The distance between the estimates of a variogram with anisotropy and of the most likely one
 /// without, times ModelChoice::doubt. Nothing round a hole shows that grooves continue in it.

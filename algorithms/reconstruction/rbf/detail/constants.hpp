@@ -163,6 +163,9 @@ struct RbfConstants {
     double least_share = 1e-6;
     /// The model of kriging is believed up to so many times the error of the fit at such blocks.
     double worth_own = 1.5;
+    /// Square of what kriging misses of blocks beyond noise, in squares of the noise, above which
+    /// this tells two models apart.
+    double least_excess = 0.5;
     /// Noise of the fit, in that of the model of kriging, above which its model is not believed.
     double most_own_noise = 2;
     /// Multiplications above which expected errors come from these data alone.
@@ -240,6 +243,7 @@ inline std::vector<NamedConstant> named_constants_of_fit() {
         {"least_noise_share", constants.least_noise_share},
         {"least_share", constants.least_share},
         {"worth_own", constants.worth_own},
+        {"least_excess", constants.least_excess},
         {"most_own_noise", constants.most_own_noise},
         {"most_operations", constants.most_operations},
         {"most_of_all", constants.most_of_all},

@@ -307,7 +307,13 @@ Point3 scaled(const RbfFunction& f, const Point3& p) {
 bool is_believed(const HeightFit& fit) {
     // What the fit calls noise may be roughness across one direction, which it does not know.
     if (fit.noise > constants.most_own_noise * fit.kriging->noise() + fit.rounding) return false;
-    return !(fit.kriging->validated() < constants.worth_own * fit.validated);
+    if (!(fit.kriging->validated() < constants.worth_own * fit.validated)) return true;
+    // What blocks are missed by is noise for the greater part: it is the rest that counts.
+    const double noise = fit.kriging->noise() * fit.kriging->noise();
+    const double theirs = fit.kriging->validated() * fit.kriging->validated() - noise;
+    const double own = fit.validated * fit.validated - fit.noise * fit.noise;
+    return theirs > constants.least_excess * noise &&
+           theirs > constants.worth_own * constants.worth_own * own;
 }
 
 } // namespace

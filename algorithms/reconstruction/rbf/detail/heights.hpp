@@ -77,7 +77,7 @@ std::vector<double> heights_of(const HeightFit& fit, std::span<const Point3> pla
 /// data, plus the square of the distance from what it estimates. The model is one of kriging, which
 /// knows more of ranges and directions. It is that of the fit, its kernel being a generalised
 /// covariance with the most likely factor, where kriging misses blocks as wide as the hole by half
-/// as much again and the fit's noise is at most twice that of kriging. Noise of the data does not
+/// as much again, with noise or beyond it, and the fit's noise is at most twice that of kriging. Noise of the data does not
 /// count, but where the level follows it, that does. Cost: n^2 for each height and n centres.
 std::vector<double> expected_errors(const HeightFit& fit, std::span<const Point3> points,
                                     const Run& run);
