@@ -9,7 +9,9 @@
 
 #include <terrane/algorithms/core/process_memory.hpp>
 #include <terrane/cli/commands/command.hpp>
+#include <terrane/cli/commands/file_options.hpp>
 #include <terrane/cli/session/spelling.hpp>
+#include <terrane/io/atomic/file_set.hpp>
 
 namespace terrane::cli {
 namespace {
@@ -29,6 +31,16 @@ Start here:
 constexpr auto licence =
     "LGPL-3.0-or-later; tetrahedra are made by another program, terrane-tetgen, which contains\n"
     "TetGen and is under the AGPL-3.0-or-later";
+
+/// Runs a command. Its files and folders appear together at the end, unless it failed.
+ExitStatus run_and_publish(const Command& command) {
+    if (const auto sound = check_file_options(*command.options); !sound) return fail(sound.error());
+    FileSet files;
+    const ExitStatus status = command.run();
+    if (status != ExitStatus::done && status != ExitStatus::negative) return status;
+    if (const auto published = files.publish(); !published) return fail(published.error());
+    return status;
+}
 
 ExitStatus run(int argc, char** argv) {
     CLI::App program(description, "terrane");
@@ -51,7 +63,7 @@ ExitStatus run(int argc, char** argv) {
         return asked ? ExitStatus::done : ExitStatus::bad_input;
     }
     for (const Command& command : commands)
-        if (command.options->parsed()) return command.run();
+        if (command.options->parsed()) return run_and_publish(command);
     return ExitStatus::bad_input;
 }
 
@@ -72,6 +84,7 @@ ExitStatus run_guarded(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     std::signal(SIGPIPE, SIG_IGN); // a closed pipe is a write that fails
+    std::signal(SIGXFSZ, SIG_IGN); // so is a file beyond the limit of sizes
     terrane::keep_freed_memory();
     terrane::throw_on_gmp_out_of_memory();
     return static_cast<int>(terrane::cli::run_guarded(argc, argv));

@@ -130,7 +130,7 @@ Status write_all(const FilledBlocks& filled, const std::vector<Output>& outputs,
     for (const Output& output : outputs) {
         const auto written = write_output(filled.tetrahedra, output, options, session);
         if (!written) return written.error();
-        print(summary_stream(files), output.path == "-" ? "" : "wrote " + output.path + "\n");
+        say_written(summary_stream(files), output.path);
     }
     return Done{};
 }

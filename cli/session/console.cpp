@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/cli/session/console.hpp>
 
+#include <utility>
+
 #include <fmt/format.h>
 
+#include <terrane/io/atomic/file_set.hpp>
 #include <terrane/io/text/names.hpp>
 
 namespace terrane::cli {
@@ -29,6 +32,17 @@ ExitStatus fail(const Error& error) {
 
 void warn(std::string_view sentence) {
     print(stderr, fmt::format("terrane: warning: {}\n", detail::one_line(sentence)));
+}
+
+void when_written(std::function<void()> tell) {
+    if (FileSet::current() != nullptr)
+        FileSet::current()->then(std::move(tell));
+    else
+        tell();
+}
+
+void say_written(std::FILE* stream, const std::string& path) {
+    if (path != "-") when_written([=] { print(stream, "wrote " + path + "\n"); });
 }
 
 void print(std::FILE* stream, std::string_view text) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdio>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -27,6 +28,12 @@ ExitStatus fail(const Error& error);
 
 /// Writes "terrane: warning: ..." to standard error.
 void warn(std::string_view sentence);
+
+/// Calls `tell` when all files of the run have their names, or at once outside a FileSet.
+void when_written(std::function<void()> tell);
+
+/// Says that a file was written, when it has its name; nothing of standard output.
+void say_written(std::FILE* stream, const std::string& path);
 
 /// Writes text. finish() reports a failure to write.
 void print(std::FILE* stream, std::string_view text);

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include <terrane/cli/session/console.hpp>
+#include <terrane/io/atomic/file_set.hpp>
 
 namespace terrane::cli {
 namespace {
@@ -21,12 +22,18 @@ constexpr int wake_signal = SIGURG;
 /// of which are long: the solution of a dense system, say.
 constexpr std::chrono::milliseconds patience{700};
 
+bool is_ignored(int signal) {
+    struct sigaction action {};
+    return sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+}
+
 /// Returns the signals that the watcher waits for; all threads block them.
 sigset_t watched_signals() {
     sigset_t set;
     sigemptyset(&set);
     sigaddset(&set, SIGINT);
     sigaddset(&set, SIGTERM);
+    if (!is_ignored(SIGHUP)) sigaddset(&set, SIGHUP); // nohup ignores it
     sigaddset(&set, wake_signal);
     return set;
 }
@@ -79,7 +86,7 @@ void Session::watch(const std::stop_token& over) {
     const timespec tick{0, 100'000'000};
     while (!over.stop_requested()) {
         const int received = sigtimedwait(&set, nullptr, &tick);
-        if (received == SIGINT || received == SIGTERM) on_interrupt();
+        if (received == SIGINT || received == SIGTERM || received == SIGHUP) on_interrupt();
         end_if_overdue();
         if (terminal_) show();
     }
@@ -89,7 +96,7 @@ void Session::on_interrupt() {
     const bool again = !source_.request_stop();
     if (!again) interrupted_ = std::chrono::steady_clock::now();
     const Phase phase = phase_;
-    if (phase == Phase::writing || (phase != Phase::idle && !again)) return;
+    if ((phase == Phase::computing || phase == Phase::folder) && !again) return;
     end_at_once();
 }
 
@@ -100,6 +107,7 @@ void Session::end_if_overdue() {
 
 void Session::end_at_once() {
     clear_line();
+    remove_temporaries();
     fail({ErrorCode::interrupted, "", ""});
     _exit(static_cast<int>(ExitStatus::bad_input));
 }

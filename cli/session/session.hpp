@@ -17,14 +17,15 @@
 
 namespace terrane::cli {
 
-/// Phases of a command, each with its own answer to an interrupt (Ctrl-C, SIGTERM).
+/// Phases of a command, each with its own answer to an interrupt (Ctrl-C, SIGTERM, SIGHUP). No file
+/// has its name before the session is over, so nothing is written when the program ends in one.
 enum class Phase {
     idle,      ///< reading, or writing to a pipe: the program ends at once
     computing, ///< the stage is asked to stop; if it has not soon, or at a second interrupt, the
-               ///< program ends: nothing is written yet
+               ///< program ends
     folder,  ///< writing a folder: it is asked to stop between two files and to remove the folder;
              ///< a second interrupt ends the program
-    writing, ///< writing a file, which is completed first
+    writing, ///< writing a file: the program ends at once
 };
 
 /// Handles interrupts and progress for one command. It must be made before any other thread, as the

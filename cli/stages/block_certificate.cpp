@@ -77,7 +77,7 @@ Status write(const BlockProof& proof, const Make& make, Session& session) {
     auto written = write_file(proof.path, text.value());
     session.end_stage();
     if (!written) return written;
-    print(summary_stream(proof.files), "wrote " + proof.path + "\n");
+    say_written(summary_stream(proof.files), proof.path);
     const Arranged& arranged = proof.arranged;
     warn_of_deviation(proof.path, stated_deviation(arranged.exact, arranged.rounded),
                       arranged.surfaces);

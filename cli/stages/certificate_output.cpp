@@ -23,7 +23,7 @@ Status write(const std::string& path, const std::string& text, std::FILE* told, 
     session.begin("write", Phase::writing);
     auto status = write_file(path, text);
     session.end_stage();
-    if (status) print(told, "wrote " + path + "\n");
+    if (status) say_written(told, path);
     return status;
 }
 

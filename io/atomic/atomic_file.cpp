@@ -13,6 +13,8 @@
 
 #include <fmt/format.h>
 
+#include <terrane/io/atomic/file_set.hpp>
+
 namespace terrane {
 
 namespace fs = std::filesystem;
@@ -103,30 +105,63 @@ int fill(Descriptor& file, std::string_view contents) {
     return file.close() ? 0 : errno;
 }
 
-Status replace(const fs::path& path, const fs::path& target, mode_t mode,
-               std::string_view contents) {
+/// Where a file goes, with the name that the user gave.
+struct Target {
+    fs::path path;   ///< as it was given
+    fs::path file;   ///< without links
+    mode_t mode = 0; ///< of the file that is there; 0: there is none
+};
+
+/// Writes a file under a temporary name and gives it its own, at once or with those of a set.
+Status replace(const Target& to, std::string_view contents, FileSet* set) {
+    const fs::path &path = to.path, &target = to.file;
+    const mode_t mode = to.mode;
     fs::path temporary;
-    int number = -1;
+    int number = -1, code = 0;
     do {
         temporary = temporary_name(target);
+        note_temporary(temporary); // before it is there, as the process may end at any time
         number = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    } while (number < 0 && errno == EEXIST);
+        code = number < 0 ? errno : 0;
+        if (number < 0) forget_temporary(temporary);
+    } while (code == EEXIST);
+    if (number < 0)
+        return Error{ErrorCode::cannot_open, "cannot be written: " + reason(code), path.string()};
     Descriptor file(number);
-    if (file.number() < 0)
-        return Error{ErrorCode::cannot_open, "cannot be written: " + reason(errno), path.string()};
-    int code = fill(file, contents);
+    code = fill(file, contents);
     if (code == 0 && mode != 0 && ::chmod(temporary.c_str(), mode) != 0) code = errno;
+    if (code == 0 && set != nullptr) {
+        set->add(temporary, target);
+        return Done{};
+    }
     if (code == 0 && ::rename(temporary.c_str(), target.c_str()) != 0) code = errno;
-    if (code == 0) return Done{};
-    ::unlink(temporary.c_str());
-    return write_error(path, code);
+    if (code != 0) ::unlink(temporary.c_str());
+    forget_temporary(temporary);
+    if (code != 0) return write_error(path, code);
+    return Done{};
+}
+
+Status write_with(const fs::path& path, std::string_view contents, FileSet* set) {
+    if (path == "-") return write_directly("standard output", STDOUT_FILENO, contents);
+    struct stat info {};
+    if (::stat(path.c_str(), &info) != 0) // a link to nothing yet is kept
+        return replace({path, followed(path)}, contents, set);
+    if (S_ISDIR(info.st_mode))
+        return Error{ErrorCode::cannot_open, "cannot be written: it is a folder", path.string()};
+    if (!S_ISREG(info.st_mode)) return write_to_device(path, contents);
+    if (::access(path.c_str(), W_OK) != 0) // renaming would replace even a protected file
+        return Error{ErrorCode::cannot_open, "cannot be written: " + reason(errno), path.string()};
+    std::error_code failed;
+    const auto target = fs::canonical(path, failed);
+    return replace({path, failed ? path : target, info.st_mode & 07777u}, contents, set);
 }
 
 } // namespace
 
 Result<std::string> read_file(const fs::path& path) {
     const bool standard = path == "-";
-    Descriptor file(standard ? ::dup(STDIN_FILENO) : ::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+    const fs::path here = FileSet::current() != nullptr ? FileSet::current()->where(path) : path;
+    Descriptor file(standard ? ::dup(STDIN_FILENO) : ::open(here.c_str(), O_RDONLY | O_CLOEXEC));
     struct stat info {};
     std::string contents;
     int code = file.number() < 0 || ::fstat(file.number(), &info) != 0 ? errno : 0;
@@ -138,18 +173,23 @@ Result<std::string> read_file(const fs::path& path) {
                  standard ? "standard input" : path.string()};
 }
 
-Status write_file(const fs::path& path, std::string_view contents) {
-    if (path == "-") return write_directly("standard output", STDOUT_FILENO, contents);
-    struct stat info {};
-    if (::stat(path.c_str(), &info) != 0) return replace(path, path, 0, contents);
-    if (S_ISDIR(info.st_mode))
-        return Error{ErrorCode::cannot_open, "cannot be written: it is a folder", path.string()};
-    if (!S_ISREG(info.st_mode)) return write_to_device(path, contents);
-    if (::access(path.c_str(), W_OK) != 0) // renaming would replace even a protected file
-        return Error{ErrorCode::cannot_open, "cannot be written: " + reason(errno), path.string()};
+fs::path followed(fs::path path) {
+    constexpr int most_links = 40;
     std::error_code failed;
-    const auto target = fs::canonical(path, failed);
-    return replace(path, failed ? path : target, info.st_mode & 07777u, contents);
+    for (int k = 0; k < most_links && fs::is_symlink(path, failed); ++k) {
+        const fs::path to = fs::read_symlink(path, failed);
+        if (failed) break;
+        path = to.is_absolute() ? to : path.parent_path() / to;
+    }
+    return path;
+}
+
+Status write_file(const fs::path& path, std::string_view contents) {
+    return write_with(path, contents, is_in_temporary(path) ? nullptr : FileSet::current());
+}
+
+Status write_file_at_once(const fs::path& path, std::string_view contents) {
+    return write_with(path, contents, nullptr);
 }
 
 } // namespace terrane

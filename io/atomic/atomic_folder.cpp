@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <terrane/io/atomic/file_set.hpp>
+
 namespace terrane {
 
 namespace fs = std::filesystem;
@@ -60,7 +62,9 @@ NewFolder& NewFolder::operator=(NewFolder&& other) noexcept {
 
 NewFolder::~NewFolder() {
     std::error_code ignored;
-    if (!temporary_.empty()) fs::remove_all(temporary_, ignored);
+    if (temporary_.empty()) return;
+    fs::remove_all(temporary_, ignored);
+    forget_temporary(temporary_);
 }
 
 Result<NewFolder> NewFolder::create(const fs::path& path) {
@@ -71,17 +75,25 @@ Result<NewFolder> NewFolder::create(const fs::path& path) {
             parent_of(target) /
             fmt::format(".{}.{}-{}.part", target.filename().string().substr(0, 200), ::getpid(), k);
         std::error_code failed;
-        if (fs::create_directory(temporary, failed)) return NewFolder(target, temporary);
+        if (fs::create_directory(temporary, failed)) {
+            note_temporary(temporary);
+            return NewFolder(target, temporary);
+        }
         if (failed) return cannot_make("the folder cannot be made: " + failed.message(), path);
     }
 }
 
 Status NewFolder::publish() {
+    if (FileSet::current() != nullptr) {
+        FileSet::current()->add(std::exchange(temporary_, {}), target_);
+        return Done{};
+    }
     std::error_code failed;
     fs::rename(temporary_, target_, failed); // replaces an empty folder
     if (failed)
         return Error{ErrorCode::write_failed, "writing failed: " + failed.message(),
                      target_.string()};
+    forget_temporary(temporary_);
     temporary_.clear();
     return Done{};
 }
