@@ -192,7 +192,8 @@ void Improver::remesh() {
     double done = 0;
     for (report_.attempts = 1;; ++report_.attempts) {
         const double to = done + attempt_share * (1 - done);
-        remesher_.emplace(RemeshInput{input_, features_, sizes_, reference_}, least, run_);
+        remesher_.emplace(RemeshInput{input_, features_, sizes_, reference_, options_}, least,
+                          run_);
         (*remesher_)(options_.passes, done, to);
         done = to;
         if (stopped()) return;

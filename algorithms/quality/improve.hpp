@@ -63,11 +63,15 @@ struct ImproveOptions {
     double curve_length = 0; ///< target length along curves, if smaller; 0: as elsewhere
     double turn = 0; ///< normals may turn by this angle along an edge: edges become shorter where
                      ///< the surface is curved, down to an eighth; 0: no adaptation
-    double growth = 0.3;      ///< target lengths at two points differ by at most this multiple of
-                              ///< their distance; no unit
-    double crease_angle = 50; ///< edges at which a surface turns by more are curves
-    double curve_angle = 45;  ///< vertices at which a curve turns by more are corners
-    unsigned passes = 6;      ///< rounds of the four operations, 1 to 100
+    double layers_in_gaps = 0; ///< where surfaces are close, edges are at most as long as their
+                               ///< distance divided by this; no unit; 0: no adaptation
+    double smallest = 0;       ///< layers_in_gaps asks for no shorter edges than this; 0: an eighth
+                               ///< of the target length
+    double growth = 0.3;       ///< target lengths at two points differ by at most this multiple of
+                               ///< their distance; no unit
+    double crease_angle = 50;  ///< edges at which a surface turns by more are curves
+    double curve_angle = 45;   ///< vertices at which a curve turns by more are corners
+    unsigned passes = 6;       ///< rounds of the four operations, 1 to 100
     double thickness_share =
         0.1; ///< where blocks are thin, points deviate by at most this share of
              ///< the distance to the next sheet, along the normal; > 0

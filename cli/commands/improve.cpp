@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -53,21 +55,19 @@ Examples:
 
 /// Parses a positive number that takes up the whole text; returns none for anything else.
 std::optional<double> positive(const std::string& text) {
-    std::size_t used = 0;
     double value = 0;
-    try {
-        value = std::stod(text, &used);
-    } catch (const std::exception&) {
+    const char* const end = text.data() + text.size();
+    const auto [after, failed] = std::from_chars(text.data(), end, value); // obeys no locale
+    if (failed != std::errc() || after != end || !(value > 0) || !std::isfinite(value))
         return std::nullopt;
-    }
-    if (used != text.size() || !(value > 0) || !std::isfinite(value)) return std::nullopt;
     return value;
 }
 
 /// Refuses numbers that can't be meant, before anything is read.
 Status check_numbers(const ImproveCommand& command, const CLI::App& app) {
-    for (const char* const name : {"--curve-length", "--turn", "--growth", "--max-deviation",
-                                   "--thickness-share", "--max-triangles", "--least-quality"})
+    for (const char* const name :
+         {"--curve-length", "--turn", "--layers-in-gaps", "--smallest", "--growth",
+          "--max-deviation", "--thickness-share", "--max-triangles", "--least-quality"})
         if (const auto* option = app.get_option(name);
             option->count() > 0 && !positive(option->as<std::string>()))
             return Error{ErrorCode::bad_option, "needs a positive number", name};
@@ -139,7 +139,7 @@ Status write_all(const ImproveCommand& command, const Inputs& inputs, const Arra
     if (!command.histogram.empty()) {
         const auto& report = measured.improved.report;
         if (auto drawn = write_file(command.histogram, histogram_of(report)); !drawn) return drawn;
-        print(summary_stream(command.files), "wrote " + command.histogram + "\n");
+        say_written(summary_stream(command.files), command.histogram);
     }
     auto written = write_outputs(measured.improved.mesh, true, command.files, outputs, session);
     if (!written || command.proof.certificate.empty()) return written;
@@ -236,6 +236,15 @@ void add_lengths(CLI::App& app, ImproveCommand& command) {
                    "Shorter edges where a surface is curved: normals turn by so many degrees "
                    "along one (default: the same length everywhere)")
         ->type_name("DEGREES");
+    app.add_option("--layers-in-gaps", command.options.layers_in_gaps,
+                   "Shorter edges where surfaces are close: their distance divided by this "
+                   "(default: the same length everywhere)")
+        ->type_name("N");
+    app.add_option(
+           "--smallest", command.options.smallest,
+           "Gaps ask for no shorter edges than this (default: an eighth of the least wanted "
+           "length)")
+        ->type_name("L");
     app.add_option("--growth", command.options.growth,
                    "Wanted lengths differ by at most this share of the way between (default: 0.3)")
         ->type_name("G");

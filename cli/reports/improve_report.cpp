@@ -10,6 +10,7 @@
 
 #include <terrane/cli/reports/pair_report.hpp>
 #include <terrane/cli/session/console.hpp>
+#include <terrane/cli/session/quantities.hpp>
 #include <terrane/io/text/histogram_svg.hpp>
 
 namespace terrane::cli {
@@ -52,13 +53,15 @@ std::string deviation_text(const ImprovedAndMeasured& measured, const Inputs& in
         share = deviations[s].out / r.bound_of[s];
         where = s;
     }
-    return fmt::format(
-               "deviation: {} is shown to be within {:.4g} of what it was, measured {:.4g}; "
-               "the others keep farther below their bounds; from old to new measured {:.4g}, {}\n"
-               "verified: the improved mesh is conforming, by exact check\n",
-               inputs.labels[where], r.bound_of[where], deviations[where].out, back,
-               measured.is_near_back() ? "shown to be within the bounds as well"
-                                       : "not shown to be within the bounds") +
+    const Quantities quantities(inputs.unit);
+    return fmt::format("deviation: {} is shown to be within {} of what it was, measured {}; "
+                       "the others keep farther below their bounds; from old to new measured {}, "
+                       "{}\n"
+                       "verified: the improved mesh is conforming, by exact check\n",
+                       inputs.labels[where], quantities.length(r.bound_of[where]),
+                       quantities.length(deviations[where].out), quantities.length(back),
+                       measured.is_near_back() ? "shown to be within the bounds as well"
+                                               : "not shown to be within the bounds") +
            text_of(measured.improved.conforming->pairs());
 }
 
@@ -84,21 +87,24 @@ std::vector<VolumeChange> volume_changes(const Improved& improved) {
 
 /// Reports the volumes of all blocks together and of each block; of many, the one that changed
 /// most.
-std::string volumes_text(const Improved& improved) {
+std::string volumes_text(const Improved& improved, const Quantities& quantities) {
     constexpr std::size_t few = 20;
+    constexpr int digits = 6;
     auto changes = volume_changes(improved);
     if (changes.empty()) return {};
     std::stable_sort(
         changes.begin(), changes.end(),
         [](const VolumeChange& a, const VolumeChange& b) { return a.percent() > b.percent(); });
-    auto text = fmt::format("volumes: {}, {:.6g} before, {:.6g} after{}\n",
-                            counted(changes.size(), "block"), improved.volumes_before.measures[0],
-                            improved.volumes.measures[0],
-                            changes.size() > few ? "; those that changed most:" : "");
+    auto text =
+        fmt::format("volumes: {}, {} before, {} after{}\n", counted(changes.size(), "block"),
+                    quantities.volume(improved.volumes_before.measures[0], digits),
+                    quantities.volume(improved.volumes.measures[0], digits),
+                    changes.size() > few ? "; those that changed most:" : "");
     if (changes.size() > few) changes.resize(few);
     for (const VolumeChange& c : changes)
-        text += fmt::format("  block {}: {:.6g} before, {:.6g} after, changed by {:.2g} %\n",
-                            c.block, c.before, c.after, c.percent());
+        text += fmt::format("  block {}: {} before, {} after, changed by {:.2g} %\n", c.block,
+                            quantities.volume(c.before, digits), quantities.volume(c.after, digits),
+                            c.percent());
     return text;
 }
 
@@ -145,15 +151,17 @@ bool keeps_volumes(const ImprovedAndMeasured& measured, bool strict, double most
 std::string improve_text(const ImprovedAndMeasured& measured, const Inputs& inputs) {
     const Improved& improved = measured.improved;
     const ImproveReport& r = improved.report;
-    std::string text =
-        "quality  triangles  mean q   least  % > 0.8  angle min       max  edges min, mean, max\n";
+    std::string text = fmt::format("quality  triangles  mean q   least  % > 0.8  angle min       "
+                                   "max  edges min, mean, max{}\n",
+                                   inputs.unit.empty() ? "" : ", " + inputs.unit);
     text += quality_row("before", r.before) + quality_row("after", r.after);
     text += worst_text(improved);
     text += lengths_text(r);
     text +=
         fmt::format("{} splits, {} collapses, {} swaps, {} moves; {} curves and {} corners kept\n",
                     r.splits, r.collapses, r.swaps, r.moves, r.curves, r.corners);
-    return text + volumes_text(improved) + deviation_text(measured, inputs);
+    return text + volumes_text(improved, Quantities(inputs.unit)) +
+           deviation_text(measured, inputs);
 }
 
 void add_statistics(Json& json, const ImprovedAndMeasured& measured, const StageTimes& times) {

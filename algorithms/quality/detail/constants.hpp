@@ -159,6 +159,11 @@ struct RemeshConstants {
     double least_quality = 1e-3;
     /// Share by which rounding may reduce q of a triangle that is divided into similar ones.
     double quality_rounding = 1e-12;
+    /// Share by which q of a bad triangle must grow at least. Larger: fewer changes.
+    double least_growth = 1e-9;
+    /// Ratio of an edge to its wanted length below which all edges are equally short: orders of
+    /// magnitude become classes.
+    double least_length_ratio = 1e-70;
 };
 
 inline constexpr RemeshConstants constants;
@@ -222,6 +227,8 @@ inline std::vector<NamedConstant> named_constants() {
         {"curve_collapse_ratio", constants.curve_collapse_ratio},
         {"least_quality", constants.least_quality},
         {"quality_rounding", constants.quality_rounding},
+        {"least_growth", constants.least_growth},
+        {"least_length_ratio", constants.least_length_ratio},
     };
 }
 

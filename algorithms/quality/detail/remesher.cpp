@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <terrane/algorithms/quality/detail/constants.hpp>
+#include <terrane/algorithms/quality/detail/thickness.hpp>
 #include <terrane/algorithms/quality/quality.hpp>
 
 namespace terrane::quality::detail {
@@ -31,7 +32,7 @@ std::vector<double> bounds_of_curves(const WorkMesh& mesh, std::size_t curves,
 } // namespace
 
 Remesher::Remesher(const RemeshInput& input, LeastQuality least, const Run& run) :
-    run_(run), mesh_(input.mesh, input.features),
+    run_(run), options_(input.options), mesh_(input.mesh, input.features),
     validator_(mesh_, input.reference), context_{mesh_,
                                                  validator_,
                                                  input.reference,
@@ -42,6 +43,10 @@ Remesher::Remesher(const RemeshInput& input, LeastQuality least, const Run& run)
                                                                   input.sizes.bound_of),
                                                  run_} {
     mesh_.sizes = input.sizes.of_vertices;
+    least_length_ = options_.smallest;
+    if (!(least_length_ > 0))
+        least_length_ =
+            constants.curvature_floor * *std::min_element(mesh_.sizes.begin(), mesh_.sizes.end());
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t)
         mesh_.isolated[t] = static_cast<char>(input.reference.is_isolated(t));
     validator_.set_least_quality(std::move(least));
@@ -81,10 +86,36 @@ std::size_t Remesher::changes() const {
     return context_.splits + context_.collapses + context_.swaps + context_.moves;
 }
 
+/// Makes wanted lengths shorter where surfaces are close. Each pass finds the distances anew, as the
+/// first triangles are too large to tell where.
+void Remesher::shorten_in_gaps() {
+    const double layers = options_.layers_in_gaps;
+    if (!(layers > 0)) return;
+    std::vector<Triangle> used;
+    std::vector<double> reach_of;
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+        if (!mesh_.in_use(t)) continue;
+        double longest = 0;
+        for (const std::uint32_t v : mesh_.triangles[t])
+            longest = std::max(longest, mesh_.sizes[v]);
+        used.push_back(mesh_.triangles[t]);
+        reach_of.push_back(layers * longest);
+    }
+    const auto thickness = thickness_of(mesh_.points, used, reach_of, run_);
+    for (std::size_t t = 0; t < used.size(); ++t)
+        for (const std::uint32_t v : used[t])
+            mesh_.sizes[v] =
+                std::min(mesh_.sizes[v], std::max(thickness[t] / layers, least_length_));
+    limit_growth(mesh_.points, used, options_.growth, mesh_.sizes);
+}
+
 /// Returns whether another pass is worthwhile.
 bool Remesher::one_pass(bool is_first, bool with_jitter) {
     const std::size_t before = changes();
-    if (is_first) clean_first();
+    if (is_first)
+        clean_first();
+    else
+        shorten_in_gaps();
     split_curves(context_);
     collapse_curves(context_);
     slide_curves(context_);
@@ -139,7 +170,8 @@ double Remesher::quality_at(std::uint32_t t) const {
 }
 
 double Remesher::limit_at(std::uint32_t t) const {
-    return std::max(quality_at(t), shape_of(mesh_, mesh_.triangles[t])) * (1 + 1e-9);
+    return std::max(quality_at(t), shape_of(mesh_, mesh_.triangles[t])) *
+           (1 + constants.least_growth);
 }
 
 std::uint32_t Remesher::worst() {

@@ -20,6 +20,7 @@ struct RemeshInput {
     const Features& features;
     const Sizes& sizes;
     const ReferenceSurface& reference;
+    const ImproveOptions& options;
 };
 
 class Remesher {
@@ -42,6 +43,7 @@ private:
     [[nodiscard]] bool stopped() const { return run_.stop.stop_requested(); }
     void regroup_if_needed();
     void clean_first();
+    void shorten_in_gaps();
     [[nodiscard]] std::size_t changes() const;
     bool one_pass(bool is_first, bool with_jitter);
     void finish();
@@ -54,12 +56,14 @@ private:
     [[nodiscard]] double limit_at(std::uint32_t t) const;
 
     const Run& run_;
+    const ImproveOptions& options_;
     WorkMesh mesh_;
     ChangeValidator validator_;
     RemeshContext context_;
     std::vector<double> qualities_; ///< per triangle: q when worst() last saw it; negative: never
     std::uint32_t measured_at_ = 0; ///< time of that
     unsigned passes_ = 0;
+    double least_length_ = 0; ///< that gaps ask for
     bool is_settled_ = false; ///< all changes for the worst triangle were tried
 };
 

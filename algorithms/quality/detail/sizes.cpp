@@ -73,32 +73,6 @@ void limit_by_curvature(const Mesh& mesh, const Features& features, double turn,
             sizes[v] = std::max(turn / turns[v], constants.curvature_floor * sizes[v]);
 }
 
-/// Limits each target length to that of a neighbour plus `growth` times the distance to it.
-void limit_growth(const Mesh& mesh, const Features& features, double growth,
-                  std::vector<double>& sizes) {
-    std::vector<std::vector<std::uint32_t>> next(sizes.size());
-    for (const Triangle& t : features.triangles)
-        for (std::size_t i = 0; i < 3; ++i) {
-            next[t[i]].push_back(t[(i + 1) % 3]);
-            next[t[(i + 1) % 3]].push_back(t[i]);
-        }
-    using Entry = std::pair<double, std::uint32_t>;
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
-    for (std::uint32_t v = 0; v < sizes.size(); ++v)
-        if (!next[v].empty()) front.emplace(sizes[v], v);
-    while (!front.empty()) {
-        const auto [size, v] = front.top();
-        front.pop();
-        if (size > sizes[v]) continue;
-        for (const std::uint32_t u : next[v]) {
-            const double most = size + growth * length(minus(mesh.vertices[u], mesh.vertices[v]));
-            if (!(most < sizes[u])) continue;
-            sizes[u] = most;
-            front.emplace(most, u);
-        }
-    }
-}
-
 } // namespace
 
 Sizes find_sizes(const Mesh& mesh, const Features& features, const ImproveOptions& options) {
@@ -123,8 +97,33 @@ Sizes find_sizes(const Mesh& mesh, const Features& features, const ImproveOption
                 out.of_vertices[v] = std::min(out.of_vertices[v], options.curve_length);
     if (options.turn > 0)
         limit_by_curvature(mesh, features, options.turn * std::acos(-1.0) / 180, out.of_vertices);
-    limit_growth(mesh, features, options.growth, out.of_vertices);
+    limit_growth(mesh.vertices, features.triangles, options.growth, out.of_vertices);
     return out;
+}
+
+void limit_growth(std::span<const Point3> points, std::span<const Triangle> triangles,
+                  double growth, std::vector<double>& sizes) {
+    std::vector<std::vector<std::uint32_t>> next(sizes.size());
+    for (const Triangle& t : triangles)
+        for (std::size_t i = 0; i < 3; ++i) {
+            next[t[i]].push_back(t[(i + 1) % 3]);
+            next[t[(i + 1) % 3]].push_back(t[i]);
+        }
+    using Entry = std::pair<double, std::uint32_t>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
+    for (std::uint32_t v = 0; v < sizes.size(); ++v)
+        if (!next[v].empty()) front.emplace(sizes[v], v);
+    while (!front.empty()) {
+        const auto [size, v] = front.top();
+        front.pop();
+        if (size > sizes[v]) continue;
+        for (const std::uint32_t u : next[v]) {
+            const double most = size + growth * length(minus(points[u], points[v]));
+            if (!(most < sizes[u])) continue;
+            sizes[u] = most;
+            front.emplace(most, u);
+        }
+    }
 }
 
 double expected_with_sizes(const Mesh& mesh, const Features& features, const Sizes& sizes) {

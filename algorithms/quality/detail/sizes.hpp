@@ -3,6 +3,7 @@
 // Computes the target edge lengths and the tolerances of remeshing.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include <terrane/algorithms/quality/detail/features.hpp>
@@ -17,6 +18,10 @@ struct Sizes {
 
 /// options.edge_length_of must have one element per surface, or none.
 Sizes find_sizes(const Mesh& mesh, const Features& features, const ImproveOptions& options);
+
+/// Limits each target length to that of a neighbour plus `growth` times the distance to it.
+void limit_growth(std::span<const Point3> points, std::span<const Triangle> triangles,
+                  double growth, std::vector<double>& sizes);
 
 /// Estimates the number of triangles from areas and local target lengths.
 double expected_with_sizes(const Mesh& mesh, const Features& features, const Sizes& sizes);

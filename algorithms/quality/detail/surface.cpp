@@ -388,7 +388,9 @@ std::size_t collapse_edges(RemeshContext& context) {
     std::size_t count = 0;
     const auto classes = by_class(inner_edges(context, [&](std::uint32_t a, std::uint32_t b) {
         const double ratio = mesh.edge_length(a, b) / mesh.wanted_length(a, b);
-        return ratio < constants.collapse_ratio ? length_class(1 / std::max(ratio, 1e-70)) : 0;
+        return ratio < constants.collapse_ratio
+                   ? length_class(1 / std::max(ratio, constants.least_length_ratio))
+                   : 0;
     }));
     const std::uint32_t since = context.collapsed_at; // what failed then would fail again
     context.collapsed_at = ++context.mesh.now;

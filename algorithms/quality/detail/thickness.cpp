@@ -29,8 +29,8 @@ std::optional<double> distance_along(const Point3& p, const Point3& n, const Cor
     return std::fabs(dot(ac, k) / size);
 }
 
-Corners3 corners_in(const Mesh& mesh, const Triangle& t) {
-    return {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
+Corners3 corners_in(std::span<const Point3> points, const Triangle& t) {
+    return {points[t[0]], points[t[1]], points[t[2]]};
 }
 
 /// Returns the box of all points within `far` of the triangle along its unit normal.
@@ -74,7 +74,7 @@ public:
     /// Looks at triangles with a corner within the wanted length of the centroid of t.
     double operator()(std::uint32_t t, std::span<const double> bounds) {
         const Triangle& corners = features_.triangles[t];
-        const Corners3 c = corners_in(mesh_, corners);
+        const Corners3 c = corners_in(mesh_.vertices, corners);
         const Point3 middle{(c[0].x + c[1].x + c[2].x) / 3, (c[0].y + c[1].y + c[2].y) / 3,
                             (c[0].z + c[1].z + c[2].z) / 3};
         double reach = HUGE_VAL;
@@ -110,26 +110,25 @@ private:
 
 } // namespace
 
-std::vector<double> bounds_by_thickness(const Mesh& mesh, const Features& features,
-                                        const Sizes& sizes, double share, const Run& run) {
-    const auto count = static_cast<std::uint32_t>(features.triangles.size());
-    std::vector<double> bounds(count);
+std::vector<double> thickness_of(std::span<const Point3> points,
+                                 std::span<const Triangle> triangles,
+                                 std::span<const double> reach_of, const Run& run) {
+    const auto count = static_cast<std::uint32_t>(triangles.size());
+    std::vector<double> thickness(count, std::numeric_limits<double>::infinity());
     std::vector<Point3> normals(count);
     std::vector<Box> boxes(2 * static_cast<std::size_t>(count)); // prisms, then triangles
     std::vector<std::uint32_t> groups(boxes.size(), 0), prisms(count);
     std::iota(prisms.begin(), prisms.end(), 0U);
     for (std::uint32_t t = 0; t < count; ++t) {
-        const Corners3 c = corners_in(mesh, features.triangles[t]);
+        const Corners3 c = corners_in(points, triangles[t]);
         const Point3 n = cross(minus(c[1], c[0]), minus(c[2], c[0]));
         const double size = length(n);
         normals[t] = size > 0 ? Point3{n.x / size, n.y / size, n.z / size} : Point3{};
-        bounds[t] = sizes.bound_of[features.sheet_of[t]];
-        boxes[t] = prism_of(c, normals[t], bounds[t] / share);
-        boxes[count + t] = box_of(mesh.vertices, features.triangles[t]);
+        boxes[t] = prism_of(c, normals[t], reach_of[t]);
+        boxes[count + t] = box_of(points, triangles[t]);
         groups[count + t] = 1;
     }
-    bool is_limited = false;
-    Run one = run; // bounds are not synchronised
+    Run one = run; // the results are not synchronised
     one.threads = 1;
     candidate_pairs_of(
         boxes, prisms, groups,
@@ -138,20 +137,33 @@ std::vector<double> bounds_by_thickness(const Mesh& mesh, const Features& featur
             if (!(std::fabs(dot(normals[t], normals[other])) >= constants.thin_cosine))
                 return false;
             if (t == other) return false;
-            const double far =
-                share * least_distance(corners_in(mesh, features.triangles[t]), normals[t],
-                                       corners_in(mesh, features.triangles[other]));
-            if (far > 0 && far < bounds[t]) {
-                bounds[t] = far;
-                is_limited = true;
-            }
+            const double far = least_distance(corners_in(points, triangles[t]), normals[t],
+                                              corners_in(points, triangles[other]));
+            if (far > 0 && far <= reach_of[t]) thickness[t] = std::min(thickness[t], far);
             return false; // pairs need not be kept
         },
         one);
+    return thickness;
+}
+
+std::vector<double> bounds_by_thickness(const Mesh& mesh, const Features& features,
+                                        const Sizes& sizes, double share, const Run& run) {
+    std::vector<double> bounds, reach_of;
+    for (const std::uint32_t sheet : features.sheet_of) {
+        bounds.push_back(sizes.bound_of[sheet]);
+        reach_of.push_back(bounds.back() / share);
+    }
+    const auto thickness = thickness_of(mesh.vertices, features.triangles, reach_of, run);
+    bool is_limited = false;
+    for (std::size_t t = 0; t < bounds.size(); ++t) {
+        if (!(share * thickness[t] < bounds[t])) continue;
+        bounds[t] = share * thickness[t];
+        is_limited = true;
+    }
     if (!is_limited) return {};
     std::vector<double> spread = bounds;
     Spreader spreader(mesh, features, sizes);
-    for (std::uint32_t t = 0; t < count; ++t)
+    for (std::uint32_t t = 0; t < bounds.size(); ++t)
         if (bounds[t] < sizes.bound_of[features.sheet_of[t]]) spread[t] = spreader(t, bounds);
     return spread;
 }
