@@ -9,6 +9,8 @@
 #include <string_view>
 #include <utility>
 
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
+
 namespace terrane {
 namespace {
 
@@ -74,6 +76,7 @@ constexpr double break_beyond = 4;
 Result<SealChoice> choose_seal(const std::vector<Surface>& surfaces,
                                const std::vector<Surface>& boundary,
                                const ArrangeWithinOptions& options, const Run& run) {
+    const StandardArithmetic guard;
     ArrangeWithinOptions unsealed = options;
     unsealed.seal = unsealed.min_volume = 0;
     unsealed.seal_automatic = false;
@@ -85,12 +88,14 @@ Result<SealChoice> choose_seal(const std::vector<Surface>& surfaces,
 }
 
 Result<SealChoice> choose_seal(const Arrangement& arrangement, double edge_length, const Run& run) {
+    const StandardArithmetic guard;
     SealChoice choice{.edge_length = edge_length, .widest = widest_gap * edge_length};
-    const auto gaps = find_gaps(arrangement, break_beyond * choice.widest, run);
+    auto gaps = find_gaps(arrangement, break_beyond * choice.widest, run);
     if (!gaps) return gaps.error();
     choice.breaks = find_breaks(*gaps, break_beyond * choice.widest);
     std::erase_if(choice.breaks, [&](const GapBreak& b) { return b.low > choice.widest; });
     if (!choice.breaks.empty()) choice.distance = choice.breaks.back().distance;
+    choice.gaps = std::move(*gaps);
     return choice;
 }
 
@@ -104,6 +109,7 @@ std::vector<NamedConstant> seal_choice_constants() {
 Result<Arranged> arrange_exactly_within(std::vector<Surface> surfaces,
                                         std::vector<Surface> boundary,
                                         const ArrangeWithinOptions& options, const Run& run) {
+    const StandardArithmetic guard;
     ArrangeWithinOptions chosen = options;
     Arranged arranged;
     if (options.seal_automatic) {
@@ -133,6 +139,7 @@ Result<Arranged> arrange_exactly_within(std::vector<Surface> surfaces,
 
 Result<Arranged> arrange_within(std::vector<Surface> surfaces, std::vector<Surface> boundary,
                                 const ArrangeWithinOptions& options, const Run& run) {
+    const StandardArithmetic guard;
     auto arranged = arrange_exactly_within(std::move(surfaces), std::move(boundary), options, run);
     if (!arranged) return arranged;
     announce(run, "round");

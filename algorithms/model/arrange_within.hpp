@@ -39,6 +39,7 @@ struct SealChoice {
     double widest = 0;              ///< gaps above it, a share of edge_length, count as meant
     std::vector<GapBreak> breaks{}; ///< of the gaps in the volume of interest, ascending
     double distance = 0;            ///< of the last break; 0: there is none
+    std::vector<SurfaceGap> gaps{}; ///< all that were measured, by width
 };
 
 /// The gaps that were closed.

@@ -8,6 +8,7 @@
 #include <terrane/cli/options/column.hpp>
 #include <terrane/cli/options/roles.hpp>
 #include <terrane/cli/reports/relation_report.hpp>
+#include <terrane/cli/reports/seal_plot.hpp>
 #include <terrane/cli/reports/seal_report.hpp>
 #include <terrane/cli/stages/block_certificate.hpp>
 #include <terrane/cli/stages/blocks.hpp>
@@ -29,6 +30,7 @@ struct VolumeCommand {
     std::string certificate;   ///< file; empty: none
     std::string relations;     ///< file for the table of relations; here and below, empty: none
     std::string juxtaposition; ///< file for the table of areas between blocks
+    std::string seal_plot;     ///< file for the plot of it; empty: none
     bool suggests = false;     ///< whether distances for sealing are tried, and nothing is written
 };
 
@@ -95,6 +97,9 @@ Status check_output(const VolumeCommand& command) {
         command.part_format != "obj")
         return Error{ErrorCode::bad_option, "is about parts as vtp or obj only", "--certificate"};
     if (!command.suggests) {
+        if (!command.seal_plot.empty())
+            return Error{ErrorCode::bad_option, "draws what --suggest-seal finds; that is missing",
+                         "--seal-plot"};
         if (!command.folder.empty()) return check_new_folder(command.folder);
         return Error{ErrorCode::bad_option, "the folder for the model is missing", "--output"};
     }
@@ -103,14 +108,20 @@ Status check_output(const VolumeCommand& command) {
                  "--suggest-seal"};
 }
 
+/// Writes a text to a file of its own, and says so.
+Status write_text(const VolumeCommand& command, const std::string& path, const std::string& text,
+                  Session& session) {
+    session.begin("write", Phase::writing);
+    auto written = write_file(path, text);
+    session.end_stage();
+    if (written) say_written(summary_stream(command.files), path);
+    return written;
+}
+
 Status write_tables(const VolumeCommand& command, const Model& model, const Inputs& inputs,
                     Session& session) {
-    const auto write = [&](const std::string& path, const std::string& text) -> Status {
-        session.begin("write", Phase::writing);
-        auto written = write_file(path, text);
-        session.end_stage();
-        if (written && path != "-") print(summary_stream(command.files), "wrote " + path + "\n");
-        return written;
+    const auto write = [&](const std::string& path, const std::string& text) {
+        return write_text(command, path, text, session);
     };
     if (!command.relations.empty()) {
         const auto relations = find_relations(model.mesh, model.structure, model.borders);
@@ -143,6 +154,11 @@ Result<ExitStatus> suggest_seal(const VolumeCommand& command, Session& session) 
     session.end_stage();
     if (!advice) return advice.error();
     print(summary_stream(files), text_of(*advice, *inputs));
+    if (!command.seal_plot.empty())
+        if (auto done =
+                write_text(command, command.seal_plot, seal_plot(*advice, *inputs), session);
+            !done)
+            return done.error();
     add_statistics(statistics, *advice);
     add_constants(statistics, "seal", seal_constants());
     add_constants(statistics, "seal_choice", seal_choice_constants());
@@ -192,7 +208,7 @@ Result<ExitStatus> find_blocks(const VolumeCommand& command, Session& session) {
         Stopwatch writing;
         const auto written = write_folder(command, {*model, arranged->sealed, *leaks}, session);
         if (!written) return written.error();
-        print(summary_stream(files), "wrote " + command.folder + "\n");
+        say_written(summary_stream(files), command.folder);
         if (auto tables = write_tables(command, *model, *inputs, session); !tables)
             return tables.error();
         if (!command.certificate.empty()) {
@@ -219,7 +235,10 @@ Command volume_command(CLI::App& program) {
         ->type_name("DIR");
     app->add_flag("--suggest-seal", command->suggests,
                   "List natural breaks in the widths of gaps, and the blocks for each distance; "
-                  "write nothing");
+                  "write no model");
+    app->add_option("--seal-plot", command->seal_plot,
+                    "Draw this, with --suggest-seal: lengths of gaps by their widths, and blocks")
+        ->type_name("FILE.svg");
     add_roles(*app, command->roles);
     add_column(*app, command->column);
     app->add_option("--parts", command->part_format,

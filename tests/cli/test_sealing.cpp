@@ -191,6 +191,32 @@ TEST_CASE("cli: certificates of tetrahedra in a sealed volume that verify takes"
     CHECK(contains(valid.out, "m.vtu: holds these tetrahedra, bit for bit\n"));
 }
 
+TEST_CASE("cli: --seal-plot draws what --suggest-seal lists", "[cli]") {
+    const Folder folder;
+    const auto in = folder.input("model.obj", gapped_model);
+    const auto r = folder.run("volume " + in + around_gap +
+                              " --suggest-seal --seal-plot p.svg --stats s.json");
+    INFO(r.err);
+    REQUIRE(r.status == 0);
+    CHECK(contains(r.out, "wrote p.svg\n"));
+    const auto svg = folder.read("p.svg");
+    CHECK(svg.starts_with("<svg xmlns=\"http://www.w3.org/2000/svg\""));
+    CHECK(svg.ends_with("</svg>\n"));
+    const auto statistics = Json::parse(folder.read("s.json"));
+    // A bar for all blocks and one for small ones of each trial, and the background.
+    std::size_t bars = 0;
+    for (std::size_t at = 0; (at = svg.find("<rect ", at)) != std::string::npos; ++at) ++bars;
+    CHECK(bars == 1 + 2 * statistics["seal_trials"]["trials"].size());
+    CHECK(contains(svg, ">2, not sealed<"));
+    CHECK(contains(svg, ", chosen<"));
+    const auto closed = folder.input("closed.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    CHECK(folder.run("volume " + closed + " --suggest-seal --seal-plot q.svg").status == 0);
+    CHECK_FALSE(contains(folder.read("q.svg"), "nan"));
+    const auto alone = folder.run("volume " + in + " -o out --seal-plot p.svg");
+    CHECK(alone.status == 2);
+    CHECK(contains(alone.err, "--seal-plot: draws what --suggest-seal finds"));
+}
+
 TEST_CASE("cli: --suggest-seal lists the breaks of gaps and writes nothing", "[cli]") {
     const Folder folder;
     const auto in = folder.input("model.obj", gapped_model);

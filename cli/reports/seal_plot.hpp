@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Draws what is known about gaps, to choose the distance within which they are closed.
+#pragma once
+
+#include <string>
+
+#include <terrane/algorithms/model/seal_advice.hpp>
+#include <terrane/cli/options/files.hpp>
+
+namespace terrane::cli {
+
+/// Draws two panels over one logarithmic axis of distances, as a picture in SVG 1.1. Above: the
+/// length of all gaps that are not wider, with the natural breaks. Below: the number of blocks, of
+/// small ones among them, and of triangles that change, for each break.
+std::string seal_plot(const SealAdvice& advice, const Inputs& inputs);
+
+} // namespace terrane::cli
