@@ -47,6 +47,7 @@ private:
         if (const Json* v = in_.find(json, "folder"))
             project.folder = path_of(in_.text(*v, "folder"));
         if (const Json* v = in_.find(json, "threads")) project.threads = threads(*v);
+        if (const Json* v = in_.find(json, "unit")) project.unit = in_.one_of(*v, "unit", units);
         if (const Json* v = in_.find(json, "column")) project.column = column_of(in_, *v);
         if (const Json* v = in_.find(json, "fill"))
             in_.array(*v, "fill", 1, SIZE_MAX, [&](const Json& entry, const std::string& at) {
@@ -66,12 +67,13 @@ private:
         if (const Json* v = in_.find(json, "tetrahedra")) project.tetrahedra = tetrahedra(*v);
         const bool turned = std::any_of(project.surfaces.begin(), project.surfaces.end(),
                                         [](const ProjectSurfaces& s) { return s.depth; });
-        const bool changed = turned || !project.fill.empty() || project.layers || project.improve;
+        const bool changed = turned || !project.unit.empty() || !project.fill.empty() ||
+                             project.layers || project.improve;
         if (project.outputs.certificate && changed)
             in_.fail(
                 "outputs.certificate",
-                "must be false with fill, layers, improve or depth: a certificate is about whole "
-                "surfaces as their files have them");
+                "must be false with unit, fill, layers, improve or depth: a certificate is about "
+                "whole surfaces as their files have them");
         const std::string& parts = project.outputs.blocks;
         if (project.outputs.certificate && !parts.empty() && parts != "vtp" && parts != "obj")
             in_.fail("outputs.certificate", "is about blocks as vtp or obj only");
@@ -246,6 +248,10 @@ private:
             i.max_deviation = in_.positive(*v, path + ".max_deviation");
         if (const Json* v = in_.find(json, "edge_length_of"))
             i.edge_length_of = sizes(*v, path + ".edge_length_of");
+        if (const Json* v = in_.find(json, "layers_in_gaps"))
+            i.layers_in_gaps = in_.positive(*v, path + ".layers_in_gaps");
+        if (const Json* v = in_.find(json, "smallest"))
+            i.smallest = in_.positive(*v, path + ".smallest");
         return i;
     }
 

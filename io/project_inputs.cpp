@@ -46,6 +46,7 @@ Result<std::vector<Surface>> surfaces_of_entry(const ProjectSurfaces& entry, con
                                                std::vector<SurfaceInfo>& as_read) {
     ReadOptions options;
     options.depth = entry.depth;
+    options.unit = project.unit;
     auto read = read_surfaces(entry.file, std::nullopt, options);
     if (!read) return read.error();
     auto surfaces = chosen(std::move(read).value(), entry, project, key);
@@ -62,10 +63,13 @@ Result<std::vector<Surface>> surfaces_of_entry(const ProjectSurfaces& entry, con
     return surfaces;
 }
 
-Result<std::vector<Surface>> boundary_within(const ProjectWithin& within, const Run& run) {
+Result<std::vector<Surface>> boundary_within(const ProjectWithin& within, const std::string& unit,
+                                             const Run& run) {
+    ReadOptions options;
+    options.unit = unit;
     std::vector<Surface> all;
     for (const auto& file : within.files) {
-        auto read = read_surfaces(file);
+        auto read = read_surfaces(file, std::nullopt, options);
         if (!read) return read.error();
         for (Surface& s : *read) all.push_back(std::move(s));
     }
@@ -84,7 +88,7 @@ Result<std::vector<Surface>> boundary_of(const Project& project, const Run& run)
             else if constexpr (std::is_same_v<Volume, ProjectPolygon>)
                 return polygon_boundary(volume.corners, volume.between[0], volume.between[1]);
             else if constexpr (std::is_same_v<Volume, ProjectWithin>)
-                return boundary_within(volume, run);
+                return boundary_within(volume, project.unit, run);
             else
                 return std::vector<Surface>();
         },

@@ -1,14 +1,23 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/algorithms/project/build.hpp>
 
+#include <optional>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
+#include <terrane/algorithms/project/detail/kept_results.hpp>
 
 namespace terrane {
 namespace {
+
+using project::detail::bytes_of;
+using project::detail::improved_from;
+using project::detail::key_of;
+using project::detail::tetrahedra_from;
 
 Error refused(std::string sentence) {
     return {ErrorCode::improper_contact, std::move(sentence), ""};
@@ -30,10 +39,10 @@ Error flaw_of(const Preprocessed& done) {
 /// Runs the stages of one call of build().
 class Builder {
 public:
-    Builder(const Project& project, BuildInput input, const Run& run,
-            const BuildObserver& observer) :
+    Builder(const Project& project, BuildInput input, const Run& run, const BuildObserver& observer,
+            const StageStore& store) :
         project_(project),
-        input_(std::move(input)), run_(run), observer_(observer) {}
+        input_(std::move(input)), run_(run), observer_(observer), store_(store) {}
 
     Result<Built> operator()() {
         if (auto sound = check_column(project_.column, infos_of(input_.surfaces)); !sound)
@@ -104,6 +113,8 @@ private:
         options.check = project_.check;
         options.edge_length = wanted.edge_length.value_or(0);
         options.max_deviation = wanted.max_deviation.value_or(0);
+        options.layers_in_gaps = wanted.layers_in_gaps.value_or(0);
+        options.smallest = wanted.smallest.value_or(0);
         if (!wanted.edge_length_of.empty()) options.edge_length_of.resize(surfaces.size());
         for (const auto& [name, length] : wanted.edge_length_of) {
             const auto found = surfaces_called(name, surfaces, built_.labels);
@@ -112,9 +123,16 @@ private:
                               not_called("surface", name, built_.labels));
             for (const std::uint32_t s : found) options.edge_length_of[s] = length;
         }
+        const std::string key = key_for([&] { return key_of(rounded(), options); });
+        if (const auto kept = found(BuildStage::improve, key)) {
+            auto improved = improved_from(*kept, rounded(), options, run_);
+            if (!improved) return improved.error();
+            if ((built_.improved = std::move(*improved))) return taken(BuildStage::improve);
+        }
         auto improved = improve_and_measure(rounded(), options, run_);
         if (!improved) return improved.error();
         built_.improved = std::move(*improved);
+        if (store_.keep) store_.keep(BuildStage::improve, key, bytes_of(*built_.improved));
         return Done{};
     }
 
@@ -131,9 +149,39 @@ private:
     }
 
     Status fill_with_tetrahedra() {
-        auto filled = fill_blocks(*built_.model, request_of(project_), run_);
+        const TetrahedraRequest request = request_of(project_);
+        const Model& model = *built_.model;
+        const std::string key = key_for([&] { return key_of(model, request); });
+        if (const auto kept = found(BuildStage::tetrahedra, key))
+            if (auto mesh = tetrahedra_from(*kept)) {
+                auto filled = fill_blocks(model, request, std::move(*mesh), run_);
+                if (!filled) return filled.error();
+                if (filled->report.violations.empty()) {
+                    built_.filled = std::move(*filled);
+                    return taken(BuildStage::tetrahedra);
+                }
+            }
+        auto made = make_tetrahedra(model, request, run_);
+        if (!made) return made.error();
+        if (store_.keep) store_.keep(BuildStage::tetrahedra, key, bytes_of(*made));
+        auto filled = fill_blocks(model, request, std::move(*made), run_);
         if (!filled) return filled.error();
         built_.filled = std::move(*filled);
+        return Done{};
+    }
+
+    /// Computes a key, if results are kept.
+    template <class F>
+    [[nodiscard]] std::string key_for(const F& key) const {
+        return store_.find || store_.keep ? key() : std::string();
+    }
+
+    [[nodiscard]] std::optional<std::string> found(BuildStage which, const std::string& key) const {
+        return store_.find ? store_.find(which, key) : std::nullopt;
+    }
+
+    [[nodiscard]] Status taken(BuildStage which) const {
+        if (observer_.taken) observer_.taken(which);
         return Done{};
     }
 
@@ -141,6 +189,7 @@ private:
     BuildInput input_;
     const Run& run_;
     const BuildObserver& observer_;
+    const StageStore& store_;
     Built built_;
 };
 
@@ -172,8 +221,9 @@ TetrahedraRequest request_of(const Project& project) {
 }
 
 Result<Built> build(const Project& project, BuildInput input, const Run& run,
-                    const BuildObserver& observer) {
-    return Builder(project, std::move(input), run, observer)();
+                    const BuildObserver& observer, const StageStore& store) {
+    const StandardArithmetic guard;
+    return Builder(project, std::move(input), run, observer, store)();
 }
 
 } // namespace terrane

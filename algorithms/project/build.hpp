@@ -56,6 +56,18 @@ struct Built {
 struct BuildObserver {
     std::function<void(BuildStage)> begins{};              ///< called before a stage
     std::function<void(BuildStage, const Built&)> ended{}; ///< after it, with the results so far
+    std::function<void(BuildStage)> taken{};               ///< within a stage whose result was kept
+};
+
+/// Keeps results of stages that take long, `improve` and `tetrahedra`, for another call of build()
+/// with the same inputs. A result is bytes under a key, a hash of all that decides it. What is
+/// found is not trusted: a mesh is proven conforming again, tetrahedra are checked again, and what
+/// fails is made anew.
+struct StageStore {
+    /// Returns what was kept under a key; none if nothing was.
+    std::function<std::optional<std::string>(BuildStage, const std::string& key)> find{};
+    /// Keeps the bytes under a key.
+    std::function<void(BuildStage, const std::string& key, const std::string& bytes)> keep{};
 };
 
 /// Returns the tetrahedra that a project asks for; errors about them name the project's keys.
@@ -66,6 +78,6 @@ TetrahedraRequest request_of(const Project& project);
 /// Preprocessed::good) or the rounded mesh is not conforming: the observer then has the results so
 /// far. Violations found by the checks of tetrahedra are not an error: see filled->report.
 Result<Built> build(const Project& project, BuildInput input, const Run& run = {},
-                    const BuildObserver& observer = {});
+                    const BuildObserver& observer = {}, const StageStore& store = {});
 
 } // namespace terrane

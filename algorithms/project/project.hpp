@@ -82,6 +82,8 @@ struct ProjectImprove {
                                                ///< number of triangles
     std::optional<double> max_deviation{};     ///< none: a twentieth of the edge length
     std::vector<ProjectSize> edge_length_of{}; ///< by surface
+    std::optional<double> layers_in_gaps{};    ///< see ImproveOptions; none: gaps don't count
+    std::optional<double> smallest{};          ///< see ImproveOptions; unit of the surfaces
 };
 
 /// Tetrahedra of the blocks (tetrahedra.hpp).
@@ -121,6 +123,8 @@ struct Project {
     std::vector<ProjectSurfaces> surfaces{}; ///< >= 1
     std::variant<std::monostate, ProjectBox, RotatedBox, ProjectPolygon, ProjectWithin>
         volume{};                          ///< the volume of interest
+    std::string unit{};                    ///< coordinates whose file states their unit are
+                                           ///< converted to this one; empty: they stay
     StratigraphicColumn column{};          ///< empty: none
     std::vector<ProjectFill> fill{};       ///< no surface is in two of them
     std::optional<ProjectLayers> layers{}; ///< none: horizons are not put in order

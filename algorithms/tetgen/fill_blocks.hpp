@@ -53,4 +53,14 @@ struct FilledBlocks {
 Result<FilledBlocks> fill_blocks(const Model& model, const TetrahedraRequest& request,
                                  const Run& run = {});
 
+/// Makes the tetrahedra alone, which is what takes time: with the outside, regions by the numbers
+/// of find_volumes(mesh), nothing split. Errors: bad_option, those of tetrahedralize.
+Result<TetrahedralMesh> make_tetrahedra(const Model& model, const TetrahedraRequest& request,
+                                        const Run& run = {});
+
+/// Checks tetrahedra that make_tetrahedra made of the same model, now or earlier, and splits nodes.
+/// Nothing of them is trusted. Errors: those of fill_blocks that are left.
+Result<FilledBlocks> fill_blocks(const Model& model, const TetrahedraRequest& request,
+                                 TetrahedralMesh made, const Run& run = {});
+
 } // namespace terrane

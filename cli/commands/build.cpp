@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <array>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -21,10 +20,13 @@
 #include <terrane/cli/reports/improve_report.hpp>
 #include <terrane/cli/reports/pair_report.hpp>
 #include <terrane/cli/reports/tetrahedra_report.hpp>
+#include <terrane/cli/session/journal.hpp>
 #include <terrane/cli/stages/block_certificate.hpp>
 #include <terrane/cli/stages/blocks.hpp>
 #include <terrane/cli/stages/certificate_output.hpp>
+#include <terrane/cli/stages/kept_stages.hpp>
 #include <terrane/cli/stages/layer_stage.hpp>
+#include <terrane/cli/stages/outputs.hpp>
 #include <terrane/cli/stages/plausibility.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/atomic/atomic_folder.hpp>
@@ -43,6 +45,7 @@ struct BuildCommand {
     std::optional<unsigned> threads; ///< none: the number that the project names
     PairCheckOptions check{PairCheck::bounds, SIZE_MAX};
     bool strict = false; ///< warnings about the inputs are errors
+    bool resume = false; ///< stages that take long are kept until the run ends well
 };
 
 constexpr const char* blocks_certificate = "certificate_blocks.json";
@@ -82,27 +85,8 @@ explains them. A small one:
 
 Examples:
   terrane build project.json
-  terrane build project.json -o another_run --threads 4)";
-
-/// Prints messages on the terminal and keeps them, with times, for log.txt.
-class Journal {
-public:
-    void say(std::string_view text) {
-        print(stdout, text);
-        log_ += text;
-    }
-    /// Writes to the log only.
-    void note(std::string_view text) { log_ += fmt::format("[{:9.2f} s] {}\n", seconds(), text); }
-
-    /// Returns the seconds since the journal was made.
-    double seconds() { return seconds_ += watch_.lap(); }
-    [[nodiscard]] const std::string& log() const { return log_; }
-
-private:
-    Stopwatch watch_;
-    double seconds_ = 0;
-    std::string log_;
-};
+  terrane build project.json -o another_run --threads 4
+  terrane build project.json --resume)";
 
 /// Runs one project, from reading its file to publishing the folder of results.
 class Build {
@@ -110,9 +94,24 @@ public:
     Build(const Project& project, const BuildCommand& command, Session& session) :
         project_(project), source_(command.project),
         folder_(command.folder.empty() ? project.folder : fs::path(command.folder)),
-        strict_(command.strict), session_(session) {}
+        strict_(command.strict), session_(session) {
+        if (command.resume && !folder_.empty()) kept_.emplace(folder_);
+    }
 
     Result<ExitStatus> operator()() {
+        auto status = run();
+        if (!kept_) return status;
+        if (status && *status == ExitStatus::done)
+            when_written([kept = *kept_] { kept.remove(); });
+        else if (kept_->any())
+            print(stderr, fmt::format("terrane: finished stages are kept in {}; --resume goes on "
+                                      "from there\n",
+                                      kept_->folder().string()));
+        return status;
+    }
+
+private:
+    Result<ExitStatus> run() {
         journal_.note(fmt::format("terrane {}, {}", TERRANE_VERSION, source_));
         if (auto done = check(); !done) return done.error();
         if (auto done = read(); !done) return done.error();
@@ -125,7 +124,6 @@ public:
         return ExitStatus::done;
     }
 
-private:
     static ExitStatus refuse(const std::string& reason) {
         print(stderr, reason);
         return ExitStatus::negative;
@@ -172,6 +170,7 @@ private:
         inputs_.strict = strict_;
         timer.stop();
         statistics_ = statistics_of(inputs_, session_.times());
+        statistics_["resumed"] = Json::array();
         add_constants(statistics_, "plausibility", plausibility_constants());
         const PlausibilityContext use{read_.build.boundary, wants_blocks()};
         return report_doubts(find_doubts(read_.build.surfaces, use), inputs_.labels, inputs_.strict,
@@ -192,17 +191,21 @@ private:
     Status make() {
         const BuildObserver observer{
             .begins = [&](BuildStage stage) { begins(stage); },
-            .ended = [&](BuildStage stage, const Built& built) { ended(stage, built); }};
-        auto built = terrane::build(project_, std::move(read_.build), session_.run(), observer);
+            .ended = [&](BuildStage stage, const Built& built) { ended(stage, built); },
+            .taken = [&](BuildStage stage) { taken(stage); }};
+        auto built = terrane::build(project_, std::move(read_.build), session_.run(), observer,
+                                    kept_ ? kept_->store() : StageStore{});
         session_.end_stage();
         if (!built) return built.error();
         built_ = std::move(*built);
         return Done{};
     }
 
-    void begins(BuildStage stage) {
-        static constexpr std::array names{"mend", "arrange", "improve", "blocks", "tetrahedra"};
-        begin_stage(names.at(static_cast<std::size_t>(stage)), Phase::computing);
+    void begins(BuildStage stage) { begin_stage(name_of(stage), Phase::computing); }
+
+    void taken(BuildStage stage) {
+        journal_.say(fmt::format("taken from {}\n", kept_->folder().string()));
+        statistics_["resumed"].push_back(name_of(stage));
     }
 
     /// Counts the stages of the project: reading, those that are wanted, and writing.
@@ -213,7 +216,7 @@ private:
     }
 
     /// Says which stage begins, in log.txt and on standard output at once.
-    void begin_stage(const char* name, Phase phase) {
+    void begin_stage(std::string_view name, Phase phase) {
         const auto text = fmt::format("stage {} of {}: {}", ++stages_begun_, stage_count(), name);
         journal_.note(text);
         print(stdout, text + "\n");
@@ -306,14 +309,8 @@ private:
         if (auto done = write_file(to / "log.txt", journal_.log() + said); !done) return done;
         auto published = folder.value().publish();
         session_.end_stage();
-        if (published) print(stdout, said);
+        if (published) when_written([said] { print(stdout, said); });
         return published;
-    }
-
-    /// Returns a name such as "surfaces.obj". MSH 2.2 gets "surfaces_22.msh", so that both versions
-    /// can be written.
-    static std::string file_name(const std::string& start, const std::string& format) {
-        return start + (format == "msh22" ? "_22.msh" : "." + format);
     }
 
     Status write_surfaces(const fs::path& to) {
@@ -435,16 +432,6 @@ private:
         return write_file(to / name, *text);
     }
 
-    /// Returns the files with these formats in the folder.
-    static std::vector<Output> outputs_in(const fs::path& to, const std::string& start,
-                                          const std::vector<std::string>& formats) {
-        std::vector<Output> outputs;
-        for (const std::string& format : formats)
-            outputs.push_back(
-                {(to / file_name(start, format)).string(), format_named(format).value()});
-        return outputs;
-    }
-
     const Project& project_;
     std::string source_; ///< the project file
     fs::path folder_;
@@ -459,6 +446,7 @@ private:
     std::optional<LeakAdvice> leaks_; ///< none: not judged
     std::string refused_;             ///< why nothing is written; empty: all is well
     Built built_;
+    std::optional<KeptStages> kept_;   ///< none: stages are not kept
     std::vector<std::string> written_; ///< names in the folder
 };
 
@@ -489,6 +477,9 @@ Command build_command(CLI::App& program) {
         ->type_name("N");
     add_check(*app, command->check);
     app->add_flag("--strict", command->strict, "Stop with status 2 at warnings about the inputs");
+    app->add_flag("--resume", command->resume,
+                  "Keep finished stages in DIR.stages until the run ends well, and take those that "
+                  "are there");
     app->footer(build_footer);
     return {app, [command] {
                 const auto status = build(*command);

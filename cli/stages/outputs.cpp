@@ -66,9 +66,22 @@ Status write_outputs(const Mesh& mesh, bool clean, const FileOptions& files,
     for (const Output& output : outputs) {
         const auto written = write_output(mesh, output, options, session);
         if (!written) return written.error();
-        print(summary_stream(files), output.path == "-" ? "" : "wrote " + output.path + "\n");
+        say_written(summary_stream(files), output.path);
     }
     return Done{};
+}
+
+std::string file_name(const std::string& start, const std::string& format) {
+    return start + (format == "msh22" ? "_22.msh" : "." + format);
+}
+
+std::vector<Output> outputs_in(const std::filesystem::path& folder, const std::string& start,
+                               const std::vector<std::string>& formats) {
+    std::vector<Output> outputs;
+    for (const std::string& format : formats)
+        outputs.push_back(
+            {(folder / file_name(start, format)).string(), format_named(format).value()});
+    return outputs;
 }
 
 } // namespace terrane::cli

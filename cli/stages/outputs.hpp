@@ -3,6 +3,8 @@
 // Output of a conforming mesh of surfaces, shared by the commands that write one.
 #pragma once
 
+#include <filesystem>
+#include <string>
 #include <vector>
 
 #include <terrane/algorithms/mesh/mesh.hpp>
@@ -20,5 +22,13 @@ Result<bool> stl_is_conforming(const Mesh& mesh, const FileOptions& files,
 /// files in TetGen's formats get no region points.
 Status write_outputs(const Mesh& mesh, bool clean, const FileOptions& files,
                      const std::vector<Output>& outputs, Session& session);
+
+/// Returns a name such as "surfaces.obj". MSH 2.2 gets "surfaces_22.msh", so that both versions
+/// can be written.
+std::string file_name(const std::string& start, const std::string& format);
+
+/// Returns the files "START.obj" and so on of these formats in a folder.
+std::vector<Output> outputs_in(const std::filesystem::path& folder, const std::string& start,
+                               const std::vector<std::string>& formats);
 
 } // namespace terrane::cli

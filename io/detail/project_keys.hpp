@@ -9,11 +9,10 @@
 
 namespace terrane::detail {
 
-inline constexpr std::array<std::string_view, 14> project_level{
-    "format",     "folder", "threads",    "surfaces",
-    "column",     "fill",   "layers",     "volume_of_interest",
-    "extend",     "seal",   "min_volume", "improve",
-    "tetrahedra", "outputs"};
+inline constexpr std::array<std::string_view, 15> project_level{
+    "format", "folder",     "threads", "surfaces",           "unit",
+    "column", "fill",       "layers",  "volume_of_interest", "extend",
+    "seal",   "min_volume", "improve", "tetrahedra",         "outputs"};
 inline constexpr std::array<std::string_view, 5> surfaces_level{"file", "objects", "name", "role",
                                                                 "depth"};
 inline constexpr std::array<std::string_view, 8> fill_level{
@@ -27,8 +26,8 @@ inline constexpr std::array<std::string_view, 2> box_level{"low", "high"};
 inline constexpr std::array<std::string_view, 6> rotated_level{"centre",  "corner", "lengths",
                                                                "azimuth", "plunge", "roll"};
 inline constexpr std::array<std::string_view, 2> polygon_level{"corners", "between"};
-inline constexpr std::array<std::string_view, 3> improve_level{"edge_length", "max_deviation",
-                                                               "edge_length_of"};
+inline constexpr std::array<std::string_view, 5> improve_level{
+    "edge_length", "max_deviation", "edge_length_of", "layers_in_gaps", "smallest"};
 inline constexpr std::array<std::string_view, 10> tetrahedra_level{
     "edge_length", "max_volume", "quality", "split_surfaces", "size_of",
     "size_in",     "split",      "outside", "time_limit",     "mesher"};
@@ -36,6 +35,7 @@ inline constexpr std::array<std::string_view, 3> meshers{"auto", "tetgen", "gmsh
 inline constexpr std::array<std::string_view, 4> outputs_level{"surfaces", "tetrahedra", "blocks",
                                                                "certificate"};
 
+inline constexpr std::array<std::string_view, 5> units{"m", "km", "cm", "ft", "ftUS"};
 inline constexpr std::array<std::string_view, 3> roles{"horizon", "fault", "boundary"};
 inline constexpr std::array<std::string_view, 2> fill_methods{"kriging", "rbf"};
 inline constexpr std::array<std::string_view, 6> variogram_models{

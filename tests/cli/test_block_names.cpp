@@ -8,25 +8,14 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include "boxed_project.hpp"
 #include "program.hpp"
 
 using namespace program_test;
 
 namespace {
 
-constexpr auto two_layers = R"(o base
-v -1 -1 3
-v 9 -1 3
-v 9 9 3
-v -1 9 3
-f 1 2 3 4
-o top
-v -1 -1 5
-v 9 -1 5
-v 9 9 5
-v -1 9 5
-f 5 6 7 8
-o F1
+const std::string two_layers = std::string(base_and_top) + R"(o F1
 v 3 -1 -1
 v 3 9 -1
 v 3 9 9
@@ -169,6 +158,33 @@ TEST_CASE("cli: volumes, areas and lengths have the unit that the files state", 
     CHECK(contains(feet, "areas of the regions, ft2\n"));
     CHECK(contains(folder.run("volume " + in + " -o none" + layers_in_box).out,
                    "volume 512 in all\n"));
+}
+
+TEST_CASE("cli: improve states units, and a project converts to its own", "[cli][names]") {
+    const Folder folder;
+    const auto in = folder.input("layers.obj", two_layers);
+    REQUIRE(folder.run("convert " + in + " all.ts").status == 0);
+    REQUIRE(folder.shell("sed 's/^ZPOSITIVE/AXIS_UNIT \"km\" \"km\" \"km\"\\n&/' all.ts > in/km.ts")
+                .status == 0);
+    const auto improved =
+        folder.run("improve in/km.ts -o km.vtp --edge-length 2 --box 0,0,0,8,8,8").out;
+    CHECK(contains(improved, "edges min, mean, max, km\n"));
+    CHECK(contains(improved, "volumes: 6 blocks, 512 km3 before, 512 km3 after"));
+    CHECK(contains(improved, " is shown to be within 0.1 km of what it was, measured "));
+    auto json = Json::parse(R"({"format": "terrane-project 1", "unit": "m",
+        "surfaces": [{"file": "km.ts"}],
+        "volume_of_interest": {"box": {"low": [0, 0, 0], "high": [8000, 8000, 8000]}},
+        "improve": {"edge_length": 2000}, "outputs": {"surfaces": ["obj"], "blocks": "obj"}})");
+    const auto r = folder.run("build " + folder.input("p.json", json.dump()) + " -o out");
+    INFO(r.err);
+    REQUIRE(r.status == 0);
+    CHECK(contains(r.out, "6 closed blocks, volume 512 km3 in all\n"));
+    CHECK(contains(r.out, " is shown to be within 100 m of what it was"));
+    CHECK(Json::parse(folder.read("out/model/model.json"))["blocks"].size() == 7);
+    json["unit"] = "yard";
+    const auto wrong = folder.run("build " + folder.input("p.json", json.dump()) + " -o out2");
+    CHECK(wrong.status == 2);
+    CHECK(contains(wrong.err, "in/p.json: unit: "));
 }
 
 TEST_CASE("cli: volume lists the leaks that separate blocks before the others", "[cli][names]") {

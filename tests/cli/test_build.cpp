@@ -10,67 +10,10 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include "boxed_project.hpp"
 #include "program.hpp"
 
 using namespace program_test;
-
-namespace {
-
-/// Three horizons that reach beyond the box, and a fault that ends inside it.
-constexpr auto layers = R"(o base
-v -1 -1 3
-v 9 -1 3
-v 9 9 3
-v -1 9 3
-f 1 2 3 4
-o top
-v -1 -1 5
-v 9 -1 5
-v 9 9 5
-v -1 9 5
-f 5 6 7 8
-o spare
-v -1 -1 6
-v 9 -1 6
-v 9 9 6
-f 9 10 11
-)";
-constexpr auto fault = R"(v 4 -1 -1
-v 4 4 -1
-v 4 4 9
-v 4 -1 9
-f 1 2 3 4
-)";
-
-/// Returns a project of the files in in/, with a box as volume of interest.
-Json boxed_project() {
-    return Json::parse(R"({
-        "format": "terrane-project 1",
-        "surfaces": [{"file": "layers.obj", "objects": ["base", "top"], "role": "horizon"},
-                     {"file": "fault.obj", "name": "F1", "role": "fault"}],
-        "volume_of_interest": {"box": {"low": [0, 0, 0], "high": [8, 8, 8]}},
-        "outputs": {"surfaces": ["vtp", "msh22"], "blocks": "obj"}})");
-}
-
-struct Case {
-    Folder folder;
-
-    Case() {
-        folder.input("layers.obj", layers);
-        folder.input("fault.obj", fault);
-    }
-    [[nodiscard]] Outcome build(const Json& json, const std::string& arguments = "-o out") const {
-        return folder.run("build " + folder.input("p.json", json.dump(2)) + " " + arguments);
-    }
-    /// Lists a folder, one name a line.
-    [[nodiscard]] std::string files(const std::string& in) const {
-        const auto listed = folder.shell("LC_ALL=C ls " + in);
-        REQUIRE(listed.status == 0);
-        return listed.out;
-    }
-};
-
-} // namespace
 
 TEST_CASE("cli: build makes blocks in a box, in one folder", "[cli]") {
     const Case c;
@@ -256,7 +199,7 @@ TEST_CASE("cli: build: what is wrong is named by its key, and nothing is written
     json["outputs"]["certificate"] = true;
     refused(json, "in/p.json: surfaces[0].objects: a certificate is about whole files");
     json["improve"]["edge_length"] = 0.5;
-    refused(json, "outputs.certificate: must be false with fill, layers, improve or depth");
+    refused(json, "outputs.certificate: must be false with unit, fill, layers, improve or depth");
     refused(boxed_project(), "not empty", 2, "-o in");
     CHECK(c.folder.run("build in/nothing.json -o out").status == 2);
 }

@@ -31,7 +31,7 @@ json schema() {
 /// Returns a document with every key except those of the other kinds of volumes.
 json full() {
     return json::parse(R"({
-        "format": "terrane-project 1", "folder": "run", "threads": 2,
+        "format": "terrane-project 1", "folder": "run", "threads": 2, "unit": "m",
         "surfaces": [{"file": "a.ts", "objects": ["top", "base"], "role": "horizon"},
                      {"file": "/b.ts", "objects": ["x"], "name": "F1", "role": "fault", "depth": true}],
         "column": [{"unit": "New", "surface": "top", "age": 20.5, "contact": "erosive"},
@@ -44,7 +44,8 @@ json full() {
                              {"surface": "base", "hardness": -2}], "min_thickness": 0.5},
         "volume_of_interest": {"box": {"low": [0, 0, -1.5], "high": [1, 2, 3]}},
         "extend": 100, "seal": 0.25, "min_volume": 2.5,
-        "improve": {"edge_length": 4, "max_deviation": 0.125, "edge_length_of": {"top": 3}},
+        "improve": {"edge_length": 4, "max_deviation": 0.125, "edge_length_of": {"top": 3},
+                    "layers_in_gaps": 0.5, "smallest": 0.25},
         "tetrahedra": {"edge_length": 2, "max_volume": 3.5, "quality": 1.4, "split_surfaces": true,
                        "size_of": {"F1": 0.5, "top": 1}, "size_in": {"2": 0.25, "top/base": 1},
                        "split": ["fault", "top"], "outside": true, "time_limit": 60, "mesher": "gmsh"},
@@ -66,7 +67,7 @@ std::vector<json> samples() {
         all.back()["volume_of_interest"] = json::parse(volume);
     }
     all.push_back(full());
-    for (const char* key : {"improve", "fill", "layers", "min_volume"}) all.back().erase(key);
+    for (const char* key : {"unit", "improve", "fill", "layers", "min_volume"}) all.back().erase(key);
     all.back()["outputs"]["certificate"] = true;
     all.back()["surfaces"][1]["depth"] = false;
     all.push_back(json::parse(R"({"format": "terrane-project 1", "surfaces": [{"file": "a"}],
@@ -341,7 +342,7 @@ TEST_CASE("project: schema and parser give the same verdict on every change", "[
             (accepted ? good : bad)++;
             // These rules go beyond the schema: a certificate is about whole surfaces as they were
             // read, and about blocks in two formats; only the lowest unit can be without a base.
-            for (const char* beyond : {"p.json: outputs.certificate: must be false with fill",
+            for (const char* beyond : {"p.json: outputs.certificate: must be false with unit",
                                        "p.json: outputs.certificate: is about blocks as",
                                        "p.json: column[0].surface: only the lowest unit"})
                 if (said.starts_with(beyond)) return;

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Results of stages as bytes, and the keys under which they are kept. A key is a hash of all that
+// decides the result. Bytes are not trusted: what they hold is proven again, or checked as if a
+// mesher had just made it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <terrane/algorithms/check/conforming.hpp>
+#include <terrane/algorithms/core/result.hpp>
+#include <terrane/algorithms/core/run.hpp>
+#include <terrane/algorithms/model/model.hpp>
+#include <terrane/algorithms/quality/improve_measured.hpp>
+#include <terrane/algorithms/tetgen/fill_blocks.hpp>
+
+namespace terrane::project::detail {
+
+/// Returns the key of what improve_and_measure makes of a mesh.
+std::string key_of(const ConformingMesh& mesh, const ImproveOptions& options);
+
+/// Returns the bytes of an improved mesh.
+std::string bytes_of(const ImprovedAndMeasured& improved);
+
+/// Takes an improved mesh from bytes and proves that it is conforming. None if the bytes are not
+/// those of an improvement of this mesh, or the proof fails. Errors: interrupted, out_of_memory.
+Result<std::optional<ImprovedAndMeasured>> improved_from(std::string_view bytes,
+                                                         const ConformingMesh& before,
+                                                         const ImproveOptions& options,
+                                                         const Run& run);
+
+/// Returns the key of the tetrahedra that are made of a model, before nodes are split.
+std::string key_of(const Model& model, const TetrahedraRequest& request);
+
+/// Returns the bytes of tetrahedra.
+std::string bytes_of(const TetrahedralMesh& mesh);
+
+/// Takes tetrahedra from bytes; none if the bytes are none. Nothing is checked but lengths of lists.
+std::optional<TetrahedralMesh> tetrahedra_from(std::string_view bytes);
+
+} // namespace terrane::project::detail

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Keeps results of finished stages of `build --resume` in a folder beside the folder of results,
+// until a run has ended well.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <terrane/algorithms/project/build.hpp>
+
+namespace terrane::cli {
+
+/// Returns the name of a stage, as `build` prints it.
+std::string_view name_of(BuildStage stage);
+
+/// The folder of kept results. It is made when the first stage is kept. Each file has a line with
+/// the version of the program, the key of the result and the hash of its bytes, then these bytes.
+class KeptStages {
+public:
+    /// Keeps them beside the folder `results`, in "RESULTS.stages".
+    explicit KeptStages(const std::filesystem::path& results);
+
+    /// Returns callbacks for build(); this object must outlive them.
+    [[nodiscard]] StageStore store();
+    [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
+    /// Tells whether a result is there.
+    [[nodiscard]] bool any() const;
+    /// Removes the results, and the folder unless somebody put other files there.
+    void remove() const;
+
+private:
+    [[nodiscard]] std::filesystem::path file_of(BuildStage stage) const;
+    [[nodiscard]] std::optional<std::string> find(BuildStage stage, const std::string& key) const;
+    void keep(BuildStage stage, const std::string& key, const std::string& bytes) const;
+
+    std::filesystem::path folder_;
+};
+
+} // namespace terrane::cli

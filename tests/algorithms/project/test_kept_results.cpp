@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Tests that stages of build() are taken from what an earlier call kept, and that nothing of what
+// was kept is trusted.
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "support/work_count.hpp"
+#include <terrane/algorithms/check/conforming.hpp>
+#include <terrane/algorithms/project/build.hpp>
+#include <terrane/algorithms/project/detail/kept_results.hpp>
+
+using namespace terrane;
+using namespace test_support;
+using project::detail::bytes_of;
+using project::detail::improved_from;
+using project::detail::tetrahedra_from;
+
+namespace {
+
+/// Keeps results in memory.
+struct Memory {
+    std::map<std::pair<BuildStage, std::string>, std::string> kept{};
+    std::vector<BuildStage> taken{};
+
+    [[nodiscard]] StageStore store() {
+        return {
+            .find = [this](BuildStage stage, const std::string& key) -> std::optional<std::string> {
+                const auto at = kept.find({stage, key});
+                if (at == kept.end()) return std::nullopt;
+                return at->second;
+            },
+            .keep =
+                [this](BuildStage stage, const std::string& key, const std::string& bytes) {
+                    kept[{stage, key}] = bytes;
+                }};
+    }
+    [[nodiscard]] Result<Built> build(const Project& project) {
+        taken.clear();
+        const BuildObserver observer{
+            .begins = {}, .ended = {}, .taken = [this](BuildStage s) { taken.push_back(s); }};
+        return terrane::build(project, {.surfaces = sectors()}, {}, observer, store());
+    }
+};
+
+Project improving_project() {
+    Project project;
+    project.improve = ProjectImprove{.edge_length = 2, .max_deviation = {}, .edge_length_of = {}};
+#ifdef TERRANE_HAS_TETGEN
+    project.outputs.tetrahedra = {"vtu"};
+#endif
+    return project;
+}
+
+bool is_equal(const Mesh& a, const Mesh& b) {
+    return a.surfaces == b.surfaces && a.vertices == b.vertices && a.triangles == b.triangles &&
+           a.surfaces_of == b.surfaces_of && a.regions_of == b.regions_of &&
+           a.intersection_edges == b.intersection_edges;
+}
+
+} // namespace
+
+TEST_CASE("kept results: a second build takes them and is equal to the first", "[kept]") {
+    Memory memory;
+    const Project project = improving_project();
+    const auto first = memory.build(project);
+    REQUIRE(first);
+    CHECK(memory.taken.empty());
+    const std::size_t stages = project.outputs.tetrahedra.empty() ? 1 : 2;
+    CHECK(memory.kept.size() == stages);
+    const auto second = memory.build(project);
+    REQUIRE(second);
+    CHECK(memory.taken.size() == stages);
+    CHECK(is_equal(*second->model->mesh, *first->model->mesh));
+    CHECK(second->model->exact_volumes == first->model->exact_volumes);
+    CHECK(second->improved->improved.near_of == first->improved->improved.near_of);
+    CHECK(bytes_of(*second->improved) == bytes_of(*first->improved));
+    CHECK(second->improved->is_near_back() == first->improved->is_near_back());
+    if (!first->filled) return;
+    CHECK(second->filled->tetrahedra.tetrahedra == first->filled->tetrahedra.tetrahedra);
+    CHECK(second->filled->tetrahedra.region_of == first->filled->tetrahedra.region_of);
+    CHECK(second->filled->block_names == first->filled->block_names);
+}
+
+TEST_CASE("kept results: a taken mesh is proven once more", "[kept]") {
+    Memory memory;
+    const Project project = improving_project();
+    REQUIRE(memory.build(project));
+    const WorkCount count;
+    REQUIRE(memory.build(project));
+    CHECK(WorkCount::meshes_of("prove conforming") == 2);
+}
+
+TEST_CASE("kept results: other options have another key", "[kept]") {
+    Memory memory;
+    Project project = improving_project();
+    REQUIRE(memory.build(project));
+    SECTION("edge length") {
+        project.improve->edge_length = 2.5;
+    }
+    SECTION("of a surface") {
+        project.improve->edge_length_of = {{"first", 3}};
+    }
+    SECTION("deviation") {
+        project.improve->max_deviation = 0.01;
+    }
+    REQUIRE(memory.build(project));
+    CHECK(std::count(memory.taken.begin(), memory.taken.end(), BuildStage::improve) == 0);
+}
+
+TEST_CASE("kept results: changed bytes give a conforming mesh of the same surfaces, or none",
+          "[kept]") {
+    Project project = improving_project();
+    project.outputs.tetrahedra.clear();
+    const auto built = build(project, {.surfaces = sectors()});
+    REQUIRE(built);
+    const ConformingMesh& before = *built->arranged.rounded.conforming;
+    const std::string good = bytes_of(*built->improved);
+    REQUIRE(*improved_from(good, before, {}, {}));
+    std::mt19937 random(5);
+    std::size_t refused = 0;
+    for (int k = 0; k < 400; ++k) {
+        std::string bytes = good;
+        const std::size_t at = random() % bytes.size();
+        if (k % 4 == 0)
+            bytes.resize(at);
+        else if (k % 4 == 1)
+            bytes.insert(at, 1, static_cast<char>(random()));
+        else
+            bytes[at] = static_cast<char>(random());
+        const auto kept = improved_from(bytes, before, {}, {});
+        REQUIRE(kept);
+        if (!*kept) {
+            ++refused;
+            continue;
+        }
+        const Improved& improved = (*kept)->improved;
+        CHECK(conforming(improved.mesh->vertices, improved.mesh->triangles,
+                         std::vector<std::uint32_t>(improved.mesh->triangles.size())));
+        CHECK(improved.mesh->surfaces == before->surfaces);
+        CHECK(make_model(built->arranged.exact, before, improved)); // indices are in range
+    }
+    CHECK(refused >= 200); // all that are shorter or longer
+}
+
+#ifdef TERRANE_HAS_TETGEN
+
+TEST_CASE("kept results: changed tetrahedra are made again, not believed", "[kept]") {
+    Memory memory;
+    const Project project = improving_project();
+    const auto first = memory.build(project);
+    REQUIRE(first);
+    std::mt19937 random(6);
+    std::size_t made_again = 0;
+    for (int k = 0; k < 40; ++k) {
+        Memory forged = memory;
+        for (auto& [key, bytes] : forged.kept) {
+            if (key.first != BuildStage::tetrahedra) continue;
+            auto mesh = tetrahedra_from(bytes);
+            REQUIRE(mesh);
+            auto& cell = mesh->tetrahedra[random() % mesh->tetrahedra.size()];
+            if (k % 3 == 0) mesh->vertices.back().x += 0.25;
+            if (k % 3 == 1) std::swap(cell[0], cell[1]);
+            if (k % 3 == 2) cell[k % 4] = static_cast<std::uint32_t>(random());
+            bytes = bytes_of(*mesh);
+        }
+        const auto again = forged.build(project);
+        REQUIRE(again);
+        REQUIRE(again->filled->report.violations.empty());
+        if (forged.taken.size() == 1) ++made_again;
+    }
+    CHECK(made_again >= 26); // a moved vertex may be inside a block, and nothing wrong
+}
+
+#endif
