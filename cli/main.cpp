@@ -34,6 +34,7 @@ constexpr auto licence =
 
 /// Runs a command. Its files and folders appear together at the end, unless it failed.
 ExitStatus run_and_publish(const Command& command) {
+    if (const auto sound = check_values(*command.options); !sound) return fail(sound.error());
     if (const auto sound = check_file_options(*command.options); !sound) return fail(sound.error());
     FileSet files;
     const ExitStatus status = command.run();

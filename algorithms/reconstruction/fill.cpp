@@ -8,6 +8,7 @@
 
 #include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
+#include <terrane/algorithms/reconstruction/holes/expected_points.hpp>
 #include <terrane/algorithms/reconstruction/rbf/rbf_join.hpp>
 
 namespace terrane {
@@ -141,6 +142,14 @@ std::vector<bool> wanted_holes(const FillWork& work) {
 Status fill_holes(std::span<const Surface> surfaces, const std::vector<bool>& chosen,
                   FillWork& work, const Run& run) {
     const StandardArithmetic guard;
+    for (std::size_t i = 0; i < work.holes.size(); ++i) { // before any is filled
+        const NumberedHole& hole = work.holes[i];
+        if (!chosen[i]) continue;
+        if (auto sound = check_edge_length(loop_of(work, hole),
+                                           work.surfaces[hole.task].task.options.mesh_size);
+            !sound)
+            return sound;
+    }
     for (std::size_t i = 0; i < work.holes.size(); ++i) {
         if (!chosen[i]) continue;
         NumberedHole& hole = work.holes[i];

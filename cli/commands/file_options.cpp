@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -50,7 +51,41 @@ bool are_same(const fs::path& a, const fs::path& b) {
     return !failed && first == second;
 }
 
+/// Tells whether a word means "not a number" or infinity, which no option takes.
+bool is_no_number(std::string word) {
+    std::transform(word.begin(), word.end(), word.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (!word.empty() && (word[0] == '-' || word[0] == '+')) word.erase(0, 1);
+    return word == "nan" || word == "inf" || word == "infinity" || word.starts_with("nan(");
+}
+
+/// Tells whether the value of an option is text that people choose: a name, or a file.
+bool is_text(const CLI::Option& option) {
+    const std::string type = option.get_type_name();
+    return names_file(option) || type.find("NAME") != std::string::npos || type == "FORMAT" ||
+           type == "PROGRAM" || type == "UNIT";
+}
+
 } // namespace
+
+Status check_values(const CLI::App& command) {
+    for (const CLI::Option* option : command.get_options()) {
+        const std::string name =
+            option->get_lnames().empty() ? option->get_name(true) : "--" + option->get_lnames()[0];
+        for (const std::string& value : option->results()) {
+            if (value.empty()) return Error{ErrorCode::bad_option, "the value is empty", name};
+            if (is_text(*option)) continue;
+            for (std::size_t at = 0; at < value.size();) {
+                const std::size_t end = std::min(value.find_first_of(",; \t", at), value.size());
+                if (is_no_number(value.substr(at, end - at)))
+                    return Error{ErrorCode::bad_option, "needs a finite number, not " + value,
+                                 name};
+                at = end + 1;
+            }
+        }
+    }
+    return Done{};
+}
 
 Status check_file_options(const CLI::App& command) {
     std::vector<NamedFile> inputs, outputs;

@@ -11,4 +11,8 @@ namespace terrane::cli {
 /// output and devices may be given several times. Errors: bad_option with the option.
 Status check_file_options(const CLI::App& command);
 
+/// Refuses values of options that are no number where a number is needed: nan, inf, or nothing.
+/// Errors: bad_option with the option.
+Status check_values(const CLI::App& command);
+
 } // namespace terrane::cli

@@ -126,3 +126,39 @@ TEST_CASE("cli: a file that is given twice is refused before any work", "[cli][o
     CHECK(folder.run("arrange " + in + " -o /dev/null --output-format obj --stats /dev/null")
               .status != 2);
 }
+
+TEST_CASE("cli: values that are no finite numbers are refused with their option",
+          "[cli][outputs]") {
+    const Folder folder;
+    const auto in = folder.input(model, crossing);
+    for (const std::string& option : std::vector<std::string>{
+             "improve --crease-angle nan", "improve --curve-angle inf", "improve --edge-length NaN",
+             "improve --max-volume-change -Infinity", "volume --extend nan", "volume --seal inf",
+             "volume --box 0,0,0,1,1,nan", "tetrahedralize --max-volume nan",
+             "tetrahedralize --time-limit inf", "volume --seal ''", "improve --edge-length ''",
+             "arrange --stats ''"}) {
+        const auto space = option.find(' ');
+        const auto r = folder.run(option.substr(0, space) + " " + in + " -o out.obj " +
+                                  option.substr(space + 1));
+        INFO(option << ": " << r.err);
+        CHECK(r.status == 2);
+        const auto name = option.substr(space + 1, option.rfind(' ') - space - 1);
+        CHECK(contains(r.err, name));
+        CHECK(folder.left().empty());
+    }
+}
+
+TEST_CASE("cli: edges of a filling that ask for too many points are refused before work",
+          "[cli][outputs]") {
+    const Folder folder;
+    const auto in = folder.input("fold.obj", test_support::holed_fold_as_obj());
+    for (const std::string size : {"1e-300", "1e-12", "0.001"})
+        for (const std::string method : {"kriging", "rbf"}) {
+            const auto r = folder.shell("timeout 20 $T fill " + in + " -o o.obj --mesh-size " +
+                                        size + " --method " + method);
+            INFO(r.err);
+            CHECK(r.status == 2);
+            CHECK(contains(r.err, "points in a hole, more than 1e+06"));
+            CHECK(folder.left().empty());
+        }
+}

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <terrane/algorithms/core/standard_arithmetic.hpp>
+#include <terrane/algorithms/reconstruction/holes/expected_points.hpp>
 #include <terrane/algorithms/reconstruction/kriging/contrasts.hpp>
 #include <terrane/algorithms/reconstruction/kriging/detail/choice.hpp>
 #include <terrane/algorithms/reconstruction/kriging/detail/direction_doubt.hpp>
@@ -84,6 +85,7 @@ Result<Filling> fill_by_kriging(const Surface& surface, const BorderLoop& loop,
     const StandardArithmetic guard;
     if (options.rings < 1 || !(options.mesh_size >= 0) || !std::isfinite(options.mesh_size))
         return Error{ErrorCode::bad_option, "rings and mesh size must be positive", ""};
+    if (auto sound = check_edge_length(loop, options.mesh_size); !sound) return sound.error();
     const Error interrupted{ErrorCode::interrupted, "interrupted", ""};
     // 1. Collect the data and check that they are a graph.
     auto hole = FlatHole::of(surface, loop, options.loops, options.rings);

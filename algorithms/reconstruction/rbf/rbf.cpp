@@ -20,6 +20,7 @@
 #include <terrane/algorithms/mesh/edges.hpp>
 #include <terrane/algorithms/mesh/triangle_tree.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
+#include <terrane/algorithms/reconstruction/holes/expected_points.hpp>
 #include <terrane/algorithms/reconstruction/holes/flatness.hpp>
 #include <terrane/algorithms/reconstruction/kriging/flat_hole.hpp>
 #include <terrane/algorithms/reconstruction/rbf/detail/constants.hpp>
@@ -400,6 +401,7 @@ Result<Filling> fill_by_rbf(const Surface& surface, const BorderLoop& loop,
     const StandardArithmetic guard;
     report = {};
     if (const auto good = validate_options(options); !good) return good.error();
+    if (auto sound = check_edge_length(loop, options.size); !sound) return sound.error();
     return guarded("for the filling", "fill",
                    [&] { return fill_valid(surface, loop, options, report, run); });
 }
@@ -416,6 +418,7 @@ Result<Filling> fill_graph_by_rbf(const Surface& surface, const BorderLoop& loop
     const StandardArithmetic guard;
     report = {};
     if (const auto good = validate_options(options); !good) return good.error();
+    if (auto sound = check_edge_length(loop, options.size); !sound) return sound.error();
     return guarded("for the filling", "fill",
                    [&] { return fill_valid_graph(surface, loop, options, report, run); });
 }

@@ -32,6 +32,8 @@ struct HoleConstants {
     /// How often a default mesh size may be halved. Larger: finer fillings of sharp bends, more
     /// time.
     unsigned most_halvings = 2;
+    /// Points of a filling. An edge length that asks for more is refused.
+    double most_points = 1e6;
 };
 
 inline constexpr HoleConstants constants;
@@ -46,6 +48,7 @@ inline std::vector<NamedConstant> named_constants() {
         {"outer_share", constants.outer_share},
         {"rounding", constants.rounding},
         {"most_halvings", static_cast<double>(constants.most_halvings)},
+        {"most_points", constants.most_points},
     };
 }
 
