@@ -118,9 +118,13 @@ const Json* JsonReader::need(const Json& object, std::string_view key, const std
 }
 
 std::string JsonReader::text(const Json& value, const std::string& path) {
-    if (value.is_string() && !value.get_ref<const std::string&>().empty())
-        return value.get<std::string>();
-    fail(path, "must be a string, not empty");
+    if (!value.is_string() || value.get_ref<const std::string&>().empty()) {
+        fail(path, "must be a string, not empty");
+        return {};
+    }
+    auto text = value.get<std::string>();
+    if (text.find('\0') == std::string::npos) return text;
+    fail(path, "must not have the character U+0000, which no name of a file can have");
     return {};
 }
 

@@ -196,6 +196,12 @@ TEST_CASE("cli: build: what is wrong is named by its key, and nothing is written
     json["surfaces"][1]["file"] = "missing.obj";
     refused(json, "missing.obj");
     json = boxed_project();
+    json["surfaces"][1]["file"] = std::string("fault.obj\0x", 11);
+    refused(json, "surfaces[1].file: must not have the character U+0000");
+    json = boxed_project();
+    json["folder"] = std::string("a\0b", 3);
+    refused(json, "folder: must not have the character U+0000");
+    json = boxed_project();
     json["outputs"]["certificate"] = true;
     refused(json, "in/p.json: surfaces[0].objects: a certificate is about whole files");
     json["improve"]["edge_length"] = 0.5;
