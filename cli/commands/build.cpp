@@ -21,6 +21,7 @@
 #include <terrane/cli/reports/improve_report.hpp>
 #include <terrane/cli/reports/pair_report.hpp>
 #include <terrane/cli/reports/tetrahedra_report.hpp>
+#include <terrane/cli/session/journal.hpp>
 #include <terrane/cli/stages/block_certificate.hpp>
 #include <terrane/cli/stages/blocks.hpp>
 #include <terrane/cli/stages/certificate_output.hpp>
@@ -83,26 +84,6 @@ explains them. A small one:
 Examples:
   terrane build project.json
   terrane build project.json -o another_run --threads 4)";
-
-/// Prints messages on the terminal and keeps them, with times, for log.txt.
-class Journal {
-public:
-    void say(std::string_view text) {
-        print(stdout, text);
-        log_ += text;
-    }
-    /// Writes to the log only.
-    void note(std::string_view text) { log_ += fmt::format("[{:9.2f} s] {}\n", seconds(), text); }
-
-    /// Returns the seconds since the journal was made.
-    double seconds() { return seconds_ += watch_.lap(); }
-    [[nodiscard]] const std::string& log() const { return log_; }
-
-private:
-    Stopwatch watch_;
-    double seconds_ = 0;
-    std::string log_;
-};
 
 /// Runs one project, from reading its file to publishing the folder of results.
 class Build {
