@@ -36,7 +36,7 @@ enum class Format {
     medit,  ///< .mesh, written only
     poly,   ///< .poly, written only: TetGen, surfaces
     smesh,  ///< .smesh, written only: TetGen, surfaces
-    vtk,    ///< .vtk: legacy VTK, POLYDATA
+    vtk,    ///< .vtk: legacy VTK; written as POLYDATA
     irap,   ///< .irap .gri .fgr, read only: a grid, text or binary
     zmap,   ///< .zmap .zycor, read only: a grid
     cps3,   ///< .cps3 .cps, read only: a grid
