@@ -73,6 +73,7 @@
 #include <terrane/io/files.hpp>
 #include <terrane/io/gocad/gocad.hpp>
 #include <terrane/io/grids/grid.hpp>
+#include <terrane/io/gocad/gocad_model.hpp>
 #include <terrane/io/meshes/cell_array.hpp>
 #include <terrane/io/meshes/poly.hpp>
 #include <terrane/io/project.hpp>

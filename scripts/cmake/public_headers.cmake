@@ -75,6 +75,7 @@ set(terrane_headers
     io/files.hpp
     io/gocad/gocad.hpp
     io/grids/grid.hpp
+    io/gocad/gocad_model.hpp
     io/meshes/cell_array.hpp
     io/meshes/poly.hpp
     io/project.hpp
