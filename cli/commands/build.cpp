@@ -29,6 +29,7 @@
 #include <terrane/cli/stages/plausibility.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/atomic/atomic_folder.hpp>
+#include <terrane/io/gocad/gocad_model.hpp>
 #include <terrane/io/project.hpp>
 #include <terrane/io/project_inputs.hpp>
 
@@ -59,6 +60,7 @@ does. All results go to one new folder:
   surfaces.vtp, ...      the conforming mesh, in the formats that outputs.surfaces names
   tetrahedra.vtu, ...    likewise, outputs.tetrahedra
   model/                 blocks, interfaces and model.json, with outputs.blocks
+  model.ml               the model for GOCAD and RINGMesh, with outputs.gocad
   invented.csv           points that fill made up, with expected errors
   filled.svg             surfaces before and after it
   certificate.json, ...  for `terrane verify`, with outputs.certificate; certificate_blocks.json of
@@ -233,7 +235,8 @@ private:
     }
 
     [[nodiscard]] bool wants_blocks() const {
-        return !project_.outputs.blocks.empty() || !project_.outputs.tetrahedra.empty();
+        return !project_.outputs.blocks.empty() || !project_.outputs.tetrahedra.empty() ||
+               project_.outputs.gocad;
     }
 
     /// Warns about the blocks; with --strict nothing will be written.
@@ -270,7 +273,7 @@ private:
         const fs::path& to = folder.value().temporary();
         for (const auto step :
              {&Build::write_surfaces, &Build::write_tetrahedra_files, &Build::write_blocks,
-              &Build::write_invented, &Build::write_certificates}) {
+              &Build::write_gocad, &Build::write_invented, &Build::write_certificates}) {
             if (auto done = (this->*step)(to); !done) return done;
             if (session_.stopped()) return Error{ErrorCode::interrupted, "", ""};
         }
@@ -342,6 +345,14 @@ private:
         written_.emplace_back("model/");
         return write_model({*built_.model, built_.arranged.sealed, leaks_}, project_.outputs.blocks,
                            to / "model", session_);
+    }
+
+    Status write_gocad(const fs::path& to) {
+        if (!project_.outputs.gocad) return Done{};
+        const Model& model = *built_.model;
+        written_.emplace_back("model.ml");
+        return write_file(to / "model.ml", to_gocad_model(model.mesh, model.volumes,
+                                                          model.structure, "model", inputs_.unit));
     }
 
     Status write_invented(const fs::path& to) {

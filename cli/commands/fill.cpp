@@ -98,8 +98,7 @@ Status write_all(const FillCommand& command, const std::vector<Output>& outputs,
         if (output.format == Format::vtp) options.cells = cells;
         if (const auto written = write_output(mesh, output, options, session); !written)
             return written.error();
-        print(summary_stream(command.files),
-              output.path == "-" ? "" : "wrote " + output.path + "\n");
+        print(summary_stream(command.files), wrote(output));
     }
     if (!command.map.empty())
         if (auto written = write_file(command.map, map_of(work)); !written) return written;

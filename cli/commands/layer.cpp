@@ -115,7 +115,7 @@ Status write_all(const Mesh& mesh, const FileOptions& files, const std::vector<O
     for (const Output& output : outputs) {
         const auto written = write_output(mesh, output, options, session);
         if (!written) return written.error();
-        print(summary_stream(files), output.path == "-" ? "" : "wrote " + output.path + "\n");
+        print(summary_stream(files), wrote(output));
     }
     return Done{};
 }
