@@ -397,7 +397,23 @@ def other_programs():
     files["geojson"] = {"polygon": polygon,
                         "feature": '{"type": "FeatureCollection", "features": [{"type": "Feature", '
                                    '"geometry": ' + polygon + "}]}"}
+    files["shp"] = {"polygon": shapefile(5, [(0, 0), (0, 3.5), (4, 0), (0, 0)]),
+                    "heights": shapefile(15, [(0, 0), (0, 3.5), (4, 0), (0, 0)]),
+                    "lines": shapefile(3, [(0, 0), (4, 3.5)])}
     return files
+
+
+def shapefile(kind, corners):
+    """A .shp with one polygon or line, and perhaps heights and measures."""
+    xs, ys = zip(*corners)
+    box = struct.pack("<4d", min(xs), min(ys), max(xs), max(ys))
+    body = struct.pack("<i", kind) + box + struct.pack("<iii", 1, len(corners), 0)
+    body += b"".join(struct.pack("<2d", *c) for c in corners)
+    if kind == 15:
+        body += 2 * struct.pack(f"<{2 + len(corners)}d", *(2 + len(corners)) * [-1])
+    record = struct.pack(">ii", 1, len(body) // 2) + body
+    return (struct.pack(">7i", 9994, 0, 0, 0, 0, 0, (100 + len(record)) // 2) + struct.pack("<ii", 1000, kind) + box +
+            bytes(32) + record)
 
 
 def main():
