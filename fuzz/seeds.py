@@ -392,6 +392,7 @@ def other_programs():
     files["sticks"] = {"charisma": "".join(f"INLINE- {i} 60 {i} {y} {-2 * y - 1} F 1 {i}\n" for i in (1, 2, 4)
                                            for y in range(i + 1)),
                        "heading": "x;y;depth;fault;stick\n0;0;1;A;1\n0;1;2;A;1\n3;0;1;A;2\n0;0;1;B;1\n5;5;5;B;2\n5;6;6;B;2\n",
+                       "polygon": "0 0 0\n4 0 0\n4 0 -3\n2 0 -1\n0 0 -3\n0 0 0\n",
                        "breaks": "0 0 0\n0 0 -3\n999 999 999\n4 0 -3\n4 0 0\n999 999 999\nEOD\n"}
     polygon = '{"type": "Polygon", "coordinates": [[[0, 0], [4, 0], [4, 3.5], [0, 0]]]}'
     files["geojson"] = {"polygon": polygon,
