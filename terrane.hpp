@@ -65,6 +65,7 @@
 #include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
 #include <terrane/algorithms/volume_of_interest/extension.hpp>
 #include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
+#include <terrane/algorithms/volumes/point_location.hpp>
 #include <terrane/algorithms/volumes/region_points.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 #include <terrane/io/certificate.hpp>
@@ -72,6 +73,7 @@
 #include <terrane/io/exact_text.hpp>
 #include <terrane/io/files.hpp>
 #include <terrane/io/gocad/gocad.hpp>
+#include <terrane/io/gocad/gocad_model.hpp>
 #include <terrane/io/grids/grid.hpp>
 #include <terrane/io/meshes/cell_array.hpp>
 #include <terrane/io/meshes/poly.hpp>

@@ -142,7 +142,7 @@ void check_error(const Error& error) {
 
 /// Checks an outline, which is no surface. Lines with its corners are read as the same outline.
 void check_outline(std::string_view contents) {
-    const auto corners = read_outline(contents, "fuzz.geojson");
+    const auto corners = read_outline(contents, "fuzz." + std::string(format_name));
     if (!corners) return check_error(corners.error());
     std::string lines;
     for (const auto& [x, y] : *corners) {
@@ -160,7 +160,7 @@ void check_outline(std::string_view contents) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const std::string_view contents(reinterpret_cast<const char*>(data), size);
-    if (format_name == "geojson") {
+    if (format_name == "geojson" || format_name == "shp") {
         check_outline(contents);
         return 0;
     }

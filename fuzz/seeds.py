@@ -392,12 +392,29 @@ def other_programs():
     files["sticks"] = {"charisma": "".join(f"INLINE- {i} 60 {i} {y} {-2 * y - 1} F 1 {i}\n" for i in (1, 2, 4)
                                            for y in range(i + 1)),
                        "heading": "x;y;depth;fault;stick\n0;0;1;A;1\n0;1;2;A;1\n3;0;1;A;2\n0;0;1;B;1\n5;5;5;B;2\n5;6;6;B;2\n",
+                       "polygon": "0 0 0\n4 0 0\n4 0 -3\n2 0 -1\n0 0 -3\n0 0 0\n",
                        "breaks": "0 0 0\n0 0 -3\n999 999 999\n4 0 -3\n4 0 0\n999 999 999\nEOD\n"}
     polygon = '{"type": "Polygon", "coordinates": [[[0, 0], [4, 0], [4, 3.5], [0, 0]]]}'
     files["geojson"] = {"polygon": polygon,
                         "feature": '{"type": "FeatureCollection", "features": [{"type": "Feature", '
                                    '"geometry": ' + polygon + "}]}"}
+    files["shp"] = {"polygon": shapefile(5, [(0, 0), (0, 3.5), (4, 0), (0, 0)]),
+                    "heights": shapefile(15, [(0, 0), (0, 3.5), (4, 0), (0, 0)]),
+                    "lines": shapefile(3, [(0, 0), (4, 3.5)])}
     return files
+
+
+def shapefile(kind, corners):
+    """A .shp with one polygon or line, and perhaps heights and measures."""
+    xs, ys = zip(*corners)
+    box = struct.pack("<4d", min(xs), min(ys), max(xs), max(ys))
+    body = struct.pack("<i", kind) + box + struct.pack("<iii", 1, len(corners), 0)
+    body += b"".join(struct.pack("<2d", *c) for c in corners)
+    if kind == 15:
+        body += 2 * struct.pack(f"<{2 + len(corners)}d", *(2 + len(corners)) * [-1])
+    record = struct.pack(">ii", 1, len(body) // 2) + body
+    return (struct.pack(">7i", 9994, 0, 0, 0, 0, 0, (100 + len(record)) // 2) + struct.pack("<ii", 1000, kind) + box +
+            bytes(32) + record)
 
 
 def main():

@@ -7,6 +7,7 @@
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
+#include <terrane/io/gocad/gocad_curves.hpp>
 #include <terrane/io/grids/cps3.hpp>
 #include <terrane/io/grids/esri.hpp>
 #include <terrane/io/grids/grdecl.hpp>
@@ -54,7 +55,7 @@ constexpr std::array<std::pair<std::string_view, Format>, 38> names{{
     {"asc", Format::esri},      {"agr", Format::esri},      {"xyz", Format::xyz},
     {"csv", Format::xyz},       {"txt", Format::xyz},       {"dat", Format::xyz},
     {"poi", Format::xyz},       {"pol", Format::xyz},       {"vs", Format::vset},
-    {"pl", Format::vset},       {"vtk", Format::vtk},       {"dxf", Format::dxf},
+    {"pl", Format::pline},      {"vtk", Format::vtk},       {"dxf", Format::dxf},
     {"grdecl", Format::grdecl}, {"sticks", Format::sticks},
 }};
 
@@ -128,6 +129,7 @@ Result<std::vector<Surface>> parse_as_stated(std::string_view contents, std::str
     case Format::sticks:
         return read_sticks(contents, source, name, options);
     case Format::vset:
+    case Format::pline:
         return read_gocad_points(contents, source, name, options);
     default:
         break;
@@ -175,6 +177,10 @@ Result<std::string> contents_of(const Mesh& mesh, Format format, const WriteOpti
         return to_smesh(mesh, options.regions);
     case Format::vtp:
         return to_vtp(mesh, options.compress, options.cells, options.region_names);
+    case Format::vset:
+        return to_vset(mesh);
+    case Format::pline:
+        return to_plines(mesh);
     default:
         break;
     }
@@ -237,6 +243,10 @@ bool is_read(Format format) {
 
 bool holds_surfaces(Format format) {
     return format != Format::vtu && format < Format::irap;
+}
+
+bool holds_outlines(Format format) {
+    return format == Format::vset || format == Format::pline;
 }
 
 bool holds_tetrahedra(Format format) {

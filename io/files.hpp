@@ -36,13 +36,14 @@ enum class Format {
     medit,  ///< .mesh, written only
     poly,   ///< .poly, written only: TetGen, surfaces
     smesh,  ///< .smesh, written only: TetGen, surfaces
-    vtk,    ///< .vtk: legacy VTK, POLYDATA
+    vtk,    ///< .vtk: legacy VTK; written as POLYDATA
     irap,   ///< .irap .gri .fgr, read only: a grid, text or binary
     zmap,   ///< .zmap .zycor, read only: a grid
     cps3,   ///< .cps3 .cps, read only: a grid
     esri,   ///< .asc .agr, read only: a grid
     xyz,    ///< .xyz .csv .txt .dat .poi .pol, read only: points
-    vset,   ///< .vs .pl, read only: points of GOCAD's VSet and PLine
+    vset,   ///< .vs: points of GOCAD's VSet and PLine; written: the vertices of surfaces
+    pline,  ///< .pl: the same points; written: borders of surfaces and intersection curves
     dxf,    ///< .dxf, read only: 3DFACE
     grdecl, ///< .grdecl, read only: corner-point grids
     sticks, ///< .sticks, read only: fault sticks
@@ -55,6 +56,8 @@ bool is_read(Format format);
 bool holds_surfaces(Format format);
 /// Whether tetrahedra can be written in the format.
 bool holds_tetrahedra(Format format);
+/// Whether the vertices or lines of surfaces, but not their triangles, can be written in the format.
+bool holds_outlines(Format format);
 
 /// Returns the format for the extension of a file name, in any case; none if it is unknown.
 std::optional<Format> format_of(const std::filesystem::path& path);

@@ -300,6 +300,7 @@ private:
             o.blocks = in_.one_of(*v, path + ".blocks", surface_formats);
         if (const Json* v = in_.find(json, "certificate"))
             o.certificate = in_.truth(*v, path + ".certificate");
+        if (const Json* v = in_.find(json, "gocad")) o.gocad = in_.truth(*v, path + ".gocad");
         return o;
     }
 

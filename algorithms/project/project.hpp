@@ -114,6 +114,7 @@ struct ProjectOutputs {
         tetrahedra{};         ///< names for format_named; empty: no tetrahedra are made
     std::string blocks{};     ///< name for format_named; empty: none
     bool certificate = false; ///< whether to write one
+    bool gocad = false;       ///< whether to write the model with its regions for GOCAD
 };
 
 /// A project: what to read, what to do, what to write.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <Eigen/Dense>
 
@@ -31,9 +32,9 @@ Eigen::Matrix3d best_axes(std::span<const Point3> points, const Eigen::Vector3d&
     return axes;
 }
 
-/// Projects the points along the normal of the plane of least squares. Returns nothing if the
-/// normal is within 45 degrees of z.
-std::vector<Point3> flattened(std::span<const Point3> points) {
+/// Projects the points along the normal of the plane of least squares. Returns nothing if they are at
+/// one place, or, where only `tilted` planes are wanted, if the normal is within 45 degrees of z.
+std::vector<Point3> flattened(std::span<const Point3> points, bool tilted) {
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();
     double scale = 0;
     for (const Point3& p : points)
@@ -43,7 +44,7 @@ std::vector<Point3> flattened(std::span<const Point3> points) {
             std::max(scale, (Eigen::Vector3d(p.x, p.y, p.z) - centre).lpNorm<Eigen::Infinity>());
     if (!(scale > 0) || !std::isfinite(scale)) return {};
     const Eigen::Matrix3d axes = best_axes(points, centre, scale);
-    if (std::abs(axes(2, 2)) >= std::sqrt(constants.upright)) return {};
+    if (tilted && std::abs(axes(2, 2)) >= std::sqrt(constants.upright)) return {};
     std::vector<Point3> flat;
     for (const Point3& p : points) {
         const Eigen::Vector3d q = axes * (Eigen::Vector3d(p.x, p.y, p.z) - centre);
@@ -86,7 +87,7 @@ Result<std::vector<Triangle>> connect_points(std::span<const Point3> points,
     std::vector<Point3> flat(points.begin(), points.end());
     auto triangles = delaunay(flat, run);
     if (!triangles) return triangles;
-    if (auto tilted = flattened(points); !tilted.empty()) {
+    if (auto tilted = flattened(points, true); !tilted.empty()) {
         auto others = delaunay(tilted, run);
         if (!others) return others;
         const double upright = median_edge(points, triangles.value(), false);
@@ -103,6 +104,19 @@ Result<std::vector<Triangle>> connect_points(std::span<const Point3> points,
         return longest_edge(flat, t) > limit || collinear(points[t[0]], points[t[1]], points[t[2]]);
     });
     return triangles;
+}
+
+Result<std::vector<Triangle>> fill_closed_line(std::span<const Point3> line, const Run& run) {
+    const auto flat = flattened(line, false);
+    if (flat.size() < 3) return std::vector<Triangle>{};
+    Polygon polygon(flat.size());
+    std::iota(polygon.begin(), polygon.end(), 0U);
+    auto triangles = triangulate_inside(flat, std::span(&polygon, 1), run);
+    if (triangles || triangles.error().code != ErrorCode::improper_contact) return triangles;
+    return Error{ErrorCode::improper_contact,
+                 "the line touches or crosses itself, seen along the normal of its plane of least "
+                 "squares",
+                 ""};
 }
 
 std::vector<NamedConstant> point_constants() {

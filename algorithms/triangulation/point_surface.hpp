@@ -30,6 +30,12 @@ Result<std::vector<Triangle>> connect_points(std::span<const Point3> points,
                                              const ConnectOptions& options = {},
                                              const Run& run = {});
 
+/// Returns a surface that fills a closed line in space, whose first point is not repeated: the
+/// constrained Delaunay triangulation of its inside in the plane of least squares. No point is added,
+/// and each segment of the line is an edge. Cost and errors: those of triangulate_inside (planar.hpp);
+/// improper_contact, without a place, if the line touches or crosses itself in that plane.
+Result<std::vector<Triangle>> fill_closed_line(std::span<const Point3> line, const Run& run = {});
+
 /// Lists the constants that decide the result and are not options.
 std::vector<NamedConstant> point_constants();
 

@@ -20,9 +20,9 @@ struct ArrangeCommand {
 };
 
 constexpr auto arrange_footer =
-    R"(Writes .vtp .obj .ts .ply .off .stl .msh .inp .mesh .poly .smesh; -o may be repeated. The mesh is written only if its
-doubles are conforming, by an exact check of the doubles themselves. Otherwise the pairs of
-triangles in the way are named, and the exit status is 1.
+    R"(Writes .vtp .obj .ts .ply .off .stl .msh .inp .mesh .poly .smesh, borders and intersection curves as .pl, and
+vertices as .vs; -o may be repeated. The mesh is written only if its doubles are conforming, by an exact check
+of the doubles themselves. Otherwise the pairs of triangles in the way are named, and the exit status is 1.
 
 Examples:
   terrane arrange horizons.ts faults.ts -o model.vtp

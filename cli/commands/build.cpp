@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -14,6 +13,7 @@
 #include <terrane/algorithms/project/build.hpp>
 #include <terrane/algorithms/tetgen/tetgen_helper.hpp>
 #include <terrane/algorithms/volumes/region_points.hpp>
+#include <terrane/cli/commands/build_help.hpp>
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/options/volume_options.hpp>
 #include <terrane/cli/reports/fill_report.hpp>
@@ -30,6 +30,7 @@
 #include <terrane/cli/stages/plausibility.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/atomic/atomic_folder.hpp>
+#include <terrane/io/gocad/gocad_model.hpp>
 #include <terrane/io/project.hpp>
 #include <terrane/io/project_inputs.hpp>
 
@@ -50,43 +51,6 @@ struct BuildCommand {
 
 constexpr const char* blocks_certificate = "certificate_blocks.json";
 constexpr const char* tetrahedra_certificate = "certificate_tetrahedra.json";
-
-constexpr auto build_footer =
-    R"(The whole chain from one file: surfaces are read, on request their holes filled as `terrane fill`
-does and horizons put in order as `terrane layer` does, cut by the boundary of the volume of interest
-where there is one, arranged and rounded as `terrane arrange` does, made better on request as `terrane
-improve` does, their blocks found as `terrane volume` does and filled as `terrane tetrahedralize`
-does. All results go to one new folder:
-
-  surfaces.vtp, ...      the conforming mesh, in the formats that outputs.surfaces names
-  tetrahedra.vtu, ...    likewise, outputs.tetrahedra
-  model/                 blocks, interfaces and model.json, with outputs.blocks
-  invented.csv           points that fill made up, with expected errors
-  filled.svg             surfaces before and after it
-  certificate.json, ...  for `terrane verify`, with outputs.certificate; certificate_blocks.json of
-                         model/ and certificate_tetrahedra.json of the tetrahedra
-  statistics.json        counts, times and memory, as --stats of the other commands
-  log.txt                what was said, with times
-
-The keys of PROJECT.json are in io/project.schema.json, which editors can use; docs/reference/project.md
-explains them. A small one:
-
-  {
-    "format": "terrane-project 1",
-    "folder": "run",
-    "surfaces": [
-      {"file": "horizons.ml", "role": "horizon"},
-      {"file": "faults.ts", "objects": ["F1", "F2"], "role": "fault"}
-    ],
-    "volume_of_interest": {"box": {"low": [0, 0, -3000], "high": [9000, 9000, 500]}},
-    "tetrahedra": {"edge_length": 400, "size_of": {"F1": 100}, "split": ["fault"]},
-    "outputs": {"tetrahedra": ["vtu", "msh"], "blocks": "vtp"}
-  }
-
-Examples:
-  terrane build project.json
-  terrane build project.json -o another_run --threads 4
-  terrane build project.json --resume)";
 
 /// Runs one project, from reading its file to publishing the folder of results.
 class Build {
@@ -255,7 +219,8 @@ private:
     }
 
     [[nodiscard]] bool wants_blocks() const {
-        return !project_.outputs.blocks.empty() || !project_.outputs.tetrahedra.empty();
+        return !project_.outputs.blocks.empty() || !project_.outputs.tetrahedra.empty() ||
+               project_.outputs.gocad;
     }
 
     /// Warns about the blocks; with --strict nothing will be written.
@@ -292,7 +257,7 @@ private:
         const fs::path& to = folder.value().temporary();
         for (const auto step :
              {&Build::write_surfaces, &Build::write_tetrahedra_files, &Build::write_blocks,
-              &Build::write_invented, &Build::write_certificates}) {
+              &Build::write_gocad, &Build::write_invented, &Build::write_certificates}) {
             if (auto done = (this->*step)(to); !done) return done;
             if (session_.stopped()) return Error{ErrorCode::interrupted, "", ""};
         }
@@ -358,6 +323,14 @@ private:
         written_.emplace_back("model/");
         return write_model({*built_.model, built_.arranged.sealed, leaks_}, project_.outputs.blocks,
                            to / "model", session_);
+    }
+
+    Status write_gocad(const fs::path& to) {
+        if (!project_.outputs.gocad) return Done{};
+        const Model& model = *built_.model;
+        written_.emplace_back("model.ml");
+        return write_file(to / "model.ml", to_gocad_model(model.mesh, model.volumes,
+                                                          model.structure, "model", inputs_.unit));
     }
 
     Status write_invented(const fs::path& to) {

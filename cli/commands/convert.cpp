@@ -17,7 +17,8 @@ struct ConvertCommand {
 constexpr auto convert_footer =
     R"(Nothing is arranged, merged or repaired: the same triangles with the same coordinates, bit by bit.
 Binary STL holds float32 only, which is said. Reads .ts .ml .obj .off .stl .ply .vtp .vtu .vtk .msh .dxf .grdecl
-.sticks, writes .vtp .vtk .obj .ts .ply .off .stl .msh .inp .mesh .poly .smesh.
+.sticks, writes .vtp .vtk .obj .ts .ply .off .stl .msh .inp .mesh .poly .smesh, and the vertices of
+surfaces as .vs, their borders as .pl.
 Grids (Irap .irap .gri, ZMAP+ .zmap, CPS-3 .cps3, ESRI .asc) become surfaces with holes where heights
 are missing, points (.xyz .csv .dat .txt .poi .pol, GOCAD .vs .pl) by Delaunay triangles without
 edges longer than --max-edge. Corner-point grids (.grdecl) become top, base, layers, faults and sides.
@@ -48,6 +49,8 @@ Result<ExitStatus> convert_file(const ConvertCommand& command, Session& session)
     const Output& output = outputs.value().front();
     const auto written = write_output(mesh, output, {.ascii = files.ascii}, session);
     if (!written) return written.error();
+    if (!left_out_of(output).empty())
+        tell_when_written(stdout, wrote(output)); // else it says nothing
     if (output.format == Format::stl && !files.ascii && loses_digits(mesh))
         warn(output.path + ": coordinates were rounded to float32, all that binary STL holds; "
                            "--ascii or another format keeps them");

@@ -98,7 +98,7 @@ Status write_all(const FillCommand& command, const std::vector<Output>& outputs,
         if (output.format == Format::vtp) options.cells = cells;
         if (const auto written = write_output(mesh, output, options, session); !written)
             return written.error();
-        say_written(summary_stream(command.files), output.path);
+        tell_when_written(summary_stream(command.files), wrote(output));
     }
     if (!command.map.empty())
         if (auto written = write_file(command.map, map_of(work)); !written) return written;

@@ -115,7 +115,7 @@ Status write_all(const Mesh& mesh, const FileOptions& files, const std::vector<O
     for (const Output& output : outputs) {
         const auto written = write_output(mesh, output, options, session);
         if (!written) return written.error();
-        say_written(summary_stream(files), output.path);
+        tell_when_written(summary_stream(files), wrote(output));
     }
     return Done{};
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <filesystem>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -12,10 +13,12 @@
 #include <terrane/cli/reports/seal_report.hpp>
 #include <terrane/cli/stages/block_certificate.hpp>
 #include <terrane/cli/stages/blocks.hpp>
+#include <terrane/cli/stages/cells.hpp>
 #include <terrane/cli/stages/certificate_output.hpp>
 #include <terrane/cli/stages/plausibility.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/atomic/atomic_folder.hpp>
+#include <terrane/io/gocad/gocad_model.hpp>
 
 namespace terrane::cli {
 namespace {
@@ -31,6 +34,9 @@ struct VolumeCommand {
     std::string relations;     ///< file for the table of relations; here and below, empty: none
     std::string juxtaposition; ///< file for the table of areas between blocks
     std::string seal_plot;     ///< file for the plot of it; empty: none
+    std::string gocad;         ///< file for the model with its regions
+    std::string lines;         ///< file for the lines of the model
+    CellOptions cells;         ///< of a grid
     bool suggests = false;     ///< whether distances for sealing are tried, and nothing is written
 };
 
@@ -67,12 +73,17 @@ the horizons at their bases: {"column": [{"unit": "Cover", "surface": "top"}, {"
 which length and with which gap; --juxtaposition FILE.csv lists which blocks face each other across which
 surface, and the area.
 
+--gocad FILE.ml writes the model as GOCAD, SKUA and RINGMesh have it: TSurfs divided into TFACEs, and
+blocks as regions of a Model3d; --lines FILE.pl writes its lines. --grid GRID.grdecl --cells FILE.grdecl
+says in which block each cell of a corner-point grid lies: ACTNUM and FIPNUM.
+
 --certificate FILE writes all that it takes to check the files in DIR from the input files alone.
 
 Examples:
   terrane volume model.ml -o model
   terrane volume model.ml -o model --certificate model-certificate.json
   terrane volume model.ml -o model --seal 0.01
+  terrane volume *.ts -o model --gocad model.ml --grid cells.grdecl --cells blocks.grdecl
   terrane volume *.ts --box 0,0,-3000,10000,10000,500 --suggest-seal
   terrane volume *.ts -o model --seal auto --min-volume auto
   terrane volume horizons.ts faults.ts -o model --box 0,0,-3000,10000,10000,500
@@ -96,6 +107,9 @@ Status check_output(const VolumeCommand& command) {
     if (!command.certificate.empty() && command.part_format != "vtp" &&
         command.part_format != "obj")
         return Error{ErrorCode::bad_option, "is about parts as vtp or obj only", "--certificate"};
+    for (const std::string& file : {command.gocad, command.lines})
+        if (!file.empty())
+            if (auto folder = check_folder(file); !folder) return folder;
     if (!command.suggests) {
         if (!command.seal_plot.empty())
             return Error{ErrorCode::bad_option, "draws what --suggest-seal finds; that is missing",
@@ -118,6 +132,20 @@ Status write_text(const VolumeCommand& command, const std::string& path, const s
     return written;
 }
 
+/// Checks all options before any work is done.
+Status check_call(const VolumeCommand& command) {
+    const FileOptions& files = command.files;
+    if (const auto planned = plan_outputs(files, OutputKind::surfaces); !planned)
+        return planned.error();
+    if (auto good = check_output(command); !good) return good;
+    if (auto planned = plan_certificate(command.certificate, files, command.settings); !planned)
+        return planned;
+    if (!command.certificate.empty())
+        if (auto named = check_certified_names(command.certificate, {command.folder}); !named)
+            return named;
+    return check_volume_options(command.settings.volume);
+}
+
 Status write_tables(const VolumeCommand& command, const Model& model, const Inputs& inputs,
                     Session& session) {
     const auto write = [&](const std::string& path, const std::string& text) {
@@ -128,9 +156,22 @@ Status write_tables(const VolumeCommand& command, const Model& model, const Inpu
         if (auto done = write(command.relations, csv_of(relations, inputs.labels)); !done)
             return done;
     }
-    if (command.juxtaposition.empty()) return Done{};
-    return write(command.juxtaposition,
-                 csv_of(find_juxtapositions(model.structure), inputs.labels, model.structure));
+    if (!command.juxtaposition.empty())
+        if (auto done = write(command.juxtaposition, csv_of(find_juxtapositions(model.structure),
+                                                            inputs.labels, model.structure));
+            !done)
+            return done;
+    if (!command.gocad.empty())
+        if (auto done = write(command.gocad,
+                              to_gocad_model(model.mesh, model.volumes, model.structure,
+                                             std::filesystem::path(command.gocad).stem().string(),
+                                             inputs.unit));
+            !done)
+            return done;
+    if (command.lines.empty()) return Done{};
+    const auto lines = lines_to_gocad(model.mesh, model.structure);
+    if (!lines) return Error{lines.error().code, lines.error().sentence, command.lines};
+    return write(command.lines, *lines);
 }
 
 Result<ExitStatus> suggest_seal(const VolumeCommand& command, Session& session) {
@@ -170,18 +211,10 @@ Result<ExitStatus> suggest_seal(const VolumeCommand& command, Session& session) 
 Result<ExitStatus> find_blocks(const VolumeCommand& command, Session& session) {
     Stopwatch total;
     const FileOptions& files = command.files;
-    if (const auto planned = plan_outputs(files, OutputKind::surfaces); !planned)
-        return planned.error();
-    if (const auto good = check_output(command); !good) return good.error();
-    if (const auto planned = plan_certificate(command.certificate, files, command.settings);
-        !planned)
-        return planned.error();
-    if (!command.certificate.empty())
-        if (const auto named = check_certified_names(command.certificate, {command.folder}); !named)
-            return named.error();
-    if (const auto sound = check_volume_options(command.settings.volume); !sound)
-        return sound.error();
+    if (const auto sound = check_call(command); !sound) return sound.error();
     if (command.suggests) return suggest_seal(command, session);
+    const auto grid = read_grid(command.cells);
+    if (!grid) return grid.error();
     auto inputs = read_certified_inputs(command.certificate, files, session);
     if (!inputs) return inputs.error();
     const auto roles = roles_of(inputs.value());
@@ -211,6 +244,11 @@ Result<ExitStatus> find_blocks(const VolumeCommand& command, Session& session) {
         say_written(summary_stream(files), command.folder);
         if (auto tables = write_tables(command, *model, *inputs, session); !tables)
             return tables.error();
+        if (*grid) {
+            const auto said = write_cells(command.cells, **grid, *model, *inputs, session);
+            if (!said) return said.error();
+            tell_when_written(summary_stream(files), *said);
+        }
         if (!command.certificate.empty()) {
             const auto proved = write_certificate(
                 {command.certificate, files, inputs.value(), roles, arranged.value(),
@@ -252,6 +290,13 @@ Command volume_command(CLI::App& program) {
     app->add_option("--juxtaposition", command->juxtaposition,
                     "Which blocks face each other across which surface, as a table")
         ->type_name("FILE.csv");
+    app->add_option("--gocad", command->gocad,
+                    "The model with its blocks as regions, for GOCAD and RINGMesh")
+        ->type_name("FILE.ml");
+    app->add_option("--lines", command->lines,
+                    "The lines of the model as PLine of GOCAD: cutoffs, free borders, ...")
+        ->type_name("FILE.pl");
+    add_cells(*app, command->cells);
     add_certificate(*app, command->certificate);
     add_settings(*app, command->settings);
     add_threads(*app, command->files);

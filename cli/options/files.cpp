@@ -12,6 +12,7 @@
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/cli/session/console.hpp>
 #include <terrane/cli/session/quantities.hpp>
+#include <terrane/io/text/text.hpp>
 
 namespace terrane::cli {
 
@@ -40,7 +41,8 @@ std::optional<Format> format_of_input(const FileOptions& options, const std::str
 }
 
 bool fits(Format format, OutputKind kind) {
-    return kind == OutputKind::tetrahedra ? holds_tetrahedra(format) : holds_surfaces(format);
+    if (kind == OutputKind::tetrahedra) return holds_tetrahedra(format);
+    return holds_surfaces(format) || holds_outlines(format);
 }
 
 Status check_streams(const FileOptions& options) {
@@ -228,6 +230,19 @@ Status write_output(const Mesh& mesh, const Output& output, WriteOptions options
 Status write_output(const TetrahedralMesh& mesh, const Output& output, WriteOptions options,
                     Session& session) {
     return write_with<TetrahedralMesh>(mesh, output, options, session, write_tetrahedra);
+}
+
+std::string left_out_of(const Output& output) {
+    const auto extension = fs::path(output.path).extension().string();
+    const bool is_model =
+        output.format == Format::gocad && detail::same_ignoring_case(extension, ".ml");
+    return is_model ? "surfaces without regions, which terrane volume --gocad writes" : "";
+}
+
+std::string wrote(const Output& output) {
+    if (output.path == "-") return {};
+    const auto left_out = left_out_of(output);
+    return "wrote " + output.path + (left_out.empty() ? "" : ": " + left_out) + "\n";
 }
 
 std::FILE* summary_stream(const FileOptions& options) {

@@ -91,6 +91,11 @@ Status write_output(const Mesh& mesh, const Output& output, WriteOptions options
 Status write_output(const TetrahedralMesh& mesh, const Output& output, WriteOptions options,
                     Session& session);
 
+/// Says what an output lacks that its name lets expect: the regions of a model; empty: nothing.
+std::string left_out_of(const Output& output);
+/// Says that an output is written, and what is not in it; empty for standard output.
+std::string wrote(const Output& output);
+
 /// Returns the stream for the summary: standard error if a file goes to standard output.
 std::FILE* summary_stream(const FileOptions& options);
 

@@ -130,7 +130,7 @@ void add_volume_options(CLI::App& command, VolumeOptions& options) {
     command
         .add_option("--polygon", options.polygon,
                     "The same for a polygon between two depths: x,y,x,y,..., or a file: GeoJSON, "
-                    "or x and y on each line")
+                    "a shapefile, or x and y on each line")
         ->type_name("POLYGON")
         ->group(group);
     command.add_option("--between", options.between, "The two depths of the polygon: z0,z1")

@@ -41,8 +41,12 @@ void when_written(std::function<void()> tell) {
         tell();
 }
 
+void tell_when_written(std::FILE* stream, std::string text) {
+    when_written([stream, text = std::move(text)] { print(stream, text); });
+}
+
 void say_written(std::FILE* stream, const std::string& path) {
-    if (path != "-") when_written([=] { print(stream, "wrote " + path + "\n"); });
+    if (path != "-") tell_when_written(stream, "wrote " + path + "\n");
 }
 
 void print(std::FILE* stream, std::string_view text) {

@@ -32,6 +32,9 @@ void warn(std::string_view sentence);
 /// Calls `tell` when all files of the run have their names, or at once outside a FileSet.
 void when_written(std::function<void()> tell);
 
+/// Prints a text when all files of the run have their names.
+void tell_when_written(std::FILE* stream, std::string text);
+
 /// Says that a file was written, when it has its name; nothing of standard output.
 void say_written(std::FILE* stream, const std::string& path);
 

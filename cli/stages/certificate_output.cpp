@@ -171,6 +171,26 @@ void warn_of_deviation(const std::string& certificate, double deviation,
         certificate, deviation, accepted, deviation));
 }
 
+namespace {
+
+/// Refuses outputs that terrane verify does not read.
+Status check_certified_formats(const FileOptions& files) {
+    for (const std::string& file : files.outputs) {
+        const auto format = !files.output_format.empty() ? format_named(files.output_format)
+                            : file == "-"                ? format_named(files.format)
+                                                         : format_of(file);
+        if (format == Format::vtk || (format && holds_outlines(*format)))
+            return Error{
+                ErrorCode::bad_option,
+                "a certificate cannot be about a file in this format, which terrane verify "
+                "does not read",
+                file};
+    }
+    return Done{};
+}
+
+} // namespace
+
 Status plan_proof(const ProofOptions& options, const FileOptions& files) {
     if (options.certificate == "-" || options.exact == "-")
         return Error{ErrorCode::bad_option, "standard output is for the mesh: name a file", "-"};
@@ -181,6 +201,7 @@ Status plan_proof(const ProofOptions& options, const FileOptions& files) {
         if (!path.empty())
             if (auto status = check_folder(path); !status) return status;
     if (options.certificate.empty()) return Done{};
+    if (auto status = check_certified_formats(files); !status) return status;
     if (auto status = check_certified_names(options.certificate, files.inputs); !status)
         return status;
     return check_certified_names(options.certificate, files.outputs);

@@ -66,7 +66,7 @@ Status write_outputs(const Mesh& mesh, bool clean, const FileOptions& files,
     for (const Output& output : outputs) {
         const auto written = write_output(mesh, output, options, session);
         if (!written) return written.error();
-        say_written(summary_stream(files), output.path);
+        tell_when_written(summary_stream(files), wrote(output));
     }
     return Done{};
 }

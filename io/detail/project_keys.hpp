@@ -32,8 +32,8 @@ inline constexpr std::array<std::string_view, 10> tetrahedra_level{
     "edge_length", "max_volume", "quality", "split_surfaces", "size_of",
     "size_in",     "split",      "outside", "time_limit",     "mesher"};
 inline constexpr std::array<std::string_view, 3> meshers{"auto", "tetgen", "gmsh"};
-inline constexpr std::array<std::string_view, 4> outputs_level{"surfaces", "tetrahedra", "blocks",
-                                                               "certificate"};
+inline constexpr std::array<std::string_view, 5> outputs_level{"surfaces", "tetrahedra", "blocks",
+                                                               "certificate", "gocad"};
 
 inline constexpr std::array<std::string_view, 5> units{"m", "km", "cm", "ft", "ftUS"};
 inline constexpr std::array<std::string_view, 3> roles{"horizon", "fault", "boundary"};

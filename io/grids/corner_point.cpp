@@ -363,4 +363,26 @@ Result<std::vector<Surface>> surfaces_of_corner_points(const CornerPointGrid& gr
     return GridSurfaces(grid).make();
 }
 
+Result<std::vector<Point3>> cell_centres(const CornerPointGrid& grid) {
+    const Cells cells(grid);
+    const Places places(grid);
+    std::vector<Point3> centres;
+    centres.reserve(std::size_t{grid.nx} * grid.ny * grid.nz);
+    for (std::uint32_t k = 0; k < grid.nz; ++k)
+        for (std::uint32_t j = 0; j < grid.ny; ++j)
+            for (std::uint32_t i = 0; i < grid.nx; ++i) {
+                Point3 mean{0, 0, 0};
+                for (unsigned c = 0; c < 8; ++c) {
+                    const Point3 p = places.of(
+                        {cells.pillar({i, j}, c % 4), cells.depth({i, j}, k, c % 4, c >= 4)});
+                    mean = {mean.x + p.x / 8, mean.y + p.y / 8, mean.z + p.z / 8};
+                }
+                if (!is_finite(mean))
+                    return Error{ErrorCode::bad_number,
+                                 "a corner of the grid is beyond all doubles", ""};
+                centres.push_back(mean);
+            }
+    return centres;
+}
+
 } // namespace terrane

@@ -58,4 +58,9 @@ struct CornerPointGrid {
 /// caller sets the place. Cost: n log(layers) for n cells, and layers^2 for each face of a fault.
 Result<std::vector<Surface>> surfaces_of_corner_points(const CornerPointGrid& grid);
 
+/// Returns the mean of the eight corners of each cell, rounded, with heights; cells are in the order
+/// of CornerPointGrid::active, and corners are where surfaces_of_corner_points has them. Errors:
+/// bad_number if a mean is beyond all doubles; the caller sets the place.
+Result<std::vector<Point3>> cell_centres(const CornerPointGrid& grid);
+
 } // namespace terrane

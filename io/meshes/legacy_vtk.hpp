@@ -12,12 +12,15 @@
 
 namespace terrane {
 
-/// Reads POLYDATA, text or binary, of versions 1 to 5: the polygons and triangle strips become one
-/// surface, `name`; vertices and lines are passed over, and what follows the geometry is not read. A
-/// file that to_vtk() wrote gives its surfaces back, with names and roles.
-/// Polygons become fans round their first corner. The surface has only the vertices that it uses.
+/// Reads POLYDATA and UNSTRUCTURED_GRID, text or binary, of versions 1 to 5. The polygons and triangle
+/// strips of POLYDATA, and the triangles, quadrilaterals, polygons, pixels and triangle strips of a
+/// grid, become one surface, `name`; points, lines and volumes are passed over.
+/// - A file that to_vtk() wrote gives its surfaces back, with names and roles; so does a file of VTK
+///   with the arrays of to_vtp() or to_vtu(). No other data are read.
+/// - Polygons become fans round their first corner. A surface has only the vertices that it uses.
 /// Errors: bad_syntax, bad_number, bad_index with "source:line", or "source, byte n" where the data
-/// are binary; unsupported (another DATASET); nothing_to_do if there is no triangle. Cost: linear.
+/// are binary; unsupported (another DATASET, cells with curved sides); nothing_to_do if there is no
+/// triangle. Cost: linear.
 Result<std::vector<Surface>> read_vtk(std::string_view contents, std::string_view source,
                                       std::string_view name);
 

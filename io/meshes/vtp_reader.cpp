@@ -13,6 +13,7 @@
 #include <pugixml.hpp>
 
 #include <terrane/io/meshes/detail/parts.hpp>
+#include <terrane/io/meshes/detail/vtk_cells.hpp>
 #include <terrane/io/meshes/detail/vtk_data.hpp>
 #include <terrane/io/text/names.hpp>
 #include <terrane/io/text/text.hpp>
@@ -42,36 +43,6 @@ struct Ownership {
     Integers offsets; ///< per polygon: where its part of `lists` ends
     [[nodiscard]] bool empty() const { return surface.empty(); }
 };
-
-/// What a cell of an unstructured grid is to a surface.
-enum class CellKind { passed_over, polygon, pixel, strip, curved };
-
-/// Returns the kind of a cell by its number in VTK (vtkCellType.h).
-CellKind kind_of_cell(std::int64_t type) {
-    switch (type) {
-    case 5: // triangle
-    case 7: // polygon
-    case 9: // quadrilateral
-        return CellKind::polygon;
-    case 6:
-        return CellKind::strip;
-    case 8:
-        return CellKind::pixel;
-    case 22: // quadratic and others of higher order
-    case 23:
-    case 28:
-    case 30:
-    case 34:
-    case 36:
-    case 69:
-    case 70:
-    case 76:
-    case 77:
-        return CellKind::curved;
-    default:
-        return CellKind::passed_over; // points, lines, volumes
-    }
-}
 
 /// Reads PolyData, or the faces of an UnstructuredGrid.
 class VtkXmlReader {

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <terrane/io/points/shape_outline.hpp>
 #include <terrane/io/text/text.hpp>
 
 namespace terrane {
@@ -171,6 +172,7 @@ Result<Ring> read_columns(std::string_view contents, std::string_view source) {
 Result<Ring> read_outline(std::string_view contents, std::string_view source) {
     const std::string ending = lower(source.substr(std::min(source.size(), source.rfind('.'))));
     if (ending == ".geojson" || ending == ".json") return GeoJsonReader(source).read(contents);
+    if (ending == ".shp") return read_shape_outline(contents, source);
     return read_columns(contents, source);
 }
 

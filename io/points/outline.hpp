@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Reading outlines in the map: lines with two numbers, or a polygon of GeoJSON.
+// Reading outlines in the map: lines with two numbers, a polygon of GeoJSON, or a shapefile.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@ namespace terrane {
 
 /// Reads the corners of one polygon. `source` is the name of the file; .geojson and .json are
 /// GeoJSON: a Polygon, or a MultiPolygon, Feature, GeometryCollection or FeatureCollection with
-/// exactly one polygon. Heights are not read. Any other file has x and y on each line, where #
+/// exactly one polygon; .shp is a shapefile (shape_outline.hpp). Heights are not read. Any other file has x and y on each line, where #
 /// begins a comment and 999 999 999 ends the polygon. The last corner may repeat the first. Errors:
 /// bad_syntax, bad_number with "source:line", or with the path to the value, as in
 /// "source: features[0].geometry"; unsupported (a polygon with holes, several polygons);

@@ -11,6 +11,8 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/mesh/submesh.hpp>
+#include <terrane/algorithms/triangulation/point_surface.hpp>
 #include <terrane/io/points/detail/heading.hpp>
 #include <terrane/io/points/detail/point_lines.hpp>
 
@@ -150,6 +152,43 @@ double square_of_distance(const Point3& a, const Point3& b) {
     return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y) + (a.z - b.z) * (a.z - b.z);
 }
 
+/// Takes the sticks of a fault that end where they begin.
+std::vector<Stick> take_closed(Fault& fault) {
+    std::vector<Stick> open, closed;
+    for (Stick& stick : fault.sticks) {
+        const auto& v = fault.surface.vertices;
+        const bool ends =
+            stick.points.size() > 3 && v[stick.points.front()] == v[stick.points.back()];
+        (ends ? closed : open).push_back(std::move(stick));
+    }
+    fault.sticks = std::move(open);
+    return closed;
+}
+
+/// Fills closed lines, and leaves out the vertices that no triangle uses.
+MaybeError fill(const std::vector<Stick>& lines, Surface& surface, std::string_view source) {
+    for (std::size_t l = 0; l < lines.size(); ++l) {
+        std::vector<std::uint32_t> corners;
+        std::vector<Point3> places;
+        for (std::size_t i = 0; i + 1 < lines[l].points.size(); ++i) {
+            const Point3& p = surface.vertices[lines[l].points[i]];
+            if (!places.empty() && places.back() == p) continue;
+            corners.push_back(lines[l].points[i]);
+            places.push_back(p);
+        }
+        const auto triangles = fill_closed_line(places);
+        if (!triangles)
+            return Error{triangles.error().code,
+                         fmt::format("closed line {} of {}: {}", l + 1, shown(surface.name),
+                                     triangles.error().sentence),
+                         std::string(source)};
+        for (const auto& [a, b, c] : *triangles)
+            surface.triangles.push_back({corners[a], corners[b], corners[c]});
+    }
+    if (!lines.empty()) surface.vertices = Submesh(surface.vertices).cut(surface.triangles);
+    return std::nullopt;
+}
+
 /// Connects the sticks of a fault.
 class StickSurface {
 public:
@@ -216,16 +255,19 @@ Result<std::vector<Surface>> read_sticks(std::string_view contents, std::string_
     if (auto trouble = StickReader(contents, source).read(faults)) return *trouble;
     std::vector<Surface> surfaces;
     for (Fault& fault : faults) {
+        if (fault.surface.name.empty()) fault.surface.name = name;
+        const auto closed = take_closed(fault);
         StickSurface(fault).connect();
+        if (auto trouble = fill(closed, fault.surface, source)) return *trouble;
         if (fault.surface.triangles.empty()) continue;
         if (options.depth) turn_depths_over(fault.surface);
-        if (fault.surface.name.empty()) fault.surface.name = name;
         fault.surface.role = Role::fault;
         surfaces.push_back(std::move(fault.surface));
     }
     if (surfaces.empty())
         return Error{ErrorCode::nothing_to_do,
-                     "no fault has two sticks; a column with the number of the stick, or a line "
+                     "no fault has two sticks or a closed line; a column with the number of the "
+                     "stick, or a line "
                      "999 999 999 after each stick, tells them apart",
                      std::string(source)};
     return surfaces;

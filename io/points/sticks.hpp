@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Fault sticks: lines that were drawn down a fault, section by section.
+// Fault sticks, lines that were drawn down a fault, section by section, and polygons round faults.
 #pragma once
 
 #include <string_view>
@@ -28,8 +28,12 @@ namespace terrane {
 /// (2) Between two sticks one goes down both from their first points. The next point is that of the
 ///     stick of which the smaller share of the length lies before it; at equal shares, of the
 ///     former. It makes a triangle with the last points of both.
+/// (3) A stick of at least four points whose last one is at the place of the first is a polygon: its
+///     inside is triangulated by fill_closed_line, and it counts neither in (1) nor in (2). The
+///     surface then has only the vertices that it uses.
 /// A fault with one stick has no surface. Errors: bad_syntax, bad_number with "source:line";
-/// nothing_to_do if no fault has two sticks. Cost: linear.
+/// nothing_to_do if no fault has two sticks or a polygon; improper_contact, bad_number if a polygon
+/// can't be triangulated. Cost: linear, and that of fill_closed_line.
 Result<std::vector<Surface>> read_sticks(std::string_view contents, std::string_view source,
                                          std::string_view name, const ReadOptions& options);
 

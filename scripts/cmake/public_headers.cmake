@@ -29,6 +29,7 @@ set(terrane_headers
     algorithms/regions/quadrilaterals.hpp
     algorithms/regions/regions.hpp
     algorithms/rounding/rounding.hpp
+    algorithms/volumes/point_location.hpp
     algorithms/volumes/region_points.hpp
     algorithms/volumes/volumes.hpp
     algorithms/structure/block_names.hpp
@@ -74,6 +75,7 @@ set(terrane_headers
     io/exact_text.hpp
     io/files.hpp
     io/gocad/gocad.hpp
+    io/gocad/gocad_model.hpp
     io/grids/grid.hpp
     io/meshes/cell_array.hpp
     io/meshes/poly.hpp

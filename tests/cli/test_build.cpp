@@ -15,6 +15,22 @@
 
 using namespace program_test;
 
+TEST_CASE("cli: build writes the model with its regions for GOCAD", "[cli][gocad]") {
+    const Case c;
+    auto project = boxed_project();
+    project["outputs"] = {{"gocad", true}};
+    const auto r = c.build(project);
+    INFO(r.err);
+    REQUIRE(r.status == 0);
+    CHECK(c.files("out") == "log.txt\nmodel.ml\nstatistics.json\n");
+    REQUIRE(c.folder.run("volume out/model.ml -o again --gocad again.ml").status == 0);
+    const auto model = Json::parse(c.folder.read("again/model.json"));
+    REQUIRE(model["blocks"].size() == 4);
+    CHECK(model["blocks"][2]["name"] == "below top, above base");
+    CHECK(model["blocks"][2]["volume"] == 128);
+    CHECK(model["surfaces"][2]["role"] == "fault");
+}
+
 TEST_CASE("cli: build makes blocks in a box, in one folder", "[cli]") {
     const Case c;
     const auto r = c.build(boxed_project());

@@ -218,3 +218,14 @@ TEST_CASE("cli: a polygon of GeoJSON", "[cli]") {
     CHECK(two.status == 2);
     CHECK(contains(two.err, "in/two.json: coordinates[1]: this is a second polygon"));
 }
+
+TEST_CASE("cli: a shapefile of lines is no outline", "[cli]") {
+    const Folder folder;
+    folder.input("top.obj", "v -1 -1 5\nv 9 -1 5\nv 9 9 5\nv -1 9 5\nf 1 2 3 4\n");
+    const auto lines = folder.run(
+        "volume in/top.obj -o out --polygon $D/loopstructural/fault_trace.shp --between 0,8");
+    CHECK(lines.status == 2);
+    CHECK((contains(lines.err, "fault_trace.shp: the file has lines; an outline is a polygon") ||
+           contains(lines.err, "fault_trace.shp: this build cannot read shapefiles")));
+    CHECK(folder.left().empty());
+}

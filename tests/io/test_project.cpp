@@ -50,7 +50,7 @@ json full() {
                        "size_of": {"F1": 0.5, "top": 1}, "size_in": {"2": 0.25, "top/base": 1},
                        "split": ["fault", "top"], "outside": true, "time_limit": 60, "mesher": "gmsh"},
         "outputs": {"surfaces": ["vtp", "obj"], "tetrahedra": ["vtu", "msh", "msh22"],
-                    "blocks": "vtp", "certificate": false}})");
+                    "blocks": "vtp", "certificate": false, "gocad": true}})");
 }
 
 /// Returns full documents that together have every key of the schema.

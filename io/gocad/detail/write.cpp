@@ -1,55 +1,70 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/io/gocad/gocad.hpp>
+#include <terrane/io/gocad/detail/write.hpp>
+
+#include <fmt/format.h>
 
 #include <terrane/algorithms/mesh/submesh.hpp>
+#include <terrane/io/gocad/gocad.hpp>
 #include <terrane/io/text/names.hpp>
 #include <terrane/io/text/text.hpp>
 
 namespace terrane {
 
-using namespace detail;
+namespace detail {
 
-namespace {
-
-std::string in_quotes(std::string_view name) {
+std::string in_gocad_quotes(std::string_view name) {
     const auto text = one_line(name);
     const bool plain = !text.empty() && trimmed(text).size() == text.size() &&
                        text.find_first_of("\"{}") == std::string::npos;
     return plain ? text : '"' + text + '"';
 }
 
-std::string_view feature_of_role(Role role) {
+void append_gocad_header(std::string& out, std::string_view type, std::string_view name,
+                         std::string_view in_model, std::string_view unit) {
+    out += "GOCAD ";
+    out += type;
+    out += " 1\nHEADER {\nname: ";
+    out += in_gocad_quotes(name);
+    if (!in_model.empty()) out += "\nname_in_model_list: " + in_gocad_quotes(in_model);
+    out += "\n}\nGOCAD_ORIGINAL_COORDINATE_SYSTEM\nNAME Default\nAXIS_NAME \"X\" \"Y\" \"Z\"\n";
+    if (!unit.empty()) out += fmt::format("AXIS_UNIT \"{0}\" \"{0}\" \"{0}\"\n", unit);
+    out += "ZPOSITIVE Elevation\nEND_ORIGINAL_COORDINATE_SYSTEM\n";
+}
+
+void append_gocad_role(std::string& out, Role role) {
     switch (role) {
     case Role::horizon:
-        return "GEOLOGICAL_TYPE top\n";
+        out += "GEOLOGICAL_TYPE top\n";
+        break;
     case Role::fault:
-        return "GEOLOGICAL_TYPE fault\n";
+        out += "GEOLOGICAL_TYPE fault\n";
+        break;
     case Role::boundary:
-        return "GEOLOGICAL_TYPE boundary\n";
+        out += "GEOLOGICAL_TYPE boundary\n";
+        break;
     case Role::unknown:
         break;
     }
-    return "";
 }
 
-void append_header(std::string& out, const SurfaceInfo& surface) {
-    out += "GOCAD TSurf 1\nHEADER {\nname: ";
-    out += in_quotes(surface.name);
-    out += "\n}\nGOCAD_ORIGINAL_COORDINATE_SYSTEM\nNAME Default\nAXIS_NAME \"X\" \"Y\" \"Z\"\n"
-           "ZPOSITIVE Elevation\nEND_ORIGINAL_COORDINATE_SYSTEM\n";
-    out += feature_of_role(surface.role);
+void append_gocad_vertex(std::string& out, std::uint64_t id, const Point3& place) {
+    out += "VRTX ";
+    append_number(out, id);
+    out += ' ';
+    append_point(out, place);
+    out += '\n';
 }
+
+} // namespace detail
+
+using namespace detail;
+
+namespace {
 
 void append_tface(std::string& out, const std::vector<Point3>& vertices,
                   const std::vector<Triangle>& triangles) {
     out += "TFACE\n";
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-        out += "VRTX ";
-        append_number(out, std::uint64_t(i) + 1);
-        out += ' ';
-        append_point(out, vertices[i]);
-        out += '\n';
-    }
+    for (std::size_t i = 0; i < vertices.size(); ++i) append_gocad_vertex(out, i + 1, vertices[i]);
     for (const auto& triangle : triangles) {
         out += "TRGL";
         for (const auto vertex : triangle) {
@@ -72,7 +87,8 @@ std::string to_gocad(const Mesh& mesh) {
     Submesh subset(mesh.vertices);
     for (std::size_t s = 0; s < mesh.surfaces.size(); ++s) {
         const auto vertices = subset.cut(triangles_of[s]);
-        append_header(out, mesh.surfaces[s]);
+        append_gocad_header(out, "TSurf", mesh.surfaces[s].name);
+        append_gocad_role(out, mesh.surfaces[s].role);
         append_tface(out, vertices, triangles_of[s]);
     }
     return out;

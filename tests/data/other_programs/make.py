@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Writes the files of this folder with VTK, gmsh and meshio (Debian's python3-vtk9, gmsh, python3-meshio).
 
-The .vtu files have a tetrahedron below it, an edge and a point as well.
+The .vtu files, and the .vtk files called grid, have a tetrahedron below it, an edge and a point as well. Files called
+named have the arrays that Terrane writes into .vtp and .vtu files: what VTK makes of these when it writes .vtk.
 All of them hold the same roof: six points, two triangles and a quadrilateral; the gmsh files hold a square
 that is divided into two named physical surfaces.
 
@@ -15,11 +16,11 @@ import tempfile
 
 import meshio
 import numpy
-from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonCore import vtkIntArray, vtkPoints, vtkStringArray, vtkUnsignedCharArray
 from vtkmodules.vtkCommonDataModel import (VTK_LINE, VTK_PIXEL, VTK_QUAD, VTK_TETRA, VTK_TRIANGLE,
                                            VTK_VERTEX, vtkCellArray, vtkPolyData,
                                            vtkUnstructuredGrid)
-from vtkmodules.vtkIOLegacy import vtkPolyDataWriter
+from vtkmodules.vtkIOLegacy import vtkPolyDataWriter, vtkUnstructuredGridWriter
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter, vtkXMLUnstructuredGridWriter
 
 POINTS = [(0, 0, 0), (2, 0, 0), (2, 1, 0.5), (0, 1, 0.5), (0, 2, 0.1), (2, 2, 0.1)]
@@ -84,10 +85,33 @@ def write_xml(path, mode, compress, big_endian=False, encode=True, wide=False):
     writer.Write()
 
 
-def write_legacy(path, binary, version, strip=False):
-    writer = vtkPolyDataWriter()
+def array(kind, name, values):
+    made = kind()
+    made.SetName(name)
+    for value in values:
+        made.InsertNextValue(value)
+    return made
+
+
+def named(data):
+    """The quadrilateral and the second triangle are of "west flank", the first triangle of "F%1"."""
+    if isinstance(data, vtkPolyData):
+        for name, values in (("surface_name", ("west flank", "F%1")), ("surface_role", ("horizon", "fault"))):
+            data.GetFieldData().AddArray(array(vtkStringArray, name, values))
+        data.GetCellData().AddArray(array(vtkIntArray, "surface", (0, 1, 0)))
+    else:
+        for name, codes in (("surface_name", b"west flank\0F%1\0"), ("surface_role", b"horizon\0fault\0")):
+            data.GetFieldData().AddArray(array(vtkUnsignedCharArray, name, codes))
+        data.GetCellData().AddArray(array(vtkIntArray, "region", (1, -1, -1, -1, -1, -1)))
+        data.GetCellData().AddArray(array(vtkIntArray, "surface", (-1, -1, 0, -1, 1, 0)))
+        data.GetCellData().SetActiveScalars("surface")
+    return data
+
+
+def write_legacy(path, binary, version, data):
+    writer = vtkPolyDataWriter() if isinstance(data, vtkPolyData) else vtkUnstructuredGridWriter()
     writer.SetFileName(str(path))
-    writer.SetInputData(roof(strip))
+    writer.SetInputData(data)
     writer.SetFileVersion(version)
     writer.SetFileTypeToBinary() if binary else writer.SetFileTypeToASCII()
     writer.Write()
@@ -117,15 +141,22 @@ def main():
     write_xml(folder / "vtk_ascii.vtu", "ascii", False)
     write_xml(folder / "vtk_binary_zlib.vtu", "binary", True, wide=True)
     write_xml(folder / "vtk_appended_raw.vtu", "appended", False, encode=False)
-    write_legacy(folder / "vtk_ascii_42.vtk", False, 42)
-    write_legacy(folder / "vtk_binary_42.vtk", True, 42)
-    write_legacy(folder / "vtk_ascii_51.vtk", False, 51)
-    write_legacy(folder / "vtk_binary_51_strip.vtk", True, 51, True)
+    write_legacy(folder / "vtk_ascii_42.vtk", False, 42, roof())
+    write_legacy(folder / "vtk_binary_42.vtk", True, 42, roof())
+    write_legacy(folder / "vtk_ascii_51.vtk", False, 51, roof())
+    write_legacy(folder / "vtk_binary_51_strip.vtk", True, 51, roof(True))
+    for binary, version in ((False, 42), (True, 42), (False, 51), (True, 51)):
+        name = f"{'binary' if binary else 'ascii'}_{version}.vtk"
+        write_legacy(folder / f"vtk_grid_{name}", binary, version, grid(pixel=binary))
+        write_legacy(folder / f"vtk_named_grid_{name}", binary, version, named(grid()))
+        write_legacy(folder / f"vtk_named_{name}", binary, version, named(roof()))
     write_gmsh(folder)
     mesh = meshio.Mesh(numpy.array(POINTS, dtype=float),
                        [("quad", [QUADRILATERAL]), ("triangle", TRIANGLES)])
     meshio.write(folder / "meshio_22.msh", mesh, file_format="gmsh22", binary=False)
     meshio.write(folder / "meshio.vtu", mesh)
+    for binary in (False, True):
+        meshio.write(folder / f"meshio_{'binary' if binary else 'ascii'}.vtk", mesh, binary=binary)
     triangles = meshio.Mesh(numpy.array(POINTS, dtype=float), [("triangle", TRIANGLES)])
     meshio.write(folder / "meshio_41.msh", triangles, file_format="gmsh", binary=False)
 

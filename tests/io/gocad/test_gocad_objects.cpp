@@ -23,8 +23,8 @@ std::string model3d(std::string_view lines) {
     return "GOCAD Model3d 1\nHEADER {\nname:m\n}\n" + std::string(lines) + "END\n";
 }
 
-const std::string box = "GOCAD TSurf 1\nHEADER {\nname:my box\n}\nTFACE\nVRTX 1 0 0 0\n"
-                        "TRGL 1 1 1\nTFACE\nTRGL 1 1 1\nTRGL 1 1 1\nEND\n";
+const std::string box_tsurf = "GOCAD TSurf 1\nHEADER {\nname:my box\n}\nTFACE\nVRTX 1 0 0 0\n"
+                              "TRGL 1 1 1\nTFACE\nTRGL 1 1 1\nTRGL 1 1 1\nEND\n";
 
 const std::string lists = "TSURF my box\nTFACE 1 boundary my box\n 0 0 0\n 1 1 1\n 2 2 2\n"
                           "TFACE 2 fault \"my box\"\n 0 0 0\n 1 1 1\n 2 2 2\n";
@@ -35,7 +35,7 @@ TEST_CASE("GOCAD models: parts, regions and layers", "[io][gocad]") {
     const auto result = read_gocad_model(model3d(lists + "REGION 3 Universe\n -1 \n -2 0\n"
                                                          "REGION 4 in side \n +1 +2 0\n"
                                                          "LAYER one \n 4 0\n") +
-                                             box,
+                                             box_tsurf,
                                          "a.ml", "a");
     REQUIRE(message_of(result) == "no error");
     const auto& model = result.value();
@@ -58,7 +58,7 @@ TEST_CASE("GOCAD models: the regions that are stated", "[io][gocad]") {
     const auto result = read_gocad_model(
         model3d(lists + "REGION 3 universe\n -1 \n 0\nREGION 4 in side\n +1 -2 +2 0\n"
                         "REGION 5 other\n +2 0\nLAYER one\n 4 0\nLAYER two\n 4 5 0\n") +
-            box,
+            box_tsurf,
         "a.ml", "a");
     REQUIRE(message_of(result) == "no error");
     const auto regions = stated_regions_of(result.value());
@@ -77,19 +77,19 @@ TEST_CASE("GOCAD models: the regions that are stated", "[io][gocad]") {
 
 TEST_CASE("GOCAD models: broken files", "[io][gocad]") {
     using enum ErrorCode;
-    const auto named = model3d("TSURF other\n") + box;
-    const auto part = model3d("TFACE 1 fault other\n") + box;
-    const auto short_part = model3d("TFACE 1 fault\n") + box;
-    const auto no_id = model3d("TFACE x fault my box\n") + box;
-    const auto few = model3d("TFACE 1 fault my box\n") + box;
-    const auto many = model3d(lists + "TFACE 3 fault my box\n") + box;
-    const auto twice = model3d("TFACE 1 fault my box\nTFACE 1 fault my box\n") + box;
-    const auto region = model3d(lists + "REGION 5 R\n +1 -7 0\n") + box;
-    const auto layer = model3d(lists + "LAYER L\n 9 0\n") + box;
+    const auto named = model3d("TSURF other\n") + box_tsurf;
+    const auto part = model3d("TFACE 1 fault other\n") + box_tsurf;
+    const auto short_part = model3d("TFACE 1 fault\n") + box_tsurf;
+    const auto no_id = model3d("TFACE x fault my box\n") + box_tsurf;
+    const auto few = model3d("TFACE 1 fault my box\n") + box_tsurf;
+    const auto many = model3d(lists + "TFACE 3 fault my box\n") + box_tsurf;
+    const auto twice = model3d("TFACE 1 fault my box\nTFACE 1 fault my box\n") + box_tsurf;
+    const auto region = model3d(lists + "REGION 5 R\n +1 -7 0\n") + box_tsurf;
+    const auto layer = model3d(lists + "LAYER L\n 9 0\n") + box_tsurf;
     const auto list = model3d(lists + "REGION 5 R\n +1\n");
     const auto endless = "GOCAD Model3d 1\nREGION 5 R\n 1 2\n";
     const Broken cases[] = {
-        {box, nothing_to_do, "a.ml: there is no Model3d"},
+        {box_tsurf, nothing_to_do, "a.ml: there is no Model3d"},
         {"GOCAD Model3d 1\nEND\n", nothing_to_do, "a.ml: there is no TSurf, only 1 Model3d"},
         {"GOCAD Model3d 1\n", bad_syntax, "a.ml:1: the object that begins in line 1 has no END"},
         {named, bad_syntax,

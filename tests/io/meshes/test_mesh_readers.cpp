@@ -139,6 +139,36 @@ TEST_CASE("legacy VTK: files of VTK, text and binary, old and new", "[io][vtk]")
     }
 }
 
+TEST_CASE("legacy VTK: the faces of unstructured grids of VTK and meshio", "[io][vtk]") {
+    for (const std::string name : {"vtk_grid_ascii_42", "vtk_grid_binary_42", "vtk_grid_ascii_51",
+                                   "vtk_grid_binary_51", "meshio_ascii", "meshio_binary"}) {
+        const auto read = read_surfaces(other(name + ".vtk"));
+        INFO(name);
+        if (!read) FAIL(read.error().message());
+        REQUIRE(read->size() == 1);
+        CHECK(read->front().name == name);
+        CHECK(places_of(read->front()) == roof());
+    }
+}
+
+TEST_CASE("legacy VTK: names of surfaces in files that VTK made of others", "[io][vtk]") {
+    const auto all = roof();
+    for (const std::string kind : {"named_grid_", "named_"})
+        for (const std::string name : {"ascii_42", "binary_42", "ascii_51", "binary_51"}) {
+            const auto read = read_surfaces(other("vtk_" + kind + name + ".vtk"));
+            INFO(kind << name);
+            if (!read) FAIL(read.error().message());
+            REQUIRE(read->size() == 2);
+            CHECK(read->at(0).name == "west flank");
+            CHECK(read->at(0).role == Role::horizon);
+            CHECK(places_of(read->at(0)) ==
+                  std::vector<std::array<Point3, 3>>{all[0], all[1], all[3]});
+            CHECK(read->at(1).name == "F%1");
+            CHECK(read->at(1).role == Role::fault);
+            CHECK(places_of(read->at(1)) == std::vector<std::array<Point3, 3>>{all[2]});
+        }
+}
+
 TEST_CASE("MSH: files of gmsh and meshio", "[io][msh]") {
     for (const std::string name : {"gmsh_41.msh", "gmsh_22.msh"}) {
         const auto read = read_surfaces(other(name));
@@ -260,8 +290,9 @@ TEST_CASE("legacy VTK: what can't be read is named with its place", "[io][vtk]")
     REQUIRE(parse_surfaces(start + points + "POLYGONS 1 4\n3 0 1 2\n", "a", Format::vtk));
     check_error("x", Format::vtk, bad_syntax,
                 "a:1: the first line is not \"# vtk DataFile Version\"");
-    check_error("# vtk DataFile Version 3.0\nt\nASCII\nDATASET STRUCTURED_GRID\n", Format::vtk,
-                unsupported, "a:4: the file has \"STRUCTURED_GRID\"; only POLYDATA is read");
+    check_error(
+        "# vtk DataFile Version 3.0\nt\nASCII\nDATASET STRUCTURED_GRID\n", Format::vtk, unsupported,
+        "a:4: the file has \"STRUCTURED_GRID\"; only POLYDATA and UNSTRUCTURED_GRID are read");
     check_error(start + points, Format::vtk, nothing_to_do, "a: there is no triangle");
     check_error(start + "POINTS 99999 float\n", Format::vtk, bad_syntax,
                 "a:5: 99999 elements are more than the file has bytes");
@@ -280,6 +311,41 @@ TEST_CASE("legacy VTK: what can't be read is named with its place", "[io][vtk]")
     REQUIRE_FALSE(read);
     CHECK(read.error().code == bad_syntax);
     CHECK(read.error().place.starts_with("a, byte "));
+}
+
+TEST_CASE("legacy VTK: what can't be read of a grid is named with its place", "[io][vtk]") {
+    using enum ErrorCode;
+    const std::string start = "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\n"
+                              "POINTS 4 float\n0 0 0 1 0 0\n0 1 0 0 0 1\n";
+    const std::string tetrahedron = "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n";
+    const std::string cells = "CELLS 2 8\n3 0 1 2\n3 0 2 3\n", types = "CELL_TYPES 2\n5 5\n";
+    REQUIRE(parse_surfaces(start + cells + types, "a", Format::vtk));
+    check_error(start + tetrahedron, Format::vtk, nothing_to_do,
+                "a: there is no triangle, only 1 other cells; ParaView's Extract Surface makes "
+                "triangles of them");
+    check_error(start + cells + "CELL_TYPES 2\n5 22\n", Format::vtk, unsupported,
+                "a:11: cell 1 is of type 22, with curved sides, which is not read");
+    check_error(start + cells + "CELL_TYPES 1\n5\n", Format::vtk, bad_index,
+                "a:8: CELL_TYPES has no type for cell 1");
+    check_error(start + cells, Format::vtk, bad_index, "a:8: CELL_TYPES has no type for cell 0");
+    check_error(start + "CELLS 1 4\n3 0 1 4\n" + types, Format::vtk, bad_index,
+                "a:8: cell 0 names point 4, but there are 4");
+    check_error(start + "POLYGONS 1 4\n3 0 1 2\n", Format::vtk, bad_syntax,
+                "a:8: \"polygons\" is no section of UNSTRUCTURED_GRID");
+    const std::string named = start + "FIELD f 1\nsurface_name 1 2 string\nA\nB\n" + cells + types;
+    const auto read = parse_surfaces(named, "a", Format::vtk);
+    REQUIRE(read); // the file does not tell who has which triangle
+    CHECK(read->front().triangles.size() == 2);
+    const std::string array = "CELL_DATA 2\nSCALARS surface int\nLOOKUP_TABLE default\n";
+    CHECK(parse_surfaces(named + array + "1 0\n", "a", Format::vtk)->size() == 2);
+    check_error(named + array + "1 2\n", Format::vtk, bad_index,
+                "a:12: polygon 1 is of surface 2, but there are 2");
+    check_error(named + "CELL_DATA 1\nSCALARS surface int\nLOOKUP_TABLE default\n1\n", Format::vtk,
+                bad_index, "a:12: the array surface has no value for polygon 1");
+    check_error(named + "CELL_DATA 2\nSCALARS surface int\n1 1\n", Format::vtk, bad_syntax,
+                "a:19: LOOKUP_TABLE is needed here");
+    check_error(start + "FIELD f 1\nsurface_name 1 2 string\nA\n" + cells, Format::vtk, bad_syntax,
+                "a:12: \"3\" is no section of UNSTRUCTURED_GRID"); // a text is missing
 }
 
 TEST_CASE("MSH: what can't be read is named with its line", "[io][msh]") {

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -103,8 +104,8 @@ TEST_CASE("fault sticks: what can't be read is named with its line", "[io][stick
           "a:3: the heading has 4 columns, this line 3");
     CHECK(
         message_of_sticks("0 0 0\n0 0 1\n") ==
-        "a: no fault has two sticks; a column with the number of the stick, or a line 999 999 999 "
-        "after each stick, tells them apart");
+        "a: no fault has two sticks or a closed line; a column with the number of the stick, or a "
+        "line 999 999 999 after each stick, tells them apart");
 }
 
 TEST_CASE("fault sticks: a file of another program", "[io][sticks]") {
@@ -116,4 +117,46 @@ TEST_CASE("fault sticks: a file of another program", "[io][sticks]") {
     CHECK(fault.vertices.size() == 12);
     CHECK(fault.vertices[4] == Point3{757268.95681, 3787540.23798, 1881.46707});
     CHECK(fault.triangles.size() == 12); // three strips of four
+}
+
+TEST_CASE("fault sticks: a closed line is filled, with its own points only", "[io][sticks]") {
+    // An L in the plane y = x, seen from beside; the last line repeats its first point twice.
+    const std::string upright = "0 0 0\n4 4 0\n4 4 -2\n2 2 -2\n2 2 -5\n0 0 -5\n0 0 -5\n0 0 0\n";
+    for (const std::string& text : {upright + "999 999 999\n", upright}) {
+        const auto faults = read_them(text);
+        REQUIRE(faults.size() == 1);
+        CHECK(faults[0].role == Role::fault);
+        CHECK(faults[0].vertices ==
+              std::vector<Point3>{
+                  {0, 0, 0}, {4, 4, 0}, {4, 4, -2}, {2, 2, -2}, {2, 2, -5}, {0, 0, -5}});
+        REQUIRE(faults[0].triangles.size() == 4);
+        double area = 0; // of the projection to x and z
+        for (const Triangle& t : faults[0].triangles) {
+            const Point3 &a = faults[0].vertices[t[0]], &b = faults[0].vertices[t[1]],
+                         &c = faults[0].vertices[t[2]];
+            area += (b.x - a.x) * (c.z - a.z) - (b.z - a.z) * (c.x - a.x);
+        }
+        CHECK(std::abs(area) == 2 * (4 * 2 + 2 * 3));
+    }
+    // Polygons of one fault stay apart, and sticks between them are strips as before.
+    const auto mixed = read_them("0 0 0 F 1\n2 0 0 F 1\n2 2 1 F 1\n0 0 0 F 1\n"
+                                 "9 0 0 F 2\n9 0 -1 F 2\n8 0 0 F 3\n8 0 -1 F 3\n"
+                                 "5 5 5 G 1\n6 5 5 G 1\n6 6 5 G 1\n5 5 5 G 1\n");
+    REQUIRE(mixed.size() == 2);
+    CHECK(mixed[0].triangles.size() == 3);
+    CHECK(mixed[1].triangles.size() == 1);
+    CHECK(mixed[1].vertices.size() == 3);
+}
+
+TEST_CASE("fault sticks: a closed line that crosses itself is refused", "[io][sticks]") {
+    const std::string sentence =
+        " touches or crosses itself, seen along the normal of its plane of "
+        "least squares";
+    CHECK(message_of_sticks("0 0 0\n4 0 4\n4 0 0\n0 0 4\n0 0 0\n") ==
+          "a: closed line 1 of \"a\": the line" + sentence);
+    CHECK(message_of_sticks("9 9 9 F 1\n9 8 8 F 1\n0 0 0 F 2\n2 0 0 F 2\n0 0 2 F 2\n0 0 0 F 2\n"
+                            "0 1 0 F 3\n4 0 4 F 3\n4 1 0 F 3\n0 0 4 F 3\n0 1 0 F 3\n") ==
+          "a: closed line 2 of \"F\": the line" + sentence);
+    // Without an inside there is no surface.
+    CHECK(message_of_sticks("1 1 1\n1 1 1\n1 1 1\n1 1 1\n").starts_with("a: no fault has two"));
 }

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// The blocks in which many points lie, found exactly.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <terrane/algorithms/core/result.hpp>
+#include <terrane/algorithms/core/run.hpp>
+#include <terrane/algorithms/mesh/mesh.hpp>
+#include <terrane/algorithms/volumes/volumes.hpp>
+
+namespace terrane {
+
+/// Returns for each point, which is finite, the volume that contains it; 0 is the outside. A point on
+/// a triangle counts to the volume on the side of greater x; where the triangle is parallel to x, of
+/// greater y, and where it is parallel to y as well, of greater z: it is shifted by
+/// (e, e^2, e^3) for an infinitely small e. `volumes` are those of the mesh, which is conforming.
+/// A vertical line upward from each point is searched for the lowest triangle above it, in a tree of
+/// boxes in the map; doubles decide only where their error is bounded, exact numbers elsewhere.
+/// Cost: n log n for n triangles; per point log n and the number of triangles on its line. Errors:
+/// interrupted; internal if triangles are found to overlap.
+Result<std::vector<std::uint32_t>> locate_points(std::span<const Point3> points, const Mesh& mesh,
+                                                 const Volumes& volumes, const Run& run = {});
+
+} // namespace terrane
