@@ -85,6 +85,7 @@ SAFile open_shape(const char* name, const char* access) {
     if (code != std::errc() || dot == std::string_view::npos || end != text.data() + dot ||
         std::string_view(access) != "rb")
         return nullptr;
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): shapelib 1.5 passes nothing but the name
     const auto* bytes = reinterpret_cast<const ShapeBytes*>(address);
     const auto extension = text.substr(dot);
     auto stream = std::make_unique<ShapeStream>();
