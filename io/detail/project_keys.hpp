@@ -9,11 +9,11 @@
 
 namespace terrane::detail {
 
-inline constexpr std::array<std::string_view, 14> project_level{
-    "format",     "folder", "threads",    "surfaces",
-    "column",     "fill",   "layers",     "volume_of_interest",
-    "extend",     "seal",   "min_volume", "improve",
-    "tetrahedra", "outputs"};
+inline constexpr std::array<std::string_view, 15> project_level{
+    "format",  "folder",     "threads", "surfaces",
+    "column",  "fill",       "layers",  "volume_of_interest",
+    "extend",  "seal",       "seal_of", "min_volume",
+    "improve", "tetrahedra", "outputs"};
 inline constexpr std::array<std::string_view, 5> surfaces_level{"file", "objects", "name", "role",
                                                                 "depth"};
 inline constexpr std::array<std::string_view, 8> fill_level{

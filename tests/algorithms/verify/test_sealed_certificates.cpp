@@ -67,6 +67,15 @@ std::vector<File> slit_and_neighbours() {
 
 } // namespace
 
+TEST_CASE("sealed certificates: bridges between borders are accepted", "[sealing]") {
+    const Subject right = sealed_subject(slit_and_neighbours(), {std::nullopt, 0.2, 0});
+    CHECK(right.certificate["sealed"][0]["sealed"].size() >= 4);
+    CHECK(right.certificate["sealed"][1]["sealed"].size() +
+              right.certificate["sealed"][2]["sealed"].size() >=
+          5);
+    CHECK(judged_widely(right) == "");
+}
+
 TEST_CASE("sealed certificates: what looks like a bridge and joins nothing is refused",
           "[sealing]") {
     const auto all = [](const Corners&, const std::set<std::uint32_t>&) { return true; };
