@@ -28,6 +28,7 @@
 #include <terrane/algorithms/model/model.hpp>
 #include <terrane/algorithms/model/model_doubts.hpp>
 #include <terrane/algorithms/model/seal_advice.hpp>
+#include <terrane/algorithms/model/seal_rules.hpp>
 #include <terrane/algorithms/model/small_blocks.hpp>
 #include <terrane/algorithms/plausibility/plausibility.hpp>
 #include <terrane/algorithms/project/build.hpp>

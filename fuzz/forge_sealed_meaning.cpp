@@ -235,20 +235,26 @@ private:
         return false;
     }
 
+    /// Tells whether a triangle of the surface as it was before has all of these corners.
+    [[nodiscard]] bool was_there(const std::vector<Point3>& corners, const Input& added) const {
+        return std::ranges::any_of(inputs_, [&](const Input& other) {
+            return other.surface == added.surface && other.origin < added.origin &&
+                   std::ranges::all_of(corners, [&](const Point3& p) {
+                       return std::ranges::count(other.at, p) > 0;
+                   });
+        });
+    }
+
     /// Tells whether an edge lies on a side of an added triangle that contains it; of the lateral
-    /// ones alone, which lead away from a vertex of the surface as it was before.
+    /// ones alone, which begin at a vertex of the surface as it was before and are no edges of it.
     [[nodiscard]] bool is_on_side(std::uint32_t t, const Edge& edge, bool lateral) const {
-        const auto was_there = [&](const Point3& p, const Input& added) {
-            return std::ranges::any_of(inputs_, [&](const Input& other) {
-                return other.surface == added.surface && other.origin < added.origin &&
-                       std::ranges::count(other.at, p) > 0;
-            });
-        };
         return std::ranges::any_of(c_.exact.parents_of[t], [&](std::uint32_t p) {
             const Input& input = inputs_[p];
             for (std::size_t i = 0; i < 3; ++i) {
                 const Point3 &a = input.at[i], &b = input.at[(i + 1) % 3];
-                if (lateral && was_there(a, input) == was_there(b, input)) continue;
+                if (lateral && ((!was_there({a}, input) && !was_there({b}, input)) ||
+                                was_there({a, b}, input)))
+                    continue;
                 const double near = 1e-9 * (1e-3 + length(b - a));
                 if (distance(points_[edge[0]], a, b) <= near &&
                     distance(points_[edge[1]], a, b) <= near)
@@ -278,8 +284,40 @@ private:
                     if (t != u && parts_[t].is_strip() && !parts_[u].is_dropped &&
                         ends_on(t, u, edge, at))
                         closing.push_back(t);
+        add_bridges(closing);
         return is_strip_beyond(
             reached(std::move(closing), [](const Part& part) { return part.is_strip(); }));
+    }
+
+    /// Adds triangles that lie at the border of their surface with a side, and reach another place
+    /// where added triangles connected with them do with the corner opposite to that.
+    void add_bridges(Ids& closing) const {
+        struct Contact {
+            std::uint32_t triangle;
+            Edge edge;
+        };
+        std::vector<Contact> contacts;
+        for (const auto& [edge, at] : at_edge_)
+            for (const std::uint32_t t : at)
+                if (parts_[t].is_strip() &&
+                    std::ranges::any_of(parts_[t].surfaces,
+                                        [&, &list = at](auto s) { return ends_at(list, s); }))
+                    contacts.push_back({t, edge});
+        const auto is_strip = [](const Part& part) { return part.is_strip(); };
+        for (const Contact& contact : contacts) {
+            const auto connected = reached({contact.triangle}, is_strip);
+            for (const std::uint32_t p : c_.exact.parents_of[contact.triangle])
+                for (const Point3& corner : inputs_[p].at)
+                    for (const Contact& other : contacts)
+                        if (connected.contains(other.triangle) &&
+                            !is_near_line(corner, contact.edge) &&
+                            (points_[other.edge[0]] == corner || points_[other.edge[1]] == corner))
+                            closing.push_back(contact.triangle);
+        }
+    }
+    [[nodiscard]] bool is_near_line(const Point3& p, const Edge& edge) const {
+        const Point3 a = points_[edge[0]], b = points_[edge[1]];
+        return length(cross(b - a, p - a)) <= 1e-9 * length(b - a) * (1e-3 + length(p - a));
     }
 
     [[nodiscard]] bool ends_on(std::uint32_t t, std::uint32_t u, const Edge& edge,

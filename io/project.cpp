@@ -61,6 +61,7 @@ private:
                 in_.fail("extend", "needs volume_of_interest, to whose boundary it extends");
         }
         if (const Json* v = in_.find(json, "seal")) project.seal = automatic(*v, "seal");
+        if (const Json* v = in_.find(json, "seal_of")) project.seal_of = seal_of(*v);
         if (const Json* v = in_.find(json, "min_volume"))
             project.min_volume = automatic(*v, "min_volume");
         if (const Json* v = in_.find(json, "improve")) project.improve = improve(*v);
@@ -235,6 +236,21 @@ private:
         }
         for (const auto& [name, length] : json.items())
             all.emplace_back(name, in_.positive(length, JsonReader::join(path, name)));
+        return all;
+    }
+
+    /// Reads distances by the names of surfaces, or pairs of them.
+    std::vector<ProjectSize> seal_of(const Json& json) {
+        std::vector<ProjectSize> all;
+        if (!json.is_object()) {
+            in_.fail("seal_of", "must be an object of distances by name");
+            return all;
+        }
+        for (const auto& [name, distance] : json.items()) {
+            const bool is_none = distance.is_number() && distance.get<double>() == 0;
+            all.emplace_back(
+                name, is_none ? 0 : in_.positive(distance, JsonReader::join("seal_of", name)));
+        }
         return all;
     }
 

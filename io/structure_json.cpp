@@ -191,7 +191,14 @@ Json seal_json(const StructureExtras& extras) {
                            {"distance", c.largest},
                            {"place", {c.place.x, c.place.y, c.place.z}},
                            {"triangles", c.triangles}});
-    return {{"distance", extras.seal_distance}, {"changes", std::move(changes)}};
+    Json json{{"distance", *extras.seal_distance}};
+    for (const SealRule& rule : extras.seal_rules) {
+        Json surfaces = Json::array({std::uint32_t{rule.surface}});
+        if (rule.other) surfaces.push_back(std::uint32_t{*rule.other});
+        json["rules"].push_back({{"surfaces", std::move(surfaces)}, {"distance", rule.distance}});
+    }
+    json["changes"] = std::move(changes);
+    return json;
 }
 
 } // namespace
@@ -207,7 +214,7 @@ std::string to_json(const Mesh& mesh, const Structure& structure, const Structur
     json["corners"] = corners_json(mesh, structure);
     json["free_borders"] = borders_json(extras.free_borders);
     json["leaks"] = leaks_json(extras);
-    if (extras.seal_distance > 0) json["seal"] = seal_json(extras);
+    if (extras.seal_distance) json["seal"] = seal_json(extras);
     return text_of(json);
 }
 

@@ -28,7 +28,8 @@
 //               smallest distances first: from (the surface that ends), to (the nearest one),
 //               borders (number of parts), length, least, largest, place; separates (whether closing
 //               it separates blocks) where that is known
-//   seal        only if gaps were closed on request: distance (the one requested), changes: kind
+//   seal        only if gaps were closed on request: distance (the one requested), rules (only if
+//               there are any): surfaces (one or two) and distance; changes: kind
 //               (extended, trimmed), surface, length of the border there, largest distance, place,
 //               triangles (added or removed)
 //
@@ -37,6 +38,7 @@
 // are in units of the input. Doubles read back as the same doubles; infinities and NaN are null.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -57,7 +59,8 @@ struct StructureExtras {
     std::span<const FreeBorder> free_borders{};   ///< all of the structure
     std::span<const LeakVerdict> leak_verdicts{}; ///< per entry of leaks_of(free_borders); empty:
                                                   ///< they were not judged
-    double seal_distance = 0;                     ///< 0: not requested
+    std::optional<double> seal_distance{};        ///< none: not requested; 0: by rules alone
+    std::span<const SealRule> seal_rules{};       ///< exceptions from the distance
     std::span<const SealChange> seal_changes{};   ///< what sealing did
 };
 

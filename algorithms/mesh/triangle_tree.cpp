@@ -163,4 +163,15 @@ std::optional<TriangleTree::Near> TriangleTree::nearest(const Point3& p, double 
     return best;
 }
 
+std::vector<TriangleTree::Near> TriangleTree::within(const Point3& p, double bound) const {
+    std::vector<Near> all;
+    for_near(p, bound, [&](const Triangle& t) {
+        const auto& [a, b, c] = t;
+        const Point3 q = nearest_on_triangle(p, points_[a], points_[b], points_[c]);
+        const double d = length(minus(q, p));
+        if (d < bound) all.push_back({q, d, t});
+    });
+    return all;
+}
+
 } // namespace terrane

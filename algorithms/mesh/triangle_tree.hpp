@@ -28,6 +28,8 @@ public:
     /// Returns the nearest point on the triangles if it is nearer than `bound`. Cost: as
     /// distance().
     [[nodiscard]] std::optional<Near> nearest(const Point3& p, double bound) const;
+    /// Returns the nearest point of each triangle that is nearer than `bound`, in no order.
+    [[nodiscard]] std::vector<Near> within(const Point3& p, double bound) const;
 
 private:
     /// Calls visit(triangle) for the triangles that may be nearer than `bound`; visit may reduce

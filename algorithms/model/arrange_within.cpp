@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/algorithms/model/arrange_within.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
@@ -29,18 +30,30 @@ Status extend(std::span<const std::uint32_t> boundary, const ArrangeWithinOption
     return Done{};
 }
 
+/// Tells whether gaps of any surface are closed.
+bool seals(const ArrangeWithinOptions& options) {
+    return options.seal != 0 || std::ranges::any_of(options.seal_rules, [](const SealRule& r) {
+               return r.distance > 0;
+           });
+}
+
 Result<Arrangement> arrange_or_seal(const ArrangeWithinOptions& options, const Run& run,
                                     Arranged& arranged) {
-    if (options.seal == 0) {
+    if (!seals(options)) {
         announce(run, "arrange");
         return arrange(arranged.surfaces, options.arrange, run);
     }
     announce(run, "seal");
-    auto sealed = seal(std::move(arranged.surfaces), {options.seal, options.arrange}, run);
+    auto sealed = seal(std::move(arranged.surfaces),
+                       {options.seal, options.arrange, options.seal_rules}, run);
     if (!sealed) return sealed.error();
     arranged.surfaces = std::move(sealed->surfaces);
-    arranged.sealed = SealReport{options.seal, std::move(sealed->changes),
-                                 std::move(sealed->closed), sealed->left};
+    arranged.sealed = SealReport{.distance = options.seal,
+                                 .rules = options.seal_rules,
+                                 .changes = std::move(sealed->changes),
+                                 .closed = std::move(sealed->closed),
+                                 .open = std::move(sealed->open),
+                                 .left = sealed->left};
     return std::move(sealed->arrangement);
 }
 
@@ -80,6 +93,7 @@ Result<SealChoice> choose_seal(const std::vector<Surface>& surfaces,
     ArrangeWithinOptions unsealed = options;
     unsealed.seal = unsealed.min_volume = 0;
     unsealed.seal_automatic = false;
+    unsealed.seal_rules.clear();
     const double edge_length = median_edge_length(surfaces);
     if (!(edge_length > 0)) return SealChoice{};
     const auto arranged = arrange_exactly_within(surfaces, boundary, unsealed, run);
@@ -123,7 +137,7 @@ Result<Arranged> arrange_exactly_within(std::vector<Surface> surfaces,
     arranged.boundary_count = boundary.size();
     arranged.surfaces = std::move(surfaces);
     std::move(boundary.begin(), boundary.end(), std::back_inserter(arranged.surfaces));
-    if (chosen.extend != 0 || chosen.seal != 0)
+    if (chosen.extend != 0 || seals(chosen))
         for (std::size_t s = 0; s + sides.size() < arranged.surfaces.size(); ++s)
             arranged.growth.push_back({arranged.surfaces[s].triangles.size()});
     if (chosen.extend != 0)

@@ -31,6 +31,7 @@ struct ArrangeWithinOptions {
                            ///< none
     double min_volume = 0; ///< smaller blocks are merged with neighbours, cubic unit of the input;
                            ///< 0: none
+    std::vector<SealRule> seal_rules{}; ///< exceptions from `seal`, see SealOptions
 };
 
 /// The distance for sealing that the widths of gaps suggest.
@@ -45,8 +46,10 @@ struct SealChoice {
 /// The gaps that were closed.
 struct SealReport {
     double distance = 0;               ///< the option seal
+    std::vector<SealRule> rules{};     ///< the option seal_rules
     std::vector<SealChange> changes{}; ///< see Sealed
     std::vector<ClosedGap> closed{};   ///< see Sealed
+    std::vector<OpenGap> open{};       ///< see Sealed
     double left = 0;                   ///< see Sealed
 };
 

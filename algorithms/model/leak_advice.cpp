@@ -83,6 +83,7 @@ Result<LeakAdvice> judge_leaks(const Arranged& arranged, std::span<const FreeBor
     ArrangeWithinOptions closing = options;
     closing.seal = advice.distance;
     closing.seal_automatic = false;
+    closing.seal_rules.clear();
     closing.extend = 0; // the surfaces are extended already
     closing.min_volume = small_volume_for(surfaces);
     std::vector<Surface> boundary(arranged.surfaces.end() -

@@ -7,8 +7,7 @@
 // blocks if a triangle of the strip that closes it has different volumes on its sides: opening this
 // gap alone joins the two. That is decided exactly. The other gaps up to the break are harmless by
 // the same criterion: tips, borders that reach beyond another surface, gaps beside others that stay
-// open. Not seen are gaps that are wider than the break, those of a surface to itself, and those
-// that sealing can't close. Where two gaps lead between the same blocks, both are found.
+// open. Not seen are gaps that are wider than the break, and those that sealing can't close. Where two gaps lead between the same blocks, both are found.
 // Cost: that of seal() and find_volumes().
 #pragma once
 

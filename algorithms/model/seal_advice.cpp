@@ -17,6 +17,7 @@ Result<SealTrial> try_distance(double distance, double small_volume,
     options.seal = distance;
     options.seal_automatic = false;
     options.min_volume = 0;
+    if (distance == 0) options.seal_rules.clear();
     const auto arranged = arrange_exactly_within(surfaces, boundary, options, run);
     if (!arranged) return arranged.error();
     const auto volumes = find_volumes(arranged->exact, run);

@@ -35,7 +35,7 @@ struct SealAdvice {
     std::vector<SealTrial> trials{}; ///< without sealing first, then for each break
 };
 
-/// Finds the breaks and tries each of them; `options.seal` is ignored. The cost is that of
+/// Finds the breaks and tries each of them; `options.seal` is ignored, but rules hold. The cost is that of
 /// arrange_within() for each trial, without rounding. Errors: those of arrange_within.
 Result<SealAdvice> advise_seal(const std::vector<Surface>& surfaces,
                                const std::vector<Surface>& boundary,

@@ -9,6 +9,7 @@
 
 #include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
+#include <terrane/algorithms/model/seal_rules.hpp>
 #include <terrane/algorithms/project/detail/kept_results.hpp>
 
 namespace terrane {
@@ -83,11 +84,18 @@ private:
     }
 
     Status arrange_surfaces() {
-        const ArrangeWithinOptions options{.rounding = {.check = project_.check},
-                                           .seal = project_.seal.value_or(0),
-                                           .seal_automatic = project_.seal == 0.0,
-                                           .extend = project_.extend.value_or(0),
-                                           .min_volume = least_volume()};
+        ArrangeWithinOptions options{.rounding = {.check = project_.check},
+                                     .seal = project_.seal.value_or(0),
+                                     .seal_automatic = project_.seal == 0.0,
+                                     .extend = project_.extend.value_or(0),
+                                     .min_volume = least_volume()};
+        const auto infos = infos_of(input_.surfaces);
+        const auto labels = unique_labels(infos);
+        for (const auto& [name, distance] : project_.seal_of) {
+            const auto rules = seal_rules_for(name, distance, infos, labels);
+            if (!rules) return at_key(project_, "seal_of." + name, rules.error().sentence);
+            options.seal_rules.insert(options.seal_rules.end(), rules->begin(), rules->end());
+        }
         auto arranged =
             arrange_within(std::move(input_.surfaces), std::move(input_.boundary), options, run_);
         if (!arranged) return arranged.error();

@@ -133,6 +133,8 @@ struct Project {
                                     ///< unit of the surfaces
     std::optional<double> seal{};   ///< largest width of gaps to close, unit of the surfaces; 0:
                                     ///< "auto", see choose_seal()
+    std::vector<ProjectSize> seal_of{}; ///< exceptions from `seal`, by surface, "F1", or pair of
+                                        ///< surfaces, "F1/F2"; 0: never close these
     std::optional<double> min_volume{}; ///< smaller blocks are merged with a neighbour, cubic unit;
                                         ///< 0: "auto", see small_volume_for()
     std::optional<ProjectImprove> improve{}; ///< none: triangles stay as they are

@@ -94,13 +94,7 @@ public:
 private:
     [[nodiscard]] const Point3& at(std::uint32_t v) const { return a_.state->points.input(v); }
 
-    /// Returns the unit vector in the plane of the edge's triangle, perpendicular to the edge and
-    /// away from the triangle.
-    [[nodiscard]] Point3 outward(const StripEdge& e) const {
-        const Triangle& c = a_.state->corners[e.edge.triangle];
-        const Point3 n = unit(cross(minus(at(c[1]), at(c[0])), minus(at(c[2]), at(c[0]))));
-        return unit(cross(unit(minus(at(e.edge.to), at(e.edge.from))), n));
-    }
+    [[nodiscard]] Point3 outward(const StripEdge& e) const { return outward_of(a_, e.edge); }
 
     void place(std::uint32_t v, Vertex& vertex) {
         Point3 sum{}, target_sum{};
@@ -128,7 +122,7 @@ private:
              const std::array<Point3, 3>& corners, const std::array<bool, 3>& is_base,
              unsigned side) {
         if (collinear(corners[0], corners[1], corners[2])) return;
-        strips_.push_back({e.edge.surface, piece, is_fan, corners, is_base, side});
+        strips_.push_back({e.edge.surface, piece, is_fan, corners, is_base, side, {}});
     }
 
     void add_quad(const StripEdge& e) {
@@ -209,6 +203,13 @@ std::vector<BorderEdge> open_border_edges(const Arrangement& a, std::vector<bool
             if (!border.open.empty()) found.push_back(std::move(border));
     }
     return found;
+}
+
+Point3 outward_of(const Arrangement& a, const BorderEdge& edge) {
+    const auto at = [&](std::uint32_t v) { return a.state->points.input(v); };
+    const Triangle& c = a.state->corners[edge.triangle];
+    const Point3 n = unit(cross(minus(at(c[1]), at(c[0])), minus(at(c[2]), at(c[0]))));
+    return unit(cross(unit(minus(at(edge.to), at(edge.from))), n));
 }
 
 std::vector<ExtensionTriangle> make_strips(const Arrangement& a, std::span<const StripEdge> edges) {

@@ -55,6 +55,15 @@ struct ExtensionTriangle {
     std::array<bool, 3> is_base{}; ///< the corner lies on the border
     unsigned side = 3; ///< the edge from this corner on is the side of a quadrilateral, which a fan
                        ///< shares
+    std::array<bool, 3> joins{}; ///< of a bridge: the edge from the corner on lies on a border; the
+                                 ///< other edges are sides
+
+    /// Tells whether the triangle is part of a bridge, which has all corners on borders.
+    [[nodiscard]] bool is_bridge() const { return joins[0] || joins[1] || joins[2]; }
+    /// Tells whether the edge from a corner on may stay free.
+    [[nodiscard]] bool is_side(unsigned k) const {
+        return is_bridge() ? !joins[k] : !is_fan && side == k;
+    }
 };
 
 /// A border edge to extend, and how far.
@@ -66,6 +75,10 @@ struct StripEdge {
                                                     ///< the tangent plane
     std::uint32_t piece = 0;                        ///< unique
 };
+
+/// Returns the unit vector in the plane of a border edge's triangle, perpendicular to the edge and
+/// away from the triangle.
+Point3 outward_of(const Arrangement& arrangement, const BorderEdge& edge);
 
 /// Builds quadrilaterals beyond the edges, joined at their common vertices, with mitred corners,
 /// and widening fans at the ends of chains of edges. Triangles are oriented like their surface.

@@ -2,6 +2,7 @@
 #include <terrane/algorithms/sealing/extension_faces.hpp>
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
@@ -176,8 +177,45 @@ private:
                            [&](std::uint32_t s) { return !is_given_for(on, s) || !ends_at(e, s); });
     }
 
-    /// Marks kept cells as open that are connected with none that ends on a surface: they lead from
-    /// the border to the border. Returns whether there are any.
+    /// Finds the bridges that join two parts of the border of their own surface, given the
+    /// components of kept strips: a triangle is attached along the border, and its opposite corner
+    /// is an end of another edge along which its component is attached.
+    void mark_joining(UpwardWitness upward, DisjointSets& connected, std::vector<bool>& ends) {
+        struct Attached {
+            std::uint32_t triangle;
+            PointIndex opposite;
+        };
+        std::vector<Attached> all;
+        std::set<std::pair<std::uint32_t, PointIndex>> corners; // by component
+        for (const StripEdgeSides& e : edges_)
+            for (const std::uint32_t t : e.triangles) {
+                if (!is_strip(t) || !keep_[t] || !is_given_beside(e, t)) continue;
+                for (const std::uint32_t p : a_.parents_of[t]) {
+                    const Triangle& c = a_.state->corners[p];
+                    for (unsigned k = 0; k < 3; ++k) {
+                        if (!strips_[by_input_[p]].joins[k] ||
+                            !lies_on(upward, a_, e.edge, InputTriangleId(p), c[k], c[(k + 1) % 3]))
+                            continue;
+                        all.push_back({t, c[(k + 2) % 3]});
+                        for (const std::uint32_t v : e.edge)
+                            corners.emplace(connected.find(t), a_.vertices[v]);
+                    }
+                }
+            }
+        for (const Attached& at : all)
+            if (corners.contains({connected.find(at.triangle), at.opposite}))
+                ends[at.triangle] = true;
+    }
+    /// Tells whether a kept triangle at the edge lies in the surface of a strip's triangle, and not
+    /// only because of strips.
+    [[nodiscard]] bool is_given_beside(const StripEdgeSides& e, std::uint32_t strip) const {
+        return std::any_of(e.triangles.begin(), e.triangles.end(), [&](std::uint32_t t) {
+            return keep_[t] && is_given_for(t, strips_[strip_of_[strip]].surface);
+        });
+    }
+
+    /// Marks kept cells as open that are connected with none that ends on a surface, or joins two
+    /// parts of a border: they lead from the border to the border. Returns whether there are any.
     bool part_loose() {
         const UpwardRounding guard;
         DisjointSets connected(strip_of_.size());
@@ -189,6 +227,7 @@ private:
                     if (is_strip(u) && share_surface(t, u)) connected.join(t, u);
                     ends[t] = ends[t] || ends_on(guard, t, u, e);
                 }
+        mark_joining(guard, connected, ends);
         for (std::uint32_t t = 0; t < ends.size(); ++t)
             if (ends[t]) is_closing[connected.find(t)] = true;
         bool any = false;
@@ -205,10 +244,10 @@ private:
         for (const std::uint32_t p : a_.parents_of[t]) {
             const ExtensionTriangle& strip = strips_[by_input_[p]];
             const Triangle& c = a_.state->corners[p];
-            const unsigned k = strip.side;
-            if (!strip.is_fan &&
-                lies_on(upward, a_, edge, InputTriangleId(p), c[k], c[(k + 1) % 3]))
-                return true;
+            for (unsigned k = 0; k < 3; ++k)
+                if (strip.is_side(k) &&
+                    lies_on(upward, a_, edge, InputTriangleId(p), c[k], c[(k + 1) % 3]))
+                    return true;
         }
         return false;
     }

@@ -7,7 +7,8 @@
 // piece per border edge, and fans). A cell is kept if it is connected to the border within the
 // strip, across kept cells, and has no free edge: each of its edges lies on the border, on another
 // triangle that is kept, or on the side of its piece. Connected cells must end on a surface
-// somewhere: those that lead from the border of their surface to its border close no gap. So a
+// somewhere, or be a bridge between two parts of the border of their own: other strips that lead
+// from the border of their surface to its border close no gap. So a
 // strip extends to the first surfaces that close it off, and not beyond. The result depends on no
 // order: statement (1) of docs/explanation/sealing.md.
 #pragma once

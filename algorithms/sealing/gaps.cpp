@@ -47,7 +47,8 @@ Result<std::vector<SurfaceGap>> find_gaps(const Arrangement& arrangement, double
     if (!(widest > 0) || !std::isfinite(widest))
         return Error{ErrorCode::bad_option, "the largest width must be positive", "seal"};
     return guarded("for the widths of gaps", "gaps", [&]() -> Result<std::vector<SurfaceGap>> {
-        const sealing::detail::GapDistances distances(arrangement, widest);
+        const sealing::detail::GapDistances distances(arrangement,
+                                                      sealing::detail::SealDistances(widest));
         std::vector<SurfaceGap> gaps;
         for (const BorderEdge& edge : open_border_edges(arrangement)) {
             if (run.stop.stop_requested())

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <optional>
@@ -20,9 +21,13 @@
 #include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/sealing/border_extension.hpp>
+#include <terrane/algorithms/sealing/detail/bridges.hpp>
 #include <terrane/algorithms/sealing/detail/constants.hpp>
+#include <terrane/algorithms/sealing/detail/facing_borders.hpp>
 #include <terrane/algorithms/sealing/detail/gap_distances.hpp>
+#include <terrane/algorithms/sealing/detail/open_gaps.hpp>
 #include <terrane/algorithms/sealing/detail/overshoots.hpp>
+#include <terrane/algorithms/sealing/detail/seal_distances.hpp>
 #include <terrane/algorithms/sealing/extension_faces.hpp>
 
 namespace terrane {
@@ -48,8 +53,8 @@ struct Judged {
     std::vector<Overshoot> overshoots; ///< triangles of the arrangement
 };
 
-Judged judge(const Arrangement& a, std::span<const ExtensionTriangle> strips, double distance,
-             const Run& run) {
+Judged judge(const Arrangement& a, std::span<const ExtensionTriangle> strips,
+             const SealDistances& distances, const Run& run) {
     const auto of = strips_by_triangle(a, strips_by_input(a, strips));
     std::vector<bool> keep(a.triangles.size());
     std::vector<std::uint32_t> originals;
@@ -58,7 +63,7 @@ Judged judge(const Arrangement& a, std::span<const ExtensionTriangle> strips, do
         if (keep[t]) originals.push_back(t);
     }
     Judged judged;
-    judged.overshoots = find_overshoots(strips.empty() ? a : restricted(a, keep, run), distance);
+    judged.overshoots = find_overshoots(strips.empty() ? a : restricted(a, keep, run), distances);
     for (Overshoot& shoot : judged.overshoots)
         for (std::uint32_t& t : shoot.triangles) {
             t = originals[t];
@@ -69,8 +74,8 @@ Judged judge(const Arrangement& a, std::span<const ExtensionTriangle> strips, do
 }
 
 Result<Arrangement> judged_again(Arrangement a, const std::vector<ExtensionTriangle>& strips,
-                                 double distance, const Run& run) {
-    const Judged judged = judge(a, strips, distance, run);
+                                 const SealDistances& distances, const Run& run) {
+    const Judged judged = judge(a, strips, distances, run);
     return restricted(std::move(a), judged.keep, run);
 }
 
@@ -79,13 +84,16 @@ Result<Arrangement> judged_again(Arrangement a, const std::vector<ExtensionTrian
 class Sealing {
 public:
     Sealing(std::vector<Surface> surfaces, const SealOptions& options, const Run& run) :
-        surfaces_(std::move(surfaces)), options_(options), run_(run) {}
+        surfaces_(std::move(surfaces)), options_(options),
+        distances_(options.distance, options.rules), run_(run) {}
 
     Result<Sealed> operator()() {
         if (auto done = update(); !done) return done.error();
-        for (const bool along : {true, false}) {
-            report(along ? 0.3 : 0.6);
-            auto fresh = new_strips(along);
+        double share = 0;
+        for (const auto make : {&Sealing::strips_along, &Sealing::bridges,
+                                &Sealing::strips_to_nearest, &Sealing::strips_to_own}) {
+            report(share += 0.2);
+            auto fresh = (this->*make)();
             if (fresh.empty()) continue;
             ++sealed_.passes;
             if (auto done = add_useful(std::move(fresh)); !done) return done.error();
@@ -112,19 +120,25 @@ private:
         auto a = arrange(with(strips_), options_.arrange, run_);
         if (!a) return a.error();
         whole_ = std::move(a).value();
-        judged_ = judge(whole_, strips_, options_.distance, run_);
+        judged_ = judge(whole_, strips_, distances_, run_);
         kept_ = restricted(whole_, judged_.keep, run_);
         if (run_.stop.stop_requested()) return interrupted();
         return Done{};
     }
 
-    /// Finds the free parts of the original borders, not those of strips, that are near enough.
-    [[nodiscard]] std::vector<Gap> gaps(const GapDistances& distances) const {
+    /// Finds the free parts of the original borders, not those of strips.
+    [[nodiscard]] std::vector<BorderEdge> free_edges() const {
         const auto by_input = strips_by_input(kept_, strips_);
         std::vector<bool> is_strip;
         for (const std::uint32_t strip : by_input) is_strip.push_back(strip != no_index);
+        return open_border_edges(kept_, std::move(is_strip));
+    }
+
+    /// Finds the free parts of the original borders that are near enough to another surface.
+    [[nodiscard]] std::vector<Gap> gaps() const {
+        const GapDistances distances(kept_, distances_);
         std::vector<Gap> found;
-        for (const BorderEdge& edge : open_border_edges(kept_, is_strip))
+        for (const BorderEdge& edge : free_edges())
             if (auto gap = distances.gap_at(edge)) found.push_back(std::move(*gap));
         return found;
     }
@@ -137,12 +151,40 @@ private:
         return edges;
     }
 
-    [[nodiscard]] std::vector<ExtensionTriangle> new_strips(bool along) {
-        const GapDistances distances(kept_, options_.distance);
-        const GapDistances farther(kept_, constants.end_reach * options_.distance);
+    [[nodiscard]] std::vector<ExtensionTriangle> strips_along() { return strips_over(gaps(), {}); }
+    [[nodiscard]] std::vector<ExtensionTriangle> strips_to_nearest() {
+        const GapDistances farther(kept_, distances_, constants.end_reach);
+        return strips_over(gaps(), &farther);
+    }
+    /// Makes strips where a border ends short of another part of its own surface.
+    [[nodiscard]] std::vector<ExtensionTriangle> strips_to_own() {
+        const FacingBorders borders(kept_, free_edges(), distances_);
+        const GapDistances distances(kept_, distances_);
+        std::vector<Gap> found;
+        for (std::uint32_t e = 0; e < borders.edges().size(); ++e)
+            if (auto gap = gap_to_own(borders, distances, e)) found.push_back(std::move(*gap));
+        return strips_over(std::move(found), {});
+    }
+    [[nodiscard]] std::vector<ExtensionTriangle> bridges() {
+        auto edges = free_edges();
+        const auto done = edges_with_strip();
+        std::erase_if(edges, [&](const BorderEdge& e) {
+            return done.contains(
+                in_order(kept_.state->points.input(e.from), kept_.state->points.input(e.to)));
+        });
+        const FacingBorders borders(kept_, std::move(edges), distances_);
+        auto made = make_bridges(kept_, borders, static_cast<std::uint32_t>(gaps_.size()));
+        std::move(made.gaps.begin(), made.gaps.end(), std::back_inserter(gaps_));
+        return std::move(made.triangles);
+    }
+
+    /// Makes strips beyond the edges of gaps: to the nearest points that `farther` finds, or along
+    /// the tangent plane if there is none.
+    [[nodiscard]] std::vector<ExtensionTriangle> strips_over(std::vector<Gap> wanted,
+                                                             const GapDistances* farther) {
         std::vector<StripEdge> edges;
         const auto done = edges_with_strip();
-        for (Gap& gap : gaps(distances)) {
+        for (Gap& gap : wanted) {
             const std::array ends{kept_.state->points.input(gap.edge.from),
                                   kept_.state->points.input(gap.edge.to)};
             if (done.contains(in_order(ends[0], ends[1]))) continue;
@@ -151,9 +193,9 @@ private:
             strip.piece = static_cast<std::uint32_t>(gaps_.size());
             strip.reach = std::max(constants.width_per_gap * gap.largest,
                                    constants.least_width * step_at(ends));
-            if (!along) {
-                const auto a = farther.nearest(ends[0], gap.edge),
-                           b = farther.nearest(ends[1], gap.edge);
+            if (farther != nullptr) {
+                const auto a = farther->nearest(ends[0], gap.edge),
+                           b = farther->nearest(ends[1], gap.edge);
                 if (a && b) strip.targets = {a->place, b->place};
             }
             gaps_.push_back(std::move(gap));
@@ -204,14 +246,13 @@ private:
                       return std::tie(a.kind, a.surface, a.place, a.length) <
                              std::tie(b.kind, b.surface, b.place, b.length);
                   });
-        for (const Gap& gap : gaps(GapDistances(kept_, options_.distance)))
-            sealed_.left += gap.length;
+        list_open();
         sealed_.surfaces = with(strips_);
         sealed_.arrangement = std::move(kept_);
         if (!sealed_.arrangement.state->whole)
             own_state(sealed_.arrangement).restrict_again =
-                [strips = strips_, d = options_.distance](Arrangement a, const Run& run) {
-                    return judged_again(std::move(a), strips, d, run);
+                [strips = strips_, distances = distances_](Arrangement a, const Run& run) {
+                    return judged_again(std::move(a), strips, distances, run);
                 };
     }
 
@@ -252,6 +293,13 @@ private:
                                        shoot.largest, shoot.place, shoot.triangles.size()});
     }
 
+    void list_open() {
+        sealed_.open = list_open_gaps(FacingBorders(kept_, free_edges(), distances_),
+                                      GapDistances(kept_, distances_));
+        for (const OpenGap& gap : sealed_.open)
+            if (gap.reason != OpenReason::partly_farther) sealed_.left += gap.length;
+    }
+
     void list_closed() {
         const auto by_input = strips_by_input(whole_, strips_);
         std::map<std::uint32_t, ClosedGap> closed; // by piece
@@ -276,6 +324,7 @@ private:
 
     const std::vector<Surface> surfaces_; ///< those of the input
     const SealOptions& options_;
+    const SealDistances distances_;
     const Run& run_;
     std::vector<ExtensionTriangle> strips_;
     std::vector<Gap> gaps_; ///< per piece of all strips ever made
@@ -287,9 +336,43 @@ private:
 
 } // namespace
 
+std::string_view name_of(OpenReason reason) {
+    switch (reason) {
+    case OpenReason::small_angle:
+        return "small_angle";
+    case OpenReason::ends_beside:
+        return "ends_beside";
+    case OpenReason::partly_farther:
+        return "partly_farther";
+    case OpenReason::ends_free:
+        return "ends_free";
+    }
+    return {};
+}
+
+namespace {
+
+Status check_distances(std::size_t surfaces, const SealOptions& options) {
+    const auto refused = [](const char* sentence) {
+        return Error{ErrorCode::bad_option, sentence, "seal"};
+    };
+    double largest = options.distance;
+    for (const SealRule& rule : options.rules) {
+        if (rule.surface >= surfaces || (rule.other && *rule.other >= surfaces))
+            return refused("a rule is about a surface that is not there");
+        if (!(rule.distance >= 0) || !std::isfinite(rule.distance))
+            return refused("the distance of a rule must be a number, at least 0");
+        largest = std::max(largest, rule.distance);
+    }
+    if (!(options.distance >= 0) || !std::isfinite(options.distance) || !(largest > 0))
+        return refused("the distance must be positive");
+    return Done{};
+}
+
+} // namespace
+
 Result<Sealed> seal(std::vector<Surface> surfaces, const SealOptions& options, const Run& run) {
-    if (!(options.distance > 0) || !std::isfinite(options.distance))
-        return Error{ErrorCode::bad_option, "the distance must be positive", "seal"};
+    if (const auto sound = check_distances(surfaces.size(), options); !sound) return sound.error();
     const StageTimer timer(run, "seal");
     return guarded("for sealing", "sealing", [&] {
         const Run inner = timer.inside();

@@ -1,27 +1,32 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Closes gaps caused by data errors: free borders that stop short of another surface by at most a
+// Closes gaps caused by data errors: free borders that stop short of a surface by at most a
 // distance are extended to it; surfaces that extend beyond another one by at most that distance are
-// trimmed.
+// trimmed. The distance can be different for each surface and for each pair of surfaces.
 //
 // - Extension: a strip of new triangles continues the surface along the tangent plane, a little
 //   beyond the other surface; everything is arranged exactly, and the part beyond is dropped
-//   exactly. Where that closes nothing (surfaces at a small angle), the strip goes towards the
-//   nearest points. Tangent planes come first because gaps of real models are far smaller than
-//   their triangles: the surface keeps its direction, and strips of adjacent edges fit together,
-//   also around corners. A strip is kept where it closes a gap, see extension_faces.hpp.
+//   exactly. Where that closes nothing (surfaces at a small angle), nor do bridges, the strip goes
+//   towards the nearest points. Tangent planes come first because gaps of real models are far
+//   smaller than their triangles: the surface keeps its direction, and strips of adjacent edges fit
+//   together, also around corners. A strip is kept where it closes a gap, see extension_faces.hpp.
+//   Last, borders that end short of another part of their own surface are extended to it.
+// - Bridges: two borders that face each other in nearly one plane, of two surfaces or of one (a
+//   slit, a notch), are joined by a band of triangles with corners on both.
 // - Trimming: the part of a surface between its free border and the curve with another surface is
 //   removed if no point of it is farther than the distance from the curve.
 // Guarantees: the result is an exact arrangement; only the listed changes are made; no input vertex
 // moves; strips that close no gap are removed. If no gap is small enough, the result is the
 // arrangement of the input itself.
 // Distances are in floating point, from the ends and midpoints of the free parts of border edges to
-// the nearest other surface. A part of an edge is extended as a whole or not at all; gaps between
-// parts of one surface are ignored. Cost: one arrangement if nothing is to be done; otherwise two
-// or three more for each way of building strips.
+// the nearest other surface. A part of an edge is extended as a whole or not at all. What stays open
+// is listed with the reason. Cost: one arrangement if nothing is to be done; otherwise two or three
+// more for each way of building strips.
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <string_view>
 #include <vector>
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>
@@ -32,10 +37,21 @@
 
 namespace terrane {
 
-/// Options of seal().
+/// The distance for the gaps of one surface, or for those between two.
+struct SealRule {
+    SurfaceId surface{};              ///< of the input
+    std::optional<SurfaceId> other{}; ///< none: between `surface` and any; the same as `surface`:
+                                      ///< between parts of it
+    double distance = 0;              ///< >= 0, unit of the input; 0: these gaps stay open
+};
+
+/// Options of seal(). For the gap between two surfaces the rule for this pair counts; without one,
+/// those for the two: 0 if one of them is 0, otherwise the larger; without any, `distance`. Of
+/// several rules for the same the last one counts.
 struct SealOptions {
-    double distance = 0;      ///< > 0, unit of the input
-    ArrangeOptions arrange{}; ///< for the arrangements that are made
+    double distance = 0;           ///< >= 0, unit of the input; with rules it may be 0: none
+    ArrangeOptions arrange{};      ///< for the arrangements that are made
+    std::vector<SealRule> rules{}; ///< exceptions from `distance`
 };
 
 /// The way in which a border changed: a strip was added, or the part beyond a surface was removed.
@@ -63,6 +79,29 @@ struct ClosedGap {
                                             ///< arrangement, ascending
 };
 
+/// Why a gap stays open.
+enum class OpenReason : std::uint8_t {
+    small_angle,    ///< the surfaces meet at too small an angle
+    ends_beside,    ///< the other surface ends there, too, and not in nearly one plane
+    partly_farther, ///< the other surface is farther than the distance for part of the edge
+    ends_free,      ///< what would close it ends free beside it
+};
+
+/// Returns the name of a reason, as above.
+std::string_view name_of(OpenReason reason);
+
+/// Border edges of one surface that stay open by another one, or by other parts of their own, for
+/// the same reason.
+struct OpenGap {
+    SurfaceId from{};      ///< the surface that ends there
+    SurfaceId to{};        ///< the surface nearest to `place`
+    OpenReason reason{};   ///< why they stay open
+    std::size_t edges = 0; ///< number of border edges
+    double length = 0;     ///< of their free parts
+    double width = 0;      ///< largest distance
+    Point3 place{};        ///< where that is
+};
+
 /// The arrangement of surfaces whose gaps are closed.
 struct Sealed {
     std::vector<Surface> surfaces;   ///< those of the input; triangles of strips come last in each
@@ -71,12 +110,13 @@ struct Sealed {
     std::vector<SealChange> changes; ///< by kind, surface, place
     std::vector<ClosedGap> closed;   ///< by extension: by from, to, place
     unsigned passes = 0;             ///< passes in which strips were built
+    std::vector<OpenGap> open;       ///< gaps that remain: by from, to, reason
     double left = 0; ///< length of the input's free borders that remain this near to another
-                     ///< surface, for example where that surface ends beside them
+                     ///< surface, or another part of their own
 };
 
-/// Seals the gaps between surfaces. Errors: bad_option (the distance is not positive), those of
-/// arrange().
+/// Seals the gaps between surfaces, and between parts of one. Errors: bad_option (the distance is
+/// not positive and no rule has a positive one, or a rule names no surface), those of arrange().
 Result<Sealed> seal(std::vector<Surface> surfaces, const SealOptions& options, const Run& run = {});
 
 /// Lists the constants that decide the result and are not options.

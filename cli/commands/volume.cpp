@@ -56,6 +56,7 @@ summary says which, and how far their free borders are from other surfaces.
 
 --seal D closes gaps: free borders that end short of another surface by at most D are extended onto it,
 those that reach beyond by at most D are trimmed. Every change is listed, and is in model.json.
+--seal F1=D and --seal F1/F2=D state other distances for one surface or one pair.
 --suggest-seal lists the widths of gaps by their natural breaks and the number of blocks for each, and
 writes nothing; --seal auto takes the last break below a fifth of the median edge length.
 --min-volume V merges blocks below V with a neighbour, by removing the largest part of their boundary
@@ -84,6 +85,7 @@ Examples:
   terrane volume model.ml -o model --certificate model-certificate.json
   terrane volume model.ml -o model --seal 0.01
   terrane volume *.ts -o model --gocad model.ml --grid cells.grdecl --cells blocks.grdecl
+  terrane volume model.ml -o model --seal 5 --seal F1=20 --seal F1/F2=0
   terrane volume *.ts --box 0,0,-3000,10000,10000,500 --suggest-seal
   terrane volume *.ts -o model --seal auto --min-volume auto
   terrane volume horizons.ts faults.ts -o model --box 0,0,-3000,10000,10000,500
@@ -180,6 +182,8 @@ Result<ExitStatus> suggest_seal(const VolumeCommand& command, Session& session) 
     auto inputs = read_inputs(files, session);
     if (!inputs) return inputs.error();
     if (const auto set = set_roles(command.roles, inputs.value()); !set) return set.error();
+    const auto options = options_within(command.settings, *inputs);
+    if (!options) return options.error();
     Json statistics = statistics_of(inputs.value(), session.times());
     std::vector<Surface> boundary;
     if (command.settings.volume.wanted()) {
@@ -190,8 +194,7 @@ Result<ExitStatus> suggest_seal(const VolumeCommand& command, Session& session) 
     if (const auto sound = examine(*inputs, {boundary, true}, statistics); !sound)
         return sound.error();
     session.begin("seal", Phase::computing);
-    const auto advice = advise_seal(inputs->surfaces, boundary,
-                                    options_within(command.settings, *inputs), session.run());
+    const auto advice = advise_seal(inputs->surfaces, boundary, *options, session.run());
     session.end_stage();
     if (!advice) return advice.error();
     print(summary_stream(files), text_of(*advice, *inputs));

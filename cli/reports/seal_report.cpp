@@ -15,17 +15,62 @@ namespace {
 
 constexpr std::size_t most_changes = 20; ///< printed
 
+constexpr std::size_t most_open = 10; ///< printed
+
 const char* name_of(SealKind kind) {
     return kind == SealKind::extended ? "extended" : "trimmed";
+}
+
+const char* sentence_for(OpenReason reason) {
+    switch (reason) {
+    case OpenReason::small_angle:
+        return "the surfaces meet at too small an angle";
+    case OpenReason::ends_beside:
+        return "both surfaces end there, not in nearly one plane";
+    case OpenReason::partly_farther:
+        return "for part of the edge it is farther";
+    case OpenReason::ends_free:
+        return "what would close it ends free beside it";
+    }
+    return "";
+}
+
+/// Names the distances: "20 m", "20 m, F1/F2 10 m" or, by rules alone, "F1/F2 10 m".
+std::string distances_text(const SealReport& report, const Inputs& inputs) {
+    const Quantities quantities(inputs.unit);
+    std::string text = report.distance > 0 ? quantities.length(report.distance, 15) : "";
+    for (const SealRule& rule : report.rules) {
+        text += text.empty() ? "" : ", ";
+        text += inputs.labels[rule.surface];
+        if (rule.other) text += "/" + inputs.labels[*rule.other];
+        text += " " + quantities.length(rule.distance, 15);
+    }
+    return text;
+}
+
+std::string open_text(const SealReport& report, const Inputs& inputs) {
+    const Quantities quantities(inputs.unit);
+    std::string text;
+    for (std::size_t i = 0; i < std::min(report.open.size(), most_open); ++i) {
+        const OpenGap& gap = report.open[i];
+        text += fmt::format(
+            "  left open: {} by {} along {}, up to {} apart at {}: {}\n", inputs.labels[gap.from],
+            gap.from == gap.to ? "itself" : inputs.labels[gap.to], quantities.length(gap.length),
+            quantities.length(gap.width, 2), text_of(gap.place), sentence_for(gap.reason));
+    }
+    if (report.open.size() > most_open)
+        text += fmt::format("  and {} more\n", report.open.size() - most_open);
+    return text;
 }
 
 } // namespace
 
 std::string text_of(const SealReport& report, const Inputs& inputs) {
     const Quantities quantities(inputs.unit);
-    const auto distance = quantities.length(report.distance, 15);
+    const auto distance = distances_text(report, inputs);
     if (report.changes.empty())
-        return fmt::format("sealed by at most {}: no gap is so small\n", distance);
+        return fmt::format("sealed by at most {}: no gap is so small\n", distance) +
+               open_text(report, inputs);
     double length = 0;
     for (const SealChange& c : report.changes) length += c.length;
     auto text = fmt::format("sealed by at most {}: {}, along {}\n", distance,
@@ -43,7 +88,7 @@ std::string text_of(const SealReport& report, const Inputs& inputs) {
     if (report.left > 0)
         text += fmt::format("  free borders this near to another surface are left along {}\n",
                             quantities.length(report.left));
-    return text;
+    return text + open_text(report, inputs);
 }
 
 Json json_of(const SealReport& report) {
@@ -55,7 +100,23 @@ Json json_of(const SealReport& report) {
                            {"distance", c.largest},
                            {"place", {c.place.x, c.place.y, c.place.z}},
                            {"triangles", c.triangles}});
-    return {{"distance", report.distance}, {"changes", std::move(changes)}, {"left", report.left}};
+    Json json{
+        {"distance", report.distance}, {"changes", std::move(changes)}, {"left", report.left}};
+    Json& open = json["open"] = Json::array();
+    for (const OpenGap& gap : report.open)
+        open.push_back({{"from", std::uint32_t{gap.from}},
+                        {"to", std::uint32_t{gap.to}},
+                        {"reason", std::string(name_of(gap.reason))},
+                        {"edges", gap.edges},
+                        {"length", gap.length},
+                        {"distance", gap.width},
+                        {"place", {gap.place.x, gap.place.y, gap.place.z}}});
+    for (const SealRule& rule : report.rules) {
+        Json surfaces = Json::array({std::uint32_t{rule.surface}});
+        if (rule.other) surfaces.push_back(std::uint32_t{*rule.other});
+        json["rules"].push_back({{"surfaces", std::move(surfaces)}, {"distance", rule.distance}});
+    }
+    return json;
 }
 
 std::string text_of(const SealChoice& choice, const Inputs& inputs) {
@@ -116,6 +177,16 @@ void add_statistics(Json& json, const SealReport& report, const Inputs& inputs) 
     Json entry = json_of(report);
     for (Json& change : entry["changes"])
         change["name"] = inputs.labels[change["surface"].get<std::size_t>()];
+    for (Json& gap : entry["open"])
+        gap["names"] = {inputs.labels[gap["from"].get<std::size_t>()],
+                        inputs.labels[gap["to"].get<std::size_t>()]};
+    if (entry.contains("rules"))
+        for (Json& rule : entry["rules"]) {
+            Json names = Json::array();
+            for (const Json& s : rule["surfaces"])
+                names.push_back(inputs.labels[s.get<std::size_t>()]);
+            rule["names"] = std::move(names);
+        }
     json["seal"] = std::move(entry);
 }
 

@@ -14,7 +14,8 @@ namespace terrane::cli {
 
 std::string text_of(const SealReport& report, const Inputs& inputs);
 
-/// Returns distance, changes (kind, surface, length, distance, place, triangles) and left.
+/// Returns distance, changes (kind, surface, length, distance, place, triangles), left, open (from,
+/// to, reason, edges, length, distance, place) and, if there are any, rules (surfaces, distance).
 Json json_of(const SealReport& report);
 
 /// Reports the natural breaks in the widths of gaps, and the distance that was chosen.

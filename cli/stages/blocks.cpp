@@ -84,7 +84,7 @@ std::string dangling_text(const Inputs& inputs, const Model& model) {
 std::string leak_line(const Inputs& inputs, const Leak& l) {
     const Quantities quantities(inputs.unit);
     return fmt::format("  {} ends by {}: along {}, {} apart, most at {}\n", inputs.labels[l.from],
-                       inputs.labels[l.to], quantities.length(l.length),
+                       l.from == l.to ? "itself" : inputs.labels[l.to], quantities.length(l.length),
                        quantities.lengths(l.least, l.largest, 2), text_of(l.place));
 }
 
@@ -159,6 +159,7 @@ public:
         if (reports.leaks) extras_.leak_verdicts = reports.leaks->verdicts;
         if (!reports.sealed) return;
         extras_.seal_distance = reports.sealed->distance;
+        extras_.seal_rules = reports.sealed->rules;
         extras_.seal_changes = reports.sealed->changes;
     }
 

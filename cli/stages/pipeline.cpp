@@ -12,6 +12,7 @@
 
 #include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
+#include <terrane/algorithms/model/seal_rules.hpp>
 #include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
 #include <terrane/cli/reports/merge_report.hpp>
 #include <terrane/cli/reports/seal_report.hpp>
@@ -121,6 +122,48 @@ void add_automatic(CLI::App& command, const std::string& name, double& value, bo
         ->type_name("D|auto");
 }
 
+constexpr const char* seal_option = "--seal";
+
+/// Reads a distance for gaps: D, auto, or NAME=D for those of one surface or pair of surfaces.
+void set_seal(const std::string& text, ArrangeSettings& settings) {
+    const auto refuse = [](const std::string& sentence) {
+        throw CLI::ValidationError(seal_option, sentence);
+    };
+    const auto is_good = [](double d) { return d >= 0 && std::isfinite(d); };
+    double distance = 0;
+    const char* end = text.data() + text.size();
+    const auto [at, failed] = std::from_chars(text.data(), end, distance);
+    const bool is_number = failed == std::errc() && at == end;
+    if (text == "auto" || is_number) {
+        if (is_number && !(is_good(distance) && distance > 0))
+            refuse("'" + text + "' is no positive number");
+        if (settings.seal != 0 || settings.seal_automatic)
+            refuse("'" + text + "' is a second distance for all gaps");
+        settings.seal_automatic = !is_number;
+        settings.seal = is_number ? distance : 0;
+        return;
+    }
+    const auto named = parse_named_length(text);
+    if (!named) refuse("'" + text + "' is no positive number, nor auto, nor NAME=D");
+    if (!is_good(named->length)) refuse("'" + text + "' has no distance, at least 0, behind =");
+    settings.seal_of.push_back(*named);
+}
+
+void add_seal(CLI::App& command, ArrangeSettings& settings) {
+    command
+        .add_option_function<std::vector<std::string>>(
+            seal_option,
+            [&settings](const std::vector<std::string>& texts) {
+                for (const std::string& text : texts) set_seal(text, settings);
+            },
+            "Extend or trim free borders that end short of another surface, or beyond it, by "
+            "at most this distance; every change is listed; auto: the last natural break in "
+            "the widths of gaps; NAME=D: for the gaps of this surface; NAME/NAME=D: for those "
+            "between these two; 0: they stay open; may be repeated (default: nothing moves)")
+        ->allow_extra_args(false)
+        ->type_name("[NAME=]D");
+}
+
 } // namespace
 
 void add_settings(CLI::App& command, ArrangeSettings& settings) {
@@ -145,10 +188,7 @@ void add_settings(CLI::App& command, ArrangeSettings& settings) {
         ->check(CLI::Range(0U, most_rounds).description(""))
         ->type_name("N");
     add_check(command, settings.check);
-    add_automatic(command, "--seal", settings.seal, settings.seal_automatic,
-                  "Extend or trim free borders that end short of another surface, or beyond it, by "
-                  "at most this distance; every change is listed; auto: the last natural break in "
-                  "the widths of gaps (default: nothing moves)");
+    add_seal(command, settings);
     add_automatic(command, "--min-volume", settings.min_volume, settings.min_volume_automatic,
                   "Merge smaller blocks with a neighbour, by removing what lies between; auto: a "
                   "cube of a tenth of the median edge length (default: none)");
@@ -186,14 +226,22 @@ void add_statistics(Json& statistics, const Arranged& arranged, const Inputs& in
     add_statistics(statistics, arranged.rounded, times);
 }
 
-ArrangeWithinOptions options_within(const ArrangeSettings& settings, const Inputs& inputs) {
-    return {.arrange = {.search = settings.search},
-            .rounding = {.max_rounds = settings.rounds, .check = check_of(settings.check, inputs)},
-            .seal = settings.seal,
-            .seal_automatic = settings.seal_automatic,
-            .extend = settings.volume.extend,
-            .min_volume = settings.min_volume_automatic ? small_volume_for(inputs.surfaces)
-                                                        : settings.min_volume};
+Result<ArrangeWithinOptions> options_within(const ArrangeSettings& settings, const Inputs& inputs) {
+    ArrangeWithinOptions options{
+        .arrange = {.search = settings.search},
+        .rounding = {.max_rounds = settings.rounds, .check = check_of(settings.check, inputs)},
+        .seal = settings.seal,
+        .seal_automatic = settings.seal_automatic,
+        .extend = settings.volume.extend,
+        .min_volume = settings.min_volume_automatic ? small_volume_for(inputs.surfaces)
+                                                    : settings.min_volume};
+    const auto infos = infos_of(inputs.surfaces);
+    for (const auto& [name, distance] : settings.seal_of) {
+        const auto rules = seal_rules_for(name, distance, infos, inputs.labels);
+        if (!rules) return Error{ErrorCode::bad_option, rules.error().sentence, seal_option};
+        options.seal_rules.insert(options.seal_rules.end(), rules->begin(), rules->end());
+    }
+    return options;
 }
 
 Status check_certifiable(const ArrangeSettings& settings) {
@@ -206,6 +254,8 @@ Status check_certifiable(const ArrangeSettings& settings) {
 
 Result<Arranged> arrange_and_round(Inputs& inputs, const ArrangeSettings& settings,
                                    Session& session, Json& statistics) {
+    const auto options = options_within(settings, inputs);
+    if (!options) return options.error();
     std::vector<Surface> boundary;
     if (settings.volume.wanted()) {
         auto made = boundary_of(settings.volume, session);
@@ -215,9 +265,8 @@ Result<Arranged> arrange_and_round(Inputs& inputs, const ArrangeSettings& settin
     if (const auto sound = examine(inputs, {boundary, settings.blocks}, statistics); !sound)
         return sound.error();
     session.begin("arrange", Phase::computing);
-    const auto options = options_within(settings, inputs);
     auto arranged =
-        arrange_within(std::move(inputs.surfaces), std::move(boundary), options, session.run());
+        arrange_within(std::move(inputs.surfaces), std::move(boundary), *options, session.run());
     session.end_stage();
     if (!arranged) return arranged;
     inputs.labels = unique_labels(infos_of(arranged->surfaces));

@@ -11,6 +11,7 @@
 
 #include <terrane/algorithms/model/arrange_within.hpp>
 #include <terrane/cli/options/files.hpp>
+#include <terrane/cli/options/roles.hpp>
 #include <terrane/cli/options/statistics.hpp>
 #include <terrane/cli/options/volume_options.hpp>
 #include <terrane/cli/reports/pair_report.hpp>
@@ -25,6 +26,7 @@ struct ArrangeSettings {
     VolumeOptions volume;               ///< volume of interest
     double seal = 0;                    ///< distance within which gaps are sealed; 0: not at all
     bool seal_automatic = false;        ///< the distance is chosen by the widths of the gaps
+    std::vector<NamedLength> seal_of;   ///< other distances, by surface or pair of surfaces
     double min_volume = 0;              ///< smaller blocks are merged; 0: none
     bool min_volume_automatic = false;  ///< the volume is chosen by the edge lengths
     bool blocks = false; ///< whether blocks are wanted, so that surfaces should close some
@@ -32,9 +34,9 @@ struct ArrangeSettings {
 
 void add_settings(CLI::App& command, ArrangeSettings& settings);
 
-/// Returns the options of arrange_within() that the settings stand for. Precondition: the surfaces
-/// of `inputs` were not moved from.
-ArrangeWithinOptions options_within(const ArrangeSettings& settings, const Inputs& inputs);
+/// Returns the options of arrange_within() that the settings stand for. Errors: bad_option for a
+/// name that no surface has. Precondition: the surfaces of `inputs` were not moved from.
+Result<ArrangeWithinOptions> options_within(const ArrangeSettings& settings, const Inputs& inputs);
 
 /// Checks before any work is done that a certificate can be made of what the settings ask for.
 /// Errors: bad_option.

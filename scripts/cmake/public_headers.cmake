@@ -60,6 +60,7 @@ set(terrane_headers
     algorithms/model/model.hpp
     algorithms/model/model_doubts.hpp
     algorithms/model/seal_advice.hpp
+    algorithms/model/seal_rules.hpp
     algorithms/model/small_blocks.hpp
     algorithms/tetrahedra/check_tetrahedra.hpp
     algorithms/tetrahedra/split_nodes.hpp

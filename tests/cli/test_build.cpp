@@ -133,6 +133,17 @@ TEST_CASE("cli: build: gaps are closed, horizons extended, triangles made better
     CHECK(blocks("automatic") == 4);
     CHECK(Json::parse(c.folder.read("automatic/statistics.json"))["seal_choice"]["distance"] ==
           0.5);
+    json["seal_of"] = {{"F1", 0}};
+    CHECK(blocks("excepted") == 3);
+    json["seal_of"] = {{"F1/top", 0.5}, {"F1/base", 0.5}};
+    json.erase("seal");
+    CHECK(blocks("by_pairs") == 4);
+    json["seal_of"] = {{"F1/tpo", 1}};
+    const auto unknown = c.build(json, "-o unknown");
+    CHECK(unknown.status == 2);
+    CHECK(contains(unknown.err, "seal_of.F1/tpo: no surface is called tpo; did you mean top?"));
+    json.erase("seal_of");
+    json["seal"] = "auto";
     json["min_volume"] = 100;
     CHECK(blocks("merged") < 4);
     json.erase("min_volume");

@@ -300,3 +300,101 @@ f 5 6 7 8
     for (const char* bad : {"''", "0", "-1", "nan", "inf"})
         CHECK(folder.run("volume " + in + " -o bad --min-volume " + std::string(bad)).status == 2);
 }
+
+TEST_CASE("cli: --seal takes distances by surface and by pair, with a general one or alone",
+          "[cli]") {
+    const Folder folder;
+    const auto in = folder.input("model.obj", gapped_model);
+    const auto blocks = [&](const std::string& options) {
+        REQUIRE(folder.shell("rm -rf model").status == 0);
+        const auto r =
+            folder.run("volume " + in + around_gap + " -o model --stats s.json " + options);
+        INFO(options << "\n" << r.err);
+        REQUIRE(r.status == 0);
+        return Json::parse(folder.read("model/model.json"))["blocks"].size() - 1;
+    };
+    CHECK(blocks("--seal 0.05") == 2);
+    CHECK(blocks("--seal 0.05 --seal horizon/fault=0.2") == 3);
+    const Json seal = Json::parse(folder.read("s.json"))["seal"];
+    CHECK(seal["distance"] == 0.05);
+    REQUIRE(seal["rules"].size() == 1);
+    CHECK(seal["rules"][0]["surfaces"] == Json({0, 1}));
+    CHECK(seal["rules"][0]["names"] == Json({"horizon", "fault"}));
+    CHECK(seal["rules"][0]["distance"] == 0.2);
+    CHECK(Json::parse(folder.read("model/model.json"))["seal"]["rules"].size() == 1);
+    CHECK(blocks("--seal fault=0.2") == 3);
+    CHECK(Json::parse(folder.read("model/model.json"))["seal"]["distance"] == 0);
+    CHECK(blocks("--seal fault/horizon=0 --seal 0.2") == 2);
+    CHECK(blocks("--seal horizon=0 --seal auto") == 2);
+    CHECK(blocks("--seal auto --seal horizon=0 --seal fault/horizon=0.2") == 3);
+    // The other commands give the same result.
+    const auto sealed = folder.run("arrange " + in + " -o a.obj --seal fault=0.2" + around_gap);
+    CHECK(contains(sealed.out, "sealed by at most fault 0.2: 1 change"));
+    CHECK(contains(folder.run("volume a.obj -o again").out, "3 closed blocks, volume 512"));
+}
+
+TEST_CASE("cli: --seal with rules is certified, and refuses what it can't mean", "[cli]") {
+    const Folder folder;
+    const auto in = folder.input("model.obj", gapped_model);
+    const auto made =
+        folder.run("volume " + in + around_gap + " -o out --certificate c.json --seal fault=0.2");
+    REQUIRE(made.status == 0);
+    CHECK(folder.run("verify c.json").status == 0);
+    const auto refused = [&](const std::string& options, const std::string& message) {
+        const auto r = folder.run("volume " + in + around_gap + " -o bad " + options);
+        INFO(options << "\n" << r.err);
+        CHECK(r.status == 2);
+        CHECK(contains(r.err, "--seal"));
+        CHECK(contains(r.err, message));
+    };
+    refused("--seal fualt=1", "no surface is called fualt; did you mean fault?");
+    refused("--seal horizon/fualt=1", "no surface is called fualt; did you mean fault?");
+    refused("--seal x/y=1", "there are horizon, fault");
+    CHECK(contains(folder.run("volume " + in + " --suggest-seal --seal x=1").err,
+                   "no surface is called x"));
+    refused("--seal fault=-1", "at least 0");
+    refused("--seal fault=nan", "at least 0");
+    refused("--seal fault=", "NAME=D");
+    refused("--seal =1", "NAME=D");
+    refused("--seal fault", "NAME=D");
+    refused("--seal 1 --seal 2", "second distance");
+    refused("--seal 1 --seal auto", "second distance");
+}
+
+TEST_CASE("cli: --seal closes a slit, and says what it leaves open and why", "[cli]") {
+    const Folder folder;
+    const auto in = folder.input("model.obj", R"(o horizon
+v -1 -1 4
+v 5 -1 4
+v 9 -1 4
+v -1 3.95 4
+v 5 3.95 4
+v 9 3.95 4
+v -1 4.05 4
+v 5 4.05 4
+v 9 4.05 4
+v -1 9 4
+v 5 9 4
+v 9 9 4
+f 1 2 5 4
+f 2 3 6 5
+f 5 6 9 8
+f 7 8 11 10
+f 8 9 12 11
+o fault
+v 4 -1 4.05
+v 4 9 4.05
+v 4 9 7
+v 4 -1 7
+f 13 14 15 16
+)");
+    const auto r = folder.run("volume " + in + around_gap +
+                              " -o model --seal 0.2 --seal fault=0 --stats s.json --certificate "
+                              "c.json");
+    INFO(r.out << r.err);
+    REQUIRE(r.status == 0);
+    CHECK(contains(r.out, "2 closed blocks, volume 512 in all\n"));
+    CHECK(contains(r.out, "horizon extended along"));
+    CHECK(folder.run("verify c.json --max-change 0.2").status == 0);
+    CHECK(Json::parse(folder.read("s.json"))["seal"]["open"].empty());
+}

@@ -171,7 +171,7 @@ PROJECT = {
     "fill": [{"surface": "seabed"}],
     "layers": {"order": [{"surface": "seabed", "hardness": 1}]},
     "volume_of_interest": {"box": {"low": [0, 0, -1700], "high": [2000, 1500, -700]}},
-    "seal": 20, "min_volume": "auto", "extend": 30, "improve": {}, "outputs": {"surfaces": ["vtp"]}}
+    "seal": 20, "seal_of": {"top/fault": 10}, "min_volume": "auto", "extend": 30, "improve": {}, "outputs": {"surfaces": ["vtp"]}}
 
 
 def write_json_files(program, folder):
@@ -194,7 +194,8 @@ def write_json_files(program, folder):
     run("improve", *model, *box, "-o", "i.vtp", "--stats", "improve.json")
     (folder / "column.json").write_text('{"column": [{"unit": "A", "surface": "top", "age": 1}]}')
     run("volume", *model, *box, "-o", "open", "--column", "column.json")
-    run("volume", *model, *box, "-o", "sealed", "--seal", "20")
+    run("volume", *model, *box, "-o", "sealed", "--seal", "200", "--seal", "top/fault=10",
+        "--stats", "sealed_statistics.json")
     run("volume", *model, *box, "--suggest-seal", "--stats", "suggest.json")
     run("volume", *model, *box, "-o", "merged", "--seal", "auto", "--min-volume", "4e8", "--stats", "merged.json")
     run("fill", "fold.ts", "-o", "f.vtp", "--stats", "fill.json")
@@ -222,7 +223,7 @@ def write_json_files(program, folder):
     with (folder / "top.ts").open("a") as changed:
         changed.write("\n")
     run("verify", "certificate.json", "--json", out="refuted.json")
-    statistics = ["built/statistics.json", "improve.json", "suggest.json", "merged.json", "fill.json", "rbf.json"]
+    statistics = ["built/statistics.json", "improve.json", "suggest.json", "merged.json", "sealed_statistics.json", "fill.json", "rbf.json"]
     if has_tetgen(program):
         run("tetrahedralize", *model, *box, "-o", "t.vtu", "--stats", "tetrahedra.json")
         statistics.append("tetrahedra.json")

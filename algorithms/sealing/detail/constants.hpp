@@ -27,6 +27,15 @@ struct SealConstants {
     /// Distance up to which the ends of a gap look for the surface that the gap is measured to,
     /// in distances of sealing.
     double end_reach = 2;
+    /// Least cosine between the direction in which a surface would go on and that to another part
+    /// of it: parts to the side, as all of a plane are, form no gap.
+    double least_ahead = 0.5;
+    /// Least cosine between the direction in which a surface would go on and that to a border which
+    /// it faces: two borders at up to 30 degrees are in nearly one plane.
+    double least_facing = 0.866;
+    /// Largest sine, of the angle between a strip and the surface that it is to meet, that counts
+    /// as too small an angle where a strip has closed nothing: the inverse of width_per_gap.
+    double most_flat = 0.25;
 };
 
 inline constexpr SealConstants constants;
@@ -39,6 +48,9 @@ inline std::vector<NamedConstant> named_constants() {
         {"least_width", constants.least_width},
         {"overshoot_samples", static_cast<double>(constants.overshoot_samples)},
         {"end_reach", constants.end_reach},
+        {"least_ahead", constants.least_ahead},
+        {"least_facing", constants.least_facing},
+        {"most_flat", constants.most_flat},
     };
 }
 

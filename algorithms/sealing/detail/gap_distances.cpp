@@ -7,6 +7,7 @@
 
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
+#include <terrane/algorithms/sealing/detail/constants.hpp>
 
 namespace terrane::sealing::detail {
 namespace {
@@ -17,8 +18,8 @@ Point3 middle(const Point3& p, const Point3& q) {
 
 } // namespace
 
-GapDistances::GapDistances(const Arrangement& a, double bound) :
-    bound_(std::nextafter(bound, HUGE_VAL)) {
+GapDistances::GapDistances(const Arrangement& a, SealDistances distances, double factor) :
+    arrangement_(a), distances_(std::move(distances)), factor_(factor) {
     for (const PointIndex v : a.vertices) places_.push_back(a.state->points.nearest(v));
     std::vector<std::vector<Triangle>> triangles(a.surfaces.size());
     for (std::size_t t = 0; t < a.triangles.size(); ++t)
@@ -26,9 +27,66 @@ GapDistances::GapDistances(const Arrangement& a, double bound) :
     for (auto& of_surface : triangles) trees_.emplace_back(places_, std::move(of_surface));
 }
 
-std::optional<Gap> GapDistances::gap_at(const BorderEdge& edge) const {
+double GapDistances::bound(std::uint32_t surface, std::uint32_t other) const {
+    const double distance = distances_.between(surface, other);
+    return distance > 0 ? std::nextafter(factor_ * distance, HUGE_VAL) : 0;
+}
+
+/// Measures the parts of an edge of which both ends and the middle have a nearest point.
+template <class Nearest>
+std::optional<Gap> GapDistances::measured(const BorderEdge& edge, const Nearest& find) const {
     Gap gap{edge, 0, -1, {}, 0};
-    for (const Edge& part : edge.open) add_part(gap, places_[part[0]], places_[part[1]]);
+    for (const Edge& part : edge.open) {
+        const Point3 &p = places_[part[0]], &q = places_[part[1]];
+        Gap here{{}, length(minus(q, p)), -1, {}, 0};
+        bool is_near = true;
+        for (const Point3& at : {p, middle(p, q), q}) {
+            const std::optional<Near> near = find(at);
+            if (!near) {
+                is_near = false;
+                break;
+            }
+            const double d = length(minus(near->place, at));
+            if (d <= here.largest) continue;
+            here.largest = d;
+            here.place = at;
+            here.to = near->surface;
+        }
+        if (!is_near) continue;
+        gap.length += here.length;
+        if (here.largest <= gap.largest) continue;
+        gap.largest = here.largest;
+        gap.place = here.place;
+        gap.to = here.to;
+    }
+    if (gap.largest < 0) return std::nullopt;
+    return gap;
+}
+
+std::optional<Gap> GapDistances::gap_at(const BorderEdge& edge) const {
+    return measured(edge, [&](const Point3& p) { return nearest(p, edge); });
+}
+
+std::optional<Gap> GapDistances::own_gap_at(const BorderEdge& edge) const {
+    return measured(edge, [&](const Point3& p) { return nearest_own(p, edge); });
+}
+
+std::optional<Gap> GapDistances::part_gap_at(const BorderEdge& edge) const {
+    Gap gap{edge, 0, -1, {}, 0};
+    const Point3 outward = outward_of(arrangement_, edge);
+    for (const Edge& part : edge.open) {
+        const Point3 &p = places_[part[0]], &q = places_[part[1]], at = middle(p, q);
+        const auto near = nearest(at, edge);
+        if (!near || (nearest(p, edge) && nearest(q, edge))) continue;
+        const Point3 way = minus(near->place, at);
+        const double d = length(way);
+        if (dot(outward, way) < constants.least_ahead * d) continue;
+        gap.length += length(minus(q, p));
+        if (d <= gap.largest) continue;
+        gap.largest = d;
+        gap.place = at;
+        gap.to = near->surface;
+    }
     if (gap.largest < 0) return std::nullopt;
     return gap;
 }
@@ -36,35 +94,33 @@ std::optional<Gap> GapDistances::gap_at(const BorderEdge& edge) const {
 std::optional<GapDistances::Near> GapDistances::nearest(const Point3& p,
                                                         const BorderEdge& edge) const {
     std::optional<Near> best;
-    double bound = bound_;
+    double least = HUGE_VAL;
     for (std::uint32_t s = 0; s < trees_.size(); ++s) {
         if (std::binary_search(edge.own.begin(), edge.own.end(), s)) continue;
-        if (const auto near = trees_[s].nearest(p, bound)) {
+        const double most = std::min(least, bound(edge.surface, s));
+        if (!(most > 0)) continue;
+        if (const auto near = trees_[s].nearest(p, most)) {
             best = Near{near->place, s};
-            bound = near->distance;
+            least = near->distance;
         }
     }
     return best;
 }
 
-void GapDistances::add_part(Gap& gap, const Point3& p, const Point3& q) const {
-    double largest = -1;
-    Near nearest_there;
-    Point3 place{};
-    for (const Point3& at : {p, middle(p, q), q}) {
-        const auto near = nearest(at, gap.edge);
-        if (!near) return;
-        const double d = length(minus(near->place, at));
-        if (d <= largest) continue;
-        largest = d;
-        place = at;
-        nearest_there = *near;
+std::optional<GapDistances::Near> GapDistances::nearest_own(const Point3& p,
+                                                            const BorderEdge& edge) const {
+    const Point3 outward = outward_of(arrangement_, edge);
+    std::optional<Near> best;
+    double least = bound(edge.surface, edge.surface);
+    if (!(least > 0)) return best;
+    for (const auto& near : trees_[edge.surface].within(p, least)) {
+        if (near.distance == 0 || near.distance >= least ||
+            dot(outward, minus(near.place, p)) < constants.least_ahead * near.distance)
+            continue;
+        least = near.distance;
+        best = Near{near.place, edge.surface};
     }
-    gap.length += length(minus(q, p));
-    if (largest <= gap.largest) return;
-    gap.largest = largest;
-    gap.place = place;
-    gap.to = nearest_there.surface;
+    return best;
 }
 
 } // namespace terrane::sealing::detail

@@ -10,6 +10,7 @@
 #include <terrane/algorithms/arrangement/arrangement.hpp>
 #include <terrane/algorithms/mesh/triangle_tree.hpp>
 #include <terrane/algorithms/sealing/border_extension.hpp>
+#include <terrane/algorithms/sealing/detail/seal_distances.hpp>
 
 namespace terrane::sealing::detail {
 
@@ -21,7 +22,7 @@ struct Gap {
     std::uint32_t to = 0; ///< the surface nearest to that place
 };
 
-/// Computes distances to surfaces, up to a bound.
+/// Computes distances to surfaces, up to those at which gaps are closed.
 class GapDistances {
 public:
     /// A point of another surface.
@@ -30,25 +31,38 @@ public:
         std::uint32_t surface = 0;
     };
 
-    /// The arrangement must outlive the object.
-    GapDistances(const Arrangement& arrangement, double bound);
+    /// Looks as far as `factor` times the distances. The arrangement must outlive the object.
+    GapDistances(const Arrangement& arrangement, SealDistances distances, double factor = 1);
     GapDistances(const GapDistances&) = delete; // the trees refer to places_
     GapDistances& operator=(const GapDistances&) = delete;
     GapDistances(GapDistances&&) = delete;
     GapDistances& operator=(GapDistances&&) = delete;
     ~GapDistances() = default;
 
-    /// Measures the free parts of the edge that are within the bound of a surface other than the
+    /// Measures the free parts of the edge that are within the distance of a surface other than the
     /// edge's own everywhere. Returns nothing if there are none.
     [[nodiscard]] std::optional<Gap> gap_at(const BorderEdge& edge) const;
+    /// Measures the free parts of the edge that are everywhere within the distance of another part
+    /// of the edge's own surface, which lies ahead: at most 60 degrees from the direction in which
+    /// the surface would go on. Returns nothing if there are none.
+    [[nodiscard]] std::optional<Gap> own_gap_at(const BorderEdge& edge) const;
+    /// Measures the free parts of the edge only the middle of which is within the distance of
+    /// another surface that lies ahead. Returns nothing if there are none.
+    [[nodiscard]] std::optional<Gap> part_gap_at(const BorderEdge& edge) const;
     /// Finds the point nearest to p on a surface that does not contain the edge's triangle; that of
     /// the first surface among equals.
     [[nodiscard]] std::optional<Near> nearest(const Point3& p, const BorderEdge& edge) const;
+    /// Finds the nearest point of the edge's own surface that lies ahead, as in own_gap_at().
+    [[nodiscard]] std::optional<Near> nearest_own(const Point3& p, const BorderEdge& edge) const;
 
 private:
-    void add_part(Gap& gap, const Point3& p, const Point3& q) const;
+    template <class Nearest>
+    [[nodiscard]] std::optional<Gap> measured(const BorderEdge& edge, const Nearest& find) const;
+    [[nodiscard]] double bound(std::uint32_t surface, std::uint32_t other) const;
 
-    const double bound_;
+    const Arrangement& arrangement_;
+    const SealDistances distances_;
+    const double factor_;
     std::vector<Point3> places_;
     std::vector<TriangleTree> trees_; ///< per surface
 };

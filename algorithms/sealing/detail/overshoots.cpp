@@ -22,7 +22,7 @@ constexpr int samples = static_cast<int>(constants.overshoot_samples);
 
 class Finder {
 public:
-    Finder(const Arrangement& a, double distance) : a_(a), distance_(distance) {
+    Finder(const Arrangement& a, const SealDistances& distances) : a_(a), distances_(distances) {
         for (const PointIndex v : a.vertices) places_.push_back(a.state->points.nearest(v));
         regions_ = find_regions(places_, a.triangles, a.surfaces_of, a.state->adjacency,
                                 a.intersection_edges);
@@ -43,7 +43,8 @@ public:
 private:
     struct Candidate {
         std::vector<std::uint32_t> triangles{}; ///< ascending
-        std::vector<Triangle> curve{};          ///< edges as degenerate triangles
+        /// Edges as degenerate triangles, by the distance for the surfaces there.
+        std::map<double, std::vector<Triangle>> curves{};
         double border = 0;
         std::set<std::uint32_t> beyond{}; ///< regions of the same surface across the curve
     };
@@ -79,11 +80,29 @@ private:
             for (const std::uint32_t t : at) {
                 const auto it = candidates_.find(region_of(t));
                 if (it == candidates_.end()) continue;
-                it->second.curve.push_back({edge[0], edge[1], edge[1]});
+                if (const double distance = distance_at(at, a_.surfaces_of[t][0]); distance > 0)
+                    it->second.curves[distance].push_back({edge[0], edge[1], edge[1]});
                 for (const std::uint32_t u : at) add_beyond(it->second, t, u);
             }
         }
-        std::erase_if(candidates_, [](const auto& c) { return c.second.beyond.empty(); });
+        std::erase_if(candidates_, [](const auto& c) {
+            return c.second.beyond.empty() || c.second.curves.empty();
+        });
+    }
+
+    /// Returns the largest distance for a surface and another one that has a triangle at an edge;
+    /// for parts of the surface where there is no other.
+    [[nodiscard]] double distance_at(std::span<const std::uint32_t> at,
+                                     std::uint32_t surface) const {
+        double largest = 0;
+        bool any = false;
+        for (const std::uint32_t t : at)
+            for (const std::uint32_t s : a_.surfaces_of[t]) {
+                if (s == surface) continue;
+                any = true;
+                largest = std::max(largest, distances_.between(surface, s));
+            }
+        return any ? largest : distances_.between(surface, surface);
     }
 
     void add_beyond(Candidate& candidate, std::uint32_t t, std::uint32_t u) const {
@@ -95,23 +114,40 @@ private:
 
     /// Measures a candidate. Returns nothing if some point is too far from the curve.
     [[nodiscard]] std::optional<Overshoot> measure(std::uint32_t r, Candidate& c) const {
-        const TriangleTree curve(places_, std::move(c.curve));
-        const double bound = std::nextafter(distance_, HUGE_VAL);
+        std::vector<Curve> curves;
+        for (auto& [distance, edges] : c.curves)
+            curves.push_back(
+                {TriangleTree(places_, std::move(edges)), std::nextafter(distance, HUGE_VAL)});
         Overshoot shoot{regions_.regions[r].surface, c.triangles, c.border, -1, {}};
         for (const std::uint32_t t : c.triangles)
             for (const std::uint32_t v : a_.triangles[t]) {
-                const double d = curve.distance(places_[v], bound);
-                if (d >= bound) return std::nullopt;
+                const double d = distance_from(curves, places_[v]);
+                if (d == HUGE_VAL) return std::nullopt;
                 if (d <= shoot.largest) continue;
                 shoot.largest = d;
                 shoot.place = places_[v];
             }
         for (const std::uint32_t t : c.triangles)
-            if (!is_near(t, curve, bound)) return std::nullopt;
+            if (!is_near(t, curves)) return std::nullopt;
         return shoot;
     }
 
-    [[nodiscard]] bool is_near(std::uint32_t t, const TriangleTree& curve, double bound) const {
+    /// A part of a curve, and the distance within which points near it may be removed.
+    struct Curve {
+        TriangleTree edges;
+        double bound;
+    };
+
+    /// Returns the distance from the nearest curve within whose bound a point is, or infinity.
+    static double distance_from(const std::vector<Curve>& curves, const Point3& p) {
+        double least = HUGE_VAL;
+        for (const Curve& curve : curves)
+            if (const double d = curve.edges.distance(p, curve.bound); d < curve.bound)
+                least = std::min(least, d);
+        return least;
+    }
+
+    [[nodiscard]] bool is_near(std::uint32_t t, const std::vector<Curve>& curves) const {
         const auto [i, j, k] = a_.triangles[t];
         const Point3 &p = places_[i], u = minus(places_[j], p), v = minus(places_[k], p);
         for (int m = 0; m <= samples; ++m)
@@ -119,7 +155,7 @@ private:
                 const double s = double(m) / samples, f = double(n) / samples;
                 const Point3 q{p.x + s * u.x + f * v.x, p.y + s * u.y + f * v.y,
                                p.z + s * u.z + f * v.z};
-                if (curve.distance(q, bound) >= bound) return false;
+                if (distance_from(curves, q) == HUGE_VAL) return false;
             }
         return true;
     }
@@ -153,7 +189,7 @@ private:
     }
 
     const Arrangement& a_;
-    const double distance_;
+    const SealDistances& distances_;
     std::vector<Point3> places_;
     Regions regions_;
     std::map<std::uint32_t, Candidate> candidates_; ///< by region
@@ -161,8 +197,9 @@ private:
 
 } // namespace
 
-std::vector<Overshoot> find_overshoots(const Arrangement& arrangement, double distance) {
-    return Finder(arrangement, distance)();
+std::vector<Overshoot> find_overshoots(const Arrangement& arrangement,
+                                       const SealDistances& distances) {
+    return Finder(arrangement, distances)();
 }
 
 } // namespace terrane::sealing::detail

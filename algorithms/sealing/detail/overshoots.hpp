@@ -8,6 +8,7 @@
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>
 #include <terrane/algorithms/core/id.hpp>
+#include <terrane/algorithms/sealing/detail/seal_distances.hpp>
 
 namespace terrane::sealing::detail {
 
@@ -20,10 +21,11 @@ struct Overshoot {
 };
 
 /// Finds regions (regions.hpp) between a free border and curves with other surfaces, all points of
-/// which are within `distance` of these curves, where the surface continues beyond the curve. They
+/// which are within the distances for these surfaces of the curves, where the surface continues beyond the curve. They
 /// dangle, so removing them changes no volume; regions whose removal would free the border of
 /// another surface are omitted. Distances are in floating point, at vertices and a grid between
 /// them. Triangles of several surfaces are never part of an overshoot.
-std::vector<Overshoot> find_overshoots(const Arrangement& arrangement, double distance);
+std::vector<Overshoot> find_overshoots(const Arrangement& arrangement,
+                                       const SealDistances& distances);
 
 } // namespace terrane::sealing::detail

@@ -154,7 +154,7 @@ private:
     // --- R55 -------------------------------------------------------------------------------------
 
     /// Returns the vertices on which added triangles of a surface were built.
-    [[nodiscard]] const std::set<Point3>& base_of(std::uint32_t surface, bool sealed) {
+    [[nodiscard]] const std::set<Point3>& base_of(std::uint32_t surface, bool sealed) const {
         auto& bases = bases_[{surface, sealed}];
         if (!bases.empty()) return bases;
         const OwnTriangles& own = own_[surface];
@@ -163,27 +163,52 @@ private:
         return bases;
     }
 
+    /// Tells whether two points are ends of an edge of what added triangles were built on.
+    [[nodiscard]] bool is_edge_of_base(std::uint32_t surface, bool sealed, const Point3& a,
+                                       const Point3& b) const {
+        const OwnTriangles& own = own_[surface];
+        for (std::uint32_t p = own.first; p < (sealed ? own.sealed : own.extended); ++p) {
+            std::size_t ends = 0;
+            for (const std::uint32_t v : inputs_.triangles[p])
+                ends += inputs_.vertices[v] == a || inputs_.vertices[v] == b ? 1 : 0;
+            if (ends > 1) return true;
+        }
+        return false;
+    }
+
+    /// Tells whether a side of an added triangle is lateral: it leads from a vertex of the border
+    /// away from it, or to another one without being an edge.
+    [[nodiscard]] bool is_lateral(std::uint32_t surface, bool sealed, const Point3& a,
+                                  const Point3& b) const {
+        const auto& base = base_of(surface, sealed);
+        const bool from = base.contains(a), to = base.contains(b);
+        return from != to || (from && to && !is_edge_of_base(surface, sealed, a, b));
+    }
+
     /// Tells whether an edge of a triangle lies on a side of an added triangle that contains it, or
     /// on a lateral one of these sides.
     [[nodiscard]] bool is_on_side(std::uint32_t t, const Edge& edge, bool lateral) {
         const auto axis = projection_axis(mesh_.planes[t]).value();
         for (const std::uint32_t p : parts_.exact.parents_of[t]) {
             const std::uint32_t surface = inputs_.surface_of[p];
-            const auto& base = base_of(surface, p >= own_[surface].sealed);
             const Triangle& corners = inputs_.triangles[p];
             for (std::size_t i = 0; i < 3; ++i) {
                 const std::uint32_t a = corners[i], b = corners[(i + 1) % 3];
-                if (lateral &&
-                    base.contains(inputs_.vertices[a]) == base.contains(inputs_.vertices[b]))
-                    continue;
-                if (std::ranges::all_of(edge, [&](std::uint32_t v) {
-                        return sgn(turn(input_points_[a], input_points_[b], mesh_.points[v],
-                                        axis)) == 0;
-                    }))
+                if (is_on_line(a, b, edge, axis) &&
+                    (!lateral || is_lateral(surface, p >= own_[surface].sealed, inputs_.vertices[a],
+                                            inputs_.vertices[b])))
                     return true;
             }
         }
         return false;
+    }
+
+    /// Tells whether an edge of a triangle lies on the line through two vertices of inputs.
+    [[nodiscard]] bool is_on_line(std::uint32_t a, std::uint32_t b, const Edge& edge,
+                                  std::size_t axis) const {
+        return std::ranges::all_of(edge, [&](std::uint32_t v) {
+            return sgn(turn(input_points_[a], input_points_[b], mesh_.points[v], axis)) == 0;
+        });
     }
 
     /// Tells whether an added triangle meets a kept one at an edge that it does not continue: one
@@ -198,6 +223,43 @@ private:
         return std::ranges::any_of(surfaces_of_[strip], [&](std::uint32_t surface) {
             return !is_given_for(t, surface) || !is_border(at, surface);
         });
+    }
+
+    /// Marks added triangles that join two parts of the border of their surface: one has a side
+    /// along the border, and its opposite corner is an end of another edge along which the added
+    /// triangles that are connected with it, as `sets` says, lie at the border.
+    void mark_joining(JoinedSets& sets, std::vector<bool>& is_closing) {
+        struct Attached {
+            std::uint32_t triangle, opposite; ///< an exact triangle, a vertex of the inputs
+        };
+        std::vector<Attached> all;
+        std::map<std::uint32_t, std::vector<std::uint32_t>> ends; // of edges at the border, by set
+        for (const auto& [edge, at] : at_edge_)
+            for (const std::uint32_t t : at) {
+                if (!is_strip(t)) continue;
+                const auto axis = projection_axis(mesh_.planes[t]).value();
+                for (const std::uint32_t p : parts_.exact.parents_of[t]) {
+                    if (!is_border(at, inputs_.surface_of[p])) continue;
+                    const Triangle& corners = inputs_.triangles[p];
+                    for (std::size_t i = 0; i < 3; ++i) {
+                        if (!is_on_line(corners[i], corners[(i + 1) % 3], edge, axis)) continue;
+                        all.push_back({t, corners[(i + 2) % 3]});
+                        auto& list = ends[sets.find(t)];
+                        list.insert(list.end(), edge.begin(), edge.end());
+                    }
+                }
+            }
+        for (const Attached& a : all)
+            if (std::ranges::any_of(ends[sets.find(a.triangle)], [&](std::uint32_t v) {
+                    return are_equal(mesh_.points[v], input_points_[a.opposite]);
+                }))
+                is_closing[a.triangle] = true;
+    }
+    /// Tells whether two points are the same.
+    static bool are_equal(const Vector4& p, const Vector4& q) {
+        for (std::size_t i = 0; i < 3; ++i)
+            if (p[i] * q[3] != q[i] * p[3]) return false;
+        return true;
     }
 
     void check_ends() {
@@ -215,6 +277,7 @@ private:
                 }
             }
         }
+        mark_joining(sets, is_closing);
         std::set<std::uint32_t> closing;
         for (std::uint32_t t = 0; t < is_closing.size(); ++t)
             if (is_closing[t]) closing.insert(sets.find(t));
@@ -347,7 +410,7 @@ private:
     std::vector<OwnTriangles> own_;    ///< per surface of the files
     std::vector<Numbers> surfaces_of_; ///< per exact triangle, as the next two
     std::vector<bool> is_given_, is_dropped_;
-    std::map<std::pair<std::uint32_t, bool>, std::set<Point3>> bases_;
+    mutable std::map<std::pair<std::uint32_t, bool>, std::set<Point3>> bases_;
     std::vector<Vector4> input_points_; ///< in the scale of the mesh
     mpz_class scale_;                   ///< of the next two
     std::vector<Point3> doubles_;

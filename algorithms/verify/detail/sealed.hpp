@@ -43,8 +43,10 @@ struct SealedParts {
 ///     that has exactly one given triangle of it, which is not trimmed: to its border. A way may
 ///     lead through what is outside of the volume.
 /// (3) R55: an edge at which only an added triangle was kept lies on a lateral side of an added
-///     triangle: from a vertex of the border on which it was built to one that is none. Added
-///     triangles that are connected meet another surface, or their own where it does not end.
+///     triangle: from a vertex of the border on which it was built to one that is none, or to
+///     another one, unless that is an edge. Added triangles that are connected meet another surface,
+///     or their own where it does not end, or join two parts of its border: one has a side along the
+///     border, and its opposite corner is an end of another edge of the border at which they are.
 /// (4) R56: no edge divides a trimmed triangle from one that was kept unless other triangles are
 ///     there, of the given ones and the kept added ones. No edge has a single one of these left if
 ///     it had more. Each connected part that was trimmed is beside a part of its surface that was

@@ -45,7 +45,59 @@ bool has_rule(const std::string& rules, const std::string& rule) {
     return (" " + rules + " ").find(" " + rule + " ") != std::string::npos;
 }
 
+/// A sheet with a slit from its border to its middle, along y = 4, and sheets that end side by side.
+std::vector<File> slit_and_neighbours() {
+    std::string text;
+    const std::array<double, 6> rows{0, 2, 3.95, 4.05, 6, 8};
+    for (const double y : rows)
+        for (int i = 0; i <= 4; ++i)
+            text += "v " + std::to_string(2 * i) + " " + std::to_string(y) + " 0\n";
+    text += "g slit\n";
+    for (int j = 0; j < 5; ++j)
+        for (int i = 0; i < 4; ++i) {
+            if (j == 2 && i < 2) continue;
+            const int a = 1 + 5 * j + i;
+            text += "f " + std::to_string(a) + " " + std::to_string(a + 1) + " " +
+                    std::to_string(a + 6) + " " + std::to_string(a + 5) + "\n";
+        }
+    return {{"slit.obj", text},
+            {"left.obj", sheet_text("left", -9, -4.1, 2, 0.05)},
+            {"right.obj", sheet_text("right", -4, 1, 2.02, 0.052)}};
+}
+
 } // namespace
+
+TEST_CASE("sealed certificates: bridges between borders are accepted", "[sealing]") {
+    const Subject right = sealed_subject(slit_and_neighbours(), {std::nullopt, 0.2, 0});
+    CHECK(right.certificate["sealed"][0]["sealed"].size() >= 4);
+    CHECK(right.certificate["sealed"][1]["sealed"].size() +
+              right.certificate["sealed"][2]["sealed"].size() >=
+          5);
+    CHECK(judged_widely(right) == "");
+}
+
+TEST_CASE("sealed certificates: what looks like a bridge and joins nothing is refused",
+          "[sealing]") {
+    const auto all = [](const Corners&, const std::set<std::uint32_t>&) { return true; };
+    const auto rules = [&](const std::vector<Corners>& added) {
+        return judged_widely(self_made(slit_and_neighbours(), {{0, added}}, all));
+    };
+    const Point3 a{0, 3.95, 0}, b{2, 3.95, 0}, c{0, 4.05, 0}, d{2, 4.05, 0}, e{4, 3.95, 0},
+        f{4, 4.05, 0};
+    // All of the slit, its end, and the part at its mouth are bridges.
+    CHECK(rules({{a, b, c}, {b, d, c}, {b, e, d}, {e, f, d}}) == "");
+    CHECK(rules({{b, e, d}, {e, f, d}}) == "");
+    CHECK(rules({{a, b, c}, {b, d, c}}) == "");
+    // One that reaches a vertex on the other side, but no edge there.
+    CHECK(has_rule(rules({{a, b, c}}), "R55"));
+    CHECK(has_rule(rules({{a, b, d}}), "R55"));
+    // Two edges of one side, with a vertex of the other; a triangle that touches no edge.
+    CHECK(has_rule(rules({{a, b, c}, {b, e, c}}), "R55"));
+    CHECK(has_rule(rules({{b, c, {1, 4.02, 0}}}), "R54"));
+    // Between the sides, to a place that is no vertex.
+    CHECK(has_rule(rules({{a, b, {1, 4, 0}}}), "R55"));
+    CHECK(has_rule(rules({{a, b, {1, 4.05, 0}}}), "R55"));
+}
 
 TEST_CASE("sealed certificates: accepted", "[sealing]") {
     CHECK(judged(right_sealed()) == "");
