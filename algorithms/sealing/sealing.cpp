@@ -90,7 +90,7 @@ public:
     Result<Sealed> operator()() {
         if (auto done = update(); !done) return done.error();
         double share = 0;
-        for (const auto make : {&Sealing::strips_along, &Sealing::bridges,
+        for (const auto make : {&Sealing::bridges, &Sealing::strips_along,
                                 &Sealing::strips_to_nearest, &Sealing::strips_to_own}) {
             report(share += 0.2);
             auto fresh = (this->*make)();
@@ -158,8 +158,8 @@ private:
     }
     /// Makes strips where a border ends short of another part of its own surface.
     [[nodiscard]] std::vector<ExtensionTriangle> strips_to_own() {
-        const FacingBorders borders(kept_, free_edges(), distances_);
         const GapDistances distances(kept_, distances_);
+        const FacingBorders borders(kept_, free_edges(), distances_, distances);
         std::vector<Gap> found;
         for (std::uint32_t e = 0; e < borders.edges().size(); ++e)
             if (auto gap = gap_to_own(borders, distances, e)) found.push_back(std::move(*gap));
@@ -172,7 +172,8 @@ private:
             return done.contains(
                 in_order(kept_.state->points.input(e.from), kept_.state->points.input(e.to)));
         });
-        const FacingBorders borders(kept_, std::move(edges), distances_);
+        const GapDistances distances(kept_, distances_);
+        const FacingBorders borders(kept_, std::move(edges), distances_, distances);
         auto made = make_bridges(kept_, borders, static_cast<std::uint32_t>(gaps_.size()));
         std::move(made.gaps.begin(), made.gaps.end(), std::back_inserter(gaps_));
         return std::move(made.triangles);
@@ -216,10 +217,21 @@ private:
 
     /// Adds the fresh strips and removes those of which no part closes a gap, until all do.
     Status add_useful(std::vector<ExtensionTriangle> fresh) {
+        const std::uint32_t first = std::ranges::min(fresh, {}, &ExtensionTriangle::piece).piece;
+        const std::size_t count = strips_.size();
         strips_.insert(strips_.end(), fresh.begin(), fresh.end());
+        Arrangement whole = std::move(whole_), kept = std::move(kept_);
+        Judged judged = std::move(judged_);
         for (unsigned round = 0; round < constants.most_rounds; ++round) {
             if (auto done = update(); !done) return done;
             if (!drop_useless()) return Done{};
+            if (strips_.size() != count ||
+                std::ranges::any_of(strips_, [&](const auto& t) { return t.piece >= first; }))
+                continue;
+            whole_ = std::move(whole); // none was of use: all is as it was
+            kept_ = std::move(kept);
+            judged_ = std::move(judged);
+            return Done{};
         }
         return update();
     }
@@ -294,8 +306,9 @@ private:
     }
 
     void list_open() {
-        sealed_.open = list_open_gaps(FacingBorders(kept_, free_edges(), distances_),
-                                      GapDistances(kept_, distances_));
+        const GapDistances distances(kept_, distances_);
+        sealed_.open =
+            list_open_gaps(FacingBorders(kept_, free_edges(), distances_, distances), distances);
         for (const OpenGap& gap : sealed_.open)
             if (gap.reason != OpenReason::partly_farther) sealed_.left += gap.length;
     }

@@ -12,7 +12,8 @@
 //   together, also around corners. A strip is kept where it closes a gap, see extension_faces.hpp.
 //   Last, borders that end short of another part of their own surface are extended to it.
 // - Bridges: two borders that face each other in nearly one plane, of two surfaces or of one (a
-//   slit, a notch), are joined by a band of triangles with corners on both.
+//   slit, a notch), are joined by a band of triangles with corners on both. They come first: where
+//   both surfaces end, strips would meet in some places and miss each other in others.
 // - Trimming: the part of a surface between its free border and the curve with another surface is
 //   removed if no point of it is farther than the distance from the curve.
 // Guarantees: the result is an exact arrangement; only the listed changes are made; no input vertex

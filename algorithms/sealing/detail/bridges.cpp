@@ -38,6 +38,7 @@ struct Link {
     double length = 0;             ///< of the new way; 0 where the gap ends
     Way next{};                    ///< the new way
     std::uint32_t ahead = 0;       ///< the vertex that the step led to
+    Point3 heading{};              ///< of the step, along the border
 };
 
 class Builder {
@@ -55,6 +56,7 @@ public:
     }
 
     Bridges operator()() {
+        for (std::uint32_t e = 0; e < edges_.size(); ++e) fill_triangle(e);
         for (const Seed& seed : seeds())
             if (!bridges_.is_bridged[seed.edges[0]] && !bridges_.is_bridged[seed.edges[1]])
                 build(seed.way);
@@ -93,6 +95,24 @@ private:
         return no_index;
     }
 
+    /// Fills a gap that has three border edges of one surface: at a vertex near another edge, for
+    /// instance, there is no way from one to another that is not one of them.
+    void fill_triangle(std::uint32_t e) {
+        if (!facing_[e] || bridges_.is_bridged[e]) return;
+        const std::uint32_t f = facing_[e]->edge, surface = surface_of(e);
+        if (bridges_.is_bridged[f] || surface_of(f) != surface) return;
+        for (const std::uint32_t v : ends_of(e)) {
+            if (edges_[f].from != v && edges_[f].to != v) continue;
+            const Way way{{other_end(e, v), other_end(f, v)}, {surface, surface}};
+            const std::uint32_t third = edge_between(way);
+            if (third == no_index || bridges_.is_bridged[third] ||
+                collinear(place(v), place(way.at[0]), place(way.at[1])))
+                continue;
+            for (const std::uint32_t side : {e, f, third}) bridges_.is_bridged[side] = true;
+            return add({{e, way.at[1], f, 0, way, way.at[1], {}}}, surface);
+        }
+    }
+
     /// Lists the ways between the ends of edges that face each other, the shortest first.
     [[nodiscard]] std::vector<Seed> seeds() const {
         std::vector<Seed> all;
@@ -119,15 +139,15 @@ private:
     }
 
     /// Finds the step over one of the edges at a way's end that leads to the shortest new way.
-    /// `behind`: the vertex that the bridge comes from, if there is one.
+    /// `heading`: the direction in which the bridge goes, if it has one.
     [[nodiscard]] std::optional<Link> step(const Way& way,
-                                           std::optional<std::uint32_t> behind) const {
+                                           const std::optional<Point3>& heading) const {
         std::optional<Link> best;
         for (unsigned i = 0; i < 2; ++i) {
             const auto it = at_.find({way.surface[i], way.at[i]});
             if (it == at_.end()) continue;
             for (const std::uint32_t e : it->second) {
-                const auto link = link_over(way, i, e, behind);
+                const auto link = link_over(way, i, e, heading);
                 if (!link) continue;
                 if (!best || std::tuple(link->length, place(link->ahead)) <
                                  std::tuple(best->length, place(best->ahead)))
@@ -138,22 +158,20 @@ private:
     }
 
     [[nodiscard]] std::optional<Link> link_over(const Way& way, unsigned i, std::uint32_t e,
-                                                std::optional<std::uint32_t> behind) const {
+                                                const std::optional<Point3>& heading) const {
         const std::uint32_t from = way.at[i], apex = way.at[1 - i], ahead = other_end(e, from);
         if (bridges_.is_bridged[e] || edges_[facing_[e]->edge].surface != way.surface[1 - i] ||
             ahead == apex || collinear(place(from), place(ahead), place(apex)))
             return std::nullopt;
         const Point3 out =
             across(minus(place(apex), place(from)), minus(place(ahead), place(from)));
-        if (dot(borders_.outward(e), out) < constants.least_facing * length(out))
+        if (dot(borders_.outward(e), out) < constants.least_beside * length(out))
             return std::nullopt;
-        if (behind) { // the bridge goes on, and does not turn back
-            const Point3 side = minus(place(apex), place(from));
-            if (dot(across(minus(place(ahead), place(from)), side),
-                    across(minus(place(*behind), place(from)), side)) >= 0)
-                return std::nullopt;
-        }
-        Link link{e, apex, no_index, 0, way, ahead};
+        const Point3 along = minus(place(ahead), place(from));
+        if (heading &&
+            dot(along, *heading) < constants.least_turn * length(along) * length(*heading))
+            return std::nullopt; // the bridge would turn back
+        Link link{e, apex, no_index, 0, way, ahead, along};
         link.next.at[i] = ahead;
         link.last = edge_between(link.next);
         if (link.last != no_index)
@@ -164,16 +182,16 @@ private:
     }
 
     /// Goes on from a way until there is no step; marks the edges.
-    std::vector<Link> go(Way way, std::optional<std::uint32_t> behind) {
+    std::vector<Link> go(Way way, std::optional<Point3> heading) {
         std::vector<Link> links;
-        while (const auto link = step(way, behind)) {
+        while (const auto link = step(way, heading)) {
             bridges_.is_bridged[link->edge] = true;
             links.push_back(*link);
             if (link->last != no_index) {
                 bridges_.is_bridged[link->last] = true;
                 break;
             }
-            behind = way.at[0] == link->next.at[0] ? way.at[1] : way.at[0];
+            heading = link->heading;
             way = link->next;
         }
         return links;
@@ -182,7 +200,8 @@ private:
     void build(const Way& first) {
         auto links = go(first, std::nullopt);
         if (links.empty()) return;
-        const auto back = go(first, links.front().ahead);
+        const Point3& heading = links.front().heading;
+        const auto back = go(first, Point3{-heading.x, -heading.y, -heading.z});
         std::ranges::reverse(links);
         links.insert(links.end(), back.begin(), back.end());
         std::array<bool, 2> joined{};
@@ -252,8 +271,10 @@ private:
         t.piece = piece;
         t.corners = {place(first), place(second), place(link.apex)};
         t.is_base = {true, true, true};
-        t.joins[0] = true;
-        if (link.last != no_index) t.joins[link.ahead == first ? 2 : 1] = true;
+        const std::array corners{first, second, link.apex};
+        for (std::size_t k = 0; k < 3; ++k)
+            t.joins[k] =
+                edge_between({{corners[k], corners[(k + 1) % 3]}, link.next.surface}) != no_index;
         bridges_.triangles.push_back(t);
     }
 

@@ -30,9 +30,16 @@ struct SealConstants {
     /// Least cosine between the direction in which a surface would go on and that to another part
     /// of it: parts to the side, as all of a plane are, form no gap.
     double least_ahead = 0.5;
-    /// Least cosine between the direction in which a surface would go on and that to a border which
-    /// it faces: two borders at up to 30 degrees are in nearly one plane.
+    /// Least cosine between the direction in which a surface would go on at a border and the
+    /// opposite of that at a border which it faces: up to 30 degrees is nearly one plane.
     double least_facing = 0.866;
+    /// Least cosine between the direction in which a surface would go on and the way to a border
+    /// which it faces. Negative, since the edges of curved surfaces miss each other by more than
+    /// small gaps are wide; the other border of a narrow surface, behind it, has -1.
+    double least_beside = -0.5;
+    /// Least cosine between one step of a bridge along a border and the next: a right angle at
+    /// corners, and a little more.
+    double least_turn = -0.2;
     /// Largest sine, of the angle between a strip and the surface that it is to meet, that counts
     /// as too small an angle where a strip has closed nothing: the inverse of width_per_gap.
     double most_flat = 0.25;
@@ -50,6 +57,8 @@ inline std::vector<NamedConstant> named_constants() {
         {"end_reach", constants.end_reach},
         {"least_ahead", constants.least_ahead},
         {"least_facing", constants.least_facing},
+        {"least_beside", constants.least_beside},
+        {"least_turn", constants.least_turn},
         {"most_flat", constants.most_flat},
     };
 }

@@ -38,9 +38,9 @@ std::vector<Triangle> as_triangles(std::size_t edges) {
 } // namespace
 
 FacingBorders::FacingBorders(const Arrangement& a, std::vector<BorderEdge> edges,
-                             const SealDistances& distances) :
+                             const SealDistances& distances, const GapDistances& gaps) :
     edges_(std::move(edges)),
-    distances_(distances), places_(ends_of(a, edges_)),
+    distances_(distances), gaps_(gaps), places_(ends_of(a, edges_)),
     tree_(places_, as_triangles(edges_.size())) {
     for (const BorderEdge& e : edges_) outward_.push_back(outward_of(a, e));
 }
@@ -55,17 +55,24 @@ std::optional<FacingBorders::Facing> FacingBorders::facing(std::uint32_t edge) c
     std::optional<Facing> best;
     for (const auto& near : tree_.within(p, std::nextafter(distances_.largest(), HUGE_VAL))) {
         const std::uint32_t other = near.triangle[0] / 2;
-        const double most = constants.least_facing * near.distance;
+        const double least = constants.least_beside * near.distance;
         const Point3 way = minus(near.place, p);
         if (other == edge || near.distance == 0 ||
             near.distance > distances_.between(surface, edges_[other].surface) ||
-            dot(outward_[edge], way) < most || -dot(outward_[other], way) < most)
+            -dot(outward_[edge], outward_[other]) < constants.least_facing ||
+            dot(outward_[edge], way) < least || -dot(outward_[other], way) < least)
             continue;
         if (!best || near.distance < best->distance ||
             (near.distance == best->distance && key(other) < key(best->edge)))
             best = Facing{other, near.distance, p};
     }
-    return best;
+    if (!best) return best;
+    const bool is_parted = std::ranges::all_of(std::array{0.0, 0.5, 1.0}, [&](double share) {
+        const Point3 at =
+            between(places_[2 * std::size_t{edge}], places_[2 * std::size_t{edge} + 1], share);
+        return gaps_.is_any_ahead(at, edges_[edge], edges_[best->edge].surface, best->distance);
+    });
+    return is_parted ? std::nullopt : best;
 }
 
 bool FacingBorders::is_in_gap(const Point3& p, const Point3& q, std::uint32_t surface,

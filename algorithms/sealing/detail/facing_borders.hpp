@@ -12,6 +12,7 @@
 #include <terrane/algorithms/arrangement/arrangement.hpp>
 #include <terrane/algorithms/mesh/triangle_tree.hpp>
 #include <terrane/algorithms/sealing/border_extension.hpp>
+#include <terrane/algorithms/sealing/detail/gap_distances.hpp>
 #include <terrane/algorithms/sealing/detail/seal_distances.hpp>
 
 namespace terrane::sealing::detail {
@@ -26,9 +27,9 @@ public:
         Point3 place{};         ///< that middle
     };
 
-    /// The arrangement must outlive the object.
+    /// The arrangement and what is measured in it must outlive the object.
     FacingBorders(const Arrangement& arrangement, std::vector<BorderEdge> edges,
-                  const SealDistances& distances);
+                  const SealDistances& distances, const GapDistances& gaps);
     FacingBorders(const FacingBorders&) = delete; // the tree refers to places_
     FacingBorders& operator=(const FacingBorders&) = delete;
     FacingBorders(FacingBorders&&) = delete;
@@ -39,8 +40,9 @@ public:
     /// Returns the unit vector in which the surface would go on beyond an edge.
     [[nodiscard]] const Point3& outward(std::uint32_t edge) const { return outward_[edge]; }
     /// Finds the nearest edge that the middle of an edge faces: it is within the distance for the
-    /// two surfaces, and the way to it leaves both surfaces at most 30 degrees from their planes
-    /// and from the directions across their edges. The edge with the least ends among equals.
+    /// two surfaces, the directions in which the surfaces would go on differ from opposite ones by
+    /// at most 30 degrees, and neither lies behind the other. No third surface lies nearer
+    /// ahead of both ends and the middle, as a fault does at which a horizon ends from two sides. The edge with the least ends among equals.
     [[nodiscard]] std::optional<Facing> facing(std::uint32_t edge) const;
     /// Tells whether the way between two points lies in a gap between borders of two surfaces, or
     /// of one: it is nowhere farther than half of the distance from both borders. That is looked at
@@ -57,6 +59,7 @@ public:
 private:
     const std::vector<BorderEdge> edges_;
     const SealDistances distances_;
+    const GapDistances& gaps_;
     std::vector<Point3> places_; ///< the ends of each edge
     std::vector<Point3> outward_;
     TriangleTree tree_;

@@ -107,6 +107,18 @@ std::optional<GapDistances::Near> GapDistances::nearest(const Point3& p,
     return best;
 }
 
+bool GapDistances::is_any_ahead(const Point3& p, const BorderEdge& edge, std::uint32_t except,
+                                double distance) const {
+    const Point3 outward = outward_of(arrangement_, edge);
+    for (std::uint32_t s = 0; s < trees_.size(); ++s) {
+        if (s == except || std::binary_search(edge.own.begin(), edge.own.end(), s)) continue;
+        const auto near = trees_[s].nearest(p, std::min(distance, bound(edge.surface, s)));
+        if (near && dot(outward, minus(near->place, p)) > constants.least_ahead * near->distance)
+            return true;
+    }
+    return false;
+}
+
 std::optional<GapDistances::Near> GapDistances::nearest_own(const Point3& p,
                                                             const BorderEdge& edge) const {
     const Point3 outward = outward_of(arrangement_, edge);

@@ -52,6 +52,10 @@ public:
     /// Finds the point nearest to p on a surface that does not contain the edge's triangle; that of
     /// the first surface among equals.
     [[nodiscard]] std::optional<Near> nearest(const Point3& p, const BorderEdge& edge) const;
+    /// Tells whether a surface other than the edge's own and `except` lies ahead of p, as in
+    /// own_gap_at(), and is nearer than a distance.
+    [[nodiscard]] bool is_any_ahead(const Point3& p, const BorderEdge& edge, std::uint32_t except,
+                                    double distance) const;
     /// Finds the nearest point of the edge's own surface that lies ahead, as in own_gap_at().
     [[nodiscard]] std::optional<Near> nearest_own(const Point3& p, const BorderEdge& edge) const;
 

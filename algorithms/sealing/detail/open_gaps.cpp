@@ -50,7 +50,7 @@ std::optional<Left> left_at(const FacingBorders& borders, const GapDistances& di
     const BorderEdge& edge = borders.edges()[e];
     if (const auto gap = distances.gap_at(edge))
         return Left{*gap, reason_for(borders, distances, e, *gap)};
-    if (const auto left = own_border(borders, e)) return left;
+    if (auto left = own_border(borders, e)) return left;
     if (const auto gap = gap_to_own(borders, distances, e))
         return Left{*gap, OpenReason::ends_free};
     if (const auto gap = distances.part_gap_at(edge)) return Left{*gap, OpenReason::partly_farther};

@@ -15,6 +15,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "support/effort.hpp"
 #include "support/points.hpp"
 #include "support/shapes.hpp"
 #include "support/solids.hpp"
@@ -301,4 +302,75 @@ TEST_CASE("bridges: what stays open is listed with the reason", "[seal]") {
     CHECK(s.open[0].length == Approx(1));
     CHECK(s.open[0].width == Approx(0.1));
     CHECK(s.open[0].place == Point3{3.9, 4.5, 4});
+}
+
+TEST_CASE("bridges: a gap with three sides, at a vertex beside an edge, is closed", "[seal]") {
+    // Two halves share the line y = 4 but for one vertex in the middle of an edge of the other.
+    Surface horizon{"horizon", Role::horizon, {}, {}};
+    horizon.vertices = {{-1, -1, 4},      {9, -1, 4}, {-1, 4, 4}, {9, 4, 4},
+                        {4, 4.05, 4.001}, {-1, 9, 4}, {9, 9, 4}};
+    horizon.triangles = {{0, 1, 3}, {0, 3, 2}, {2, 4, 5}, {4, 6, 5}, {4, 3, 6}};
+    const std::vector<Surface> model{cube(0, 8), horizon};
+    CHECK(volumes_closed_by(model, 0.01).size() == 1);
+    const Sealed s = closed_up(model, {.distance = 0.06});
+    const auto volumes = volumes_in(s.arrangement);
+    REQUIRE(volumes.size() == 2);
+    CHECK(volumes[0] + volumes[1] == Approx(512));
+    CHECK(volumes[0] == Approx(256).margin(0.001 * 64));
+    CHECK(free_edges(s.arrangement) == 0);
+    CHECK(s.left == 0);
+}
+
+TEST_CASE("bridges: rough slits in any direction are closed along their whole length", "[seal]") {
+    Random random(11);
+    for (int round = 0; round < cases(20); ++round) {
+        // A slit along the middle of a rough sheet, with other nodes on its two sides.
+        const double turn = random_real(random, 0, 6.28), gap = random_real(random, 0.01, 0.1);
+        const auto node = [&](double along, double across) {
+            const double x = 4 + along * std::cos(turn) - across * std::sin(turn),
+                         y = 4 + along * std::sin(turn) + across * std::cos(turn);
+            return Point3{x, y, 4 + 0.2 * std::sin(x) + 0.1 * std::cos(y)};
+        };
+        std::vector<Surface> model{cube(0, 8)};
+        for (const int side : {-1, 1}) {
+            const auto columns = static_cast<unsigned>(random_real(random, 6, 14));
+            std::vector<double> at{-8};
+            for (unsigned i = 1; i < columns; ++i)
+                at.push_back(-8 + 16 * (i + random_real(random, -0.3, 0.3)) / columns);
+            at.push_back(8);
+            model.push_back(grid(
+                columns, 3,
+                [&](unsigned i, unsigned j) {
+                    const double border = side * gap / 2, end = side * 8.0;
+                    return node(at[i], border + (end - border) * (side > 0 ? j : 3 - j) / 3.0);
+                },
+                side > 0 ? "one" : "two", Role::horizon));
+        }
+        INFO(round << ": turn " << turn << ", gap " << gap);
+        CHECK(volumes_closed_by(model, gap / 3).size() == 1);
+        // Straight edges leave the curved sheet: by at most 0.2 times the eighth of their length
+        // squared, which is 3 at most.
+        const Sealed s = closed_up(model, {.distance = gap + 0.25});
+        const auto volumes = volumes_in(s.arrangement);
+        CHECK(volumes.size() == 2);
+        CHECK(volumes.front() + volumes.back() == Approx(512));
+        CHECK(free_edges(s.arrangement) == 0);
+    }
+}
+
+TEST_CASE("bridges: two borders with a fault between them go on to the fault", "[seal]") {
+    // The horizon ends on both sides of a fault, 0.2 lower on one; the distance is larger than that.
+    const auto height = [](double, double) { return 4.0; };
+    const auto lower = [](double, double) { return 3.8; };
+    Surface horizon = surface_over({-1, 2, 3.95}, nodes, height, nowhere, "horizon");
+    const Surface other = surface_over({4.05, 6, 9}, nodes, lower, nowhere, "horizon");
+    const auto first = static_cast<std::uint32_t>(horizon.vertices.size());
+    horizon.vertices.insert(horizon.vertices.end(), other.vertices.begin(), other.vertices.end());
+    for (const auto& [a, b, c] : other.triangles)
+        horizon.triangles.push_back({first + a, first + b, first + c});
+    const std::vector<Surface> model{
+        cube(0, 8), quad({4, -1, -1}, {4, 9, -1}, {4, 9, 9}, {4, -1, 9}, "fault"), horizon};
+    for (const double distance : {0.06, 0.3})
+        CHECK(volumes_closed_by(model, distance) ==
+              std::vector<double>{32 * 3.8, 128, 128, 32 * 4.2});
 }
