@@ -195,13 +195,13 @@ SpreadPairs well_spread_pairs(std::span<const Point3> points, std::size_t count,
     return result;
 }
 
-double rounding_of(std::span<const Point3> data) {
+double rounding_of(std::span<const Point3> data, unsigned degree) {
     double largest = 0;
     for (const Point3& p : data) largest = std::max(largest, std::abs(p.z));
     const double unit = std::nextafter(largest, HUGE_VAL) - largest;
-    // Of the true height, of the estimate, and of a sum before it; each is spread evenly over a unit.
-    // That of the data averages out.
-    return unit * std::sqrt(3 / 12.0);
+    // Of the true height, of the estimate, and of a sum before it, and as much again for squares; each
+    // is spread evenly over a unit. That of the data averages out.
+    return unit * std::sqrt(3.0 * degree / 12);
 }
 
 } // namespace terrane

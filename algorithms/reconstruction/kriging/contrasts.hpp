@@ -85,7 +85,8 @@ struct SpreadPairs {
 /// taken.
 SpreadPairs well_spread_pairs(std::span<const Point3> points, std::size_t count, std::size_t pairs);
 
-/// Computes the standard deviation of what rounding to doubles adds to estimates of heights z.
-double rounding_of(std::span<const Point3> data);
+/// Computes the standard deviation of what rounding to doubles adds to estimates of heights z with a
+/// trend of this degree.
+double rounding_of(std::span<const Point3> data, unsigned degree = 1);
 
 } // namespace terrane

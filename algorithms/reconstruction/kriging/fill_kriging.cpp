@@ -63,7 +63,7 @@ FittedModel model_of(const FlatHole& hole, const KrigingOptions& options, FillRe
         Kriging(thinned(data, hole.border()), choice.variogram, choice.degree, run,
                 choice.validation.noise_share),
         DirectionDoubt(error_data(data, hole.border(), choice.variogram), choice, run),
-        choice.determined, rounding_of(data)};
+        choice.determined, rounding_of(data, choice.degree)};
     report.data = data.size();
     report.validated_error = choice.validation.blocks > 0
                                  ? choice.validation.error

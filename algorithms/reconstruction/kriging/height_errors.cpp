@@ -20,7 +20,7 @@ struct HeightErrors::State {
         kriging(error_data(data, border, choice.variogram), choice.variogram, choice.degree, run,
                 choice.validation.noise_share),
         doubt(error_data(data, border, choice.variogram), choice, run),
-        rounding(rounding_of(data)) {}
+        rounding(rounding_of(data, choice.degree)) {}
 
     ModelChoice choice;
     Kriging kriging;
