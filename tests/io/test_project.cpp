@@ -67,7 +67,8 @@ std::vector<json> samples() {
         all.back()["volume_of_interest"] = json::parse(volume);
     }
     all.push_back(full());
-    for (const char* key : {"unit", "improve", "fill", "layers", "min_volume"}) all.back().erase(key);
+    for (const char* key : {"unit", "improve", "fill", "layers", "min_volume"})
+        all.back().erase(key);
     all.back()["outputs"]["certificate"] = true;
     all.back()["surfaces"][1]["depth"] = false;
     all.push_back(json::parse(R"({"format": "terrane-project 1", "surfaces": [{"file": "a"}],
