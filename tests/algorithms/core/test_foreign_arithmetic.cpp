@@ -41,10 +41,15 @@ using namespace test_support;
 
 namespace {
 
-/// The bytes of a file, read while nothing is foreign yet.
-std::string contents_of(const std::string& name) {
-    std::ifstream file(std::filesystem::path(test_data()) / name, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
+/// The bytes of files of docs/data one after another, read while nothing is foreign yet.
+std::string contents_of(const std::vector<std::string>& names) {
+    std::string all;
+    for (const std::string& name : names) {
+        std::ifstream file(std::filesystem::path(source_dir()) / "docs/data" / name,
+                           std::ios::binary);
+        all.append(std::istreambuf_iterator<char>(file), {});
+    }
+    return all;
 }
 
 std::string bits_of(const std::vector<double>& numbers) {
@@ -63,7 +68,7 @@ using Results = std::map<std::string, std::string>;
 
 /// What the stages work on.
 struct Subject {
-    std::string crossing = contents_of("ringmesh/modelA2.ml");
+    std::string crossing = contents_of({"top.ts", "base.ts", "fault.ts"});
     Surface dome = punched(sheet(graph([](double x, double y) {
                                      return 50 * std::exp(-(x * x + y * y) / 2e4) + 0.1 * x;
                                  }),
@@ -87,7 +92,7 @@ struct Subject {
 
 private:
     void add_model(Results& all, const Run& run) const {
-        const auto read = parse_surfaces(crossing, "a.ml", Format::gocad);
+        const auto read = parse_surfaces(crossing, "a.ts", Format::gocad);
         if (!read) return;
         std::string input;
         for (const Surface& s : *read) input += bits_of(s);
@@ -109,7 +114,7 @@ private:
             all["model"] = to_json(model->mesh, model->structure, extras);
         }
         ImproveOptions options;
-        options.edge_length = 1500;
+        options.edge_length = 200;
         const auto improved = improve_and_measure(*rounded->conforming, options, run);
         if (!improved) return;
         all["improve"] = format_mesh(improved->improved.mesh, Format::ply).value_or("none");

@@ -159,7 +159,7 @@ TEST_CASE("kept results: changed tetrahedra are made again, not believed", "[kep
     REQUIRE(first);
     std::mt19937 random(6);
     std::size_t made_again = 0;
-    for (int k = 0; k < 40; ++k) {
+    for (int k = 0; k < 12; ++k) {
         Memory forged = memory;
         for (auto& [key, bytes] : forged.kept) {
             if (key.first != BuildStage::tetrahedra) continue;
@@ -176,7 +176,7 @@ TEST_CASE("kept results: changed tetrahedra are made again, not believed", "[kep
         REQUIRE(again->filled->report.violations.empty());
         if (forged.taken.size() == 1) ++made_again;
     }
-    CHECK(made_again >= 26); // a moved vertex may be inside a block, and nothing wrong
+    CHECK(made_again >= 8); // a moved vertex may be inside a block, and nothing wrong
 }
 
 #endif
