@@ -118,31 +118,64 @@ Surface walls_on(std::span<const Surface> layers) {
     return walls;
 }
 
+/// Removes triangles that rounding folded onto each other: as many of the same corners faced up as
+/// down. What stays of them would be a fin on the layer. `upward` has the corners of each triangle,
+/// counterclockwise from above before rounding.
+void remove_folds(Surface& s, const std::vector<Triangle>& upward) {
+    std::map<std::array<double, 3>, std::uint32_t> first_at;
+    std::vector<std::uint32_t> same(s.vertices.size());
+    for (std::uint32_t v = 0; v < s.vertices.size(); ++v) {
+        const Point3& p = s.vertices[v];
+        same[v] = first_at.try_emplace({p.x, p.y, p.z}, v).first->second;
+    }
+    std::map<Triangle, std::pair<std::size_t, std::size_t>> facing; // up and down
+    std::vector<Triangle> keys;
+    for (const Triangle& t : upward) {
+        Triangle key{same[t[0]], same[t[1]], same[t[2]]};
+        std::rotate(key.begin(), std::min_element(key.begin(), key.end()), key.end());
+        const bool up = key[1] < key[2];
+        if (!up) std::swap(key[1], key[2]);
+        auto& [ups, downs] = facing[key];
+        ++(up ? ups : downs);
+        keys.push_back(key);
+    }
+    std::size_t kept = 0;
+    for (std::size_t t = 0; t < s.triangles.size(); ++t) {
+        const auto& [ups, downs] = facing.at(keys[t]);
+        if (ups != downs) s.triangles[kept++] = s.triangles[t];
+    }
+    s.triangles.resize(kept);
+}
+
 /// Builds the surface of a layer; points are rounded to the nearest doubles.
-Surface surface_of(const Arrangement& a, const Set& triangles, const WholeTriangles& whole,
-                   const Surface& original) {
+Surface surface_of(const Arrangement& a, const Set& triangles, const LayerResolver& resolver,
+                   const WholeTriangles& whole, const Surface& original) {
     Surface s{original.name, original.role, {}, {}};
     std::map<PointIndex, std::uint32_t> name;
-    const auto add = [&](const std::array<PointIndex, 3>& corners) {
-        Triangle named{};
+    const auto named = [&](const std::array<PointIndex, 3>& corners) {
+        Triangle t{};
         for (unsigned k = 0; k < 3; ++k) {
             const auto [at, added] =
                 name.try_emplace(corners[k], static_cast<std::uint32_t>(s.vertices.size()));
             if (added) s.vertices.push_back(a.state->points.nearest(corners[k]));
-            named[k] = at->second;
+            t[k] = at->second;
         }
-        s.triangles.push_back(named);
+        return t;
     };
+    std::vector<Triangle> upward;
     Set wholes;
     for (const std::uint32_t t : triangles) {
         const Triangle& c = a.triangles[t];
-        if (const auto as = whole(t))
+        if (const auto as = whole(t)) {
             wholes.push_back(*as);
-        else
-            add({a.vertices[c[0]], a.vertices[c[1]], a.vertices[c[2]]});
+        } else {
+            s.triangles.push_back(named({a.vertices[c[0]], a.vertices[c[1]], a.vertices[c[2]]}));
+            upward.push_back(named(resolver.upward(t)));
+        }
     }
+    remove_folds(s, upward);
     sort_unique(wholes);
-    for (const std::uint32_t t : wholes) add(a.state->corners[t]);
+    for (const std::uint32_t t : wholes) s.triangles.push_back(named(a.state->corners[t]));
     return s;
 }
 
@@ -241,7 +274,7 @@ Result<Layered> stack_valid(std::span<const Surface> surfaces, std::span<const L
     std::vector<Surface> stacked;
     for (std::size_t i = 0; i < order.size(); ++i)
         stacked.push_back(
-            surface_of(arrangement.value(), sets[i], whole, surfaces[order[i].surface]));
+            surface_of(arrangement.value(), sets[i], resolver, whole, surfaces[order[i].surface]));
     const auto exact = arrange(stacked, {}, run);
     if (!exact) return exact.error();
     auto rounded = round_to_doubles(exact.value(), {options.max_rounds, options.check}, run);

@@ -7,6 +7,7 @@
 //   definition  at each place a horizon gives way to the nearest harder ones that exist there,
 //               above and below it. At random places the height of each layer is compared with the
 //               one computed from the input alone;
+//   moves       no horizon is said to move by more than all heights span;
 //   certificate the verifier accepts the certificate of the stack.
 // The horizons are flat, plane, wavy or on a lattice of heights, with steps; they cover all, a
 // rectangle, scattered cells, or all but a hole; some are identical to parts of others.
@@ -322,6 +323,21 @@ std::string definition_flaw(const Stack& stack, const std::vector<Triangles>& ma
     return {};
 }
 
+std::string moves_flaw(const Stack& stack, const Layered& layered) {
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (const Layer& l : stack.order)
+        for (const Point3& p : stack.surfaces[l.surface].vertices) {
+            low = std::min(low, p.z);
+            high = std::max(high, p.z);
+        }
+    const double span = high - low + stack.thickness * static_cast<double>(stack.order.size());
+    for (const LayerReport& report : layered.reports)
+        if (!(report.largest_move >= 0 && report.largest_move <= span))
+            return "moves: layer " + std::to_string(report.surface) + " by " +
+                   std::to_string(report.largest_move);
+    return {};
+}
+
 /// Returns what the verifier says about the certificate of layers; empty if it accepts it.
 std::string certificate_flaw(const Stack& stack, const Layered& layered) {
     const InputFile file = input_file("", stack.surfaces);
@@ -359,6 +375,7 @@ std::string flaw(const Stack& stack) {
             }
     if (!layered->is_stack()) return "order: said to be out of order, but is not";
     if (auto what = definition_flaw(stack, made); !what.empty()) return what;
+    if (auto what = moves_flaw(stack, *layered); !what.empty()) return what;
     return certificate_flaw(stack, *layered);
 }
 

@@ -6,6 +6,8 @@
 #include <iterator>
 #include <utility>
 
+#include <gmpxx.h>
+
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/mesh/edges.hpp>
@@ -202,14 +204,44 @@ void LayerResolver::add_steps(const Replacement& change, const Set& soft,
         report.parts += gone[i] && parts.find(i) == i ? 1 : 0;
 }
 
-/// Measures the heights of corners of dropped triangles over the planes of the others, in floating
-/// point.
+/// Returns the height of a point over the plane of a triangle. Where floating point can't tell the
+/// triangle from an upright one, exact numbers take over.
+double LayerResolver::height_over(std::uint32_t t, PointIndex v) const {
+    const Point3 a = corner(t, 0);
+    const Point3 ab = minus(corner(t, 1), a), ac = minus(corner(t, 2), a);
+    const Point3 n = cross(ab, ac);
+    constexpr double upright = 0x1p-20; // of the largest possible area in plan
+    if (std::fabs(n.z) > upright * std::hypot(ab.x, ab.y) * std::hypot(ac.x, ac.y))
+        return dot(minus(a_.state->points.nearest(v), a), n) / n.z;
+    const auto cartesian = [&](PointIndex p) {
+        const ExactPoint e = a_.state->points.exact(p);
+        std::array<mpq_class, 4> h;
+        e.x.export_to_mpq_t(h[0].get_mpq_t());
+        e.y.export_to_mpq_t(h[1].get_mpq_t());
+        e.z.export_to_mpq_t(h[2].get_mpq_t());
+        e.w.export_to_mpq_t(h[3].get_mpq_t());
+        for (unsigned k = 0; k < 3; ++k) h[k] /= h[3];
+        return h;
+    };
+    const auto o = cartesian(seen_[t][0]), p = cartesian(seen_[t][1]), q = cartesian(seen_[t][2]);
+    std::array<mpq_class, 4> d = cartesian(v);
+    std::array<mpq_class, 3> first, second;
+    for (unsigned k = 0; k < 3; ++k) {
+        first[k] = p[k] - o[k];
+        second[k] = q[k] - o[k];
+        d[k] -= o[k];
+    }
+    const auto minor = [&](unsigned i, unsigned j) -> mpq_class {
+        return first[i] * second[j] - first[j] * second[i];
+    };
+    return mpq_class(d[2] + (d[0] * minor(1, 2) + d[1] * minor(2, 0)) / minor(0, 1)).get_d();
+}
+
+/// Measures the heights of corners of dropped triangles over those of the others.
 void LayerResolver::add_moves(const Replacement& change, const std::vector<Relation>& relations,
                               LayerReport& report) const {
     for (const Relation& r : relations) {
         if (!std::binary_search(change.dropped.begin(), change.dropped.end(), r.first)) continue;
-        const Point3 p = corner(r.second, 0);
-        const Point3 n = cross(minus(corner(r.second, 1), p), minus(corner(r.second, 2), p));
         for (unsigned k = 0; k < 3; ++k) {
             const UpwardRounding upward;
             const PointIndex v = a_.vertices[a_.triangles[r.first][k]];
@@ -218,8 +250,8 @@ void LayerResolver::add_moves(const Replacement& change, const std::vector<Relat
                 over = a_.state->points.orient2d(upward, Axis::z, seen_[r.second][e],
                                                  seen_[r.second][(e + 1) % 3], v) != Sign::Negative;
             if (!over) continue;
-            const double height = dot(minus(corner(r.first, k), p), n) / n.z;
-            report.largest_move = std::max(report.largest_move, std::fabs(height));
+            report.largest_move =
+                std::max(report.largest_move, std::fabs(height_over(r.second, v)));
         }
     }
 }

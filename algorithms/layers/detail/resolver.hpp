@@ -56,6 +56,8 @@ public:
     /// describe copies that are not moved. Errors: unsupported for overturned folds; interrupted.
     Result<Set> resolve(const Copy& copy);
     [[nodiscard]] const std::vector<LayerReport>& reports() const { return reports_; }
+    /// Returns the corners of a triangle of a layer, counterclockwise from above.
+    [[nodiscard]] const UpwardTriangle& upward(std::uint32_t t) const { return seen_[t]; }
 
 private:
     enum class Side : std::uint8_t { above, below };
@@ -90,6 +92,7 @@ private:
     [[nodiscard]] Point3 corner(std::uint32_t t, unsigned k) const {
         return a_.state->points.nearest(a_.vertices[a_.triangles[t][k]]);
     }
+    [[nodiscard]] double height_over(std::uint32_t t, PointIndex v) const;
     [[nodiscard]] double area(std::uint32_t t) const;
     [[nodiscard]] std::string place(std::uint32_t t) const;
 
