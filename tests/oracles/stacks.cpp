@@ -330,7 +330,8 @@ std::string moves_flaw(const Stack& stack, const Layered& layered) {
             low = std::min(low, p.z);
             high = std::max(high, p.z);
         }
-    const double span = high - low + stack.thickness * static_cast<double>(stack.order.size());
+    const double span =
+        (high - low + stack.thickness * static_cast<double>(stack.order.size())) * (1 + 1e-12);
     for (const LayerReport& report : layered.reports)
         if (!(report.largest_move >= 0 && report.largest_move <= span))
             return "moves: layer " + std::to_string(report.surface) + " by " +

@@ -102,7 +102,7 @@ private:
             }
             if (!on_some)
                 report(Rule::R63_layer_heights, {t}, "triangle " + text(t) + " is on no surface");
-            else if (!same_side)
+            else if (!same_side && !s_.faces_aside(t))
                 report(Rule::R65_layer_sides, {t},
                        "triangle " + text(t) + " faces another side than its surface");
         }
@@ -150,36 +150,9 @@ private:
                            ", is where its surface does not exist");
     }
 
-    /// Finds the sides of all edges of a layer. Upright triangles, which rounding can make of thin
-    /// ones, face the side on which fewer of their edges have both triangles on one side.
-    [[nodiscard]] EdgeSides sides_of_layer(std::uint32_t i) const {
-        EdgeSides edges;
-        for (const Seen& t : s_.layers[i].triangles)
-            add_sides(t, layered_.triangles[t.number], edges);
-        std::vector<Seen> upright;
-        for (std::uint32_t t = 0; t < layered_.triangles.size(); ++t)
-            if (!s_.seen[t] && std::ranges::binary_search(layered_.surfaces_of[t], i))
-                upright.push_back({t, {}, false});
-        for (const Seen& t : upright) add_sides(t, layered_.triangles[t.number], edges);
-        for (Seen& t : upright) {
-            const Triangle& c = layered_.triangles[t.number];
-            std::size_t wrong = 0;
-            for (std::size_t k = 0; k < 3; ++k) {
-                const auto [low, high] = std::minmax(c[k], c[(k + 1) % 3]);
-                const auto& sides = edges.at({low, high});
-                if (sides.size() == 2 && sides[0] == sides[1]) ++wrong;
-            }
-            if (wrong < 2) continue;
-            remove_sides(t, c, edges);
-            t.flipped = true;
-            add_sides(t, c, edges);
-        }
-        return edges;
-    }
-
     /// Checks that a layer ends at borders of surfaces only.
     void check_edges(std::uint32_t i) {
-        const EdgeSides edges = sides_of_layer(i);
+        const EdgeSides edges = s_.sides_of_layer(i);
         for (const auto& [edge, sides] : edges) {
             if (has_both_sides(sides)) continue;
             Vector4 from = s_.points[edge[0]], to = s_.points[edge[1]];

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -15,6 +16,16 @@ namespace terrane::verifier {
 namespace {
 
 constexpr double no_limit = std::numeric_limits<double>::infinity();
+
+/// Calls visit(edge, side) for the edges of a triangle; side is 1 where it is passed from the lower
+/// vertex to the higher one.
+template <class Visit>
+void for_each_edge(const Triangle& t, const Visit& visit) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t a = t[k], b = t[(k + 1) % 3];
+        visit(Edge{std::min(a, b), std::max(a, b)}, a < b ? 1 : -1);
+    }
+}
 
 } // namespace
 
@@ -57,18 +68,9 @@ void Sheet::finish() {
 }
 
 void add_sides(const Seen& t, const Triangle& numbers, EdgeSides& edges) {
-    for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t a = numbers[k], b = numbers[(k + 1) % 3];
-        edges[{std::min(a, b), std::max(a, b)}].push_back((a < b) != t.flipped ? 1 : -1);
-    }
-}
-
-void remove_sides(const Seen& t, const Triangle& numbers, EdgeSides& edges) {
-    for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t a = numbers[k], b = numbers[(k + 1) % 3];
-        auto& sides = edges[{std::min(a, b), std::max(a, b)}];
-        sides.erase(std::ranges::find(sides, (a < b) != t.flipped ? 1 : -1));
-    }
+    for_each_edge(numbers, [&](const Edge& edge, int side) {
+        edges[edge].push_back(t.flipped ? -side : side);
+    });
 }
 
 bool has_both_sides(const std::vector<int>& sides) {
@@ -210,11 +212,78 @@ void LayerSheets::find_borders() {
     border_tree_ = tree_of(border_boxes);
 }
 
+/// Tells whether a corner is within 2 d of the opposite side in the projection. Doubles tell it of
+/// most: differences of coordinates are off by 2^-53 of themselves, and so their products by less
+/// than 2^-51 of the terms of the area.
+bool LayerSheets::is_thin(const Seen& t) const {
+    const Triangle& n = claim.triangles[t.number];
+    const Point3 &a = claim.vertices[n[0]], &b = claim.vertices[n[1]], &c = claim.vertices[n[2]];
+    const double ux = b.x - a.x, uy = b.y - a.y, vx = c.x - a.x, vy = c.y - a.y;
+    const double off = 0x1p-51 * (std::fabs(ux * vy) + std::fabs(uy * vx));
+    const double longest =
+        std::max({std::hypot(ux, uy), std::hypot(vx, vy), std::hypot(vx - ux, vy - uy)});
+    if (std::fabs(ux * vy - uy * vx) - off > 3 * claim.deviation * longest && longest > 0x1p-400)
+        return false;
+    for (std::size_t k = 0; k < 3; ++k)
+        if (is_within(place_of(*t.corners[k]),
+                      {place_of(*t.corners[(k + 1) % 3]), place_of(*t.corners[(k + 2) % 3])},
+                      width))
+            return true;
+    return false;
+}
+
+EdgeSides LayerSheets::sides_of_layer(std::uint32_t layer) const {
+    EdgeSides edges;
+    std::map<Edge, Numbers> open; // edges of triangles that face aside, which are not placed yet
+    Numbers aside;
+    for (std::uint32_t t = 0; t < claim.triangles.size(); ++t) {
+        if (!std::ranges::binary_search(claim.surfaces_of[t], layer)) continue;
+        if (!aside_[t]) {
+            add_sides(*seen[t], claim.triangles[t], edges);
+            continue;
+        }
+        aside.push_back(t);
+        for_each_edge(claim.triangles[t], [&](const Edge& e, int) { open[e].push_back(t); });
+    }
+    std::deque<std::uint32_t> next(aside.begin(), aside.end());
+    std::vector<bool> placed(claim.triangles.size(), false);
+    const auto place = [&](std::uint32_t t, bool flipped) {
+        placed[t] = true;
+        add_sides({t, {}, flipped}, claim.triangles[t], edges);
+        for_each_edge(claim.triangles[t], [&](const Edge& e, int) {
+            for (const std::uint32_t beside : open[e])
+                if (!placed[beside]) next.push_back(beside);
+        });
+    };
+    const auto place_by_neighbours = [&] {
+        for (; !next.empty(); next.pop_front()) {
+            const std::uint32_t t = next.front();
+            int room = 0; // more edges leave room for the one side, or for the other
+            bool has_neighbour = false;
+            for_each_edge(claim.triangles[t], [&](const Edge& e, int side) {
+                const auto at = edges.find(e);
+                if (at == edges.end() || at->second.size() != 1) return;
+                has_neighbour = true;
+                room += at->second[0] == side ? -1 : 1;
+            });
+            if (!placed[t] && has_neighbour) place(t, room < 0);
+        }
+    };
+    place_by_neighbours();
+    for (const std::uint32_t t : aside)
+        if (!placed[t]) {
+            place(t, seen[t] && seen[t]->flipped);
+            place_by_neighbours();
+        }
+    return edges;
+}
+
 void LayerSheets::find_layers() {
     layers.resize(claim.order.size());
     for (std::uint32_t t = 0; t < claim.triangles.size(); ++t) {
         boxes.push_back(box_around(claim.vertices, claim.triangles[t]));
         seen.push_back(seen_of(t, claim.triangles[t], 0));
+        aside_.push_back(!seen[t] || is_thin(*seen[t]));
         if (seen.back())
             for (const std::uint32_t i : claim.surfaces_of[t])
                 layers[i].add(*seen.back(), boxes[t]);

@@ -48,8 +48,6 @@ using EdgeSides = std::map<Edge, std::vector<int>>;
 
 /// Adds the edges of a triangle whose corners have these numbers.
 void add_sides(const Seen& t, const Triangle& numbers, EdgeSides& edges);
-/// Removes what add_sides() added.
-void remove_sides(const Seen& t, const Triangle& numbers, EdgeSides& edges);
 bool has_both_sides(const std::vector<int>& sides);
 
 /// The surfaces of layers, their borders, and the layers. Numbers are scaled to integers.
@@ -74,6 +72,13 @@ struct LayerSheets {
     [[nodiscard]] std::optional<std::uint32_t>
     near_one(std::uint32_t layer, std::span<const Vector4> around, const Numbers& candidates) const;
     [[nodiscard]] bool is_near(const Vector4& point, const Seen& s) const;
+    /// Tells whether a triangle of the mesh faces neither up nor down: it is upright, or could be
+    /// if corners were elsewhere by d.
+    [[nodiscard]] bool faces_aside(std::uint32_t t) const { return aside_[t]; }
+    /// Finds the sides on which triangles of a layer are of their edges. One that faces aside is
+    /// over no place, or nearly so: it may be on either side of all its edges, and is on the one
+    /// where more of those beside it leave room.
+    [[nodiscard]] EdgeSides sides_of_layer(std::uint32_t layer) const;
 
     std::span<const Surface> inputs;
     const LayeredClaim& claim;
@@ -95,11 +100,13 @@ private:
     [[nodiscard]] std::optional<Seen> seen_of(std::uint32_t number, const Triangle& t,
                                               std::uint32_t first_point) const;
     [[nodiscard]] bool has_area(const Triangle& t, std::uint32_t first_point) const;
+    [[nodiscard]] bool is_thin(const Seen& t) const;
     bool find_surfaces(Violations& found);
     void find_borders();
     void find_layers();
 
     std::vector<Point3> doubles_; ///< that `points` were made of
+    std::vector<bool> aside_;     ///< per triangle of the mesh
     BoxTree border_tree_{{}, {}};
 };
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -85,7 +86,7 @@ private:
             }
             if (s_.seen[t]) check_heights(column_of(t, i, own.has_value()));
         }
-        if (on_all && !same_side && !faces_right(t))
+        if (on_all && !same_side && !s_.faces_aside(t) && !faces_right(t))
             report(Rule::R65_layer_sides, t, "faces another side than the surface that it is on");
     }
 
@@ -172,11 +173,18 @@ private:
         }
     }
 
+    /// Returns the height of the plane of a triangle, which many others ask for.
+    const PlanFunction& height_of(const Seen& triangle) {
+        const auto [at, added] = heights_.try_emplace(&triangle);
+        if (added) at->second = height_function(triangle.corners);
+        return at->second;
+    }
+
     /// Returns a function that is positive where z is on the wrong side of the height of another
     /// triangle, moved by a multiple of the thickness, by more than the slack.
     [[nodiscard]] PlanFunction wrong_side(const Column& column, const Other& other, int sign,
-                                          int offset, const mpq_class& slack) const {
-        const PlanFunction height = height_function(other.seen->corners);
+                                          int offset, const mpq_class& slack) {
+        const PlanFunction& height = height_of(*other.seen);
         const mpq_class moved = offset * s_.thickness;
         return {sign * (column.height.x - height.x), sign * (column.height.y - height.y),
                 sign * (column.height.one - height.one - moved) - slack};
@@ -196,7 +204,7 @@ private:
     [[nodiscard]] std::vector<PlacePolygon> wrong_parts(const Column& column,
                                                         const HeightTest& test,
                                                         const PlacePolygon& polygon,
-                                                        const mpq_class& slack) const {
+                                                        const mpq_class& slack) {
         std::vector<PlacePolygon> wrong;
         for (const Other& other : column.*test.from) {
             if (is_clear(column, other, test) ||
@@ -256,13 +264,13 @@ private:
     }
 
     /// Returns the largest slope of the surfaces that decide the height of a layer, near a polygon.
-    [[nodiscard]] mpq_class slope_near(const PlacePolygon& polygon, std::uint32_t i) const {
+    [[nodiscard]] mpq_class slope_near(const PlacePolygon& polygon, std::uint32_t i) {
         const Box box = without_height(widened_by(box_of(polygon), s_.reach));
         mpq_class largest = 0;
         for (std::uint32_t j = 0; j < claim_.order.size(); ++j) {
             if (j != i && !s_.is_harder(j, i)) continue;
             for (const std::uint32_t t : s_.surfaces[j].tree.touching(box)) {
-                const PlanFunction f = height_function(s_.surfaces[j].triangles[t].corners);
+                const PlanFunction& f = height_of(s_.surfaces[j].triangles[t]);
                 const mpq_class slope = abs(f.x) + abs(f.y);
                 if (slope > largest) largest = slope;
             }
@@ -299,6 +307,7 @@ private:
     const LayerSheets& s_;
     const LayeredClaim& claim_;
     Violations& found_;
+    std::unordered_map<const Seen*, PlanFunction> heights_;
 };
 
 } // namespace

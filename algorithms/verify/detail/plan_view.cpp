@@ -2,6 +2,7 @@
 #include <terrane/algorithms/verify/detail/plan_view.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace terrane::verifier {
@@ -10,16 +11,76 @@ namespace {
 
 constexpr std::size_t up = 2; ///< the axis along which triangles are seen
 
+// Most signs are clear from doubles. Rationals, whose common factors take the time, decide the rest.
+
+/// Returns a double that is off by less than 2^-52 of the number. None: the number is so large or
+/// so small that products of a few such doubles could overflow or underflow.
+template <class Number>
+std::optional<double> near(const Number& number) {
+    const double rounded = number.get_d(); // truncated
+    if (sgn(number) == 0) return 0.0;
+    const double size = std::fabs(rounded);
+    return size > 0x1p-200 && size < 0x1p200 ? std::optional(rounded) : std::nullopt;
+}
+
+struct NearPlace {
+    std::optional<double> x, y;
+};
+
+NearPlace near_place(const Place& p) {
+    return {near(p.x), near(p.y)};
+}
+
+NearPlace near_place(const Vector4& point) {
+    return {near(point[0]), near(point[1])};
+}
+
+/// The sign of a double that is off by less than `error`; none if that could change it.
+std::optional<int> clear_sign(double value, double error) {
+    if (std::fabs(value) <= error) return std::nullopt;
+    return value > 0 ? 1 : -1;
+}
+
+/// Returns the sign of turn(a, b, c) if it is clear. The factors of its two products are off by at
+/// most 3 u X and 3 u Y, where u = 2^-52 and X and Y are the largest |x| and |y|; so the products,
+/// at most 4 X Y, by 14 u X Y with their own rounding, and their difference by 32 u X Y.
+std::optional<int> clear_turn(const NearPlace& a, const NearPlace& b, const NearPlace& c) {
+    if (!a.x || !a.y || !b.x || !b.y || !c.x || !c.y) return std::nullopt;
+    const double x = std::max({std::fabs(*a.x), std::fabs(*b.x), std::fabs(*c.x)}),
+                 y = std::max({std::fabs(*a.y), std::fabs(*b.y), std::fabs(*c.y)});
+    return clear_sign((*b.x - *a.x) * (*c.y - *a.y) - (*b.y - *a.y) * (*c.x - *a.x),
+                      0x1p-46 * x * y);
+}
+
+int sign_of_turn(const Place& a, const Place& b, const Place& c) {
+    const auto sign = clear_turn(near_place(a), near_place(b), near_place(c));
+    return sign ? *sign : sgn(turn(a, b, c));
+}
+
+/// Returns the sign of a function at a place. Each of its terms is off by at most 3 u of itself,
+/// where u = 2^-52, and each sum by u of the sizes of the terms.
+int sign_at(const PlanFunction& f, const Place& p) {
+    const auto fx = near(f.x), fy = near(f.y), one = near(f.one), x = near(p.x), y = near(p.y);
+    if (fx && fy && one && x && y) {
+        const double u = *fx * *x, v = *fy * *y;
+        const double size = std::fabs(u) + std::fabs(v) + std::fabs(*one);
+        if (const auto sign = clear_sign(u + v + *one, 0x1p-48 * size)) return *sign;
+    }
+    return sgn(f.at(p));
+}
+
 /// Returns the part of a polygon where a linear function is not negative.
-template <class Function>
-PlacePolygon part_of(const PlacePolygon& polygon, const Function& function) {
+template <class SignAt, class ValueAt>
+PlacePolygon part_of(const PlacePolygon& polygon, const SignAt& sign_at, const ValueAt& value_at) {
+    std::vector<int> signs;
+    for (const Place& p : polygon) signs.push_back(sign_at(p));
     PlacePolygon kept;
     for (std::size_t k = 0; k < polygon.size(); ++k) {
-        const Place &p = polygon[k], &q = polygon[(k + 1) % polygon.size()];
-        const mpq_class u = function(p), v = function(q);
-        if (sgn(u) >= 0) kept.push_back(p);
-        if (sgn(u) * sgn(v) >= 0) continue;
-        const mpq_class share = u / (u - v);
+        const std::size_t next = (k + 1) % polygon.size();
+        const Place &p = polygon[k], &q = polygon[next];
+        if (signs[k] >= 0) kept.push_back(p);
+        if (signs[k] * signs[next] >= 0) continue;
+        const mpq_class u = value_at(p), v = value_at(q), share = u / (u - v);
         kept.push_back({p.x + share * (q.x - p.x), p.y + share * (q.y - p.y)});
     }
     if (kept.size() < 3) kept.clear();
@@ -28,7 +89,9 @@ PlacePolygon part_of(const PlacePolygon& polygon, const Function& function) {
 
 /// Returns the part of a polygon on the left of a line.
 PlacePolygon left_part(const PlacePolygon& polygon, const Place& a, const Place& b) {
-    return part_of(polygon, [&](const Place& p) { return turn(a, b, p); });
+    return part_of(
+        polygon, [&](const Place& p) { return sign_of_turn(a, b, p); },
+        [&](const Place& p) { return turn(a, b, p); });
 }
 
 /// Tells whether a segment passes through the interior of a polygon.
@@ -36,6 +99,9 @@ bool passes_through(const SegmentInPlan& s, const PlacePolygon& polygon) {
     mpq_class from = 0, to = 1;
     for (std::size_t k = 0; k < polygon.size(); ++k) {
         const Place &p = polygon[k], &q = polygon[(k + 1) % polygon.size()];
+        const int first = sign_of_turn(p, q, s[0]), second = sign_of_turn(p, q, s[1]);
+        if (first > 0 && second > 0) continue;
+        if (first < 0 && second < 0) return false;
         const mpq_class u = turn(p, q, s[0]), v = turn(p, q, s[1]);
         if (u == v) {
             if (sgn(u) <= 0) return false;
@@ -51,12 +117,21 @@ bool passes_through(const SegmentInPlan& s, const PlacePolygon& polygon) {
     return true;
 }
 
+/// Tells whether a line along an edge of s has all of t on its right.
 bool separates(const UpwardCorners& s, const UpwardCorners& t) {
-    for (std::size_t i = 0; i < 3; ++i)
-        if (std::ranges::all_of(t, [&](const Vector4* p) {
-                return sgn(turn(*s[i], *s[(i + 1) % 3], *p, up)) <= 0;
-            }))
-            return true;
+    const auto near_corners = [](const UpwardCorners& c) {
+        return std::array{near_place(*c[0]), near_place(*c[1]), near_place(*c[2])};
+    };
+    const auto near_s = near_corners(s), near_t = near_corners(t);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t j = (i + 1) % 3;
+        bool all_right = true;
+        for (std::size_t k = 0; k < 3 && all_right; ++k) {
+            const auto sign = clear_turn(near_s[i], near_s[j], near_t[k]);
+            all_right = (sign ? *sign : sgn(turn(*s[i], *s[j], *t[k], up))) <= 0;
+        }
+        if (all_right) return true;
+    }
     return false;
 }
 
@@ -99,12 +174,14 @@ PlacePolygon common_part(PlacePolygon polygon, const PlacePolygon& other) {
 }
 
 PlacePolygon part_where(const PlacePolygon& polygon, const PlanFunction& function) {
-    return part_of(polygon, [&](const Place& p) { return function.at(p); });
+    return part_of(
+        polygon, [&](const Place& p) { return sign_at(function, p); },
+        [&](const Place& p) { return function.at(p); });
 }
 
 bool has_area(const PlacePolygon& polygon) {
     for (std::size_t k = 2; k < polygon.size(); ++k)
-        if (sgn(turn(polygon[0], polygon[k - 1], polygon[k])) > 0) return true;
+        if (sign_of_turn(polygon[0], polygon[k - 1], polygon[k]) > 0) return true;
     return false;
 }
 
@@ -150,7 +227,7 @@ Vector4 point_over(const UpwardCorners& t, const Place& p) {
 
 bool contains(const UpwardCorners& t, const Place& p) {
     for (std::size_t i = 0; i < 3; ++i)
-        if (sgn(turn(place_of(*t[i]), place_of(*t[(i + 1) % 3]), p)) < 0) return false;
+        if (sign_of_turn(place_of(*t[i]), place_of(*t[(i + 1) % 3]), p) < 0) return false;
     return true;
 }
 

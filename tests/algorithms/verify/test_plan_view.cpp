@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Places, polygons and heights of the verifier against rationals alone, where doubles can't tell
+// one side of a line from the other and where they can.
+#include <terrane/algorithms/verify/detail/plan_view.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+namespace terrane::verifier {
+namespace {
+
+/// Points with coordinates of a given number of bits; half of them are next to the line through two
+/// others, or on it.
+class NearLines {
+public:
+    NearLines(std::uint64_t seed, unsigned bits) :
+        random_(seed), numbers_(gmp_randinit_default), bits_(bits) {
+        numbers_.seed(static_cast<unsigned long>(seed));
+    }
+
+    Vector4 point() {
+        return {mpz_class(numbers_.get_z_bits(bits_)), mpz_class(numbers_.get_z_bits(bits_)),
+                mpz_class(numbers_.get_z_bits(bits_)), 1};
+    }
+
+    /// Returns a point at most one unit beside the line through a and b.
+    Vector4 beside(const Vector4& a, const Vector4& b) {
+        Vector4 p;
+        const int share = at_most(3) - 1;
+        for (std::size_t k = 0; k < 3; ++k) p[k] = a[k] + share * (b[k] - a[k]) + at_most(2) - 1;
+        p[3] = 1;
+        return p;
+    }
+
+    int at_most(int n) { return std::uniform_int_distribution<int>(0, n)(random_); }
+
+private:
+    std::mt19937_64 random_;
+    gmp_randclass numbers_;
+    unsigned bits_;
+};
+
+int side(const Vector4& a, const Vector4& b, const Vector4& p) {
+    const mpz_class one = (b[0] - a[0]) * (p[1] - a[1]), other = (b[1] - a[1]) * (p[0] - a[0]);
+    return cmp(one, other);
+}
+
+bool divides(const UpwardCorners& s, const UpwardCorners& t) {
+    for (std::size_t i = 0; i < 3; ++i)
+        if (std::ranges::all_of(
+                t, [&](const Vector4* p) { return side(*s[i], *s[(i + 1) % 3], *p) <= 0; }))
+            return true;
+    return false;
+}
+
+mpq_class doubled_area(const PlacePolygon& polygon) {
+    mpq_class sum = 0;
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+        const Place &p = polygon[k], &q = polygon[(k + 1) % polygon.size()];
+        sum += p.x * q.y - p.y * q.x;
+    }
+    return sum;
+}
+
+TEST_CASE("plan view: a point belongs to a triangle, and triangles overlap, as rationals say",
+          "[verify]") {
+    for (const unsigned bits : {4U, 30U, 52U, 60U, 190U, 210U, 1100U}) {
+        NearLines points(bits, bits);
+        for (int run = 0; run < 300; ++run) {
+            std::array<Vector4, 7> p;
+            for (std::size_t k = 0; k < 7; ++k)
+                p[k] = k >= 2 && points.at_most(1) == 0 ? points.beside(p[k - 2], p[k - 1])
+                                                        : points.point();
+            bool flipped = false;
+            const auto s = upward({&p[0], &p[1], &p[2]}, flipped);
+            const auto t = upward({&p[3], &p[4], &p[5]}, flipped);
+            if (!s || !t) continue;
+            bool inside = true;
+            for (std::size_t i = 0; i < 3; ++i)
+                inside = inside && side(*(*s)[i], *(*s)[(i + 1) % 3], p[6]) >= 0;
+            CHECK(contains(*s, place_of(p[6])) == inside);
+            const bool apart = divides(*s, *t) || divides(*t, *s);
+            CHECK(are_beside(*s, *t) == apart);
+            CHECK((doubled_area(common_part(*s, *t)) == 0) == apart);
+        }
+    }
+}
+
+TEST_CASE("plan view: a function divides a polygon into parts that make up its area", "[verify]") {
+    for (const unsigned bits : {4U, 30U, 52U, 60U, 190U, 210U, 1100U}) {
+        NearLines points(bits + 1, bits);
+        for (int run = 0; run < 300; ++run) {
+            std::array<Vector4, 6> p;
+            for (std::size_t k = 0; k < 6; ++k)
+                p[k] = k >= 2 && points.at_most(1) == 0 ? points.beside(p[k - 2], p[k - 1])
+                                                        : points.point();
+            bool flipped = false;
+            const auto s = upward({&p[0], &p[1], &p[2]}, flipped);
+            const auto t = upward({&p[3], &p[4], &p[5]}, flipped);
+            if (!s || !t) continue;
+            const PlanFunction height = height_function(*s), other = height_function(*t);
+            const PlanFunction over{height.x - other.x, height.y - other.y, height.one - other.one};
+            const PlanFunction under{-over.x, -over.y, -over.one};
+            const PlacePolygon whole{place_of(*(*s)[0]), place_of(*(*s)[1]), place_of(*(*s)[2])};
+            const PlacePolygon above = part_where(whole, over), below = part_where(whole, under);
+            for (const Place& place : above) CHECK(sgn(over.at(place)) >= 0);
+            for (const Place& place : below) CHECK(sgn(under.at(place)) >= 0);
+            CHECK((doubled_area(above) + doubled_area(below) == doubled_area(whole) ||
+                   (sgn(over.x) == 0 && sgn(over.y) == 0)));
+            CHECK(has_area(above) == (doubled_area(above) > 0));
+        }
+    }
+}
+
+} // namespace
+} // namespace terrane::verifier
