@@ -163,7 +163,7 @@ Status measure_arrange(const std::vector<Surface>& surfaces, const PaperSettings
     return Done{};
 }
 
-struct Model {
+struct PaperModel {
     std::string triangles;
     std::function<std::vector<Surface>()> make;
     MethodTimes paper;
@@ -175,7 +175,7 @@ MethodTimes times_of(double structured, double unbalanced, double balanced, doub
     return {structured, unbalanced, balanced, balanced, mixed, not_measured};
 }
 
-std::vector<Model> models_of(int number, bool large) {
+std::vector<PaperModel> models_of(int number, bool large) {
     using namespace models;
     constexpr double none = not_measured;
     if (number == 4)
@@ -184,7 +184,7 @@ std::vector<Model> models_of(int number, bool large) {
     const bool first = number == 2;
     const auto pair = first ? pair_1 : pair_2;
     const auto made = [pair](const Resolution& r) { return [pair, r] { return pair(r); }; };
-    std::vector<Model> all;
+    std::vector<PaperModel> all;
     if (first) {
         all = {{r7k.name, made(r7k), times_of(2, 3, 2, 2), 1},
                {r68k.name, made(r68k), times_of(8, 121, 45, 13), 2},
@@ -206,7 +206,7 @@ double PaperRow::total() const {
 
 Result<PaperTable> measure_table(int number, const PaperSettings& settings, const Run& run) {
     PaperTable table{number, {}};
-    for (const Model& model : models_of(number, settings.large)) {
+    for (const PaperModel& model : models_of(number, settings.large)) {
         PaperRow row;
         row.triangles = model.triangles;
         row.paper = model.paper;

@@ -14,10 +14,10 @@ namespace {
 
 constexpr std::size_t most_listed = 10; ///< of each kind, unless all are asked for
 
-constexpr std::array kinds{ContactKind::crossing,      ContactKind::coplanar_overlap,
-                           ContactKind::edges_cross,   ContactKind::edges_overlap,
-                           ContactKind::edge_on_face,  ContactKind::vertex_on_face,
-                           ContactKind::vertex_on_edge};
+constexpr std::array contact_kinds{ContactKind::crossing,      ContactKind::coplanar_overlap,
+                                   ContactKind::edges_cross,   ContactKind::edges_overlap,
+                                   ContactKind::edge_on_face,  ContactKind::vertex_on_face,
+                                   ContactKind::vertex_on_edge};
 
 /// Lists the first of `items`, one per line, and says how many were left out.
 template <class Item, class Line>
@@ -32,7 +32,7 @@ std::string listing(const std::vector<Item>& items, bool all, const Line& line) 
 
 std::string kinds_text(const CheckReport& r) {
     std::string text;
-    for (const ContactKind kind : kinds) {
+    for (const ContactKind kind : contact_kinds) {
         const auto count = std::count_if(r.contacts.begin(), r.contacts.end(),
                                          [&](const auto& c) { return c.kind == kind; });
         if (count > 0)

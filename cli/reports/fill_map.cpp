@@ -14,7 +14,7 @@ namespace terrane::cli {
 namespace {
 
 constexpr int samples = 200; ///< cells along the longer side
-constexpr double panel = 360, gap = 30, head = 46, foot = 40;
+constexpr double panel = 360, spacing = 30, head = 46, foot = 40;
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 /// Colours from dark blue over green to yellow, perceptually uniform.
@@ -166,7 +166,7 @@ std::string row_of(const FillMap& map, double y) {
         if (std::isfinite(before[i]) || error[i] == 0) error[i] = nothing;
     const Scale heights(after), errors(error);
     const auto borders = outlines(frame, *map.before, map.loops);
-    const auto at = [](int column) { return gap + column * (panel + gap); };
+    const auto at = [](int column) { return spacing + column * (panel + spacing); };
     return panel_at(at(0), y, map.title + ", before",
                     picture(frame, before, heights) + borders + legend(heights)) +
            panel_at(at(1), y, "after", picture(frame, after, heights) + borders + legend(heights)) +
@@ -177,7 +177,7 @@ std::string row_of(const FillMap& map, double y) {
 } // namespace
 
 std::string svg_of(std::span<const FillMap> maps) {
-    const double width = gap + 3 * (panel + gap);
+    const double width = spacing + 3 * (panel + spacing);
     const double row = head + panel + foot;
     std::string text = fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" "

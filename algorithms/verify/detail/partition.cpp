@@ -13,24 +13,24 @@ namespace terrane::verifier {
 namespace {
 
 /// Twice an area, as a fraction that is not reduced; denominator > 0.
-struct Area {
+struct AreaFraction {
     mpz_class numerator = 0;
     mpz_class denominator = 1;
 };
 
 /// Adds areas recursively by halves, so that numbers of similar size are multiplied.
-Area sum(std::span<const Area> areas) {
+AreaFraction sum(std::span<const AreaFraction> areas) {
     if (areas.empty()) return {};
     if (areas.size() == 1) return areas.front();
-    const Area a = sum(areas.first(areas.size() / 2));
-    const Area b = sum(areas.subspan(areas.size() / 2));
+    const AreaFraction a = sum(areas.first(areas.size() / 2));
+    const AreaFraction b = sum(areas.subspan(areas.size() / 2));
     return {a.numerator * b.denominator + b.numerator * a.denominator,
             a.denominator * b.denominator};
 }
 
 /// Returns twice the signed area between the origin and an edge in a projection. The sum over the
 /// borders of counterclockwise triangles is twice the sum of their areas.
-Area area_beside(const Vector4& from, const Vector4& to, std::size_t axis) {
+AreaFraction area_beside(const Vector4& from, const Vector4& to, std::size_t axis) {
     const std::size_t u = (axis + 1) % 3;
     const std::size_t v = (axis + 2) % 3;
     return {from[u] * to[v] - from[v] * to[u], from[3] * to[3]};
@@ -38,8 +38,9 @@ Area area_beside(const Vector4& from, const Vector4& to, std::size_t axis) {
 
 /// Returns the areas beside all edges of the children, each of which is made counterclockwise. An
 /// edge that occurs in both directions, as most edges do, contributes nothing and is left out.
-std::vector<Area> areas_beside_borders(const ExactMesh& mesh,
-                                       std::span<const std::uint32_t> children, std::size_t axis) {
+std::vector<AreaFraction> areas_beside_borders(const ExactMesh& mesh,
+                                               std::span<const std::uint32_t> children,
+                                               std::size_t axis) {
     std::map<Edge, int> runs; // number of times from lower to higher index, minus the reverse
     for (const std::uint32_t child : children) {
         Triangle t = mesh.triangles[child];
@@ -49,7 +50,7 @@ std::vector<Area> areas_beside_borders(const ExactMesh& mesh,
             runs[{low, high}] += low == t[i] ? 1 : -1;
         }
     }
-    std::vector<Area> areas;
+    std::vector<AreaFraction> areas;
     for (const auto& [edge, count] : runs) {
         if (count == 0) continue;
         areas.push_back(area_beside(mesh.points[edge[0]], mesh.points[edge[1]], axis));
@@ -78,7 +79,7 @@ bool Partition::holds(const Triangle& child) const {
 }
 
 bool Partition::areas_add_up(std::span<const std::uint32_t> children) const {
-    std::vector<Area> areas = areas_beside_borders(mesh_, children, axis_);
+    std::vector<AreaFraction> areas = areas_beside_borders(mesh_, children, axis_);
     for (std::size_t i = 0; i < 3; ++i) {
         areas.push_back(area_beside(*corners_[(i + 1) % 3], *corners_[i], axis_));
     }

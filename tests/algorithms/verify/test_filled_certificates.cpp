@@ -108,7 +108,7 @@ void erase_new(Json& f, std::size_t t) {
     f["surfaces"][1]["triangles"] = f["surfaces"][1]["triangles"].get<std::size_t>() - 1;
 }
 
-void add_triangle(Json& f, const Json& corners) {
+void add_new_triangle(Json& f, const Json& corners) {
     f["triangles"].push_back(corners);
     f["invented"].push_back(1);
     f["surfaces"][1]["triangles"] = f["surfaces"][1]["triangles"].get<std::size_t>() + 1;
@@ -132,8 +132,8 @@ void add_tetrahedron(Json& f, double z) {
         add_vertex(f, x, y, z + dz);
     for (const auto& t :
          {std::array{0, 2, 1}, std::array{0, 1, 3}, std::array{1, 2, 3}, std::array{2, 0, 3}})
-        add_triangle(f, {v + static_cast<std::size_t>(t[0]), v + static_cast<std::size_t>(t[1]),
-                         v + static_cast<std::size_t>(t[2])});
+        add_new_triangle(f, {v + static_cast<std::size_t>(t[0]), v + static_cast<std::size_t>(t[1]),
+                             v + static_cast<std::size_t>(t[2])});
 }
 
 } // namespace
@@ -199,7 +199,7 @@ TEST_CASE("filled certificates: forged fillings") {
                 "a new triangle is missing", [](Json& f) { erase_new(f, given_triangles() + 4); },
                 "R35"),
             filled(
-                "a new triangle twice", [](Json& f) { add_triangle(f, f["triangles"].back()); },
+                "a new triangle twice", [](Json& f) { add_new_triangle(f, f["triangles"].back()); },
                 "R35"),
             filled(
                 "a new triangle turned over", [](Json& f) { turn_over(f, given_triangles() + 1); },
@@ -215,7 +215,7 @@ TEST_CASE("filled certificates: forged fillings") {
                 "a triangle over given ones",
                 [=](Json& f) {
                     const std::size_t v = right_filled().surfaces[0].vertices.size();
-                    add_triangle(f, {v, v + 1, v + side});
+                    add_new_triangle(f, {v, v + 1, v + side});
                 },
                 "R35"),
             filled(
