@@ -7,6 +7,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
+#include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/reconstruction/kriging/detail/constants.hpp>
 
 namespace terrane {
@@ -138,7 +139,7 @@ std::vector<std::uint32_t> well_spread_in_plane(std::span<const Point3> points, 
         mean = {mean.x + p.x / n, mean.y + p.y / n, mean.z + p.z / n};
     }
     std::vector<double> distance;
-    for (const Point3& p : points) distance.push_back(std::hypot(p.x - mean.x, p.y - mean.y));
+    for (const Point3& p : points) distance.push_back(length_in_plane(p.x - mean.x, p.y - mean.y));
     constexpr double equal = 1 - 1e-9; // distances differ by more than rounding
     while (chosen.size() < count) {
         const double farthest = *std::max_element(distance.begin(), distance.end());
@@ -155,8 +156,8 @@ std::vector<std::uint32_t> well_spread_in_plane(std::span<const Point3> points, 
             std::fill(distance.begin(), distance.end(), std::numeric_limits<double>::infinity());
         chosen.push_back(best);
         for (std::uint32_t i = 0; i < points.size(); ++i)
-            distance[i] = std::min(distance[i], std::hypot(points[i].x - points[best].x,
-                                                           points[i].y - points[best].y));
+            distance[i] = std::min(distance[i], length_in_plane(points[i].x - points[best].x,
+                                                                points[i].y - points[best].y));
     }
     return chosen;
 }
@@ -176,7 +177,7 @@ SpreadPairs well_spread_pairs(std::span<const Point3> points, std::size_t count,
         double least = std::numeric_limits<double>::infinity();
         auto best = static_cast<std::uint32_t>(points.size());
         for (std::uint32_t i = 0; i < points.size(); ++i) {
-            const double d = std::hypot(points[i].x - p.x, points[i].y - p.y);
+            const double d = length_in_plane(points[i].x - p.x, points[i].y - p.y);
             if (taken[i] || !(d > 0) || d > equal * least) continue;
             const bool better = best == points.size() || d * equal < least ||
                                 std::abs(points[i].z - mean) > std::abs(points[best].z - mean);

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <terrane/algorithms/core/standard_arithmetic.hpp>
+#include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/reconstruction/kriging/detail/constants.hpp>
 
 namespace terrane {
@@ -57,7 +58,7 @@ public:
             dx = -dx;
             dy = -dy;
         }
-        const double h = std::hypot(dx, dy);
+        const double h = length_in_plane(dx, dy);
         if (!(h > 0) || h > longest_) return;
         const auto at = [](double share, std::size_t classes) {
             return std::min(static_cast<std::size_t>(share * static_cast<double>(classes)),
@@ -103,7 +104,7 @@ public:
         measure.angle = angle;
         measure.ratio = ratio;
         for (const VariogramBin& bin : bins) {
-            const double along = std::hypot(bin.dx, bin.dy);
+            const double along = length_in_plane(bin.dx, bin.dy);
             // The mean of vectors is shorter than the mean length, so only its direction is used.
             const double h =
                 along > 0 ? measure.distance(bin.dx, bin.dy) * bin.distance / along : bin.distance;
@@ -230,9 +231,9 @@ std::string_view name_of(VariogramModel model) {
 }
 
 double Variogram::distance(double dx, double dy) const {
-    if (ratio == 1) return std::hypot(dx, dy);
+    if (ratio == 1) return length_in_plane(dx, dy);
     const double c = std::cos(radians(angle)), s = std::sin(radians(angle));
-    return std::hypot(c * dx + s * dy, (c * dy - s * dx) / ratio);
+    return length_in_plane(c * dx + s * dy, (c * dy - s * dx) / ratio);
 }
 
 double Variogram::at(double distance) const {

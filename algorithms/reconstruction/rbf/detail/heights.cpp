@@ -40,7 +40,7 @@ struct HeightData {
 
     /// Tells whether places are no farther from each other than the hole's radius.
     [[nodiscard]] bool are_near(const Point3& p, const Point3& q) const {
-        return std::hypot((p.x - q.x) * stretch, (p.y - q.y) / stretch) <= radius;
+        return length_in_plane((p.x - q.x) * stretch, (p.y - q.y) / stretch) <= radius;
     }
 };
 
@@ -220,7 +220,7 @@ bool has_cliff(std::span<const Point3> points) {
         for (std::size_t j = 0; j < i; ++j)
             if (std::fabs(points[i].z - points[j].z) >
                 constants.steepest_graph *
-                    std::hypot(points[i].x - points[j].x, points[i].y - points[j].y))
+                    length_in_plane(points[i].x - points[j].x, points[i].y - points[j].y))
                 return true;
     return false;
 }
