@@ -5,11 +5,12 @@ namespace terrane::cli {
 
 /// What `terrane build --help` says below the options.
 inline constexpr auto build_footer =
-    R"(The whole chain from one file: surfaces are read, on request their holes filled as `terrane fill`
-does and horizons put in order as `terrane layer` does, cut by the boundary of the volume of interest
-where there is one, arranged and rounded as `terrane arrange` does, made better on request as `terrane
-improve` does, their blocks found as `terrane volume` does and filled as `terrane tetrahedralize`
-does. All results go to one new folder:
+    R"(One command runs the whole chain from one file. It reads the surfaces; where the project asks for
+it, it fills holes as `terrane fill` does and puts horizons in order as `terrane layer` does. It cuts
+all surfaces by the boundary of the volume of interest, if there is one, arranges and rounds them as
+`terrane arrange` does, and improves their triangles on request as `terrane improve` does. It finds
+the blocks as `terrane volume` does and fills them with tetrahedra as `terrane tetrahedralize` does.
+All results go to one new folder:
 
   surfaces.vtp, ...      the conforming mesh, in the formats that outputs.surfaces names
   tetrahedra.vtu, ...    likewise, outputs.tetrahedra

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <utility>
@@ -119,9 +120,19 @@ Status check_output(const VolumeCommand& command) {
         if (!command.folder.empty()) return check_new_folder(command.folder);
         return Error{ErrorCode::bad_option, "the folder for the model is missing", "--output"};
     }
-    if (command.folder.empty() && command.certificate.empty()) return Done{};
-    return Error{ErrorCode::bad_option, "writes no model, so that it takes no --output",
-                 "--suggest-seal"};
+    const std::array<std::pair<const char*, const std::string*>, 7> of_models{
+        {{"--output", &command.folder},
+         {"--certificate", &command.certificate},
+         {"--relations", &command.relations},
+         {"--juxtaposition", &command.juxtaposition},
+         {"--gocad", &command.gocad},
+         {"--lines", &command.lines},
+         {"--cells", &command.cells.cells}}};
+    for (const auto& [option, value] : of_models)
+        if (!value->empty())
+            return Error{ErrorCode::bad_option, "needs a model, and --suggest-seal makes none",
+                         option};
+    return Done{};
 }
 
 /// Writes a text to a file of its own, and says so.

@@ -91,7 +91,8 @@ Status write_output(const Mesh& mesh, const Output& output, WriteOptions options
 Status write_output(const TetrahedralMesh& mesh, const Output& output, WriteOptions options,
                     Session& session);
 
-/// Says what an output lacks that its name lets expect: the regions of a model; empty: nothing.
+/// Returns a clause about what users of a format expect and an output does not have: the regions of
+/// a model in a .ml file. It is empty for complete outputs.
 std::string left_out_of(const Output& output);
 /// Says that an output is written, and what is not in it; empty for standard output.
 std::string wrote(const Output& output);

@@ -11,8 +11,8 @@
 namespace terrane::cli {
 
 /// Draws two panels over one logarithmic axis of distances, as a picture in SVG 1.1. Above: the
-/// length of all gaps that are not wider, with the natural breaks. Below: the number of blocks, of
-/// small ones among them, and of triangles that change, for each break.
+/// length of all gaps that are not wider, with the natural breaks. Below: for each break the number
+/// of blocks, how many of these are small, and the number of triangles that change.
 std::string seal_plot(const SealAdvice& advice, const Inputs& inputs);
 
 } // namespace terrane::cli

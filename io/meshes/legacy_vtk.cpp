@@ -47,21 +47,11 @@ public:
         if (auto trouble = read_names(section)) return *trouble;
         if (auto trouble = make_triangles()) return *trouble;
         auto surfaces = surfaces_of_parts(vertices_, std::move(parts_));
-        if (surfaces.empty()) return no_triangle();
+        if (surfaces.empty()) return no_triangle_among(other_cells_, in_.source());
         return surfaces;
     }
 
 private:
-    [[nodiscard]] Error no_triangle() const {
-        return Error{ErrorCode::nothing_to_do,
-                     other_cells_ == 0
-                         ? "there is no triangle"
-                         : fmt::format("there is no triangle, only {} other cells; ParaView's "
-                                       "Extract Surface makes triangles of them",
-                                       other_cells_),
-                     std::string(in_.source())};
-    }
-
     MaybeError read_header() {
         if (!lower(in_.line()).starts_with("# vtk datafile version"))
             return in_.error(ErrorCode::bad_syntax,

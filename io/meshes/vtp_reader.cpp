@@ -64,14 +64,7 @@ public:
         for (const pugi::xml_node piece : data.children("Piece"))
             if (auto trouble = read_piece(data, piece)) return *trouble;
         auto surfaces = surfaces_of_parts(vertices_, std::move(parts_));
-        if (surfaces.empty())
-            return Error{ErrorCode::nothing_to_do,
-                         other_cells_ == 0
-                             ? "there is no triangle"
-                             : fmt::format("there is no triangle, only {} other cells; ParaView's "
-                                           "Extract Surface makes triangles of them",
-                                           other_cells_),
-                         std::string(source_)};
+        if (surfaces.empty()) return no_triangle_among(other_cells_, source_);
         return surfaces;
     }
 

@@ -3,7 +3,14 @@
 // Kinds of cells of VTK's unstructured grids, by their numbers (vtkCellType.h).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include <terrane/algorithms/core/result.hpp>
 
 namespace terrane::detail {
 
@@ -35,6 +42,16 @@ inline CellKind kind_of_cell(std::int64_t type) {
     default:
         return CellKind::passed_over; // points, lines, volumes
     }
+}
+
+/// Returns the error for a file that has this many cells, but no triangle among them.
+inline Error no_triangle_among(std::size_t other_cells, std::string_view source) {
+    return {ErrorCode::nothing_to_do,
+            other_cells == 0 ? "there is no triangle"
+                             : fmt::format("there is no triangle, only {} other cells; ParaView's "
+                                           "Extract Surface makes triangles of them",
+                                           other_cells),
+            std::string(source)};
 }
 
 } // namespace terrane::detail
