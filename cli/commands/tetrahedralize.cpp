@@ -135,6 +135,16 @@ Status write_all(const FilledBlocks& filled, const std::vector<Output>& outputs,
     return Done{};
 }
 
+/// Checks before any work is done what can be checked then.
+Status check_call(const TetrahedralizeCommand& command) {
+    if (auto planned = plan_certificate(command.certificate, command.files, command.settings);
+        !planned)
+        return planned;
+    if (auto sound = check_volume_options(command.settings.volume); !sound) return sound;
+    if (const auto helper = find_tetgen_helper(); !helper) return helper.error();
+    return Done{};
+}
+
 Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Session& session) {
     Stopwatch total;
     const FileOptions& files = command.files;
@@ -142,12 +152,7 @@ Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Se
     if (!wishes) return wishes.error();
     const auto outputs = plan_outputs(files, OutputKind::tetrahedra);
     if (!outputs) return outputs.error();
-    if (const auto planned = plan_certificate(command.certificate, files, command.settings);
-        !planned)
-        return planned.error();
-    if (const auto sound = check_volume_options(command.settings.volume); !sound)
-        return sound.error();
-    if (const auto helper = find_tetgen_helper(); !helper) return helper.error();
+    if (const auto sound = check_call(command); !sound) return sound.error();
     auto inputs = read_certified_inputs(command.certificate, files, session);
     if (!inputs) return inputs.error();
     const auto roles = roles_of(inputs.value());
@@ -155,6 +160,11 @@ Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Se
     const auto naming = naming_of(command.column, *inputs);
     if (!naming) return naming.error();
     Json statistics = statistics_of(inputs.value(), session.times());
+    const auto finish = [&](bool good) -> Result<ExitStatus> {
+        const auto status = write_statistics(statistics, files.stats, total.lap());
+        if (!status) return status.error();
+        return good ? ExitStatus::done : ExitStatus::negative;
+    };
 
     auto arranged = arrange_and_round(inputs.value(), command.settings, session, statistics);
     if (!arranged) return arranged.error();
@@ -162,9 +172,7 @@ Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Se
     if (!arranged.value().rounded.report.clean) {
         print(stderr, offending_pairs(inputs.value(), arranged.value()));
         print(stderr, "terrane: no tetrahedra without a conforming mesh; nothing written\n");
-        const auto status = write_statistics(statistics, files.stats, total.lap());
-        if (!status) return status.error();
-        return ExitStatus::negative;
+        return finish(false);
     }
 
     session.begin("volumes", Phase::computing);
@@ -192,9 +200,7 @@ Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Se
         print(stderr, violations_text(report) + "terrane: nothing written\n");
     }
     statistics["seconds"]["write"] = writing.lap();
-    const auto status = write_statistics(statistics, files.stats, total.lap());
-    if (!status) return status.error();
-    return good ? ExitStatus::done : ExitStatus::negative;
+    return finish(good);
 }
 
 void add_tetrahedra_options(CLI::App& app, TetrahedralizeCommand& command) {
