@@ -2,6 +2,7 @@
 #include <terrane/algorithms/reconstruction/kriging/contrasts.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <Eigen/Cholesky>
@@ -138,26 +139,38 @@ std::vector<std::uint32_t> well_spread_in_plane(std::span<const Point3> points, 
         const auto n = static_cast<double>(points.size());
         mean = {mean.x + p.x / n, mean.y + p.y / n, mean.z + p.z / n};
     }
-    std::vector<double> distance;
-    for (const Point3& p : points) distance.push_back(length_in_plane(p.x - mean.x, p.y - mean.y));
-    constexpr double equal = 1 - 1e-9; // distances differ by more than rounding
+    // Squares of distances, in a unit in which they can't overflow.
+    double extent = 0;
+    for (const Point3& p : points)
+        extent = std::max({extent, std::abs(p.x - mean.x), std::abs(p.y - mean.y)});
+    const int exponent = extent > 0 && std::isfinite(extent) ? std::ilogb(extent) : 0;
+    std::vector<double> x, y, distance;
+    for (const Point3& p : points) {
+        x.push_back(std::ldexp(p.x - mean.x, -exponent));
+        y.push_back(std::ldexp(p.y - mean.y, -exponent));
+        distance.push_back(x.back() * x.back() + y.back() * y.back());
+    }
+    constexpr double equal = 1 - 2e-9; // squares differ by more than rounding
     while (chosen.size() < count) {
         const double farthest = *std::max_element(distance.begin(), distance.end());
         if (!(farthest > 0)) break;
         std::uint32_t best = 0;
         double height = -1;
         for (std::uint32_t i = 0; i < points.size(); ++i) {
+            if (distance[i] < equal * farthest) continue;
             const double off = std::abs(points[i].z - mean.z);
-            if (distance[i] < equal * farthest || off <= height) continue;
+            if (off <= height) continue;
             best = i;
             height = off;
         }
         if (chosen.empty())
             std::fill(distance.begin(), distance.end(), std::numeric_limits<double>::infinity());
         chosen.push_back(best);
-        for (std::uint32_t i = 0; i < points.size(); ++i)
-            distance[i] = std::min(distance[i], length_in_plane(points[i].x - points[best].x,
-                                                                points[i].y - points[best].y));
+        const double from_x = x[best], from_y = y[best];
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            const double dx = x[i] - from_x, dy = y[i] - from_y, square = dx * dx + dy * dy;
+            distance[i] = square < distance[i] ? square : distance[i];
+        }
     }
     return chosen;
 }
