@@ -9,6 +9,7 @@
 
 #include <Eigen/Dense>
 
+#include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/reconstruction/kriging/contrasts.hpp>
 #include <terrane/algorithms/reconstruction/kriging/detail/constants.hpp>
 #include <terrane/algorithms/reconstruction/kriging/detail/system.hpp>
@@ -81,12 +82,13 @@ public:
         none.range = std::max(likelihood_.extent(), std::numeric_limits<double>::min());
         if (likelihood_.trend_only()) return none;
         Likely best;
-        for (const Variogram& shape : shapes(options_)) {
-            const Likely found = best_range(shape);
-            const double margin = shape.model == VariogramModel::gaussian && !options_.model
+        const auto all = shapes(options_);
+        const auto found = each(all.size(), [&](std::size_t i) { return best_range(all[i]); });
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            const double margin = all[i].model == VariogramModel::gaussian && !options_.model
                                       ? constants.worth_gaussian
                                       : 0;
-            if (found.likelihood > best.likelihood + margin) best = found;
+            if (found[i].likelihood > best.likelihood + margin) best = found[i];
         }
         const Likely straight = best;
         if (options_.anisotropy) turn(best);
@@ -97,9 +99,22 @@ public:
     }
 
 private:
+    /// Returns what `search` finds for each index, in several threads.
+    template <class SearchOne>
+    [[nodiscard]] std::vector<Likely> each(std::size_t count, const SearchOne& search) const {
+        std::vector<Likely> found(count);
+        if (run_.stop.stop_requested()) return found;
+        if (run_.progress) run_.progress("variogram", 0);
+        const auto one = [&](std::size_t i) { found[i] = search(i); };
+        if (run_.threads <= 1)
+            for (std::size_t i = 0; i < count; ++i) one(i);
+        else
+            with_threads(run_, [&] { for_each_index(count, one); });
+        return found;
+    }
+
     [[nodiscard]] Likely at(const Variogram& shape) const {
         if (run_.stop.stop_requested()) return {};
-        if (run_.progress) run_.progress("variogram", 0);
         return likelihood_.at(shape, options_.most_nugget);
     }
 
@@ -136,14 +151,18 @@ private:
 
     /// Tries anisotropy of the best shape with several ranges.
     void turn(Likely& best) const {
-        Likely turned;
+        std::vector<Variogram> plain;
         for (const double factor : constants.turned_ranges) {
-            Variogram plain = best.variogram;
-            plain.range *= factor;
-            if (factor < 1 && plain.range < least_range_) break;
-            const Likely found = turned_as(plain);
-            if (found.likelihood > turned.likelihood) turned = found;
+            plain.push_back(best.variogram);
+            plain.back().range *= factor;
+            if (factor >= 1 || plain.back().range >= least_range_) continue;
+            plain.pop_back();
+            break;
         }
+        Likely turned;
+        for (const Likely& found :
+             each(plain.size(), [&](std::size_t i) { return turned_as(plain[i]); }))
+            if (found.likelihood > turned.likelihood) turned = found;
         if (turned.likelihood > best.likelihood + constants.worth_turned) best = turned;
     }
 
