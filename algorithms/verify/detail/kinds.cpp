@@ -14,10 +14,10 @@ namespace {
 
 /// All kinds, in the order of CertificateKind.
 const auto& all_kinds() {
-    static const std::array kinds{&arrangement_kind(), &volumes_kind(), &tetrahedra_kind(),
-                                  &improved_kind(),    &filled_kind(),  &layered_kind(),
-                                  &cut_kind(),         &sealed_kind()};
-    return kinds;
+    static const std::array all{&arrangement_kind(), &volumes_kind(), &tetrahedra_kind(),
+                                &improved_kind(),    &filled_kind(),  &layered_kind(),
+                                &cut_kind(),         &sealed_kind()};
+    return all;
 }
 
 /// Returns the surface of each input triangle.
