@@ -9,7 +9,10 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <random>
+#include <span>
+#include <utility>
 #include <vector>
 
 namespace terrane::verifier {
@@ -40,11 +43,27 @@ public:
 
     int at_most(int n) { return std::uniform_int_distribution<int>(0, n)(random_); }
 
+    /// Returns points of which half are beside the line through the two before.
+    template <std::size_t N>
+    std::array<Vector4, N> some() {
+        std::array<Vector4, N> p;
+        for (std::size_t k = 0; k < N; ++k)
+            p[k] = k >= 2 && at_most(1) == 0 ? beside(p[k - 2], p[k - 1]) : point();
+        return p;
+    }
+
 private:
     std::mt19937_64 random_;
     gmp_randclass numbers_;
     unsigned bits_;
 };
+
+using SeenTriangle = std::optional<UpwardCorners>;
+
+std::pair<SeenTriangle, SeenTriangle> two_triangles(std::span<const Vector4> p) {
+    bool flipped = false;
+    return {upward({&p[0], &p[1], &p[2]}, flipped), upward({&p[3], &p[4], &p[5]}, flipped)};
+}
 
 int side(const Vector4& a, const Vector4& b, const Vector4& p) {
     const mpz_class one = (b[0] - a[0]) * (p[1] - a[1]), other = (b[1] - a[1]) * (p[0] - a[0]);
@@ -73,13 +92,8 @@ TEST_CASE("plan view: a point belongs to a triangle, and triangles overlap, as r
     for (const unsigned bits : {4U, 30U, 52U, 60U, 190U, 210U, 1100U}) {
         NearLines points(bits, bits);
         for (int run = 0; run < 300; ++run) {
-            std::array<Vector4, 7> p;
-            for (std::size_t k = 0; k < 7; ++k)
-                p[k] = k >= 2 && points.at_most(1) == 0 ? points.beside(p[k - 2], p[k - 1])
-                                                        : points.point();
-            bool flipped = false;
-            const auto s = upward({&p[0], &p[1], &p[2]}, flipped);
-            const auto t = upward({&p[3], &p[4], &p[5]}, flipped);
+            const auto p = points.some<7>();
+            const auto [s, t] = two_triangles(p);
             if (!s || !t) continue;
             bool inside = true;
             for (std::size_t i = 0; i < 3; ++i)
@@ -96,13 +110,8 @@ TEST_CASE("plan view: a function divides a polygon into parts that make up its a
     for (const unsigned bits : {4U, 30U, 52U, 60U, 190U, 210U, 1100U}) {
         NearLines points(bits + 1, bits);
         for (int run = 0; run < 300; ++run) {
-            std::array<Vector4, 6> p;
-            for (std::size_t k = 0; k < 6; ++k)
-                p[k] = k >= 2 && points.at_most(1) == 0 ? points.beside(p[k - 2], p[k - 1])
-                                                        : points.point();
-            bool flipped = false;
-            const auto s = upward({&p[0], &p[1], &p[2]}, flipped);
-            const auto t = upward({&p[3], &p[4], &p[5]}, flipped);
+            const auto p = points.some<6>();
+            const auto [s, t] = two_triangles(p);
             if (!s || !t) continue;
             const PlanFunction height = height_function(*s), other = height_function(*t);
             const PlanFunction over{height.x - other.x, height.y - other.y, height.one - other.one};
