@@ -232,9 +232,8 @@ TEST_CASE("cli: --suggest-seal lists the breaks of gaps and writes nothing", "[c
     CHECK(trials[1]["distance"] == 0.2);
     CHECK(folder.left() == std::set<std::string>{"s.json"});
 
-    for (const std::string option :
-         {"--output model", "--certificate c.json", "--relations r.csv", "--juxtaposition j.csv",
-          "--gocad m.ml", "--lines l.pl"}) {
+    for (const std::string option : {"--output model", "--certificate c.json", "--relations r.csv",
+                                     "--juxtaposition j.csv", "--gocad m.ml", "--lines l.pl"}) {
         const auto both = folder.run("volume " + in + around_gap + " --suggest-seal " + option);
         CHECK(both.status == 2);
         CHECK(contains(both.err, option.substr(0, option.find(' ')) + ": needs a model"));
