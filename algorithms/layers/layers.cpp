@@ -118,9 +118,9 @@ Surface walls_on(std::span<const Surface> layers) {
     return walls;
 }
 
-/// Removes triangles that rounding folded onto each other: as many of the same corners faced up as
-/// down. What stays of them would be a fin on the layer. `upward` has the corners of each triangle,
-/// counterclockwise from above before rounding.
+/// Removes the triangles that rounding has folded onto each other: those of which as many with the
+/// same corners faced up as down. They would leave a fin on the layer. `upward` holds the corners of
+/// each triangle in the order that was counterclockwise from above before rounding.
 void remove_folds(Surface& s, const std::vector<Triangle>& upward) {
     std::map<std::array<double, 3>, std::uint32_t> first_at;
     std::vector<std::uint32_t> same(s.vertices.size());

@@ -91,8 +91,8 @@ Status write_output(const Mesh& mesh, const Output& output, WriteOptions options
 Status write_output(const TetrahedralMesh& mesh, const Output& output, WriteOptions options,
                     Session& session);
 
-/// Returns a clause about what users of a format expect and an output does not have: the regions of
-/// a model in a .ml file. It is empty for complete outputs.
+/// Returns a clause that names what an output lacks although its format could hold it: the regions
+/// of a model in a .ml file. It is empty for an output that lacks nothing.
 std::string left_out_of(const Output& output);
 /// Says that an output is written, and what is not in it; empty for standard output.
 std::string wrote(const Output& output);

@@ -26,7 +26,8 @@ double radians(double degrees) {
     return degrees * std::numbers::pi / 180;
 }
 
-/// Returns 1 - exp(-x). Where nothing cancels, exp() takes half of the time of expm1().
+/// Returns 1 - exp(-x). For x > 1 the difference loses no digits, and exp() takes half as long as
+/// expm1().
 double one_less_exp(double x) {
     return x > 1 ? 1 - std::exp(-x) : -std::expm1(-x);
 }

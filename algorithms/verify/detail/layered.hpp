@@ -31,13 +31,13 @@ namespace terrane::verifier {
 ///     corners of the common part decide.
 /// (5) R64: a layer exists where its surface does, and nowhere else, except in strips as wide as
 ///     4 d along borders of surfaces. Each edge of the layer without a triangle on both sides is
-///     within d of such borders; triangles that face aside, as in (6), are over no place or nearly
-///     so, and may be on either side of all their edges. The borders divide each triangle of the surface into convex cells. Where a
+///     within d of such borders. A triangle that faces aside, as in (6), covers no place or nearly
+///     none; it counts on whichever side of its edges is free. The borders divide each triangle of the surface into convex cells. Where a
 ///     cell is more than d away from its border, the layer exists in all of it or nowhere; the mean
 ///     of its corners tells which, if that is more than 2 d away from the border.
-/// (6) R65: each triangle faces the side that some surface faces that it is within d of, unless it
-///     faces aside: it is upright, or a corner is within 2 d of the opposite side in the
-///     projection, so that rounding can turn it over.
+/// (6) R65: each triangle faces up or down as one of the surfaces within d of it does. Exempt are
+///     triangles that face aside: upright ones, and those with a corner within 2 d of the opposite
+///     side in the projection, as rounding can turn them over.
 ///
 /// From (3) to (5) the promise follows up to d: by (4) a layer has the height of its surface, which
 /// is then between the nearest harder layers by (3); or that of a harder one, on whose wrong side

@@ -212,14 +212,14 @@ void LayerSheets::find_borders() {
     border_tree_ = tree_of(border_boxes);
 }
 
-/// Tells whether a corner is within 2 d of the opposite side in the projection. Doubles tell it of
-/// most: differences of coordinates are off by 2^-53 of themselves, and so their products by less
-/// than 2^-51 of the terms of the area.
+/// Tells whether a corner is within 2 d of the opposite side in the projection. For most triangles
+/// doubles decide: differences, products and their difference are each off by 2^-53 of themselves,
+/// so that the area is off by less than 2^-50 of the sum of its two terms.
 bool LayerSheets::is_thin(const Seen& t) const {
     const Triangle& n = claim.triangles[t.number];
     const Point3 &a = claim.vertices[n[0]], &b = claim.vertices[n[1]], &c = claim.vertices[n[2]];
     const double ux = b.x - a.x, uy = b.y - a.y, vx = c.x - a.x, vy = c.y - a.y;
-    const double off = 0x1p-51 * (std::fabs(ux * vy) + std::fabs(uy * vx));
+    const double off = 0x1p-50 * (std::fabs(ux * vy) + std::fabs(uy * vx));
     const double longest =
         std::max({std::hypot(ux, uy), std::hypot(vx, vy), std::hypot(vx - ux, vy - uy)});
     if (std::fabs(ux * vy - uy * vx) - off > 3 * claim.deviation * longest && longest > 0x1p-400)

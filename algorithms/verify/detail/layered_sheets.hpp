@@ -72,12 +72,11 @@ struct LayerSheets {
     [[nodiscard]] std::optional<std::uint32_t>
     near_one(std::uint32_t layer, std::span<const Vector4> around, const Numbers& candidates) const;
     [[nodiscard]] bool is_near(const Vector4& point, const Seen& s) const;
-    /// Tells whether a triangle of the mesh faces neither up nor down: it is upright, or could be
-    /// if corners were elsewhere by d.
+    /// Tells whether a triangle of the mesh faces aside: it is upright, or a corner is within 2 d of
+    /// the opposite side in the projection.
     [[nodiscard]] bool faces_aside(std::uint32_t t) const { return aside_[t]; }
-    /// Finds the sides on which triangles of a layer are of their edges. One that faces aside is
-    /// over no place, or nearly so: it may be on either side of all its edges, and is on the one
-    /// where more of those beside it leave room.
+    /// Finds on which sides of the edges of a layer its triangles are. A triangle that faces aside
+    /// is put on the side on which more of its neighbours leave room.
     [[nodiscard]] EdgeSides sides_of_layer(std::uint32_t layer) const;
 
     std::span<const Surface> inputs;

@@ -30,8 +30,8 @@ namespace terrane::verifier {
 /// |dz/dx| + |dz/dy|, of the surfaces of the layer and of harder ones near a place.
 /// R63: each triangle of a layer is within d of its surface, or of that of a harder layer moved
 ///     along z by a multiple of D. For no part of it (1) or (2) holds by more than d (1 + L).
-/// R65: it faces the same side as some surface of a layer, moved in this way, within d of it, or is
-/// so thin that rounding can turn it over, as in layered.hpp.
+/// R65: it faces up or down as one of the surfaces within d of it does, moved in this way. Triangles
+///     that face aside are exempt, as in layered.hpp.
 /// R66: for no part of it (3) or (4) holds by more than d (1 + L).
 /// Parts within 2 d of borders of surfaces are exempt, as in R62. All heights are linear over the
 /// common part of the projections of two triangles. There the places where, say, z > a - D by more

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Places, polygons and heights of the verifier against rationals alone, where doubles can't tell
-// one side of a line from the other and where they can.
+// Compares the verifier's view in plan with rational arithmetic. Half of the points are on a line
+// through two others or next to it, where doubles do not decide the sides.
 #include <terrane/algorithms/verify/detail/plan_view.hpp>
 
 #include <catch2/catch.hpp>
@@ -87,7 +87,7 @@ mpq_class doubled_area(const PlacePolygon& polygon) {
     return sum;
 }
 
-TEST_CASE("plan view: a point belongs to a triangle, and triangles overlap, as rationals say",
+TEST_CASE("plan view: points are in triangles, and triangles overlap, where rationals say so",
           "[verify]") {
     for (const unsigned bits : {4U, 30U, 52U, 60U, 190U, 210U, 1100U}) {
         NearLines points(bits, bits);
@@ -106,7 +106,8 @@ TEST_CASE("plan view: a point belongs to a triangle, and triangles overlap, as r
     }
 }
 
-TEST_CASE("plan view: a function divides a polygon into parts that make up its area", "[verify]") {
+TEST_CASE("plan view: the parts into which a function divides a polygon add up to its area",
+          "[verify]") {
     for (const unsigned bits : {4U, 30U, 52U, 60U, 190U, 210U, 1100U}) {
         NearLines points(bits + 1, bits);
         for (int run = 0; run < 300; ++run) {
