@@ -93,25 +93,20 @@ def start(terrane, line, folder, limit=None):
             signal.signal(number, signal.SIG_DFL)
         if limit is not None:
             resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
-    errors = open(folder.parent / "err", "w+b")
-    process = subprocess.Popen([terrane, *line.split()], cwd=folder, stdin=subprocess.DEVNULL,
-                               stdout=subprocess.DEVNULL, stderr=errors, preexec_fn=limits)
-    process.errors = errors
-    return process
+    # Messages go to a pipe: the limit would cut a file short, too.
+    return subprocess.Popen([terrane, *line.split()], cwd=folder, stdin=subprocess.DEVNULL,
+                            stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, preexec_fn=limits)
 
 
 def ended(process, seconds):
     """Waits for the process; returns its status and what it said."""
     try:
-        status = process.wait(seconds)
+        said = process.communicate(timeout=seconds)[1].decode(errors="replace")
     except subprocess.TimeoutExpired:
         process.kill()
-        process.wait()
+        process.communicate()
         raise Flaw("it did not end")
-    process.errors.seek(0)
-    said = process.errors.read().decode(errors="replace")
-    process.errors.close()
-    return status, said
+    return process.returncode, said
 
 
 class Command:
@@ -146,7 +141,7 @@ class Command:
                 if draw.random() < 0.2:
                     time.sleep(draw.uniform(0, 0.05))
                     process.send_signal(draw.choice(SIGNALS))
-            status, said = ended(process, 60 + 10 * self.seconds)
+            status, said = ended(process, 600 + 10 * self.seconds)
             return self.judged(status, said, limit, state(folder))
 
     def judged(self, status, said, limit, after):
