@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <array>
 #include <csignal>
+#include <cstdio>
 #include <exception>
 #include <new>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <system_error>
 
@@ -68,11 +70,19 @@ ExitStatus run(int argc, char** argv) {
     return ExitStatus::bad_input;
 }
 
+/// Says that memory is short, and needs none for that.
+ExitStatus fail_without_memory() {
+    std::fputs("terrane: out of memory\n", stderr);
+    return ExitStatus::internal;
+}
+
 ExitStatus run_guarded(int argc, char** argv) {
     try {
         return finish(run(argc, argv));
     } catch (const std::bad_alloc&) {
-        return fail({ErrorCode::out_of_memory, "out of memory", ""});
+        return fail_without_memory();
+    } catch (const std::length_error&) { // an array beyond the largest possible length
+        return fail_without_memory();
     } catch (const std::system_error& refused) { // a thread that could not be started
         return fail({ErrorCode::out_of_memory, refused.what(), "out of resources"});
     } catch (const std::exception& broken) {
@@ -84,9 +94,14 @@ ExitStatus run_guarded(int argc, char** argv) {
 } // namespace terrane::cli
 
 int main(int argc, char** argv) {
+    terrane::cli::occupy_closed_streams();
     std::signal(SIGPIPE, SIG_IGN); // a closed pipe is a write that fails
     std::signal(SIGXFSZ, SIG_IGN); // so is a file beyond the limit of sizes
     terrane::keep_freed_memory();
     terrane::throw_on_gmp_out_of_memory();
-    return static_cast<int>(terrane::cli::run_guarded(argc, argv));
+    try {
+        return static_cast<int>(terrane::cli::run_guarded(argc, argv));
+    } catch (const std::bad_alloc&) { // not even the message about another error got memory
+        return static_cast<int>(terrane::cli::fail_without_memory());
+    }
 }

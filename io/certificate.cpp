@@ -6,6 +6,7 @@
 
 #include <terrane/algorithms/arrangement/digest.hpp>
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
+#include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/sha256.hpp>
 #include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
@@ -120,10 +121,12 @@ void detail::write_arrangement(CertificateWriter& out, const Certified& certifie
 }
 
 Result<InputRecord> record_input(const fs::path& path, std::string name, std::size_t surfaces) {
-    const auto contents = read_file(path);
-    if (!contents) return contents.error();
-    return InputRecord{std::move(name), hexadecimal(sha256(contents.value())),
-                       contents.value().size(), surfaces};
+    return guarded("for the certificate", "certificate", [&]() -> Result<InputRecord> {
+        const auto contents = read_file(path);
+        if (!contents) return contents.error();
+        return InputRecord{std::move(name), hexadecimal(sha256(contents.value())),
+                           contents.value().size(), surfaces};
+    });
 }
 
 OutputRecord record_output(std::string_view contents, std::string name, std::string format,

@@ -45,7 +45,7 @@ StratigraphicColumn column_of(JsonReader& in, const Json& json) {
 } // namespace detail
 
 Result<StratigraphicColumn> parse_column(std::string_view text, std::string_view source) {
-    return guard_memory(std::string(source), [&]() -> Result<StratigraphicColumn> {
+    return guard_memory(source, [&]() -> Result<StratigraphicColumn> {
         static constexpr std::array<std::string_view, 1> file_level{"column"};
         const auto json = parse_json(text, source);
         if (!json) return json.error();
@@ -59,9 +59,11 @@ Result<StratigraphicColumn> parse_column(std::string_view text, std::string_view
 }
 
 Result<StratigraphicColumn> read_column(const std::filesystem::path& path) {
-    const auto text = read_file(path);
-    if (!text) return text.error();
-    return parse_column(*text, path.string());
+    return guard_memory("", [&]() -> Result<StratigraphicColumn> {
+        const auto text = read_file(path);
+        if (!text) return text.error();
+        return parse_column(*text, path.string());
+    });
 }
 
 } // namespace terrane

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
+#include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/io/certificate.hpp>
 #include <terrane/io/detail/certificate_writer.hpp>
@@ -111,40 +112,42 @@ std::vector<Surface> surfaces_in_files(const Certified& cut, const CutRecord& re
 
 Result<CutSections> cut_sections(const Certified& cut, const CutRecord& record,
                                  const ArrangeOptions& options, const Run& run) {
-    const StandardArithmetic guard;
-    auto whole = arrange(cut.surfaces, options, run);
-    if (!whole) return whole.error();
-    auto dropped = dropped_triangles(whole.value(), cut.exact);
-    if (!dropped) return dropped.error();
-    CutParts parts{std::move(dropped).value(), {}};
-    if (!record.growth.empty()) {
-        auto limits = growth_limits(whole.value(), parts.dropped, record, run);
-        if (!limits) return limits.error();
-        parts.limits = std::move(limits).value();
-    }
-    CutSections sections{std::move(whole).value(), "", {cut.files.begin(), cut.files.end()}};
-    if (record.volume != nullptr)
-        sections.files.insert(sections.files.end(), record.volume->files.begin(),
-                              record.volume->files.end());
-    sections.surfaces = surfaces_in_files(cut, record);
-    CertificateWriter out(sections.text);
-    write_cut(out, cut, record, parts);
-    return sections;
+    return guarded("for the certificate", "certificate", [&]() -> Result<CutSections> {
+        auto whole = arrange(cut.surfaces, options, run);
+        if (!whole) return whole.error();
+        auto dropped = dropped_triangles(whole.value(), cut.exact);
+        if (!dropped) return dropped.error();
+        CutParts parts{std::move(dropped).value(), {}};
+        if (!record.growth.empty()) {
+            auto limits = growth_limits(whole.value(), parts.dropped, record, run);
+            if (!limits) return limits.error();
+            parts.limits = std::move(limits).value();
+        }
+        CutSections sections{std::move(whole).value(), "", {cut.files.begin(), cut.files.end()}};
+        if (record.volume != nullptr)
+            sections.files.insert(sections.files.end(), record.volume->files.begin(),
+                                  record.volume->files.end());
+        sections.surfaces = surfaces_in_files(cut, record);
+        CertificateWriter out(sections.text);
+        write_cut(out, cut, record, parts);
+        return sections;
+    });
 }
 
 Result<std::string> to_cut_certificate(const Certified& cut, const CutRecord& record,
                                        const ArrangeOptions& options, const Run& run) {
-    const StandardArithmetic guard;
-    const auto sections = cut_sections(cut, record, options, run);
-    if (!sections) return sections.error();
-    Certified certified = cut;
-    certified.cut = &sections.value();
-    std::string text;
-    CertificateWriter out(text);
-    write_head(out, record.growth.empty() ? "cut" : "sealed", certified);
-    write_arrangement(out, certified, run);
-    out.raw("}\n");
-    return text;
+    return guarded("for the certificate", "certificate", [&]() -> Result<std::string> {
+        const auto sections = cut_sections(cut, record, options, run);
+        if (!sections) return sections.error();
+        Certified certified = cut;
+        certified.cut = &sections.value();
+        std::string text;
+        CertificateWriter out(text);
+        write_head(out, record.growth.empty() ? "cut" : "sealed", certified);
+        write_arrangement(out, certified, run);
+        out.raw("}\n");
+        return text;
+    });
 }
 
 Result<std::string> to_cut_certificate(const Certified& cut, const VolumeRecord& volume,

@@ -223,7 +223,7 @@ private:
 } // namespace
 
 Result<ExactText> read_exact(std::string_view contents, std::string_view source) {
-    return guard_memory(std::string(source), [&] { return ExactReader(contents, source).read(); });
+    return guard_memory(source, [&] { return ExactReader(contents, source).read(); });
 }
 
 } // namespace terrane

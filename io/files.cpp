@@ -209,15 +209,24 @@ Result<std::string> contents_of(const TetrahedralMesh& mesh, Format format,
     return Error{ErrorCode::unsupported, "tetrahedra are written as .vtu, .msh, .inp or .mesh", ""};
 }
 
+/// Calls work(place) with the place of the file for errors, of which lack of memory is one.
+template <class Work>
+auto guard_file(const fs::path& path, bool reading, const Work& work) {
+    return guard_memory("", [&] {
+        const std::string place = place_of(path, reading);
+        return guard_memory(place, [&] { return work(place); });
+    });
+}
+
 template <class AnyMesh>
 Status write(const AnyMesh& mesh, const fs::path& path, const WriteOptions& options) {
-    return guard_memory(place_of(path, false), [&]() -> Status {
+    return guard_file(path, false, [&](const std::string& place) -> Status {
         const auto format = choose_format(path, options.format, false);
         if (!format) return format.error();
         const auto contents = contents_of(mesh, format.value(), options);
         if (contents) return write_file(path, contents.value());
         auto error = contents.error();
-        if (error.place.empty()) error.place = place_of(path, false);
+        if (error.place.empty()) error.place = place;
         return error;
     });
 }
@@ -267,14 +276,12 @@ std::optional<Format> format_of(const fs::path& path) {
 
 Result<std::vector<Surface>> parse_surfaces(std::string_view contents, std::string_view source,
                                             Format format, const ReadOptions& options) {
-    return guard_memory(std::string(source),
-                        [&] { return parse(contents, source, format, options); });
+    return guard_memory(source, [&] { return parse(contents, source, format, options); });
 }
 
 Result<std::vector<Surface>> read_surfaces(const fs::path& path, std::optional<Format> format,
                                            const ReadOptions& options) {
-    const auto place = place_of(path, true);
-    return guard_memory(place, [&]() -> Result<std::vector<Surface>> {
+    return guard_file(path, true, [&](const std::string& place) -> Result<std::vector<Surface>> {
         const auto chosen = choose_format(path, format, true);
         if (!chosen) return chosen.error();
         const auto contents = read_file(path);
@@ -284,9 +291,7 @@ Result<std::vector<Surface>> read_surfaces(const fs::path& path, std::optional<F
 }
 
 Result<GocadModel> read_model(const fs::path& path) {
-    const StandardArithmetic guard;
-    const auto place = place_of(path, true);
-    return guard_memory(place, [&]() -> Result<GocadModel> {
+    return guard_file(path, true, [&](const std::string& place) -> Result<GocadModel> {
         const auto contents = read_file(path);
         if (!contents) return contents.error();
         return read_gocad_model(contents.value(), place, path.stem().string());

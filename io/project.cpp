@@ -328,7 +328,7 @@ private:
 
 Result<Project> parse_project(std::string_view text, const fs::path& base,
                               std::string_view source) {
-    return guard_memory(std::string(source), [&]() -> Result<Project> {
+    return guard_memory(source, [&]() -> Result<Project> {
         const auto json = parse_json(text, source);
         if (!json) return json.error();
         auto project = ProjectParser(base, source)(json.value());
@@ -338,7 +338,7 @@ Result<Project> parse_project(std::string_view text, const fs::path& base,
 }
 
 Result<Project> read_project(const fs::path& path) {
-    return guard_memory(path.string(), [&]() -> Result<Project> {
+    return guard_memory("", [&]() -> Result<Project> {
         const auto text = read_file(path);
         if (!text) return text.error();
         return parse_project(text.value(), path.parent_path(), path.string());

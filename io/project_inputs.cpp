@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
 #include <terrane/io/files.hpp>
 
@@ -103,29 +104,31 @@ Result<std::vector<Surface>> boundary_of(const Project& project, const Run& run)
 } // namespace
 
 Result<ProjectInputs> read_inputs(const Project& project, const Run& run) {
-    ProjectInputs read;
-    for (std::size_t i = 0; i < project.surfaces.size(); ++i) {
-        if (run.stop.stop_requested()) return Error{ErrorCode::interrupted, "", ""};
-        const ProjectSurfaces& entry = project.surfaces[i];
-        auto surfaces =
-            surfaces_of_entry(entry, project, fmt::format("surfaces[{}]", i), read.as_read);
-        if (!surfaces) return surfaces.error();
-        read.surfaces_of_entry.push_back(surfaces->size());
-        if (entry.objects.empty()) // otherwise numbers are not those of the file
-            append_regions(read_stated_regions(entry.file), read.build.surfaces.size(),
-                           read.build.regions);
-        for (Surface& s : *surfaces) {
-            read.vertices += s.vertices.size();
-            read.triangles += s.triangles.size();
-            read.build.surfaces.push_back(std::move(s));
+    return guarded("to read the files", "read", [&]() -> Result<ProjectInputs> {
+        ProjectInputs read;
+        for (std::size_t i = 0; i < project.surfaces.size(); ++i) {
+            if (run.stop.stop_requested()) return Error{ErrorCode::interrupted, "", ""};
+            const ProjectSurfaces& entry = project.surfaces[i];
+            auto surfaces =
+                surfaces_of_entry(entry, project, fmt::format("surfaces[{}]", i), read.as_read);
+            if (!surfaces) return surfaces.error();
+            read.surfaces_of_entry.push_back(surfaces->size());
+            if (entry.objects.empty()) // otherwise numbers are not those of the file
+                append_regions(read_stated_regions(entry.file), read.build.surfaces.size(),
+                               read.build.regions);
+            for (Surface& s : *surfaces) {
+                read.vertices += s.vertices.size();
+                read.triangles += s.triangles.size();
+                read.build.surfaces.push_back(std::move(s));
+            }
         }
-    }
-    if (std::max(read.vertices, read.triangles) >= UINT32_MAX)
-        return Error{ErrorCode::unsupported, "more than 4294967294 vertices or triangles", ""};
-    auto boundary = boundary_of(project, run);
-    if (!boundary) return boundary.error();
-    read.build.boundary = std::move(*boundary);
-    return read;
+        if (std::max(read.vertices, read.triangles) >= UINT32_MAX)
+            return Error{ErrorCode::unsupported, "more than 4294967294 vertices or triangles", ""};
+        auto boundary = boundary_of(project, run);
+        if (!boundary) return boundary.error();
+        read.build.boundary = std::move(*boundary);
+        return read;
+    });
 }
 
 } // namespace terrane

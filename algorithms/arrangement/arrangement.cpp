@@ -267,8 +267,8 @@ std::span<const Triangle> Arrangement::input_corners() const {
 
 Result<Arrangement> arrange(std::span<const Surface> surfaces, const ArrangeOptions& options,
                             const Run& run) {
-    if (const auto valid = validate(surfaces, run); !valid) return valid.error();
     return guarded("for the arrangement", "arrange", [&]() -> Result<Arrangement> {
+        if (const auto valid = validate(surfaces, run); !valid) return valid.error();
         // Within one arena the threads stay awake from stage to stage.
         Result<Arrangement> arranged = Error{};
         const StageTimer timer(run, "arrange");

@@ -97,8 +97,10 @@ Result<CheckReport> check_valid(std::span<const Surface> surfaces, const Run& ru
 } // namespace
 
 Result<CheckReport> check(std::span<const Surface> surfaces, const Run& run) {
-    if (const auto valid = validate(surfaces); !valid) return valid.error();
-    return guarded("for the check", "check", [&] { return check_valid(surfaces, run); });
+    return guarded("for the check", "check", [&]() -> Result<CheckReport> {
+        if (const auto valid = validate(surfaces); !valid) return valid.error();
+        return check_valid(surfaces, run);
+    });
 }
 
 } // namespace terrane

@@ -9,6 +9,7 @@
 
 #include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/check/count_pairs.hpp>
+#include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/intersection/injective_patches.hpp>
@@ -85,37 +86,41 @@ std::optional<CandidatePair> first_contact(std::span<const Point3> points,
 
 Status conforming(std::span<const Point3> points, std::span<const Triangle> triangles,
                   std::span<const std::uint32_t> label_of, const Run& run) {
-    const StandardArithmetic guard;
-    const auto proof = conforming(points, triangles, label_of, PairCheckOptions{}, run);
-    if (!proof) return proof.error();
-    return Done{};
+    return guarded("for the check", "conforming", [&]() -> Status {
+        const auto proof = conforming(points, triangles, label_of, PairCheckOptions{}, run);
+        if (!proof) return proof.error();
+        return Done{};
+    });
 }
 
 Result<std::optional<PairCounts>> conforming(std::span<const Point3> points,
                                              std::span<const Triangle> triangles,
                                              std::span<const std::uint32_t> label_of,
                                              const PairCheckOptions& check, const Run& run) {
-    const StandardArithmetic guard;
-    if (auto valid = validate_areas(points, triangles, run); !valid) return valid.error();
-    if (auto distinct = distinct_points(points, triangles); !distinct) return distinct.error();
-    if (auto distinct = distinct_triangles(triangles); !distinct) return distinct.error();
-    detail::announce_work("prove conforming", points, triangles);
-    const auto patches = patches_of(points, triangles, label_of, check.method, run);
-    const auto pair = first_contact(points, triangles, patches, run);
-    if (run.stop.stop_requested()) return Error{ErrorCode::interrupted, "stopped on request", ""};
-    if (pair) {
-        const auto how = improper_contact(points, triangles[pair->first], triangles[pair->second]);
-        return contact("it meets triangle " + std::to_string(pair->second) +
-                           " improperly: " + std::string(name_of(kind_of(*how))),
-                       pair->first);
-    }
-    if (!check.counts(triangles.size())) return std::optional<PairCounts>();
-    const auto decided_by = [&](const CandidatePair& p) {
-        const bool in_one = !patches.empty() && patches[p.first] != no_group &&
-                            patches[p.first] == patches[p.second];
-        return in_one ? DecidedBy::patch : DecidedBy::test;
-    };
-    return std::optional(count_pairs(points, triangles, decided_by, run));
+    return guarded("for the check", "conforming", [&]() -> Result<std::optional<PairCounts>> {
+        if (auto valid = validate_areas(points, triangles, run); !valid) return valid.error();
+        if (auto distinct = distinct_points(points, triangles); !distinct) return distinct.error();
+        if (auto distinct = distinct_triangles(triangles); !distinct) return distinct.error();
+        detail::announce_work("prove conforming", points, triangles);
+        const auto patches = patches_of(points, triangles, label_of, check.method, run);
+        const auto pair = first_contact(points, triangles, patches, run);
+        if (run.stop.stop_requested())
+            return Error{ErrorCode::interrupted, "stopped on request", ""};
+        if (pair) {
+            const auto how =
+                improper_contact(points, triangles[pair->first], triangles[pair->second]);
+            return contact("it meets triangle " + std::to_string(pair->second) +
+                               " improperly: " + std::string(name_of(kind_of(*how))),
+                           pair->first);
+        }
+        if (!check.counts(triangles.size())) return std::optional<PairCounts>();
+        const auto decided_by = [&](const CandidatePair& p) {
+            const bool in_one = !patches.empty() && patches[p.first] != no_group &&
+                                patches[p.first] == patches[p.second];
+            return in_one ? DecidedBy::patch : DecidedBy::test;
+        };
+        return std::optional(count_pairs(points, triangles, decided_by, run));
+    });
 }
 
 Result<ConformingMesh> prove_conforming(Mesh mesh, std::span<const std::uint32_t> label_of,
@@ -126,18 +131,20 @@ Result<ConformingMesh> prove_conforming(Mesh mesh, std::span<const std::uint32_t
 
 Result<ConformingMesh> prove_conforming(Mesh mesh, std::span<const std::uint32_t> label_of,
                                         const PairCheckOptions& check, const Run& run) {
-    const StandardArithmetic guard;
-    const auto proof = conforming(mesh.vertices, mesh.triangles, label_of, check, run);
-    if (!proof) return proof.error();
-    return ConformingMesh(std::move(mesh), proof.value());
+    return guarded("for the check", "conforming", [&]() -> Result<ConformingMesh> {
+        const auto proof = conforming(mesh.vertices, mesh.triangles, label_of, check, run);
+        if (!proof) return proof.error();
+        return ConformingMesh(std::move(mesh), proof.value());
+    });
 }
 
 Result<ConformingMesh> prove_conforming(Mesh mesh, const Run& run) {
-    const StandardArithmetic guard;
-    std::vector<std::uint32_t> labels(mesh.triangles.size());
-    for (std::size_t t = 0; t < std::min(labels.size(), mesh.surfaces_of.size()); ++t)
-        if (!mesh.surfaces_of[t].empty()) labels[t] = mesh.surfaces_of[t][0];
-    return prove_conforming(std::move(mesh), labels, run);
+    return guarded("for the check", "conforming", [&]() -> Result<ConformingMesh> {
+        std::vector<std::uint32_t> labels(mesh.triangles.size());
+        for (std::size_t t = 0; t < std::min(labels.size(), mesh.surfaces_of.size()); ++t)
+            if (!mesh.surfaces_of[t].empty()) labels[t] = mesh.surfaces_of[t][0];
+        return prove_conforming(std::move(mesh), labels, run);
+    });
 }
 
 } // namespace terrane

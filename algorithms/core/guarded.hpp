@@ -5,25 +5,46 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <utility>
+#include <system_error>
 
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/standard_arithmetic.hpp>
 
 namespace terrane {
 
-/// Calls `work` and returns its Result. Lack of memory and arrays beyond the largest possible
-/// length become out_of_memory at `place`. The work has StandardArithmetic.
+/// Returns an error with a sentence made of two parts. Where memory does not even suffice for the
+/// texts, they are left out: what is left needs none.
+inline Error error_within_memory(ErrorCode code, std::string_view sentence, std::string_view more,
+                                 std::string_view place) noexcept {
+    Error error{code, {}, {}};
+    try {
+        error.sentence.reserve(sentence.size() + more.size());
+        error.sentence.append(sentence).append(more);
+        error.place = place;
+    } catch (const std::bad_alloc&) {
+        if (error.sentence.empty()) error.sentence = "out of memory"; // short: it needs no memory
+    }
+    return error;
+}
+
+/// Calls `work` and returns its Result. Lack of memory, arrays beyond the largest possible length
+/// and threads that cannot be started become out_of_memory at `place`, whatever memory is left. The
+/// work has StandardArithmetic.
 template <class Work>
-auto guard_memory(std::string place, const Work& work,
-                  std::string sentence = "there is not enough memory") -> decltype(work()) {
+auto guard_memory(std::string_view place, const Work& work,
+                  std::string_view sentence = "there is not enough memory",
+                  std::string_view more = "") -> decltype(work()) {
     const StandardArithmetic arithmetic;
     try {
         return work();
     } catch (const std::bad_alloc&) {
     } catch (const std::length_error&) {
+    } catch (const std::system_error& refused) {
+        if (refused.code() != std::errc::resource_unavailable_try_again &&
+            refused.code() != std::errc::not_enough_memory)
+            throw;
     }
-    return Error{ErrorCode::out_of_memory, std::move(sentence), std::move(place)};
+    return error_within_memory(ErrorCode::out_of_memory, sentence, more, place);
 }
 
 /// Runs a stage and returns its Result. Lack of memory becomes out_of_memory: "not enough memory
@@ -33,9 +54,9 @@ template <class Work>
 auto guarded(std::string_view purpose, std::string_view place, const Work& work)
     -> decltype(work()) {
     try {
-        return guard_memory("", work, "not enough memory " + std::string(purpose));
+        return guard_memory("", work, "not enough memory ", purpose);
     } catch (const std::logic_error& broken) {
-        return Error{ErrorCode::internal, broken.what(), std::string(place)};
+        return error_within_memory(ErrorCode::internal, broken.what(), "", place);
     }
 }
 

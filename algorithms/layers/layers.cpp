@@ -16,7 +16,6 @@
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/stage_timer.hpp>
-#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/layers/detail/resolver.hpp>
 #include <terrane/algorithms/layers/detail/whole_triangles.hpp>
 #include <terrane/algorithms/layers/order_check.hpp>
@@ -297,21 +296,22 @@ Result<Layered> stack_valid(std::span<const Surface> surfaces, std::span<const L
 
 Result<Layered> stack_layers(std::span<const Surface> surfaces, std::span<const Layer> order,
                              const LayerOptions& options, const Run& run) {
-    const StandardArithmetic guard;
-    if (const auto good = validate_order(surfaces, order, options); !good) return good.error();
-    const StageTimer timer(run, "layers");
-    return guarded("for the layers", "layers",
-                   [&] { return stack_valid(surfaces, order, options, timer.inside()); });
+    return guarded("for the layers", "layers", [&]() -> Result<Layered> {
+        if (const auto good = validate_order(surfaces, order, options); !good) return good.error();
+        const StageTimer timer(run, "layers");
+        return stack_valid(surfaces, order, options, timer.inside());
+    });
 }
 
 Result<Layered> harden(const Surface& hard, const Surface& soft, Keep keep,
                        const LayerOptions& options, const Run& run) {
-    const StandardArithmetic guard;
-    const std::array<Surface, 2> both{hard, soft};
-    std::array<Layer, 2> order{Layer{SurfaceId(1), 0},
-                               Layer{SurfaceId(0), 1}}; // the soft one is on top
-    if (keep == Keep::lower) std::swap(order[0], order[1]);
-    return stack_layers(both, order, options, run);
+    return guarded("for the layers", "layers", [&]() -> Result<Layered> {
+        const std::array<Surface, 2> both{hard, soft};
+        std::array<Layer, 2> order{Layer{SurfaceId(1), 0},
+                                   Layer{SurfaceId(0), 1}}; // the soft one is on top
+        if (keep == Keep::lower) std::swap(order[0], order[1]);
+        return stack_layers(both, order, options, run);
+    });
 }
 
 } // namespace terrane

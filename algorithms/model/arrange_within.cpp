@@ -10,7 +10,7 @@
 #include <string_view>
 #include <utility>
 
-#include <terrane/algorithms/core/standard_arithmetic.hpp>
+#include <terrane/algorithms/core/guarded.hpp>
 
 namespace terrane {
 namespace {
@@ -89,28 +89,30 @@ constexpr double break_beyond = 4;
 Result<SealChoice> choose_seal(const std::vector<Surface>& surfaces,
                                const std::vector<Surface>& boundary,
                                const ArrangeWithinOptions& options, const Run& run) {
-    const StandardArithmetic guard;
-    ArrangeWithinOptions unsealed = options;
-    unsealed.seal = unsealed.min_volume = 0;
-    unsealed.seal_automatic = false;
-    unsealed.seal_rules.clear();
-    const double edge_length = median_edge_length(surfaces);
-    if (!(edge_length > 0)) return SealChoice{};
-    const auto arranged = arrange_exactly_within(surfaces, boundary, unsealed, run);
-    if (!arranged) return arranged.error();
-    return choose_seal(arranged->exact, edge_length, run);
+    return guarded("for the widths of gaps", "seal", [&]() -> Result<SealChoice> {
+        ArrangeWithinOptions unsealed = options;
+        unsealed.seal = unsealed.min_volume = 0;
+        unsealed.seal_automatic = false;
+        unsealed.seal_rules.clear();
+        const double edge_length = median_edge_length(surfaces);
+        if (!(edge_length > 0)) return SealChoice{};
+        const auto arranged = arrange_exactly_within(surfaces, boundary, unsealed, run);
+        if (!arranged) return arranged.error();
+        return choose_seal(arranged->exact, edge_length, run);
+    });
 }
 
 Result<SealChoice> choose_seal(const Arrangement& arrangement, double edge_length, const Run& run) {
-    const StandardArithmetic guard;
-    SealChoice choice{.edge_length = edge_length, .widest = widest_gap * edge_length};
-    auto gaps = find_gaps(arrangement, break_beyond * choice.widest, run);
-    if (!gaps) return gaps.error();
-    choice.breaks = find_breaks(*gaps, break_beyond * choice.widest);
-    std::erase_if(choice.breaks, [&](const GapBreak& b) { return b.low > choice.widest; });
-    if (!choice.breaks.empty()) choice.distance = choice.breaks.back().distance;
-    choice.gaps = std::move(*gaps);
-    return choice;
+    return guarded("for the widths of gaps", "seal", [&]() -> Result<SealChoice> {
+        SealChoice choice{.edge_length = edge_length, .widest = widest_gap * edge_length};
+        auto gaps = find_gaps(arrangement, break_beyond * choice.widest, run);
+        if (!gaps) return gaps.error();
+        choice.breaks = find_breaks(*gaps, break_beyond * choice.widest);
+        std::erase_if(choice.breaks, [&](const GapBreak& b) { return b.low > choice.widest; });
+        if (!choice.breaks.empty()) choice.distance = choice.breaks.back().distance;
+        choice.gaps = std::move(*gaps);
+        return choice;
+    });
 }
 
 std::vector<NamedConstant> seal_choice_constants() {
@@ -123,44 +125,47 @@ std::vector<NamedConstant> seal_choice_constants() {
 Result<Arranged> arrange_exactly_within(std::vector<Surface> surfaces,
                                         std::vector<Surface> boundary,
                                         const ArrangeWithinOptions& options, const Run& run) {
-    const StandardArithmetic guard;
-    ArrangeWithinOptions chosen = options;
-    Arranged arranged;
-    if (options.seal_automatic) {
-        auto choice = choose_seal(surfaces, boundary, options, run);
-        if (!choice) return choice.error();
-        chosen.seal = choice->distance;
-        arranged.choice = std::move(*choice);
-    }
-    std::vector<std::uint32_t> sides(boundary.size()); // indices of the boundary's surfaces
-    std::iota(sides.begin(), sides.end(), static_cast<std::uint32_t>(surfaces.size()));
-    arranged.boundary_count = boundary.size();
-    arranged.surfaces = std::move(surfaces);
-    std::move(boundary.begin(), boundary.end(), std::back_inserter(arranged.surfaces));
-    if (chosen.extend != 0 || seals(chosen))
-        for (std::size_t s = 0; s + sides.size() < arranged.surfaces.size(); ++s)
-            arranged.growth.push_back({arranged.surfaces[s].triangles.size()});
-    if (chosen.extend != 0)
-        if (auto done = extend(sides, chosen, run, arranged); !done) return done.error();
-    for (std::size_t s = 0; s < arranged.growth.size(); ++s)
-        arranged.growth[s].extended = arranged.surfaces[s].triangles.size();
-    auto exact = arrange_or_seal(chosen, run, arranged);
-    if (!exact) return exact.error();
-    arranged.exact = std::move(*exact);
-    if (auto done = restrict_to(sides, chosen, run, arranged); !done) return done.error();
-    return arranged;
+    return guarded("for the arrangement", "arrange", [&]() -> Result<Arranged> {
+        ArrangeWithinOptions chosen = options;
+        Arranged arranged;
+        if (options.seal_automatic) {
+            auto choice = choose_seal(surfaces, boundary, options, run);
+            if (!choice) return choice.error();
+            chosen.seal = choice->distance;
+            arranged.choice = std::move(*choice);
+        }
+        std::vector<std::uint32_t> sides(boundary.size()); // indices of the boundary's surfaces
+        std::iota(sides.begin(), sides.end(), static_cast<std::uint32_t>(surfaces.size()));
+        arranged.boundary_count = boundary.size();
+        arranged.surfaces = std::move(surfaces);
+        std::move(boundary.begin(), boundary.end(), std::back_inserter(arranged.surfaces));
+        if (chosen.extend != 0 || seals(chosen))
+            for (std::size_t s = 0; s + sides.size() < arranged.surfaces.size(); ++s)
+                arranged.growth.push_back({arranged.surfaces[s].triangles.size()});
+        if (chosen.extend != 0)
+            if (auto done = extend(sides, chosen, run, arranged); !done) return done.error();
+        for (std::size_t s = 0; s < arranged.growth.size(); ++s)
+            arranged.growth[s].extended = arranged.surfaces[s].triangles.size();
+        auto exact = arrange_or_seal(chosen, run, arranged);
+        if (!exact) return exact.error();
+        arranged.exact = std::move(*exact);
+        if (auto done = restrict_to(sides, chosen, run, arranged); !done) return done.error();
+        return arranged;
+    });
 }
 
 Result<Arranged> arrange_within(std::vector<Surface> surfaces, std::vector<Surface> boundary,
                                 const ArrangeWithinOptions& options, const Run& run) {
-    const StandardArithmetic guard;
-    auto arranged = arrange_exactly_within(std::move(surfaces), std::move(boundary), options, run);
-    if (!arranged) return arranged;
-    announce(run, "round");
-    auto rounded = round_to_doubles(arranged->exact, options.rounding, run);
-    if (!rounded) return rounded.error();
-    arranged->rounded = std::move(*rounded);
-    return arranged;
+    return guarded("for the arrangement", "arrange", [&]() -> Result<Arranged> {
+        auto arranged =
+            arrange_exactly_within(std::move(surfaces), std::move(boundary), options, run);
+        if (!arranged) return arranged;
+        announce(run, "round");
+        auto rounded = round_to_doubles(arranged->exact, options.rounding, run);
+        if (!rounded) return rounded.error();
+        arranged->rounded = std::move(*rounded);
+        return arranged;
+    });
 }
 
 } // namespace terrane

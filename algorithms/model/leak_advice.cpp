@@ -7,9 +7,9 @@
 #include <tuple>
 #include <utility>
 
+#include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/no_index.hpp>
 #include <terrane/algorithms/core/stage_timer.hpp>
-#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 
 namespace terrane {
@@ -65,39 +65,40 @@ LeakVerdict verdict_of(const Leak& leak, const LeakAdvice& advice) {
 
 Result<LeakAdvice> judge_leaks(const Arranged& arranged, std::span<const FreeBorder> borders,
                                const ArrangeWithinOptions& options, const Run& run) {
-    const StandardArithmetic guard;
-    if (arranged.sealed)
-        return Error{ErrorCode::bad_option, "leaks are judged before they are sealed", "seal"};
-    const StageTimer timer(run, "leaks");
-    const auto leaks = leaks_of(borders);
-    LeakAdvice advice;
-    advice.verdicts.assign(leaks.size(), LeakVerdict::wide);
-    if (leaks.empty()) return advice;
-    auto surfaces = surfaces_before_boundary(arranged);
-    const double edge_length = median_edge_length(surfaces);
-    if (!(edge_length > 0)) return advice;
-    const auto choice = choose_seal(arranged.exact, edge_length, timer.inside());
-    if (!choice) return choice.error();
-    advice.distance = choice->distance;
-    if (advice.distance == 0) return advice;
-    ArrangeWithinOptions closing = options;
-    closing.seal = advice.distance;
-    closing.seal_automatic = false;
-    closing.seal_rules.clear();
-    closing.extend = 0; // the surfaces are extended already
-    closing.min_volume = small_volume_for(surfaces);
-    std::vector<Surface> boundary(arranged.surfaces.end() -
-                                      static_cast<std::ptrdiff_t>(arranged.boundary_count),
-                                  arranged.surfaces.end());
-    const auto sealed =
-        arrange_exactly_within(std::move(surfaces), std::move(boundary), closing, timer.inside());
-    if (!sealed) return sealed.error();
-    const auto volumes = find_volumes(sealed->exact, timer.inside());
-    if (!volumes) return volumes.error();
-    advice.separating = by_pairs(sealed->sealed->closed, separating_gaps(*sealed, *volumes));
-    for (std::size_t l = 0; l < leaks.size(); ++l)
-        advice.verdicts[l] = verdict_of(leaks[l], advice);
-    return advice;
+    return guarded("to judge leaks", "leaks", [&]() -> Result<LeakAdvice> {
+        if (arranged.sealed)
+            return Error{ErrorCode::bad_option, "leaks are judged before they are sealed", "seal"};
+        const StageTimer timer(run, "leaks");
+        const auto leaks = leaks_of(borders);
+        LeakAdvice advice;
+        advice.verdicts.assign(leaks.size(), LeakVerdict::wide);
+        if (leaks.empty()) return advice;
+        auto surfaces = surfaces_before_boundary(arranged);
+        const double edge_length = median_edge_length(surfaces);
+        if (!(edge_length > 0)) return advice;
+        const auto choice = choose_seal(arranged.exact, edge_length, timer.inside());
+        if (!choice) return choice.error();
+        advice.distance = choice->distance;
+        if (advice.distance == 0) return advice;
+        ArrangeWithinOptions closing = options;
+        closing.seal = advice.distance;
+        closing.seal_automatic = false;
+        closing.seal_rules.clear();
+        closing.extend = 0; // the surfaces are extended already
+        closing.min_volume = small_volume_for(surfaces);
+        std::vector<Surface> boundary(arranged.surfaces.end() -
+                                          static_cast<std::ptrdiff_t>(arranged.boundary_count),
+                                      arranged.surfaces.end());
+        const auto sealed = arrange_exactly_within(std::move(surfaces), std::move(boundary),
+                                                   closing, timer.inside());
+        if (!sealed) return sealed.error();
+        const auto volumes = find_volumes(sealed->exact, timer.inside());
+        if (!volumes) return volumes.error();
+        advice.separating = by_pairs(sealed->sealed->closed, separating_gaps(*sealed, *volumes));
+        for (std::size_t l = 0; l < leaks.size(); ++l)
+            advice.verdicts[l] = verdict_of(leaks[l], advice);
+        return advice;
+    });
 }
 
 } // namespace terrane

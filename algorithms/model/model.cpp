@@ -5,9 +5,9 @@
 #include <numeric>
 #include <utility>
 
+#include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/no_index.hpp>
 #include <terrane/algorithms/core/stage_timer.hpp>
-#include <terrane/algorithms/core/standard_arithmetic.hpp>
 
 namespace terrane {
 namespace {
@@ -59,43 +59,48 @@ std::vector<std::uint32_t> own_numbers(const Volumes& volumes) {
 
 Result<Model> make_model(const Arrangement& arrangement, const ConformingMesh& mesh, const Run& run,
                          const BlockNaming& naming) {
-    const StandardArithmetic guard;
-    StageTimer timer(run, "volumes");
-    const Run inner = timer.inside();
-    const auto exact = find_volumes(arrangement, inner);
-    if (!exact) return exact.error();
-    const auto rounded = find_volumes(mesh, inner);
-    if (!rounded) return rounded.error();
-    Model model{.mesh = mesh, .exact_volumes = exact->measures};
-    number(*rounded, match_volumes(arrangement, *exact, mesh, *rounded), model);
-    const GivenNames given = names_given(arrangement, *exact, naming);
-    timer.stop();
-    return finished(std::move(model), given, run);
+    return guarded("for the model", "model", [&]() -> Result<Model> {
+        StageTimer timer(run, "volumes");
+        const Run inner = timer.inside();
+        const auto exact = find_volumes(arrangement, inner);
+        if (!exact) return exact.error();
+        const auto rounded = find_volumes(mesh, inner);
+        if (!rounded) return rounded.error();
+        Model model{.mesh = mesh, .exact_volumes = exact->measures};
+        number(*rounded, match_volumes(arrangement, *exact, mesh, *rounded), model);
+        const GivenNames given = names_given(arrangement, *exact, naming);
+        timer.stop();
+        return finished(std::move(model), given, run);
+    });
 }
 
 Result<Model> make_model(const Arrangement& arrangement, const ConformingMesh& rounded,
                          const Improved& improved, const Run& run, const BlockNaming& naming) {
-    const StandardArithmetic guard;
-    StageTimer timer(run, "volumes");
-    Model model{.mesh = improved.conforming.value()};
-    if (!improved.report.sides_kept) {
-        model.exact_volumes = improved.volumes.measures;
-        number(improved.volumes, own_numbers(improved.volumes), model);
+    return guarded("for the model", "model", [&]() -> Result<Model> {
+        StageTimer timer(run, "volumes");
+        Model model{.mesh = improved.conforming.value()};
+        if (!improved.report.sides_kept) {
+            model.exact_volumes = improved.volumes.measures;
+            number(improved.volumes, own_numbers(improved.volumes), model);
+            timer.stop();
+            return finished(std::move(model), {.column = naming.column}, run);
+        }
+        const auto exact = find_volumes(arrangement, timer.inside());
+        if (!exact) return exact.error();
+        const auto of_rounded =
+            match_volumes(arrangement, *exact, rounded, improved.volumes_before);
+        std::vector<std::uint32_t> match;
+        for (const std::uint32_t before : improved.volume_before)
+            match.push_back(of_rounded[before]);
+        model.exact_volumes = exact->measures;
+        number(improved.volumes, match, model);
+        for (std::size_t v = 0; v < match.size(); ++v)
+            if (match[v] != UINT32_MAX)
+                model.exact_volumes[match[v]] = improved.volumes.measures[v];
+        const GivenNames given = names_given(arrangement, *exact, naming);
         timer.stop();
-        return finished(std::move(model), {.column = naming.column}, run);
-    }
-    const auto exact = find_volumes(arrangement, timer.inside());
-    if (!exact) return exact.error();
-    const auto of_rounded = match_volumes(arrangement, *exact, rounded, improved.volumes_before);
-    std::vector<std::uint32_t> match;
-    for (const std::uint32_t before : improved.volume_before) match.push_back(of_rounded[before]);
-    model.exact_volumes = exact->measures;
-    number(improved.volumes, match, model);
-    for (std::size_t v = 0; v < match.size(); ++v)
-        if (match[v] != UINT32_MAX) model.exact_volumes[match[v]] = improved.volumes.measures[v];
-    const GivenNames given = names_given(arrangement, *exact, naming);
-    timer.stop();
-    return finished(std::move(model), given, run);
+        return finished(std::move(model), given, run);
+    });
 }
 
 Volumes volumes_as_found(const Model& model) {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include <terrane/algorithms/core/standard_arithmetic.hpp>
+#include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 
 namespace terrane {
@@ -43,20 +43,22 @@ Result<SealTrial> try_distance(double distance, double small_volume,
 Result<SealAdvice> advise_seal(const std::vector<Surface>& surfaces,
                                const std::vector<Surface>& boundary,
                                const ArrangeWithinOptions& options, const Run& run) {
-    const StandardArithmetic guard;
-    SealAdvice advice;
-    auto choice = choose_seal(surfaces, boundary, options, run);
-    if (!choice) return choice.error();
-    advice.choice = std::move(*choice);
-    advice.small_volume = small_volume_for(surfaces);
-    std::vector<double> distances{0};
-    for (const GapBreak& b : advice.choice.breaks) distances.push_back(b.distance);
-    for (const double distance : distances) {
-        auto trial = try_distance(distance, advice.small_volume, surfaces, boundary, options, run);
-        if (!trial) return trial.error();
-        advice.trials.push_back(*trial);
-    }
-    return advice;
+    return guarded("for the widths of gaps", "seal", [&]() -> Result<SealAdvice> {
+        SealAdvice advice;
+        auto choice = choose_seal(surfaces, boundary, options, run);
+        if (!choice) return choice.error();
+        advice.choice = std::move(*choice);
+        advice.small_volume = small_volume_for(surfaces);
+        std::vector<double> distances{0};
+        for (const GapBreak& b : advice.choice.breaks) distances.push_back(b.distance);
+        for (const double distance : distances) {
+            auto trial =
+                try_distance(distance, advice.small_volume, surfaces, boundary, options, run);
+            if (!trial) return trial.error();
+            advice.trials.push_back(*trial);
+        }
+        return advice;
+    });
 }
 
 } // namespace terrane

@@ -187,10 +187,10 @@ Result<WithoutSmallBlocks> without_blocks_below(Arrangement a, double least, con
 
 Result<WithoutSmallBlocks> merge_small_blocks(Arrangement arrangement, double least,
                                               const Run& run) {
-    if (!(least > 0) || !std::isfinite(least))
-        return Error{ErrorCode::bad_option, "the least volume must be positive", "min_volume"};
-    const StageTimer timer(run, "small blocks");
-    return guarded("for merging blocks", "small blocks", [&] {
+    return guarded("for merging blocks", "small blocks", [&]() -> Result<WithoutSmallBlocks> {
+        if (!(least > 0) || !std::isfinite(least))
+            return Error{ErrorCode::bad_option, "the least volume must be positive", "min_volume"};
+        const StageTimer timer(run, "small blocks");
         return without_blocks_below(std::move(arrangement), least, timer.inside());
     });
 }

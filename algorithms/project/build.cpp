@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include <terrane/algorithms/core/standard_arithmetic.hpp>
+#include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/model/seal_rules.hpp>
 #include <terrane/algorithms/project/detail/kept_results.hpp>
@@ -230,8 +230,9 @@ TetrahedraRequest request_of(const Project& project) {
 
 Result<Built> build(const Project& project, BuildInput input, const Run& run,
                     const BuildObserver& observer, const StageStore& store) {
-    const StandardArithmetic guard;
-    return Builder(project, std::move(input), run, observer, store)();
+    return guarded("for the model", "build", [&]() -> Result<Built> {
+        return Builder(project, std::move(input), run, observer, store)();
+    });
 }
 
 } // namespace terrane

@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/stage_timer.hpp>
-#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
 
 namespace terrane {
@@ -152,19 +152,20 @@ bool Preprocessed::good() const {
 
 Result<Preprocessed> preprocess(const Project& project, std::vector<Surface>& surfaces,
                                 const Run& run) {
-    const StandardArithmetic guard;
-    const Names names(surfaces);
-    const auto tasks = tasks_of(project, names);
-    if (!tasks) return tasks.error();
-    const auto order = order_of(project, names);
-    if (!order) return order.error();
-    Preprocessed done;
-    if (!tasks->empty())
-        if (auto filled = fill(*tasks, surfaces, run, done); !filled) return filled.error();
-    if (!order->empty() && done.good())
-        if (auto stacked = stack(*order, project, surfaces, run, done); !stacked)
-            return stacked.error();
-    return done;
+    return guarded("for the model", "build", [&]() -> Result<Preprocessed> {
+        const Names names(surfaces);
+        const auto tasks = tasks_of(project, names);
+        if (!tasks) return tasks.error();
+        const auto order = order_of(project, names);
+        if (!order) return order.error();
+        Preprocessed done;
+        if (!tasks->empty())
+            if (auto filled = fill(*tasks, surfaces, run, done); !filled) return filled.error();
+        if (!order->empty() && done.good())
+            if (auto stacked = stack(*order, project, surfaces, run, done); !stacked)
+                return stacked.error();
+        return done;
+    });
 }
 
 } // namespace terrane

@@ -3,8 +3,8 @@
 
 #include <utility>
 
+#include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/stage_timer.hpp>
-#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/quality/improve_back.hpp>
 
 namespace terrane {
@@ -17,22 +17,25 @@ bool ImprovedAndMeasured::is_near_back() const {
 
 Result<ImprovedAndMeasured> improve_and_measure(const ConformingMesh& mesh,
                                                 const ImproveOptions& options, const Run& run) {
-    const StandardArithmetic guard;
-    if (run.progress) run.progress("improve", 0);
-    auto improved = improve(mesh, options, run);
-    if (!improved) return improved.error();
-    const StageTimer timer(run, "measure");
-    if (run.progress) run.progress("measure", 0);
-    auto deviations = deviations_of(mesh, improved->mesh, run);
-    if (run.stop.stop_requested()) return Error{ErrorCode::interrupted, "stopped on request", ""};
-    auto back = bounds_back(mesh, *improved, options, run);
-    if (!back) return back.error();
-    if (run.stop.stop_requested()) return Error{ErrorCode::interrupted, "stopped on request", ""};
-    for (std::size_t s = 0; s < deviations.size(); ++s)
-        if (deviations[s].out > improved->report.bound_of[s])
-            return Error{ErrorCode::internal, "the surface is farther away than was shown",
-                         mesh->surfaces[s].name};
-    return ImprovedAndMeasured{std::move(*improved), std::move(deviations), std::move(*back)};
+    return guarded("to measure the mesh", "improve", [&]() -> Result<ImprovedAndMeasured> {
+        if (run.progress) run.progress("improve", 0);
+        auto improved = improve(mesh, options, run);
+        if (!improved) return improved.error();
+        const StageTimer timer(run, "measure");
+        if (run.progress) run.progress("measure", 0);
+        auto deviations = deviations_of(mesh, improved->mesh, run);
+        if (run.stop.stop_requested())
+            return Error{ErrorCode::interrupted, "stopped on request", ""};
+        auto back = bounds_back(mesh, *improved, options, run);
+        if (!back) return back.error();
+        if (run.stop.stop_requested())
+            return Error{ErrorCode::interrupted, "stopped on request", ""};
+        for (std::size_t s = 0; s < deviations.size(); ++s)
+            if (deviations[s].out > improved->report.bound_of[s])
+                return Error{ErrorCode::internal, "the surface is farther away than was shown",
+                             mesh->surfaces[s].name};
+        return ImprovedAndMeasured{std::move(*improved), std::move(deviations), std::move(*back)};
+    });
 }
 
 } // namespace terrane

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include <terrane/algorithms/core/standard_arithmetic.hpp>
+#include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/reconstruction/holes/expected_points.hpp>
 #include <terrane/algorithms/reconstruction/rbf/rbf_join.hpp>
@@ -103,29 +103,30 @@ std::optional<VariogramModel> variogram_model_named(std::string_view name) {
 
 Result<FillWork> find_holes(std::span<const Surface> surfaces, std::span<const FillTask> tasks,
                             const Run& run) {
-    const StandardArithmetic guard;
-    FillWork work;
-    announce(run, "holes");
-    const auto labels = unique_labels(infos_of(surfaces));
-    for (const FillTask& task : tasks) {
-        const Surface& s = surfaces[task.surface];
-        auto loops = find_border_loops(s, run, {.slope = task.options.gap_slope});
-        if (!loops) return loops.error();
-        for (std::size_t l = 0; l < loops->size(); ++l)
-            if ((*loops)[l].kind != LoopKind::outer)
-                work.holes.push_back({work.holes.size() + 1, work.surfaces.size(), l});
-        HoledSurface holed;
-        holed.task = task;
-        holed.label = labels[task.surface];
-        holed.loops = std::move(*loops);
-        holed.filled = s;
-        holed.given_vertices = s.vertices.size();
-        holed.given_triangles = s.triangles.size();
-        holed.deviation.resize(s.vertices.size());
-        holed.invented.resize(s.triangles.size());
-        work.surfaces.push_back(std::move(holed));
-    }
-    return work;
+    return guarded("for the holes", "fill", [&]() -> Result<FillWork> {
+        FillWork work;
+        announce(run, "holes");
+        const auto labels = unique_labels(infos_of(surfaces));
+        for (const FillTask& task : tasks) {
+            const Surface& s = surfaces[task.surface];
+            auto loops = find_border_loops(s, run, {.slope = task.options.gap_slope});
+            if (!loops) return loops.error();
+            for (std::size_t l = 0; l < loops->size(); ++l)
+                if ((*loops)[l].kind != LoopKind::outer)
+                    work.holes.push_back({work.holes.size() + 1, work.surfaces.size(), l});
+            HoledSurface holed;
+            holed.task = task;
+            holed.label = labels[task.surface];
+            holed.loops = std::move(*loops);
+            holed.filled = s;
+            holed.given_vertices = s.vertices.size();
+            holed.given_triangles = s.triangles.size();
+            holed.deviation.resize(s.vertices.size());
+            holed.invented.resize(s.triangles.size());
+            work.surfaces.push_back(std::move(holed));
+        }
+        return work;
+    });
 }
 
 std::vector<bool> wanted_holes(const FillWork& work) {
@@ -141,68 +142,71 @@ std::vector<bool> wanted_holes(const FillWork& work) {
 
 Status fill_holes(std::span<const Surface> surfaces, const std::vector<bool>& chosen,
                   FillWork& work, const Run& run) {
-    const StandardArithmetic guard;
-    for (std::size_t i = 0; i < work.holes.size(); ++i) { // before any is filled
-        const NumberedHole& hole = work.holes[i];
-        if (!chosen[i]) continue;
-        if (auto sound = check_edge_length(loop_of(work, hole),
-                                           work.surfaces[hole.task].task.options.mesh_size);
-            !sound)
-            return sound;
-    }
-    for (std::size_t i = 0; i < work.holes.size(); ++i) {
-        if (!chosen[i]) continue;
-        NumberedHole& hole = work.holes[i];
-        HoledSurface& to = work.surfaces[hole.task];
-        const auto fill = to.task.options.method == FillMethod::rbf ? by_rbf : by_kriging;
-        announce(run, "fill hole " + std::to_string(hole.number));
-        const auto filled =
-            fill(to.task.options, surfaces[to.task.surface], loop_of(work, hole), to.loops, run);
-        if (filled) {
-            hole.report = filled->report;
-            take_over(*filled, hole.number, to);
-        } else if (only_this_hole(filled.error().code)) {
-            hole.refused = filled.error().message();
-        } else {
-            return filled.error();
+    return guarded("for the filling", "fill", [&]() -> Status {
+        for (std::size_t i = 0; i < work.holes.size(); ++i) { // before any is filled
+            const NumberedHole& hole = work.holes[i];
+            if (!chosen[i]) continue;
+            if (auto sound = check_edge_length(loop_of(work, hole),
+                                               work.surfaces[hole.task].task.options.mesh_size);
+                !sound)
+                return sound;
         }
-    }
-    return Done{};
+        for (std::size_t i = 0; i < work.holes.size(); ++i) {
+            if (!chosen[i]) continue;
+            NumberedHole& hole = work.holes[i];
+            HoledSurface& to = work.surfaces[hole.task];
+            const auto fill = to.task.options.method == FillMethod::rbf ? by_rbf : by_kriging;
+            announce(run, "fill hole " + std::to_string(hole.number));
+            const auto filled = fill(to.task.options, surfaces[to.task.surface],
+                                     loop_of(work, hole), to.loops, run);
+            if (filled) {
+                hole.report = filled->report;
+                take_over(*filled, hole.number, to);
+            } else if (only_this_hole(filled.error().code)) {
+                hole.refused = filled.error().message();
+            } else {
+                return filled.error();
+            }
+        }
+        return Done{};
+    });
 }
 
 Result<std::vector<NewContact>> contacts_of_new(const FillWork& work, const Run& run) {
-    const StandardArithmetic guard;
-    std::vector<NewContact> found;
-    for (std::size_t task = 0; task < work.surfaces.size(); ++task) {
-        const HoledSurface& s = work.surfaces[task];
-        if (s.filled.triangles.size() == s.given_triangles) continue;
-        announce(run, "check");
-        const auto report = check(std::span(&s.filled, 1), run);
-        if (!report) return report.error();
-        for (const ImproperContact& c : report->contacts) {
-            const auto newer = std::max(c.triangles[0], c.triangles[1]);
-            if (newer >= s.given_triangles)
-                found.push_back({task, s.invented[newer], c.kind, c.place});
+    return guarded("for the check", "fill", [&]() -> Result<std::vector<NewContact>> {
+        std::vector<NewContact> found;
+        for (std::size_t task = 0; task < work.surfaces.size(); ++task) {
+            const HoledSurface& s = work.surfaces[task];
+            if (s.filled.triangles.size() == s.given_triangles) continue;
+            announce(run, "check");
+            const auto report = check(std::span(&s.filled, 1), run);
+            if (!report) return report.error();
+            for (const ImproperContact& c : report->contacts) {
+                const auto newer = std::max(c.triangles[0], c.triangles[1]);
+                if (newer >= s.given_triangles)
+                    found.push_back({task, s.invented[newer], c.kind, c.place});
+            }
         }
-    }
-    return found;
+        return found;
+    });
 }
 
 Result<FillWork> fill_surfaces(std::span<const Surface> surfaces, std::span<const FillTask> tasks,
                                const Run& run) {
-    const StandardArithmetic guard;
-    auto work = find_holes(surfaces, tasks, run);
-    if (!work) return work;
-    if (auto done = fill_holes(surfaces, wanted_holes(*work), *work, run); !done)
-        return done.error();
-    const auto contacts = contacts_of_new(*work, run);
-    if (!contacts) return contacts.error();
-    if (contacts->empty()) return work;
-    const NewContact& first = contacts->front();
-    return Error{ErrorCode::improper_contact,
-                 "the filling of hole " + std::to_string(first.hole) +
-                     " meets other triangles improperly: " + std::string(name_of(first.kind)),
-                 "surface " + work->surfaces[first.task].label};
+    return guarded("for the filling", "fill", [&]() -> Result<FillWork> {
+        auto work = find_holes(surfaces, tasks, run);
+        if (!work) return work;
+        if (auto done = fill_holes(surfaces, wanted_holes(*work), *work, run); !done)
+            return done.error();
+        const auto contacts = contacts_of_new(*work, run);
+        if (!contacts) return contacts.error();
+        if (contacts->empty()) return work;
+        const NewContact& first = contacts->front();
+        return Error{ErrorCode::improper_contact,
+                     "the filling of hole " + std::to_string(first.hole) +
+                         " meets other triangles improperly: " + std::string(name_of(first.kind)),
+                     "surface " + work->surfaces[first.task].label};
+    });
 }
 
 } // namespace terrane

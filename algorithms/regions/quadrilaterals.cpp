@@ -5,8 +5,8 @@
 #include <optional>
 #include <span>
 
+#include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/no_index.hpp>
-#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/diffusion.hpp>
 
 namespace terrane {
@@ -95,20 +95,21 @@ Surface triangles_of(const QuadSurface& surface) {
 }
 
 Result<QuadCells> quad_cells(const Mesh& mesh, const InputTriangles& inputs, SurfaceId surface) {
-    const StandardArithmetic guard;
-    if (std::size_t{surface} + 1 >= inputs.first.size())
-        return Error{ErrorCode::bad_index, "there is no such surface",
-                     "surface " + std::to_string(surface)};
-    if (mesh.parents_of.size() != mesh.triangles.size())
-        return Error{ErrorCode::nothing_to_do, "the triangles of the mesh have no parents", ""};
-    const std::uint32_t first = inputs.first[surface], last = inputs.first[surface + 1];
-    if ((last - first) % 2 != 0)
-        return Error{ErrorCode::unsupported, "the surface is not one of quadrilaterals",
-                     "surface " + std::to_string(surface)};
-    QuadCells all = Cells(mesh, first, last).listed();
-    all.region_of = regions_of_polygons(all.cells, mesh.intersection_edges); // (2b)
-    for (const std::uint32_t r : all.region_of) all.regions = std::max(all.regions, r + 1);
-    return all;
+    return guarded("for the cells", "cells", [&]() -> Result<QuadCells> {
+        if (std::size_t{surface} + 1 >= inputs.first.size())
+            return Error{ErrorCode::bad_index, "there is no such surface",
+                         "surface " + std::to_string(surface)};
+        if (mesh.parents_of.size() != mesh.triangles.size())
+            return Error{ErrorCode::nothing_to_do, "the triangles of the mesh have no parents", ""};
+        const std::uint32_t first = inputs.first[surface], last = inputs.first[surface + 1];
+        if ((last - first) % 2 != 0)
+            return Error{ErrorCode::unsupported, "the surface is not one of quadrilaterals",
+                         "surface " + std::to_string(surface)};
+        QuadCells all = Cells(mesh, first, last).listed();
+        all.region_of = regions_of_polygons(all.cells, mesh.intersection_edges); // (2b)
+        for (const std::uint32_t r : all.region_of) all.regions = std::max(all.regions, r + 1);
+        return all;
+    });
 }
 
 } // namespace terrane

@@ -44,9 +44,9 @@ std::size_t end_of_break(std::span<const SurfaceGap> gaps, std::size_t i, double
 
 Result<std::vector<SurfaceGap>> find_gaps(const Arrangement& arrangement, double widest,
                                           const Run& run) {
-    if (!(widest > 0) || !std::isfinite(widest))
-        return Error{ErrorCode::bad_option, "the largest width must be positive", "seal"};
     return guarded("for the widths of gaps", "gaps", [&]() -> Result<std::vector<SurfaceGap>> {
+        if (!(widest > 0) || !std::isfinite(widest))
+            return Error{ErrorCode::bad_option, "the largest width must be positive", "seal"};
         const sealing::detail::GapDistances distances(arrangement,
                                                       sealing::detail::SealDistances(widest));
         std::vector<SurfaceGap> gaps;

@@ -385,9 +385,10 @@ Status check_distances(std::size_t surfaces, const SealOptions& options) {
 } // namespace
 
 Result<Sealed> seal(std::vector<Surface> surfaces, const SealOptions& options, const Run& run) {
-    if (const auto sound = check_distances(surfaces.size(), options); !sound) return sound.error();
-    const StageTimer timer(run, "seal");
-    return guarded("for sealing", "sealing", [&] {
+    return guarded("for sealing", "sealing", [&]() -> Result<Sealed> {
+        if (const auto sound = check_distances(surfaces.size(), options); !sound)
+            return sound.error();
+        const StageTimer timer(run, "seal");
         const Run inner = timer.inside();
         return Sealing(std::move(surfaces), options, inner)();
     });

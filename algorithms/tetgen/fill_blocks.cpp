@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
+#include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/stage_timer.hpp>
-#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/tetrahedra/split_nodes.hpp>
 #include <terrane/algorithms/tetrahedra/without_outside.hpp>
@@ -129,49 +129,55 @@ Status finish(const TetrahedraRequest& request, std::span<const std::uint32_t> s
 
 Result<TetrahedralMesh> make_tetrahedra(const Model& model, const TetrahedraRequest& request,
                                         const Run& run) {
-    const StandardArithmetic guard;
-    const StageTimer timer(run, "tetrahedralize");
-    if (run.progress) run.progress("tetrahedralize", 0);
-    const SurfaceLabels labels = unique_labels(model.mesh->surfaces);
-    const auto options = options_of(model, labels, request);
-    if (!options) return options.error();
-    // A name that does not exist is an error before the work, not after it.
-    if (auto split = surfaces_to_split(model, labels, request.split); !split) return split.error();
-    return tetrahedralize(model.mesh, volumes_as_found(model), *options, timer.inside());
+    return guarded("for the tetrahedra", "tetrahedralize", [&]() -> Result<TetrahedralMesh> {
+        const StageTimer timer(run, "tetrahedralize");
+        if (run.progress) run.progress("tetrahedralize", 0);
+        const SurfaceLabels labels = unique_labels(model.mesh->surfaces);
+        const auto options = options_of(model, labels, request);
+        if (!options) return options.error();
+        // A name that does not exist is an error before the work, not after it.
+        if (auto split = surfaces_to_split(model, labels, request.split); !split)
+            return split.error();
+        return tetrahedralize(model.mesh, volumes_as_found(model), *options, timer.inside());
+    });
 }
 
 Result<FilledBlocks> fill_blocks(const Model& model, const TetrahedraRequest& request,
                                  TetrahedralMesh made, const Run& run) {
-    const StandardArithmetic guard;
-    const auto split = surfaces_to_split(model, unique_labels(model.mesh->surfaces), request.split);
-    if (!split) return split.error();
-    FilledBlocks filled;
-    filled.tetrahedra = std::move(made);
+    return guarded("for the tetrahedra", "tetrahedralize", [&]() -> Result<FilledBlocks> {
+        const auto split =
+            surfaces_to_split(model, unique_labels(model.mesh->surfaces), request.split);
+        if (!split) return split.error();
+        FilledBlocks filled;
+        filled.tetrahedra = std::move(made);
 
-    StageTimer timer(run, "check");
-    if (run.progress) run.progress("check tetrahedra", 0);
-    filled.report = check_tetrahedra(filled.tetrahedra, model.mesh, volumes_as_found(model));
-    const auto& violations = filled.report.violations;
-    if (!violations.empty() && violations.front().defect == TetrahedraDefect::unusable_lists)
-        return filled; // nothing can be said about them
-    timer.next("split");
-    renumber(model, filled);
-    if (violations.empty())
-        if (auto done = finish(request, *split, filled.tetrahedra, filled.added_nodes); !done)
-            return done.error();
-    filled.report.shape = shape_of(filled.tetrahedra); // of those that are left
-    for (const ModelBlock& block : model.structure.blocks) filled.block_names.push_back(block.name);
-    timer.stop();
-    if (run.stop.stop_requested()) return Error{ErrorCode::interrupted, "", ""};
-    return filled;
+        StageTimer timer(run, "check");
+        if (run.progress) run.progress("check tetrahedra", 0);
+        filled.report = check_tetrahedra(filled.tetrahedra, model.mesh, volumes_as_found(model));
+        const auto& violations = filled.report.violations;
+        if (!violations.empty() && violations.front().defect == TetrahedraDefect::unusable_lists)
+            return filled; // nothing can be said about them
+        timer.next("split");
+        renumber(model, filled);
+        if (violations.empty())
+            if (auto done = finish(request, *split, filled.tetrahedra, filled.added_nodes); !done)
+                return done.error();
+        filled.report.shape = shape_of(filled.tetrahedra); // of those that are left
+        for (const ModelBlock& block : model.structure.blocks)
+            filled.block_names.push_back(block.name);
+        timer.stop();
+        if (run.stop.stop_requested()) return Error{ErrorCode::interrupted, "", ""};
+        return filled;
+    });
 }
 
 Result<FilledBlocks> fill_blocks(const Model& model, const TetrahedraRequest& request,
                                  const Run& run) {
-    const StandardArithmetic guard;
-    auto made = make_tetrahedra(model, request, run);
-    if (!made) return made.error();
-    return fill_blocks(model, request, std::move(*made), run);
+    return guarded("for the tetrahedra", "tetrahedralize", [&]() -> Result<FilledBlocks> {
+        auto made = make_tetrahedra(model, request, run);
+        if (!made) return made.error();
+        return fill_blocks(model, request, std::move(*made), run);
+    });
 }
 
 } // namespace terrane

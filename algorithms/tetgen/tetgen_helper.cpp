@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <terrane/algorithms/core/guarded.hpp>
+
 namespace terrane {
 namespace {
 
@@ -72,11 +74,11 @@ Result<fs::path> find(const Helper& helper, const fs::path& given) {
 } // namespace
 
 Result<fs::path> find_tetgen_helper(const fs::path& given) {
-    return find(tetgen, given);
+    return guarded("to find the helper", "helper", [&] { return find(tetgen, given); });
 }
 
 Result<fs::path> find_gmsh_helper(const fs::path& given) {
-    return find(gmsh, given);
+    return guarded("to find the helper", "helper", [&] { return find(gmsh, given); });
 }
 
 } // namespace terrane

@@ -355,7 +355,7 @@ private:
         if (!output) return output.error();
         for (Point3& p : output.value().points) p = scale_.up(p);
         Result<TetrahedralMesh> result =
-            assemble(mesh_, domain_, std::move(output).value(), name_of(way.mesher));
+            assemble(mesh_, domain_, std::move(output).value(), name_of(way.mesher), run_.stop);
         if (!result) return Error{result.error().code, result.error().sentence, ""};
         if (Status numbered = adopt_volume_numbers(volumes_, result.value()); !numbered)
             return Error{numbered.error().code, numbered.error().sentence, ""};
@@ -431,6 +431,7 @@ Result<TetrahedralMesh> fill(const ConformingMesh& mesh, const Volumes& volumes,
     if (Status go = proceed(run, 0.1); !go) return go.error();
 
     const Scale scale(domain.value().points);
+    if (Status go = proceed(run, 0.1); !go) return go.error();
     Result<TetgenInput> input = tetgen_input(mesh, volumes, domain.value(), options, scale, run);
     if (!input) return input.error();
     Result<TetrahedralMesh> result =

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
+#include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/no_index.hpp>
 #include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/diffusion.hpp>
@@ -155,15 +156,16 @@ private:
 
 Result<TetrahedralMesh> split_nodes(const TetrahedralMesh& mesh,
                                     std::span<const std::uint32_t> surfaces) {
-    const StandardArithmetic guard;
-    constexpr std::size_t most = std::size_t(1) << 30;
-    for (const std::uint32_t s : surfaces)
-        if (s >= mesh.surfaces.size())
-            return Error{ErrorCode::bad_index, fmt::format("there is no surface {}", s), ""};
-    if (!mesh.twins.empty()) return Error{ErrorCode::bad_option, "nodes are split already", ""};
-    if (mesh.tetrahedra.size() >= most)
-        return Error{ErrorCode::unsupported, "too many tetrahedra to split nodes", ""};
-    return Split(mesh, surfaces)();
+    return guarded("to split nodes", "split", [&]() -> Result<TetrahedralMesh> {
+        constexpr std::size_t most = std::size_t(1) << 30;
+        for (const std::uint32_t s : surfaces)
+            if (s >= mesh.surfaces.size())
+                return Error{ErrorCode::bad_index, fmt::format("there is no surface {}", s), ""};
+        if (!mesh.twins.empty()) return Error{ErrorCode::bad_option, "nodes are split already", ""};
+        if (mesh.tetrahedra.size() >= most)
+            return Error{ErrorCode::unsupported, "too many tetrahedra to split nodes", ""};
+        return Split(mesh, surfaces)();
+    });
 }
 
 std::vector<std::vector<NodePair>> node_pairs(const TetrahedralMesh& mesh) {

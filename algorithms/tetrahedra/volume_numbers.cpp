@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/no_index.hpp>
 #include <terrane/algorithms/mesh/face_sides.hpp>
 #include <terrane/algorithms/tetrahedra/check_tetrahedra.hpp>
@@ -37,30 +38,32 @@ private:
 } // namespace
 
 Status adopt_volume_numbers(const Volumes& volumes, TetrahedralMesh& tetrahedra) {
-    Matching matching(tetrahedra.region_count, volumes.measures.size());
-    const auto sides = sides_of_faces(tetrahedra);
-    for (std::size_t f = 0; f < tetrahedra.faces.size(); ++f) {
-        const std::uint32_t triangle = tetrahedra.face_triangle[f];
-        if (triangle == no_index) continue;
-        const std::array<TetrahedronSide, 2> at{sides[f].front, sides[f].back};
-        for (std::size_t side = 0; side < 2; ++side) {
-            if (!at[side].exists()) continue;
-            const std::uint32_t region = tetrahedra.region_of[at[side].tetrahedron];
-            const std::uint32_t volume = volumes.of_sides[triangle][side];
-            if (!matching.match(region, volume))
-                return Error{
-                    ErrorCode::internal,
-                    fmt::format("region {} of the tetrahedra is not volume {}", region, volume),
-                    fmt::format("triangle {}", triangle)};
+    return guarded("to number the blocks", "tetrahedra", [&]() -> Status {
+        Matching matching(tetrahedra.region_count, volumes.measures.size());
+        const auto sides = sides_of_faces(tetrahedra);
+        for (std::size_t f = 0; f < tetrahedra.faces.size(); ++f) {
+            const std::uint32_t triangle = tetrahedra.face_triangle[f];
+            if (triangle == no_index) continue;
+            const std::array<TetrahedronSide, 2> at{sides[f].front, sides[f].back};
+            for (std::size_t side = 0; side < 2; ++side) {
+                if (!at[side].exists()) continue;
+                const std::uint32_t region = tetrahedra.region_of[at[side].tetrahedron];
+                const std::uint32_t volume = volumes.of_sides[triangle][side];
+                if (!matching.match(region, volume))
+                    return Error{
+                        ErrorCode::internal,
+                        fmt::format("region {} of the tetrahedra is not volume {}", region, volume),
+                        fmt::format("triangle {}", triangle)};
+            }
         }
-    }
-    if (!matching.complete())
-        return Error{ErrorCode::internal,
-                     fmt::format("{} regions of tetrahedra, {} volumes", tetrahedra.region_count,
-                                 volumes.measures.size()),
-                     ""};
-    for (std::uint32_t& region : tetrahedra.region_of) region = matching.volume_of(region);
-    return Done{};
+        if (!matching.complete())
+            return Error{ErrorCode::internal,
+                         fmt::format("{} regions of tetrahedra, {} volumes",
+                                     tetrahedra.region_count, volumes.measures.size()),
+                         ""};
+        for (std::uint32_t& region : tetrahedra.region_of) region = matching.volume_of(region);
+        return Done{};
+    });
 }
 
 } // namespace terrane

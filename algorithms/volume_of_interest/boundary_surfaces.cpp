@@ -12,7 +12,7 @@
 #include <terrane/algorithms/arrangement/soup.hpp>
 #include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/core/disjoint_sets.hpp>
-#include <terrane/algorithms/core/standard_arithmetic.hpp>
+#include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/mesh/edges.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/algorithms/search/search.hpp>
@@ -275,69 +275,76 @@ std::optional<Error> open_edge(std::span<const Surface> surfaces, const Run& run
 } // namespace
 
 Result<std::vector<Surface>> closed_boundary(std::span<const Surface> surfaces, const Run& run) {
-    const StandardArithmetic guard;
-    const auto report = check(surfaces, run);
-    if (!report) return report.error();
-    if (const auto open = open_edge(surfaces, run)) return *open;
-    if (!report.value().contacts.empty()) return contact_error(report.value(), surfaces);
-    if (!report.value().repeated.empty() || !report.value().shared.empty())
-        return Error{ErrorCode::improper_contact, "the boundary has a triangle twice", "boundary"};
-    std::vector<Surface> boundary(surfaces.begin(), surfaces.end());
-    for (Surface& s : boundary) s.role = Role::boundary;
-    return boundary;
+    return guarded("for the boundary", "boundary", [&]() -> Result<std::vector<Surface>> {
+        const auto report = check(surfaces, run);
+        if (!report) return report.error();
+        if (const auto open = open_edge(surfaces, run)) return *open;
+        if (!report.value().contacts.empty()) return contact_error(report.value(), surfaces);
+        if (!report.value().repeated.empty() || !report.value().shared.empty())
+            return Error{ErrorCode::improper_contact, "the boundary has a triangle twice",
+                         "boundary"};
+        std::vector<Surface> boundary(surfaces.begin(), surfaces.end());
+        for (Surface& s : boundary) s.role = Role::boundary;
+        return boundary;
+    });
 }
 
 Result<std::vector<Surface>> box_boundary(const Point3& low, const Point3& high) {
-    const StandardArithmetic guard;
-    if (!is_finite(low) || !is_finite(high))
-        return Error{ErrorCode::bad_number, "a corner is not finite", "box"};
-    if (!(low.x < high.x && low.y < high.y && low.z < high.z))
-        return Error{ErrorCode::bad_option, "the first corner must be below the second one", "box"};
-    const std::array<Point2, 4> ring{Point2{low.x, low.y}, Point2{high.x, low.y},
-                                     Point2{high.x, high.y}, Point2{low.x, high.y}};
-    return polygon_boundary(ring, low.z, high.z);
+    return guarded("for the boundary", "boundary", [&]() -> Result<std::vector<Surface>> {
+        if (!is_finite(low) || !is_finite(high))
+            return Error{ErrorCode::bad_number, "a corner is not finite", "box"};
+        if (!(low.x < high.x && low.y < high.y && low.z < high.z))
+            return Error{ErrorCode::bad_option, "the first corner must be below the second one",
+                         "box"};
+        const std::array<Point2, 4> ring{Point2{low.x, low.y}, Point2{high.x, low.y},
+                                         Point2{high.x, high.y}, Point2{low.x, high.y}};
+        return polygon_boundary(ring, low.z, high.z);
+    });
 }
 
 Result<std::vector<Surface>> rotated_box_boundary(const RotatedBox& box) {
-    const StandardArithmetic guard;
-    for (const double length : box.lengths)
-        if (!(length > 0))
-            return Error{ErrorCode::bad_option, "the lengths of its edges must be positive",
-                         "rotated box"};
-    const auto axes = axes_of(box);
-    const double low = box.is_corner ? 0 : -0.5, high = box.is_corner ? 1 : 0.5;
-    const auto ring = [&](double level) {
-        return std::array{
-            corner_at(box, axes, {low, low, level}), corner_at(box, axes, {high, low, level}),
-            corner_at(box, axes, {high, high, level}), corner_at(box, axes, {low, high, level})};
-    };
-    const auto bottom = ring(low), top = ring(high);
-    for (const auto& corners : {bottom, top})
-        for (const Point3& p : corners)
-            if (!is_finite(p))
-                return Error{ErrorCode::bad_number, "a corner is not finite", "rotated box"};
-    const std::array cap{Triangle{0, 1, 2}, Triangle{0, 2, 3}};
-    return closed_boundary(prism(bottom, top, cap));
+    return guarded("for the boundary", "boundary", [&]() -> Result<std::vector<Surface>> {
+        for (const double length : box.lengths)
+            if (!(length > 0))
+                return Error{ErrorCode::bad_option, "the lengths of its edges must be positive",
+                             "rotated box"};
+        const auto axes = axes_of(box);
+        const double low = box.is_corner ? 0 : -0.5, high = box.is_corner ? 1 : 0.5;
+        const auto ring = [&](double level) {
+            return std::array{corner_at(box, axes, {low, low, level}),
+                              corner_at(box, axes, {high, low, level}),
+                              corner_at(box, axes, {high, high, level}),
+                              corner_at(box, axes, {low, high, level})};
+        };
+        const auto bottom = ring(low), top = ring(high);
+        for (const auto& corners : {bottom, top})
+            for (const Point3& p : corners)
+                if (!is_finite(p))
+                    return Error{ErrorCode::bad_number, "a corner is not finite", "rotated box"};
+        const std::array cap{Triangle{0, 1, 2}, Triangle{0, 2, 3}};
+        return closed_boundary(prism(bottom, top, cap));
+    });
 }
 
 Result<std::vector<Surface>> polygon_boundary(std::span<const Point2> corners, double low,
                                               double high) {
-    const StandardArithmetic guard;
-    if (!std::isfinite(low) || !std::isfinite(high))
-        return Error{ErrorCode::bad_number, "a depth is not finite", "polygon"};
-    if (low == high) return Error{ErrorCode::bad_option, "the two depths are equal", "polygon"};
-    Polygon polygon(corners);
-    if (const auto flaw = polygon.flaw()) return *flaw;
-    const auto around = triangle_around(polygon.corners());
-    if (!std::all_of(around.begin(), around.end(), is_finite))
-        return Error{ErrorCode::bad_number, "the polygon is too large for doubles", "polygon"};
-    polygon.turn_counterclockwise();
-    std::vector<Point3> bottom, top;
-    for (const Point3& p : polygon.corners()) {
-        bottom.push_back({p.x, p.y, std::min(low, high)});
-        top.push_back({p.x, p.y, std::max(low, high)});
-    }
-    return closed_boundary(prism(bottom, top, polygon.triangles()));
+    return guarded("for the boundary", "boundary", [&]() -> Result<std::vector<Surface>> {
+        if (!std::isfinite(low) || !std::isfinite(high))
+            return Error{ErrorCode::bad_number, "a depth is not finite", "polygon"};
+        if (low == high) return Error{ErrorCode::bad_option, "the two depths are equal", "polygon"};
+        Polygon polygon(corners);
+        if (const auto flaw = polygon.flaw()) return *flaw;
+        const auto around = triangle_around(polygon.corners());
+        if (!std::all_of(around.begin(), around.end(), is_finite))
+            return Error{ErrorCode::bad_number, "the polygon is too large for doubles", "polygon"};
+        polygon.turn_counterclockwise();
+        std::vector<Point3> bottom, top;
+        for (const Point3& p : polygon.corners()) {
+            bottom.push_back({p.x, p.y, std::min(low, high)});
+            top.push_back({p.x, p.y, std::max(low, high)});
+        }
+        return closed_boundary(prism(bottom, top, polygon.triangles()));
+    });
 }
 
 std::vector<NamedConstant> boundary_constants() {

@@ -259,11 +259,12 @@ Result<Extended> extend(std::vector<Surface> surfaces, std::span<const std::uint
 Result<Extended> extend_to_boundary(std::vector<Surface> surfaces,
                                     std::span<const std::uint32_t> boundary,
                                     const ExtendOptions& options, const Run& run) {
-    if (!(options.limit > 0) || !std::isfinite(options.limit))
-        return Error{ErrorCode::bad_option, "the limit must be positive", "extend"};
-    const StageTimer timer(run, "extend");
-    return guarded("to extend surfaces", "extend",
-                   [&] { return extend(std::move(surfaces), boundary, options, timer.inside()); });
+    return guarded("to extend surfaces", "extend", [&]() -> Result<Extended> {
+        if (!(options.limit > 0) || !std::isfinite(options.limit))
+            return Error{ErrorCode::bad_option, "the limit must be positive", "extend"};
+        const StageTimer timer(run, "extend");
+        return extend(std::move(surfaces), boundary, options, timer.inside());
+    });
 }
 
 std::vector<NamedConstant> extension_constants() {

@@ -198,19 +198,22 @@ std::vector<OpenBorder> open_borders(const Arrangement& a, std::span<const std::
 
 Result<std::vector<Where>> locate(const Arrangement& a, std::span<const std::uint32_t> boundary,
                                   const Run& run) {
-    const StandardArithmetic guard;
-    const auto in_boundary = triangles_in(a, boundary);
-    const auto volumes = find_volumes(a, run);
-    if (!volumes) return volumes.error();
-    Parts parts(volumes.value(), in_boundary);
-    if (!parts.count_crossings())
-        return Error{ErrorCode::not_closed, "the boundary of the volume is not closed", "boundary"};
-    std::vector<Where> where(a.triangles.size(), Where::boundary);
-    for (std::size_t t = 0; t < where.size(); ++t)
-        if (!in_boundary[t])
-            where[t] =
-                parts.is_inside(volumes.value().of_sides[t][0]) ? Where::inside : Where::outside;
-    return where;
+    return guarded(
+        "for the volume of interest", "volume of interest", [&]() -> Result<std::vector<Where>> {
+            const auto in_boundary = triangles_in(a, boundary);
+            const auto volumes = find_volumes(a, run);
+            if (!volumes) return volumes.error();
+            Parts parts(volumes.value(), in_boundary);
+            if (!parts.count_crossings())
+                return Error{ErrorCode::not_closed, "the boundary of the volume is not closed",
+                             "boundary"};
+            std::vector<Where> where(a.triangles.size(), Where::boundary);
+            for (std::size_t t = 0; t < where.size(); ++t)
+                if (!in_boundary[t])
+                    where[t] = parts.is_inside(volumes.value().of_sides[t][0]) ? Where::inside
+                                                                               : Where::outside;
+            return where;
+        });
 }
 
 namespace {

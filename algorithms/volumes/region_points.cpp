@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/kernel/numbers.hpp>
@@ -190,19 +191,20 @@ std::optional<BlockId> volume_around(const Point3& place, const Mesh& mesh,
 
 Result<std::vector<RegionPoint>> region_points(const Mesh& mesh, const Volumes& volumes,
                                                const Run& run) {
-    const StandardArithmetic guard;
-    const auto sides = largest_sides(mesh, volumes);
-    std::vector<RegionPoint> points;
-    for (std::uint32_t block = 1; block < sides.size(); ++block)
-        for (const BlockSide& side : sides[block]) {
-            if (run.stop.stop_requested())
-                return Error{ErrorCode::interrupted, "stopped on request", ""};
-            const auto place = point_near(side, BlockId(block), mesh, volumes);
-            if (!place) continue;
-            points.push_back({*place, BlockId(block)});
-            break;
-        }
-    return points;
+    return guarded("for the points", "points", [&]() -> Result<std::vector<RegionPoint>> {
+        const auto sides = largest_sides(mesh, volumes);
+        std::vector<RegionPoint> points;
+        for (std::uint32_t block = 1; block < sides.size(); ++block)
+            for (const BlockSide& side : sides[block]) {
+                if (run.stop.stop_requested())
+                    return Error{ErrorCode::interrupted, "stopped on request", ""};
+                const auto place = point_near(side, BlockId(block), mesh, volumes);
+                if (!place) continue;
+                points.push_back({*place, BlockId(block)});
+                break;
+            }
+        return points;
+    });
 }
 
 } // namespace terrane

@@ -10,6 +10,7 @@
 #include <system_error>
 #include <vector>
 
+#include <terrane/cli/session/console.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 
 namespace terrane::cli {
@@ -95,9 +96,13 @@ Status check_file_options(const CLI::App& command) {
         const std::string name =
             option->get_lnames().empty() ? option->get_name(true) : "--" + option->get_lnames()[0];
         const bool writes = is_among(output_options, name) && command.get_name() != "verify";
-        for (const std::string& value : option->results())
+        for (const std::string& value : option->results()) {
+            if (value == "-" && writes && !has_standard_output())
+                return Error{ErrorCode::cannot_open, "cannot be written: it is closed",
+                             "standard output"};
             if (value != "-" && !value.empty())
                 (writes ? outputs : inputs).push_back({name, value});
+        }
     }
     for (std::size_t i = 0; i < outputs.size(); ++i) {
         const NamedFile& out = outputs[i];

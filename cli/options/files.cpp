@@ -12,6 +12,7 @@
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/cli/session/console.hpp>
 #include <terrane/cli/session/quantities.hpp>
+#include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/text/text.hpp>
 
 namespace terrane::cli {
@@ -80,15 +81,27 @@ Error usage(std::string sentence, std::string place) {
 // Checks the folder before the work starts, as a missing one would otherwise show only at the end.
 Status check_folder(const std::string& path) {
     if (path == "-") return Done{};
-    const auto parent = fs::path(path).parent_path();
-    const auto folder = parent.empty() ? fs::path(".") : parent;
-    std::error_code ignored;
-    if (!fs::is_directory(folder, ignored))
-        return Error{ErrorCode::cannot_open, "there is no folder " + folder.string(), path};
-    if (fs::is_directory(path, ignored))
-        return Error{ErrorCode::cannot_open, "this is a folder", path};
-    if (!fs::exists(path, ignored) && access(folder.c_str(), W_OK) != 0)
-        return Error{ErrorCode::cannot_open, "nothing can be written in this folder", path};
+    const auto parent_of = [](const fs::path& file) {
+        return file.has_parent_path() ? file.parent_path() : fs::path(".");
+    };
+    const auto refused = [&](std::string sentence) {
+        return Error{ErrorCode::cannot_open, std::move(sentence), path};
+    };
+    std::error_code failed;
+    if (const auto folder = parent_of(path); !fs::is_directory(folder, failed))
+        return refused("there is no folder " + folder.string());
+    const fs::path file = followed(path); // a link is kept, and what it names is replaced
+    const auto folder = parent_of(file);
+    const auto there = fs::status(path, failed).type();
+    if (there == fs::file_type::directory) return refused("this is a folder");
+    if (there == fs::file_type::none) return refused("cannot be written: " + failed.message());
+    if (!fs::is_directory(folder, failed))
+        return refused("this is a link into a folder that is not there, " + folder.string());
+    if (there != fs::file_type::not_found && access(path.c_str(), W_OK) != 0)
+        return refused("this file is protected against writing");
+    const bool beside = there == fs::file_type::not_found || there == fs::file_type::regular;
+    if (beside && access(folder.c_str(), W_OK) != 0) // the new file is made beside the old one
+        return refused("nothing can be written in this folder");
     return Done{};
 }
 

@@ -3,7 +3,9 @@
 
 #include <utility>
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <terrane/io/atomic/file_set.hpp>
 #include <terrane/io/text/names.hpp>
@@ -53,7 +55,22 @@ void print(std::FILE* stream, std::string_view text) {
     std::fwrite(text.data(), 1, text.size(), stream);
 }
 
+void occupy_closed_streams() {
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+        if (::fcntl(stream, F_GETFD) >= 0) continue;
+        const int wrong_way = stream == STDIN_FILENO ? O_WRONLY : O_RDONLY;
+        // The lowest free number is that of the stream, as those below are open by now.
+        [[maybe_unused]] const int opened = ::open("/dev/null", wrong_way);
+    }
+}
+
+bool has_standard_output() {
+    const int flags = ::fcntl(STDOUT_FILENO, F_GETFL);
+    return flags >= 0 && (flags & O_ACCMODE) != O_RDONLY;
+}
+
 ExitStatus finish(ExitStatus status) {
+    if (!has_standard_output()) return status;
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return status;
     if (status != ExitStatus::done && status != ExitStatus::negative) return status;
     return fail({ErrorCode::write_failed, "not all could be written", "standard output"});

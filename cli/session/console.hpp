@@ -41,7 +41,15 @@ void say_written(std::FILE* stream, const std::string& path);
 /// Writes text. finish() reports a failure to write.
 void print(std::FILE* stream, std::string_view text);
 
-/// Returns `status`, or bad_input if standard output did not take all that was printed.
+/// Gives the numbers of closed standard streams to /dev/null, opened the wrong way round, so that no
+/// file of ours gets them and is read or printed to by mistake. Call it before any file is opened.
+void occupy_closed_streams();
+
+/// Tells whether standard output can be written to: a caller that has closed it wants no summary.
+bool has_standard_output();
+
+/// Returns `status`, or bad_input if standard output did not take all that was printed. Nothing is
+/// missed where the caller has closed it.
 ExitStatus finish(ExitStatus status);
 
 /// Returns "(1.5, 2, -300.25)", with as many digits as are needed to read the same doubles back.

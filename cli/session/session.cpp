@@ -107,7 +107,7 @@ void Session::end_if_overdue() {
 
 void Session::end_at_once() {
     clear_line();
-    remove_temporaries();
+    const auto lock = remove_temporaries(); // until the end, so that no other is made
     fail({ErrorCode::interrupted, "", ""});
     _exit(static_cast<int>(ExitStatus::bad_input));
 }

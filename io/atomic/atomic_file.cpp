@@ -112,32 +112,65 @@ struct Target {
     mode_t mode = 0; ///< of the file that is there; 0: there is none
 };
 
+/// A temporary file beside the one that it is to become. It is removed at the end unless it was
+/// handed on.
+class TemporaryFile {
+public:
+    /// Makes the file and opens it. Errors: cannot_open.
+    static Result<TemporaryFile> beside(const Target& to) {
+        int code = 0;
+        do {
+            TemporaryFile made(temporary_name(to.file));
+            const bool is_there = make_temporary(made.path_, [&] {
+                made.number_ =
+                    ::open(made.path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+                code = made.number_ < 0 ? errno : 0;
+                return code == 0;
+            });
+            if (is_there) return made;
+            made.path_.clear();
+        } while (code == EEXIST);
+        return Error{ErrorCode::cannot_open, "cannot be written: " + reason(code),
+                     to.path.string()};
+    }
+    TemporaryFile(TemporaryFile&& other) noexcept :
+        path_(std::exchange(other.path_, {})), number_(std::exchange(other.number_, -1)) {}
+    TemporaryFile& operator=(TemporaryFile&&) = delete;
+    ~TemporaryFile() {
+        if (number_ >= 0) ::close(number_);
+        if (!path_.empty()) discard_temporary(path_);
+    }
+
+    [[nodiscard]] const fs::path& path() const { return path_; }
+    /// Returns the number of the open file, which is the caller's to close.
+    int take_number() { return std::exchange(number_, -1); }
+    /// Leaves the file to others.
+    void hand_on() { path_.clear(); }
+
+private:
+    explicit TemporaryFile(fs::path path) : path_(std::move(path)) {}
+
+    fs::path path_; ///< empty: there is no file to be removed
+    int number_ = -1;
+};
+
 /// Writes a file under a temporary name and gives it its own, at once or with those of a set.
 Status replace(const Target& to, std::string_view contents, FileSet* set) {
-    const fs::path &path = to.path, &target = to.file;
-    const mode_t mode = to.mode;
-    fs::path temporary;
-    int number = -1, code = 0;
-    do {
-        temporary = temporary_name(target);
-        note_temporary(temporary); // before it is there, as the process may end at any time
-        number = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        code = number < 0 ? errno : 0;
-        if (number < 0) forget_temporary(temporary);
-    } while (code == EEXIST);
-    if (number < 0)
-        return Error{ErrorCode::cannot_open, "cannot be written: " + reason(code), path.string()};
-    Descriptor file(number);
-    code = fill(file, contents);
-    if (code == 0 && mode != 0 && ::chmod(temporary.c_str(), mode) != 0) code = errno;
+    auto made = TemporaryFile::beside(to);
+    if (!made) return made.error();
+    const fs::path& temporary = made->path();
+    Descriptor file(made->take_number());
+    int code = fill(file, contents);
+    if (code == 0 && to.mode != 0 && ::chmod(temporary.c_str(), to.mode) != 0) code = errno;
     if (code == 0 && set != nullptr) {
-        set->add(temporary, target);
+        set->add(temporary, to.file);
+        made->hand_on();
         return Done{};
     }
-    if (code == 0 && ::rename(temporary.c_str(), target.c_str()) != 0) code = errno;
-    if (code != 0) ::unlink(temporary.c_str());
+    if (code == 0 && ::rename(temporary.c_str(), to.file.c_str()) != 0) code = errno;
+    if (code != 0) return write_error(to.path, code);
     forget_temporary(temporary);
-    if (code != 0) return write_error(path, code);
+    made->hand_on();
     return Done{};
 }
 

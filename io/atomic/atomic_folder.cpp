@@ -5,7 +5,9 @@
 #include <system_error>
 #include <utility>
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <terrane/io/atomic/file_set.hpp>
@@ -20,9 +22,14 @@ Error cannot_make(std::string sentence, const fs::path& path) {
     return {ErrorCode::cannot_open, std::move(sentence), path.string()};
 }
 
-/// Removes the slash at the end: "out/" and "out" are the same folder.
+/// Removes the slash at the end: "out/", "out/." and "out" are the same folder.
 fs::path without_slash(const fs::path& path) {
-    return path.has_filename() ? path : path.parent_path();
+    fs::path name = path;
+    while (!name.has_filename() || name.filename() == ".") {
+        if (!name.has_parent_path() || name == name.parent_path()) break;
+        name = name.parent_path();
+    }
+    return name;
 }
 
 fs::path parent_of(const fs::path& path) {
@@ -30,22 +37,79 @@ fs::path parent_of(const fs::path& path) {
     return parent.empty() ? fs::path(".") : parent;
 }
 
+/// Returns the reason for which the system does not say what a path is.
+std::string reason_of_status(const fs::path& path) {
+    std::error_code failed;
+    static_cast<void>(fs::symlink_status(path, failed));
+    return failed.message();
+}
+
+/// Tells whether something is mounted there: such a folder cannot be replaced.
+bool is_mount_point(const fs::path& folder) {
+#ifdef STATX_ATTR_MOUNT_ROOT
+    struct statx found {};
+    if (::statx(AT_FDCWD, folder.c_str(), AT_SYMLINK_NOFOLLOW, STATX_BASIC_STATS, &found) == 0 &&
+        (found.stx_attributes_mask & STATX_ATTR_MOUNT_ROOT) != 0)
+        return (found.stx_attributes & STATX_ATTR_MOUNT_ROOT) != 0;
+#endif
+    struct stat here {
+    }, above{};
+    return ::stat(folder.c_str(), &here) == 0 && ::stat(parent_of(folder).c_str(), &above) == 0 &&
+           here.st_dev != above.st_dev;
+}
+
+/// Tells what keeps an empty folder that is there from being replaced; null if nothing does.
+const char* why_not_replaced(const fs::path& folder) {
+    std::error_code failed;
+    const auto name = folder.filename();
+    if (name == "." || name == ".." || fs::equivalent(folder, ".", failed) ||
+        !folder.has_filename())
+        return "the folder in which the program runs, or one above it, cannot be replaced; name a "
+               "new folder in it";
+    if (!fs::is_empty(folder, failed) || failed) return "the folder is there already and not empty";
+    if (is_mount_point(folder))
+        return "something is mounted at this folder; name a new folder in it";
+    if (::access(folder.c_str(), W_OK) != 0) return "nothing can be written in this folder";
+    return nullptr;
+}
+
+/// Makes a new folder beside `target`, for its contents; returns its path.
+Result<fs::path> make_beside(const fs::path& target, const fs::path& path) {
+    for (unsigned k = 0;; ++k) {
+        auto temporary =
+            parent_of(target) /
+            fmt::format(".{}.{}-{}.part", target.filename().string().substr(0, 200), ::getpid(), k);
+        std::error_code failed;
+        if (make_temporary(temporary, [&] { return fs::create_directory(temporary, failed); }))
+            return temporary;
+        if (failed) return cannot_make("the folder cannot be made: " + failed.message(), path);
+    }
+}
+
 } // namespace
 
 Status check_new_folder(const fs::path& path) {
     const fs::path target = without_slash(path);
     std::error_code failed;
-    if (fs::is_directory(target, failed)) {
-        if (!fs::is_empty(target, failed) || failed)
-            return cannot_make("the folder is there already and not empty", path);
-    } else if (fs::exists(target, failed)) {
+    if (fs::is_symlink(target, failed))
+        return cannot_make("this is a link; name the folder itself, or a new one", path);
+    const auto there = fs::symlink_status(target, failed).type();
+    if (there == fs::file_type::directory) {
+        if (const char* const why = why_not_replaced(target)) return cannot_make(why, path);
+    } else if (there != fs::file_type::not_found && there != fs::file_type::none) {
         return cannot_make("this is no folder", path);
     }
     const fs::path parent = parent_of(target);
     if (target.empty() || !fs::is_directory(parent, failed))
         return cannot_make("there is no folder " + parent.string(), path);
+    if (there == fs::file_type::none) // its name is too long, say
+        return cannot_make("the folder cannot be made: " + reason_of_status(target), path);
     if (::access(parent.c_str(), W_OK) != 0)
         return cannot_make("nothing can be written in " + parent.string(), path);
+    // Only trying tells that a folder can be made: the rights of root, for one, say nothing.
+    const auto made = make_beside(target, path);
+    if (!made) return made.error();
+    discard_temporary(*made);
     return Done{};
 }
 
@@ -61,31 +125,22 @@ NewFolder& NewFolder::operator=(NewFolder&& other) noexcept {
 }
 
 NewFolder::~NewFolder() {
-    std::error_code ignored;
-    if (temporary_.empty()) return;
-    fs::remove_all(temporary_, ignored);
-    forget_temporary(temporary_);
+    if (!temporary_.empty()) discard_temporary(temporary_);
 }
 
 Result<NewFolder> NewFolder::create(const fs::path& path) {
     if (const auto good = check_new_folder(path); !good) return good.error();
-    const fs::path target = without_slash(path);
-    for (unsigned k = 0;; ++k) {
-        const auto temporary =
-            parent_of(target) /
-            fmt::format(".{}.{}-{}.part", target.filename().string().substr(0, 200), ::getpid(), k);
-        std::error_code failed;
-        if (fs::create_directory(temporary, failed)) {
-            note_temporary(temporary);
-            return NewFolder(target, temporary);
-        }
-        if (failed) return cannot_make("the folder cannot be made: " + failed.message(), path);
-    }
+    NewFolder folder(without_slash(path), {});
+    auto made = make_beside(folder.target_, path);
+    if (!made) return made.error();
+    folder.temporary_ = std::move(made).value();
+    return folder;
 }
 
 Status NewFolder::publish() {
     if (FileSet::current() != nullptr) {
-        FileSet::current()->add(std::exchange(temporary_, {}), target_);
+        FileSet::current()->add(temporary_, target_);
+        temporary_.clear();
         return Done{};
     }
     std::error_code failed;

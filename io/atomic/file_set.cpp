@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <mutex>
+#include <new>
 #include <set>
 #include <system_error>
 #include <utility>
+
+#include <unistd.h>
 
 namespace terrane {
 
@@ -50,11 +53,7 @@ FileSet::FileSet() {
 
 FileSet::~FileSet() {
     current_set = nullptr;
-    std::error_code ignored;
-    for (const Pending& p : pending_) {
-        fs::remove_all(p.temporary, ignored);
-        forget_temporary(p.temporary);
-    }
+    for (const Pending& p : pending_) discard_temporary(p.temporary);
 }
 
 FileSet* FileSet::current() {
@@ -97,9 +96,12 @@ Status FileSet::publish() {
     return Done{};
 }
 
-void note_temporary(const fs::path& path) {
+bool make_temporary(const fs::path& path, const std::function<bool()>& make) {
     const std::lock_guard lock(temporaries().mutex);
-    temporaries().paths.insert(path);
+    const auto noted = temporaries().paths.insert(path);
+    const bool made = make();
+    if (!made && noted.second) temporaries().paths.erase(noted.first);
+    return made;
 }
 
 void forget_temporary(const fs::path& path) {
@@ -116,12 +118,29 @@ bool is_in_temporary(const fs::path& path) {
         [&](const fs::path& folder) { return is_inside(wanted, normal(folder), rest); });
 }
 
-void remove_temporaries() {
-    const std::lock_guard lock(temporaries().mutex);
+void discard_temporary(const fs::path& path) noexcept {
+    if (::unlink(path.c_str()) != 0) { // it is a folder
+        constexpr int tries = 3;
+        for (int k = 0; k < tries; ++k) {
+            try {
+                std::error_code ignored;
+                fs::remove_all(path, ignored);
+                break;
+            } catch (const std::bad_alloc&) {
+                continue;
+            }
+        }
+    }
+    forget_temporary(path);
+}
+
+std::unique_lock<std::mutex> remove_temporaries() {
+    std::unique_lock lock(temporaries().mutex);
     std::error_code ignored;
     constexpr int tries = 20; // another thread may be putting files into a folder
     for (const fs::path& path : temporaries().paths)
         for (int k = 0; k < tries && fs::exists(path, ignored); ++k) fs::remove_all(path, ignored);
+    return lock;
 }
 
 } // namespace terrane

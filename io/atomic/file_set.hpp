@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -45,14 +46,18 @@ private:
     std::vector<std::function<void()>> tells_;
 };
 
-/// Notes a temporary file or folder of this process, so that remove_temporaries() finds it.
-void note_temporary(const std::filesystem::path& path);
+/// Makes a temporary file or folder by `make`, and notes it, so that remove_temporaries() finds it,
+/// whichever thread calls that and when. Returns what `make` returns: whether there is one now.
+bool make_temporary(const std::filesystem::path& path, const std::function<bool()>& make);
 /// Forgets it: it has its name, or is removed.
 void forget_temporary(const std::filesystem::path& path);
 /// Tells whether a path is in such a folder, where files need no temporary names.
 bool is_in_temporary(const std::filesystem::path& path);
+/// Removes a temporary file or folder and forgets it. Never throws: where not even removing gets
+/// the memory that it needs, a folder is left.
+void discard_temporary(const std::filesystem::path& path) noexcept;
 /// Removes all temporary files and folders of this process, which is about to end. Any thread may
-/// call it; others may still be writing.
-void remove_temporaries();
+/// call it; others may still be writing. No other is made while the returned lock lives.
+[[nodiscard]] std::unique_lock<std::mutex> remove_temporaries();
 
 } // namespace terrane

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include <terrane/algorithms/core/standard_arithmetic.hpp>
+#include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/io/gocad/gocad_objects.hpp>
 
 namespace terrane {
@@ -186,15 +186,16 @@ private:
 
 Result<std::vector<Surface>> read_gocad(std::string_view contents, std::string_view source,
                                         std::string_view name, bool mixed_units) {
-    const StandardArithmetic guard;
-    LineParser in(contents, source);
-    GocadFile file;
-    if (auto trouble = read_objects(in, file, mixed_units)) return *trouble;
-    take_roles(file);
-    name_nameless(file, name);
-    std::vector<Surface> surfaces;
-    for (auto& object : file.tsurfs) surfaces.push_back(std::move(object.surface));
-    return surfaces;
+    return guard_memory(source, [&]() -> Result<std::vector<Surface>> {
+        LineParser in(contents, source);
+        GocadFile file;
+        if (auto trouble = read_objects(in, file, mixed_units)) return *trouble;
+        take_roles(file);
+        name_nameless(file, name);
+        std::vector<Surface> surfaces;
+        for (auto& object : file.tsurfs) surfaces.push_back(std::move(object.surface));
+        return surfaces;
+    });
 }
 
 std::vector<StatedRegion> stated_regions_of(const GocadModel& model) {
@@ -218,17 +219,18 @@ std::vector<StatedRegion> stated_regions_of(const GocadModel& model) {
 
 Result<GocadModel> read_gocad_model(std::string_view contents, std::string_view source,
                                     std::string_view name) {
-    const StandardArithmetic guard;
-    LineParser in(contents, source);
-    GocadFile file;
-    if (auto trouble = read_objects(in, file)) return *trouble;
-    if (!file.model) return in.file_error(ErrorCode::nothing_to_do, "there is no Model3d");
-    GocadModel model;
-    if (auto trouble = ModelBuilder(in, file).build(model)) return *trouble;
-    take_roles(file);
-    name_nameless(file, name);
-    for (auto& object : file.tsurfs) model.surfaces.push_back(std::move(object.surface));
-    return model;
+    return guard_memory(source, [&]() -> Result<GocadModel> {
+        LineParser in(contents, source);
+        GocadFile file;
+        if (auto trouble = read_objects(in, file)) return *trouble;
+        if (!file.model) return in.file_error(ErrorCode::nothing_to_do, "there is no Model3d");
+        GocadModel model;
+        if (auto trouble = ModelBuilder(in, file).build(model)) return *trouble;
+        take_roles(file);
+        name_nameless(file, name);
+        for (auto& object : file.tsurfs) model.surfaces.push_back(std::move(object.surface));
+        return model;
+    });
 }
 
 } // namespace terrane

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/no_index.hpp>
 #include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
@@ -114,12 +115,13 @@ private:
 } // namespace
 
 Result<Surface> surface_of_grid(const Grid& grid, bool depth) {
-    const StandardArithmetic guard;
-    if (grid.values.size() != std::size_t{grid.nx} * grid.ny || grid.dx == 0 || grid.dy == 0)
-        return Error{ErrorCode::bad_option, "the grid has no steps or not nx ny values", ""};
-    auto surface = GridSurface(grid, depth).make();
-    if (surface && depth) surface->frame.vertical_axis = VerticalAxis::down;
-    return surface;
+    return guarded("for the grid", "grid", [&]() -> Result<Surface> {
+        if (grid.values.size() != std::size_t{grid.nx} * grid.ny || grid.dx == 0 || grid.dy == 0)
+            return Error{ErrorCode::bad_option, "the grid has no steps or not nx ny values", ""};
+        auto surface = GridSurface(grid, depth).make();
+        if (surface && depth) surface->frame.vertical_axis = VerticalAxis::down;
+        return surface;
+    });
 }
 
 double height_at(const Grid& grid, double x, double y) {

@@ -315,9 +315,7 @@ TEST_CASE("cli: tetrahedra are made whichever standard streams are closed", "[cl
     REQUIRE(c.folder.run(fill + "a.vtu").status == 0);
     for (const std::string closed : {"<&-", ">&-", "2>&-", "<&- >&-", "<&- >&- 2>&-"}) {
         INFO(closed);
-        const auto status = c.folder.shell("rm -f b.vtu; $T " + fill + "b.vtu " + closed).status;
-        // A summary that can't be printed is an error; the file is complete anyway.
-        CHECK((status == 0 || contains(closed, ">&-")));
+        CHECK(c.folder.shell("rm -f b.vtu; $T " + fill + "b.vtu " + closed).status == 0);
         CHECK(c.folder.shell("cmp a.vtu b.vtu").status == 0);
     }
 }

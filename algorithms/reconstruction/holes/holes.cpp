@@ -8,7 +8,7 @@
 
 #include <terrane/algorithms/arrangement/soup.hpp>
 #include <terrane/algorithms/core/disjoint_sets.hpp>
-#include <terrane/algorithms/core/standard_arithmetic.hpp>
+#include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/algorithms/reconstruction/holes/detail/constants.hpp>
 #include <terrane/algorithms/reconstruction/holes/detail/shape.hpp>
@@ -202,26 +202,27 @@ bool before(const BorderLoop& a, const BorderLoop& b) {
 
 Result<std::vector<BorderLoop>> find_border_loops(const Surface& surface, const Run& run,
                                                   const GapRule& rule) {
-    const StandardArithmetic guard;
-    if (const auto status = validate(std::span(&surface, 1)); !status) return status.error();
-    const Soup soup = merge_surfaces(std::span(&surface, 1), run);
-    BorderTracer tracer(soup);
-    const auto traced = tracer.trace();
-    const auto outer = outer_loops(soup, traced, tracer);
-    std::vector<BorderLoop> loops(traced.size());
-    for (std::size_t i = 0; i < traced.size(); ++i) {
-        if (run.stop.stop_requested()) return Error{ErrorCode::interrupted, "interrupted", ""};
-        if (run.progress) run.progress("holes", double(i) / double(traced.size()));
-        BorderLoop& loop = loops[i];
-        loop.vertices = traced[i].vertices;
-        loop.part = traced[i].part;
-        loop.shared = traced[i].shared;
-        measure_loop(soup, traced[i], loop);
-        const bool gap = !outer[i] && is_fault_gap(soup, traced[i], rule, loop);
-        loop.kind = outer[i] ? LoopKind::outer : gap ? LoopKind::fault_gap : LoopKind::hole;
-    }
-    std::sort(loops.begin(), loops.end(), before);
-    return loops;
+    return guarded("for the holes", "holes", [&]() -> Result<std::vector<BorderLoop>> {
+        if (const auto status = validate(std::span(&surface, 1)); !status) return status.error();
+        const Soup soup = merge_surfaces(std::span(&surface, 1), run);
+        BorderTracer tracer(soup);
+        const auto traced = tracer.trace();
+        const auto outer = outer_loops(soup, traced, tracer);
+        std::vector<BorderLoop> loops(traced.size());
+        for (std::size_t i = 0; i < traced.size(); ++i) {
+            if (run.stop.stop_requested()) return Error{ErrorCode::interrupted, "interrupted", ""};
+            if (run.progress) run.progress("holes", double(i) / double(traced.size()));
+            BorderLoop& loop = loops[i];
+            loop.vertices = traced[i].vertices;
+            loop.part = traced[i].part;
+            loop.shared = traced[i].shared;
+            measure_loop(soup, traced[i], loop);
+            const bool gap = !outer[i] && is_fault_gap(soup, traced[i], rule, loop);
+            loop.kind = outer[i] ? LoopKind::outer : gap ? LoopKind::fault_gap : LoopKind::hole;
+        }
+        std::sort(loops.begin(), loops.end(), before);
+        return loops;
+    });
 }
 
 std::vector<NamedConstant> hole_constants() {

@@ -421,14 +421,15 @@ Result<Joined> join_valid(const Surface& surface, const BorderLoop& loop, const 
 
 Result<Joined> join_filling(const Surface& surface, const BorderLoop& loop, const Surface& filling,
                             const JoinOptions& options, const Run& run) {
-    const std::array<Surface, 2> both{surface, filling};
-    if (const auto valid = validate(both); !valid) return valid.error();
-    if (!(options.strip >= 0) || !std::isfinite(options.strip))
-        return Error{ErrorCode::bad_option, "the width of the strip is no length", ""};
-    if (!(options.clearance >= 0 && options.clearance < 1))
-        return Error{ErrorCode::bad_option, "clearance is a share, from 0 to less than 1", ""};
-    return guarded("to join the filling", "join",
-                   [&] { return join_valid(surface, loop, filling, options, run); });
+    return guarded("to join the filling", "join", [&]() -> Result<Joined> {
+        const std::array<Surface, 2> both{surface, filling};
+        if (const auto valid = validate(both); !valid) return valid.error();
+        if (!(options.strip >= 0) || !std::isfinite(options.strip))
+            return Error{ErrorCode::bad_option, "the width of the strip is no length", ""};
+        if (!(options.clearance >= 0 && options.clearance < 1))
+            return Error{ErrorCode::bad_option, "clearance is a share, from 0 to less than 1", ""};
+        return join_valid(surface, loop, filling, options, run);
+    });
 }
 
 std::vector<NamedConstant> join_constants() {

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include <terrane/algorithms/core/standard_arithmetic.hpp>
+#include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/reconstruction/holes/expected_points.hpp>
 #include <terrane/algorithms/reconstruction/kriging/contrasts.hpp>
 #include <terrane/algorithms/reconstruction/kriging/detail/choice.hpp>
@@ -82,28 +82,30 @@ FittedModel model_of(const FlatHole& hole, const KrigingOptions& options, FillRe
 
 Result<Filling> fill_by_kriging(const Surface& surface, const BorderLoop& loop,
                                 const KrigingOptions& options, const Run& run) {
-    const StandardArithmetic guard;
-    if (options.rings < 1 || !(options.mesh_size >= 0) || !std::isfinite(options.mesh_size))
-        return Error{ErrorCode::bad_option, "rings and mesh size must be positive", ""};
-    if (auto sound = check_edge_length(loop, options.mesh_size); !sound) return sound.error();
-    const Error interrupted{ErrorCode::interrupted, "interrupted", ""};
-    // 1. Collect the data and check that they are a graph.
-    auto hole = FlatHole::of(surface, loop, options.loops, options.rings);
-    if (!hole) return hole.error();
-    if (run.stop.stop_requested()) return interrupted;
-    // 2. Build the mesh in the plane.
-    if (const auto built = hole->triangulate(options.mesh_size, run); !built) return built.error();
-    // 3. Estimate the heights.
-    FillReport report;
-    const auto model = model_of(*hole, options, report, run);
-    if (run.stop.stop_requested()) return interrupted;
-    auto filling = hole->filled(
-        [&](std::span<const Point3> places) { return heights_of(model, places, run); }, run);
-    if (!filling) return filling;
-    filling->report.data = report.data;
-    filling->report.validated_error = report.validated_error;
-    filling->report.model = report.model;
-    return filling;
+    return guarded("for the filling", "fill", [&]() -> Result<Filling> {
+        if (options.rings < 1 || !(options.mesh_size >= 0) || !std::isfinite(options.mesh_size))
+            return Error{ErrorCode::bad_option, "rings and mesh size must be positive", ""};
+        if (auto sound = check_edge_length(loop, options.mesh_size); !sound) return sound.error();
+        const Error interrupted{ErrorCode::interrupted, "interrupted", ""};
+        // 1. Collect the data and check that they are a graph.
+        auto hole = FlatHole::of(surface, loop, options.loops, options.rings, run);
+        if (!hole) return hole.error();
+        if (run.stop.stop_requested()) return interrupted;
+        // 2. Build the mesh in the plane.
+        if (const auto built = hole->triangulate(options.mesh_size, run); !built)
+            return built.error();
+        // 3. Estimate the heights.
+        FillReport report;
+        const auto model = model_of(*hole, options, report, run);
+        if (run.stop.stop_requested()) return interrupted;
+        auto filling = hole->filled(
+            [&](std::span<const Point3> places) { return heights_of(model, places, run); }, run);
+        if (!filling) return filling;
+        filling->report.data = report.data;
+        filling->report.validated_error = report.validated_error;
+        filling->report.model = report.model;
+        return filling;
+    });
 }
 
 Surface joined(const Surface& surface, const Filling& filling) {

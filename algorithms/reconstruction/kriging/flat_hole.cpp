@@ -91,7 +91,9 @@ Result<FlatFilling> mesh_of(const KrigingData& data, double mesh_size, const Run
     for (const Polygon& polygon : data.borders) flat.border += polygon.size();
     std::vector<Point3> points(data.points.begin(),
                                data.points.begin() + static_cast<std::ptrdiff_t>(flat.border));
-    const auto places = places_within(points, data.borders, mesh_size, constants.most_places);
+    const auto places =
+        places_within(points, data.borders, mesh_size, constants.most_places, run.stop);
+    if (run.stop.stop_requested()) return stopped();
     points.insert(points.end(), places.begin(), places.end());
     auto triangles = triangulate_inside(points, data.borders, run);
     if (!triangles) {
@@ -179,8 +181,9 @@ FlatHole& FlatHole::operator=(FlatHole&&) noexcept = default;
 FlatHole::~FlatHole() = default;
 
 Result<FlatHole> FlatHole::of(const Surface& surface, const BorderLoop& loop,
-                              std::span<const BorderLoop> loops, std::size_t rings) {
-    auto found = collect_data(surface, loops_within(surface, loop, loops), rings);
+                              std::span<const BorderLoop> loops, std::size_t rings,
+                              const Run& run) {
+    auto found = collect_data(surface, loops_within(surface, loop, loops), rings, run);
     if (!found) return found.error();
     auto state = std::make_unique<State>();
     state->named = {surface.name, surface.role, {}, {}};

@@ -30,9 +30,10 @@ class FlatHole {
 public:
     /// Collects the corners of `rings` rings of triangles around the hole and around those of all
     /// loops that are islands in it. Errors: unsupported if the surface there is no graph
-    /// z = f(x, y), with the place; bad_index; nothing_to_do for a loop without area.
+    /// z = f(x, y), with the place; bad_index; nothing_to_do for a loop without area; interrupted.
     static Result<FlatHole> of(const Surface& surface, const BorderLoop& loop,
-                               std::span<const BorderLoop> loops, std::size_t rings);
+                               std::span<const BorderLoop> loops, std::size_t rings,
+                               const Run& run = {});
     FlatHole(FlatHole&&) noexcept;
     FlatHole& operator=(FlatHole&&) noexcept;
     ~FlatHole();

@@ -371,7 +371,7 @@ Result<Filling> fill_valid_graph(const Surface& surface, const BorderLoop& loop,
     if (!data) return data.error();
     const auto axes = graph_axes(data.value());
     if (!axes || std::fabs((*axes)[2].z) != 1) return no_graph;
-    auto hole = FlatHole::of(surface, loop, options.loops, 1);
+    auto hole = FlatHole::of(surface, loop, options.loops, 1, run);
     if (!hole) return hole.error();
     if (const auto built = hole->triangulate(options.size, run); !built) return built.error();
     const auto fit = fit_heights(data.value(), *axes, options, report, run);
@@ -398,12 +398,12 @@ Result<Filling> fill_valid_graph(const Surface& surface, const BorderLoop& loop,
 
 Result<Filling> fill_by_rbf(const Surface& surface, const BorderLoop& loop,
                             const RbfOptions& options, RbfReport& report, const Run& run) {
-    const StandardArithmetic guard;
-    report = {};
-    if (const auto good = validate_options(options); !good) return good.error();
-    if (auto sound = check_edge_length(loop, options.size); !sound) return sound.error();
-    return guarded("for the filling", "fill",
-                   [&] { return fill_valid(surface, loop, options, report, run); });
+    return guarded("for the filling", "fill", [&]() -> Result<Filling> {
+        report = {};
+        if (const auto good = validate_options(options); !good) return good.error();
+        if (auto sound = check_edge_length(loop, options.size); !sound) return sound.error();
+        return fill_valid(surface, loop, options, report, run);
+    });
 }
 
 Result<Filling> fill_by_rbf(const Surface& surface, const BorderLoop& loop,
@@ -415,12 +415,12 @@ Result<Filling> fill_by_rbf(const Surface& surface, const BorderLoop& loop,
 
 Result<Filling> fill_graph_by_rbf(const Surface& surface, const BorderLoop& loop,
                                   const RbfOptions& options, RbfReport& report, const Run& run) {
-    const StandardArithmetic guard;
-    report = {};
-    if (const auto good = validate_options(options); !good) return good.error();
-    if (auto sound = check_edge_length(loop, options.size); !sound) return sound.error();
-    return guarded("for the filling", "fill",
-                   [&] { return fill_valid_graph(surface, loop, options, report, run); });
+    return guarded("for the filling", "fill", [&]() -> Result<Filling> {
+        report = {};
+        if (const auto good = validate_options(options); !good) return good.error();
+        if (auto sound = check_edge_length(loop, options.size); !sound) return sound.error();
+        return fill_valid_graph(surface, loop, options, report, run);
+    });
 }
 
 std::vector<NamedConstant> rbf_constants() {

@@ -70,21 +70,31 @@ private:
 /// Checks a mesher's answer and turns it into the result, step by step, without trusting any of it.
 class Assembly {
 public:
-    Assembly(const Mesh& mesh, const TetgenDomain& domain, TetgenOutput output,
-             const char* mesher) :
+    Assembly(const Mesh& mesh, const TetgenDomain& domain, TetgenOutput output, const char* mesher,
+             const std::stop_token& stop) :
         mesh_(mesh),
-        domain_(domain), in_(std::move(output)), mesher_(mesher) {}
+        domain_(domain), in_(std::move(output)), mesher_(mesher), stop_(stop) {}
 
     Result<TetrahedralMesh> run() {
         for (const auto step :
              {&Assembly::check_indices, &Assembly::check_points, &Assembly::take_vertices,
               &Assembly::take_tetrahedra, &Assembly::take_faces, &Assembly::match_faces,
-              &Assembly::check_volume, &Assembly::number_regions, &Assembly::check_triangles})
+              &Assembly::check_volume, &Assembly::number_regions, &Assembly::check_triangles}) {
+            if (stop_.stop_requested()) return stopped();
             if (Status done = (this->*step)(); !done) return done.error();
+        }
         return std::move(out_);
     }
 
 private:
+    static Error stopped() {
+        return {ErrorCode::interrupted, "stopped while tetrahedra were checked", ""};
+    }
+    /// Tells whether to stop at the i-th tetrahedron; looks only now and then.
+    [[nodiscard]] bool stops_at(std::size_t i) const {
+        constexpr std::size_t seldom = 1U << 12U;
+        return i % seldom == 0 && stop_.stop_requested();
+    }
     [[nodiscard]] Error broken(const char* what) const {
         return {ErrorCode::internal, fmt::format("{} {}", mesher_, what), ""};
     }
@@ -150,7 +160,9 @@ private:
 
     Status take_tetrahedra() {
         out_.tetrahedra = std::move(in_.tetrahedra);
-        for (auto& [a, b, c, d] : out_.tetrahedra) {
+        for (std::size_t t = 0; t < out_.tetrahedra.size(); ++t) {
+            if (stops_at(t)) return stopped();
+            auto& [a, b, c, d] = out_.tetrahedra[t];
             const auto& v = out_.vertices;
             const Sign sign = orient3d(v[a], v[b], v[c], v[d]);
             if (sign == Sign::Zero) return broken("returned a tetrahedron without volume");
@@ -248,7 +260,11 @@ private:
     /// exactly once.
     Status check_volume() {
         Exact sum = 0.0;
-        for (const auto& [a, b, c, d] : out_.tetrahedra) sum += six_volumes(a, b, c, d);
+        for (std::size_t t = 0; t < out_.tetrahedra.size(); ++t) {
+            if (stops_at(t)) return stopped();
+            const auto& [a, b, c, d] = out_.tetrahedra[t];
+            sum += six_volumes(a, b, c, d);
+        }
         const Point3 &low = domain_.box.low, &high = domain_.box.high;
         const Exact box =
             (Exact(high.x) - low.x) * (Exact(high.y) - low.y) * (Exact(high.z) - low.z);
@@ -348,6 +364,7 @@ private:
     const TetgenDomain& domain_;
     TetgenOutput in_;
     const char* mesher_;
+    const std::stop_token& stop_;
     TetrahedralMesh out_;
     std::vector<MarkedFace> marked_;      ///< those on the mesh, parallel to out_.faces
     std::vector<std::uint32_t> at_box_;   ///< tetrahedra with a face on the box
@@ -357,8 +374,8 @@ private:
 } // namespace
 
 Result<TetrahedralMesh> assemble(const Mesh& mesh, const TetgenDomain& domain, TetgenOutput output,
-                                 const char* mesher) {
-    return Assembly(mesh, domain, std::move(output), mesher).run();
+                                 const char* mesher, const std::stop_token& stop) {
+    return Assembly(mesh, domain, std::move(output), mesher, stop).run();
 }
 
 } // namespace terrane::tetgen::detail

@@ -3,6 +3,7 @@
 // Checks a mesher's answer and turns it into the result.
 #pragma once
 
+#include <stop_token>
 #include <vector>
 
 #include <terrane/algorithms/core/result.hpp>
@@ -21,8 +22,9 @@ struct TetgenDomain {
 
 /// Turns the answer of `mesher` into the tetrahedra of the mesh, with proof. The facets of `output` are
 /// the triangles of the domain, then the sides of its box in the order low x, high x, low y, high
-/// y, low z, high z. Errors: internal, if the result would break a guarantee of tetrahedralize().
+/// y, low z, high z. Errors: internal, if the result would break a guarantee of tetrahedralize();
+/// interrupted.
 Result<TetrahedralMesh> assemble(const Mesh& mesh, const TetgenDomain& domain, TetgenOutput output,
-                                 const char* mesher = "TetGen");
+                                 const char* mesher = "TetGen", const std::stop_token& stop = {});
 
 } // namespace terrane::tetgen::detail

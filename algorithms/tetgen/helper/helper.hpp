@@ -20,9 +20,18 @@
 #include <poll.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/sysinfo.h>
 #include <unistd.h>
 
 #include <terrane/algorithms/tetgen/detail/protocol.hpp>
+
+#if defined(__SANITIZE_ADDRESS__)
+#define TERRANE_HELPER_SANITIZED 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define TERRANE_HELPER_SANITIZED 1
+#endif
+#endif
 
 namespace terrane::tetgen::detail {
 
@@ -136,6 +145,27 @@ inline void be_expendable() {
         const auto written = write(score, "1000", 4);
 }
 
+inline void lower_limit(int resource, rlim_t wanted) {
+    rlimit limit{};
+    if (getrlimit(resource, &limit) != 0) return;
+    limit.rlim_cur = std::min(limit.rlim_cur, wanted);
+    limit.rlim_max = std::min(limit.rlim_max, wanted);
+    setrlimit(resource, &limit);
+}
+
+/// Takes from this process what no mesher needs, so that neither a flaw of the mesher nor an input
+/// made for one reaches far: it writes no file, gains no rights, and gets no more memory than the
+/// machine has, so that a size that is too small for the model ends in "out of memory".
+inline void be_confined() {
+    prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
+    lower_limit(RLIMIT_FSIZE, 0);
+#ifndef TERRANE_HELPER_SANITIZED // AddressSanitizer reserves terabytes
+    struct sysinfo machine {};
+    if (sysinfo(&machine) == 0)
+        lower_limit(RLIMIT_AS, (rlim_t{machine.totalram} + machine.totalswap) * machine.mem_unit);
+#endif
+}
+
 /// Returns a descriptor for the reply, and discards all that the mesher prints.
 inline int silence() {
     const int output = fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
@@ -160,6 +190,7 @@ int run_helper(int argc, char** argv, const char* usage, CarryOut carry_out, Rep
     if (argc != 1) return explain(argc, argv, usage);
     end_with_caller();
     be_expendable();
+    be_confined();
     const int output = silence();
     Request request;
     Made made;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <new>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include <terrane/algorithms/verify/detail/kinds.hpp>
@@ -91,10 +93,7 @@ Certificate certificate(const Node& node) {
     return result;
 }
 
-} // namespace
-
-Result<Certificate> parse_certificate(std::string_view text, std::string_view source) {
-    const std::string file(source);
+Result<Certificate> parsed(std::string_view text, const std::string& file) {
     try {
         const Json json(text);
         return certificate(Node(json));
@@ -104,9 +103,18 @@ Result<Certificate> parse_certificate(std::string_view text, std::string_view so
     } catch (const Malformed& broken) {
         const std::string place = broken.place.empty() ? "" : ", " + broken.place;
         return Error{ErrorCode::bad_syntax, broken.sentence, file + place};
-    } catch (const std::bad_alloc&) {
-        return Error{ErrorCode::out_of_memory, "there is not enough memory", file};
     }
+}
+
+} // namespace
+
+Result<Certificate> parse_certificate(std::string_view text, std::string_view source) {
+    try {
+        return parsed(text, std::string(source));
+    } catch (const std::bad_alloc&) {
+    } catch (const std::length_error&) {
+    }
+    return Error{ErrorCode::out_of_memory, "out of memory", ""}; // this short, it needs no memory
 }
 
 } // namespace terrane

@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <new>
 #include <type_traits>
 #include <utility>
 
@@ -203,9 +204,10 @@ std::string VtkScanner::inflated(std::string_view text, std::size_t size) const 
         uLongf full = std::min(block, size - i * block);
         const uLongf wanted = full;
         uLong used = packed;
-        if (uncompress2(reinterpret_cast<Bytef*>(bytes.data() + i * block), &full,
-                        reinterpret_cast<const Bytef*>(data.data() + from), &used) != Z_OK ||
-            full != wanted || used != packed)
+        const int code = uncompress2(reinterpret_cast<Bytef*>(bytes.data() + i * block), &full,
+                                     reinterpret_cast<const Bytef*>(data.data() + from), &used);
+        if (code == Z_MEM_ERROR) throw std::bad_alloc(); // nothing is wrong with the file
+        if (code != Z_OK || full != wanted || used != packed)
             in_.fail("a block can't be decompressed");
         from += packed;
     }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/io/gocad/gocad_curves.hpp>
 #include <terrane/io/gocad/gocad_model.hpp>
 
@@ -180,15 +181,18 @@ Result<std::string> to_plines(const Mesh& mesh) {
 }
 
 Result<std::string> lines_to_gocad(const Mesh& mesh, const Structure& structure) {
-    const auto labels = unique_labels(mesh.surfaces);
-    std::map<std::pair<LineKind, std::vector<std::uint32_t>>, std::vector<Chain>> groups;
-    for (const ModelLine& line : structure.lines)
-        groups[{line.kind, line.surfaces}].push_back(line.vertices);
-    std::string out;
-    for (const auto& [key, chains] : groups)
-        append_pline(out, fmt::format("{} of {}", name_of(key.first), joined(key.second, labels)),
-                     mesh, chains);
-    return unless_empty(std::move(out));
+    return guarded("to write the lines", "lines", [&]() -> Result<std::string> {
+        const auto labels = unique_labels(mesh.surfaces);
+        std::map<std::pair<LineKind, std::vector<std::uint32_t>>, std::vector<Chain>> groups;
+        for (const ModelLine& line : structure.lines)
+            groups[{line.kind, line.surfaces}].push_back(line.vertices);
+        std::string out;
+        for (const auto& [key, chains] : groups)
+            append_pline(out,
+                         fmt::format("{} of {}", name_of(key.first), joined(key.second, labels)),
+                         mesh, chains);
+        return unless_empty(std::move(out));
+    });
 }
 
 } // namespace terrane

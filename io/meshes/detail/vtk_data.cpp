@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <new>
 #include <type_traits>
 
 #include <zlib.h>
@@ -108,6 +109,7 @@ bool inflate_to(std::string_view from, std::size_t size, std::string& bytes) {
     uLongf made = size;
     const int code = uncompress(reinterpret_cast<Bytef*>(bytes.data() + start), &made,
                                 reinterpret_cast<const Bytef*>(from.data()), from.size());
+    if (code == Z_MEM_ERROR) throw std::bad_alloc(); // nothing is wrong with the data
     return code == Z_OK && made == size;
 }
 

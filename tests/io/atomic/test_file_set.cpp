@@ -86,7 +86,7 @@ TEST_CASE("file set: a process that ends at once can remove its temporary files"
         REQUIRE(made);
         REQUIRE(write_file_at_once(made->temporary() / "d", "three"));
         CHECK(entries(folder.path()) == 2);
-        remove_temporaries();
+        remove_temporaries().unlock();
         CHECK(entries(folder.path()) == 0);
     }
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -159,7 +160,9 @@ private:
 
 class Placer {
 public:
-    Placer(std::span<const Point3> points, std::span<const Polygon> borders, double size) :
+    Placer(std::span<const Point3> points, std::span<const Polygon> borders, double size,
+           std::stop_token stop) :
+        stop_(std::move(stop)),
         points_(points), outer_(borders[0]), size_(size), cloud_(sampled(points, borders, size)),
         tree_(2, cloud_, nanoflann::KDTreeSingleIndexAdaptorParams(8)) {
         tree_.buildIndex();
@@ -176,7 +179,7 @@ public:
     /// powers of two.
     [[nodiscard]] std::vector<Point3> place(double growth, std::size_t most) const {
         std::vector<Point3> places;
-        for (double scale = 1; places.size() <= most; scale *= 2) {
+        for (double scale = 1; places.size() <= most && !stop_.stop_requested(); scale *= 2) {
             const double low =
                 scale == 1 ? constants.border_distance * size_ : scale * growth * size_;
             const double high = 2 * scale * growth * size_;
@@ -195,7 +198,7 @@ private:
         Rows rows(points_, outer_);
         for (double row = 1;; ++row, odd = !odd) {
             const double y = y0_ + (row - 0.5) * row_height * step;
-            if (!(y < y1_) || places.size() > most) break;
+            if (!(y < y1_) || places.size() > most || stop_.stop_requested()) break;
             const auto crossings = rows.at(y);
             for (std::size_t k = 0; k + 1 < crossings.size(); k += 2) {
                 const double shift = odd ? 0.5 : 0.0;
@@ -225,6 +228,7 @@ private:
         return std::sqrt(square);
     }
 
+    std::stop_token stop_;
     std::span<const Point3> points_;
     const Polygon& outer_;
     double size_;
@@ -256,8 +260,10 @@ bool is_inside(std::span<const Point3> points, const Polygon& polygon, double x,
 }
 
 Result<KrigingData> collect_data(const Surface& surface, std::span<const BorderLoop* const> loops,
-                                 std::size_t rings) {
-    const Soup soup = merge_surfaces(std::span(&surface, 1));
+                                 std::size_t rings, const Run& run) {
+    const Error interrupted{ErrorCode::interrupted, "interrupted", ""};
+    const Soup soup = merge_surfaces(std::span(&surface, 1), run);
+    if (run.stop.stop_requested()) return interrupted;
     std::vector<std::uint32_t> border;
     for (const BorderLoop* loop : loops)
         for (const auto v : loop->vertices) {
@@ -268,7 +274,10 @@ Result<KrigingData> collect_data(const Surface& surface, std::span<const BorderL
         }
     Rings near(soup);
     if (const auto status = near.start(border); !status) return status.error();
-    for (std::size_t ring = 1; ring < rings; ++ring) near.spread();
+    for (std::size_t ring = 1; ring < rings; ++ring) {
+        if (run.stop.stop_requested()) return interrupted;
+        near.spread();
+    }
 
     KrigingData data;
     std::unordered_map<std::uint32_t, std::uint32_t> number;
@@ -303,13 +312,13 @@ Result<KrigingData> collect_data(const Surface& surface, std::span<const BorderL
 }
 
 std::vector<Point3> places_within(std::span<const Point3> points, std::span<const Polygon> borders,
-                                  double mesh_size, std::size_t most) {
-    const Placer placer(points, borders, mesh_size);
+                                  double mesh_size, std::size_t most, const std::stop_token& stop) {
+    const Placer placer(points, borders, mesh_size, stop);
     std::vector<Point3> places;
     for (double growth = 1e9; growth > 1;
          growth = growth > constants.first_growth ? constants.first_growth : growth / 2) {
         places = placer.place(growth, most);
-        if (places.size() <= most) break;
+        if (places.size() <= most || stop.stop_requested()) break;
     }
     return places;
 }

@@ -4,9 +4,11 @@
 #pragma once
 
 #include <span>
+#include <stop_token>
 #include <vector>
 
 #include <terrane/algorithms/core/result.hpp>
+#include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/reconstruction/holes/holes.hpp>
 #include <terrane/algorithms/triangulation/planar.hpp>
 
@@ -22,15 +24,17 @@ struct KrigingData {
 };
 
 /// Collects the corners of `rings` rings of triangles around the loops, as far as they are a graph
-/// over x and y. Errors: unsupported if those next to the border are not.
+/// over x and y. Errors: unsupported if those next to the border are not; interrupted.
 Result<KrigingData> collect_data(const Surface& surface, std::span<const BorderLoop* const> loops,
-                                 std::size_t rings);
+                                 std::size_t rings, const Run& run = {});
 
 /// Places points a mesh size apart within the outer polygon, at least 0.7 mesh sizes from any
 /// border; at most about `most`: the spacing doubles away from the borders where there would be
-/// more. (Points within inner polygons do no harm and are not excluded.)
+/// more. (Points within inner polygons do no harm and are not excluded.) Some are missing where a
+/// stop is requested.
 std::vector<Point3> places_within(std::span<const Point3> points, std::span<const Polygon> borders,
-                                  double mesh_size, std::size_t most);
+                                  double mesh_size, std::size_t most,
+                                  const std::stop_token& stop = {});
 
 /// Computes the signed area seen along z.
 double signed_area(std::span<const Point3> points, const Polygon& polygon);

@@ -86,7 +86,8 @@ struct Kriging::State {
         const double angle = v.angle * std::numbers::pi / 180;
         cosine = std::cos(angle);
         sine = std::sin(angle);
-        build_levels();
+        build_levels(run.stop);
+        if (run.stop.stop_requested()) return; // the caller looks for stop requests, too
         if (data.size() > most_at_once) return;
         auto all = std::make_unique<System>(data, variogram, degree, run);
         if (all->ready()) system = std::move(all);
@@ -99,7 +100,7 @@ struct Kriging::State {
 
     /// Builds levels of thinned data: one datum per cell; cells double in size until few data
     /// remain.
-    void build_levels() {
+    void build_levels(const std::stop_token& stop) {
         FlatCloud all;
         std::vector<std::uint32_t> numbers(data.size());
         std::array<double, 2> low{HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL};
@@ -116,7 +117,8 @@ struct Kriging::State {
         levels.push_back(std::make_unique<Level>(all, numbers));
         if (!(spacing > 0)) return;
         for (double cell = constants.first_spacing * spacing;
-             levels.back()->size() > constants.least_level * neighbours; cell *= 2) {
+             levels.back()->size() > constants.least_level * neighbours && !stop.stop_requested();
+             cell *= 2) {
             FlatCloud kept;
             std::vector<std::uint32_t> kept_numbers;
             std::unordered_set<std::uint64_t> taken;
