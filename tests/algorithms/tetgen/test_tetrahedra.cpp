@@ -364,7 +364,9 @@ TEST_CASE("tetrahedra: what once failed is filled, but for what TetGen cannot do
             std::equal(mesh.vertices.begin(), mesh.vertices.end(), made.value().vertices.begin()));
         const auto volumes = find_volumes(mesh);
         REQUIRE(volumes);
-        CHECK(check_tetrahedra(made.value(), mesh, volumes.value()).violations.empty());
+        const auto judged = check_tetrahedra(made.value(), mesh, volumes.value());
+        for (const auto& v : judged.violations) UNSCOPED_INFO(message(v));
+        CHECK(judged.violations.empty());
     }
     CHECK(filled >= 8);
 }
