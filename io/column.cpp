@@ -2,6 +2,7 @@
 #include <terrane/io/column.hpp>
 
 #include <array>
+#include <new>
 #include <string>
 
 #include <terrane/algorithms/core/guarded.hpp>
@@ -37,8 +38,10 @@ StratigraphicColumn column_of(JsonReader& in, const Json& json) {
         column.push_back(unit_of(in, entry, at));
     });
     if (in.error()) return column;
-    if (const auto sound = check_column(column); !sound)
+    if (const auto sound = check_column(column); !sound) {
+        if (sound.error().code == ErrorCode::out_of_memory) throw std::bad_alloc();
         in.fail(sound.error().place, sound.error().sentence);
+    }
     return column;
 }
 

@@ -11,9 +11,12 @@ namespace terrane {
 /// Many short lists in two flat arrays: list i is values[offsets[i], offsets[i + 1]).
 template <class T>
 struct IndexLists {
-    std::vector<std::uint32_t> offsets{0}; ///< size() + 1, ascending from 0
-    std::vector<T> values;                 ///< all lists, one after the other
+    std::vector<std::uint32_t> offsets; ///< size() + 1, ascending from 0
+    std::vector<T> values;              ///< all lists, one after the other
 
+    // A default member initialiser would do, but then gcc 12 frees the offsets twice when a later
+    // member of an aggregate finds no memory.
+    IndexLists() : offsets(1) {}
     /// Returns the number of lists.
     [[nodiscard]] std::size_t size() const { return offsets.size() - 1; }
     /// Returns list i.

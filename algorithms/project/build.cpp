@@ -47,7 +47,7 @@ public:
 
     Result<Built> operator()() {
         if (auto sound = check_column(project_.column, infos_of(input_.surfaces)); !sound)
-            return at_key(project_, sound.error().place, sound.error().sentence);
+            return at_key(project_, sound.error().place, sound.error());
         const bool preprocessing = !project_.fill.empty() || project_.layers;
         if (preprocessing)
             if (auto done = stage(BuildStage::preprocess, &Builder::preprocess_surfaces); !done)
@@ -93,7 +93,7 @@ private:
         const auto labels = unique_labels(infos);
         for (const auto& [name, distance] : project_.seal_of) {
             const auto rules = seal_rules_for(name, distance, infos, labels);
-            if (!rules) return at_key(project_, "seal_of." + name, rules.error().sentence);
+            if (!rules) return at_key(project_, "seal_of." + name, rules.error());
             options.seal_rules.insert(options.seal_rules.end(), rules->begin(), rules->end());
         }
         auto arranged =

@@ -157,4 +157,9 @@ inline Error at_key(const Project& project, const std::string& key, std::string 
     return {ErrorCode::bad_option, std::move(sentence), place_of_key(project, key)};
 }
 
+/// Says at which key of the project an error arose.
+inline Error at_key(const Project& project, const std::string& key, const Error& error) {
+    return {error.code, error.sentence, place_of_key(project, key)};
+}
+
 } // namespace terrane

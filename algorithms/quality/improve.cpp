@@ -298,7 +298,9 @@ Status Improver::check(Mesh after, std::span<const std::uint32_t> sheets, Improv
     std::optional<Result<ConformingMesh>> proof;
     std::optional<Result<bool>> kept;
     proof = prove_conforming(std::move(after), sheets, options_.check, run_);
-    if (!*proof && proof->error().code == ErrorCode::interrupted) return proof->error();
+    const auto is_found = [&](ErrorCode code) { return !*proof && proof->error().code == code; };
+    if (is_found(ErrorCode::interrupted) || is_found(ErrorCode::out_of_memory))
+        return proof->error();
     if (!*proof)
         return Error{ErrorCode::internal,
                      "the improved mesh is not conforming: " + proof->error().message(), ""};
