@@ -66,6 +66,13 @@ void PointStore::append(std::span<const Construction> constructions, const Share
     cache_ = std::move(grown);
 }
 
+void PointStore::exchange(PointIndex p, PointIndex q) {
+    const std::size_t i = p - input_.size(), j = q - input_.size();
+    std::swap(constructed_[i], constructed_[j]);
+    std::swap(rounded_[i], rounded_[j]);
+    cache_->slots[i].store(cache_->slots[j].exchange(cache_->slots[i].load()));
+}
+
 void PointStore::keep_constructed(std::span<const PointIndex> kept) {
     auto cache = std::make_unique<Cache>(kept.size());
     for (std::size_t k = 0; k < kept.size(); ++k) {

@@ -84,6 +84,10 @@ public:
     /// thread may use the store meanwhile.
     void append(std::span<const Construction> constructions, const Share& share = {});
 
+    /// Exchanges the constructions of two constructed points that are the same point, with all that
+    /// is known of them.
+    void exchange(PointIndex p, PointIndex q);
+
     /// Keeps the listed constructed points (ascending indices) and drops the other constructed
     /// points. The kept points are renumbered from input_count() in the same order.
     void keep_constructed(std::span<const PointIndex> kept);

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 # Builds with benchmarks and prints the table of required speeds: medians, and ratios to CGAL and to
 # the floor, all from one run. With --parts the memory use and the benchmarks of all parts follow.
+# With --degenerate it prints how the costs of inputs in which everything coincides grow instead.
 # Other arguments:
 #   --repeats N   --large   NAME...
 set -eu
@@ -9,6 +10,11 @@ cd "$(dirname "$0")/.."
 parts=
 [ "${1-}" = --parts ] && { parts=1; shift; }
 cmake --preset bench >/dev/null
+if [ "${1-}" = --degenerate ]; then
+    shift
+    cmake --build --preset bench --target terrane_bench_degenerate >/dev/null
+    exec build/bench/tests/bench/terrane_bench_degenerate "$@"
+fi
 cmake --build --preset bench --target terrane_bench terrane_bench_table \
     terrane_bench_memory >/dev/null
 echo "load: $(cut -d' ' -f1-3 /proc/loadavg) on $(nproc) cores"

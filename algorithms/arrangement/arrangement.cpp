@@ -170,6 +170,7 @@ void assemble(Arrangement& a, Soup soup, InjectivePatches patches, Retriangulati
     a.state = state;
     state->corners = std::move(soup.input_corners);
     state->neighbours = neighbours_of_divided(soup, division, run);
+    state->has_pools = division.has_pools;
     const Labels labels = labels_of(soup, patches, run);
     std::vector<std::uint32_t> vertex_of;
     both(

@@ -31,6 +31,8 @@ struct ExactState {
                                            ///< patch. No duplicates; sorted
     Adjacency adjacency;                   ///< that of the triangles
     bool whole = true;                     ///< false if triangles were removed, see restricted.hpp
+    bool has_pools = false;                ///< whether `neighbours` leaves pairs out, since many
+                                           ///< coplanar triangles overlap
     /// Removes the same part from an arrangement of the same surfaces after a small move of their
     /// vertices. Rounding needs it if it arranges again. Empty if `whole`, or if unknown.
     std::function<Result<Arrangement>(Arrangement, const Run&)> restrict_again{};

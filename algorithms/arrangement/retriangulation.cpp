@@ -5,22 +5,32 @@
 #include <unordered_map>
 #include <utility>
 
+#include <terrane/algorithms/arrangement/detail/pool_covers.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/triangulation/triangulation.hpp>
 #include <terrane/kernel/predicates.hpp>
 
 namespace terrane {
+
+using namespace arrangement::detail;
+
 namespace {
+
+constexpr std::uint32_t no_cover = UINT32_MAX;
 
 /// A part of a divided triangle.
 struct Part {
     std::uint32_t face;
     std::array<PointIndex, 3> corners;
+    std::uint32_t cover = no_cover; ///< of a part of a pool: the list of triangles that contain it;
+                                    ///< face is the first of them
 };
 
+/// Parts by face.
 struct PartBlock {
     std::vector<Part> parts;
+    IndexLists<std::uint32_t> covers;
     PredicateCounts predicates;
 };
 
@@ -28,13 +38,13 @@ struct PartBlock {
 class Divider {
 public:
     Divider(UpwardWitness upward, const TriangleSoup& soup, const Contacts& contacts,
-            const PointOrder& order) :
-        soup_(soup),
-        contacts_(contacts), order_(order), triangulate_(upward) {}
+            const PointOrder& order, const Run& run) :
+        upward_(upward),
+        soup_(soup), contacts_(contacts), order_(order), run_(run), triangulate_(upward) {}
 
-    /// Divides one face, given its pieces and crossings.
+    /// Divides one face or pool, given its pieces and crossings.
     void operator()(std::span<const FaceConstraint> pieces, std::uint32_t first_piece,
-                    std::span<const FaceCrossing> crossings, std::vector<Part>& out) {
+                    std::span<const FaceCrossing> crossings, PartBlock& out) {
         face_.clear();
         const std::uint32_t f = pieces.front().face;
         const Triangle& t = soup_.triangles[f];
@@ -52,11 +62,29 @@ public:
             if (pieces[k].is_inner_segment())
                 add_chain(pieces[k], static_cast<std::uint32_t>(k), chains_[k]);
         finish_points();
+        const std::uint32_t pool = contacts_.pools.led_by(f);
+        if (pool != no_group) return divide_pool(contacts_.pools.faces[pool], out);
         for (const auto& part : triangulate_(contacts_.points, order_.rank, face_))
-            out.push_back({f, part});
+            out.parts.push_back({f, part});
     }
 
 private:
+    void divide_pool(std::span<const std::uint32_t> faces, PartBlock& out) {
+        const Frame frame = frame_round(contacts_.points, face_.axis, face_.inner_points);
+        face_.frame = &frame;
+        face_.stop = run_.stop;
+        for (unsigned i = 0; i < 3; ++i) face_.corners[i] = Frame::corner(i);
+        triangulate_(contacts_.points, order_.rank, face_);
+        if (run_.stop.stop_requested()) return;
+        const PoolDivision division =
+            covers_of_pool(upward_, soup_, faces, contacts_.points, order_, face_, triangulate_);
+        const auto first = static_cast<std::uint32_t>(out.covers.size());
+        out.covers.append(division.covers);
+        for (const PoolPart& part : division.parts)
+            out.parts.push_back({part.face, part.corners, first + part.cover});
+        face_.stop = {};
+    }
+
     bool by_rank(PointIndex a, PointIndex b) const { return order_.rank[a] < order_.rank[b]; }
 
     void add_point(PointIndex point, Simplex place) {
@@ -92,17 +120,18 @@ private:
         sort_unique(face_.inner_points);
     }
 
+    [[no_unique_address]] UpwardWitness upward_;
     const TriangleSoup& soup_;
     const Contacts& contacts_;
     const PointOrder& order_;
+    const Run& run_;
     FaceInput face_;
     std::vector<std::vector<PointIndex>> chains_;
     FaceTriangulation triangulate_;
 };
 
-std::vector<Part> divide_faces(const TriangleSoup& soup, const Contacts& contacts,
-                               const PointOrder& order, const Run& run,
-                               RetriangulationStatistics& statistics) {
+PartBlock divide_faces(const TriangleSoup& soup, const Contacts& contacts, const PointOrder& order,
+                       const Run& run, RetriangulationStatistics& statistics) {
     struct Range {
         std::uint32_t piece, piece_end, crossing, crossing_end;
     };
@@ -121,37 +150,48 @@ std::vector<Part> divide_faces(const TriangleSoup& soup, const Contacts& contact
         c = r.crossing_end;
     }
     statistics.divided = faces.size();
+    for (std::size_t k = 0; k < contacts.pools.faces.size(); ++k)
+        statistics.divided += contacts.pools.faces[k].size() - 1;
     const std::span pieces(contacts.pieces);
     const std::span crossings(contacts.crossings);
     const auto blocks = for_blocks<PartBlock>(
         faces.size(), 64, run, [&](UpwardWitness upward, std::size_t first, std::size_t last) {
             PartBlock block;
             const PredicateCounts before = predicate_counts();
-            Divider retriangulate(upward, soup, contacts, order);
+            Divider retriangulate(upward, soup, contacts, order, run);
             for (std::size_t i = first; i < last; ++i) {
                 const Range& r = faces[i];
                 retriangulate(pieces.subspan(r.piece, r.piece_end - r.piece), r.piece,
-                              crossings.subspan(r.crossing, r.crossing_end - r.crossing),
-                              block.parts);
+                              crossings.subspan(r.crossing, r.crossing_end - r.crossing), block);
             }
             block.predicates = predicate_counts() - before;
             return block;
         });
-    std::vector<Part> parts;
+    PartBlock all;
     for (const PartBlock& b : blocks) {
-        parts.insert(parts.end(), b.parts.begin(), b.parts.end());
+        const auto start = all.parts.size();
+        const auto first = static_cast<std::uint32_t>(all.covers.size());
+        all.parts.insert(all.parts.end(), b.parts.begin(), b.parts.end());
         statistics.predicates += b.predicates;
+        if (b.covers.size() == 0) continue;
+        all.covers.append(b.covers);
+        for (std::size_t k = start; k < all.parts.size(); ++k)
+            if (all.parts[k].cover != no_cover) all.parts[k].cover += first;
     }
-    return parts;
+    // The parts of a pool belong to several faces.
+    if (all.covers.size() > 0)
+        std::stable_sort(all.parts.begin(), all.parts.end(),
+                         [](const Part& a, const Part& b) { return a.face < b.face; });
+    return all;
 }
 
 /// Performs step (f): merges undivided triangles and parts into one list of unique triangles.
 class Stitcher {
 public:
-    Stitcher(const TriangleSoup& soup, const Contacts& contacts, std::span<const Part> parts,
+    Stitcher(const TriangleSoup& soup, const Contacts& contacts, const PartBlock& parts,
              const Run& run, Retriangulation& out) :
         soup_(soup),
-        contacts_(contacts), parts_(parts), run_(run), out_(out) {}
+        contacts_(contacts), parts_(parts.parts), covers_(parts.covers), run_(run), out_(out) {}
 
     void operator()() {
         collect_repeated();
@@ -200,9 +240,15 @@ private:
         const auto before = [](const Part& p, std::size_t face) { return p.face < face; };
         auto p = std::lower_bound(parts_.begin(), parts_.end(), first, before);
         for (auto f = static_cast<std::uint32_t>(first); f < last; ++f) {
-            if (p == parts_.end() || p->face != f) visit(Part{f, soup_.triangles[f]});
+            const bool is_whole = (p == parts_.end() || p->face != f) && !is_pooled(f);
+            if (is_whole) visit(Part{f, soup_.triangles[f]});
             for (; p != parts_.end() && p->face == f; ++p) visit(*p);
         }
+    }
+
+    /// Whether the parts of this triangle are listed under the first triangles that contain them.
+    [[nodiscard]] bool is_pooled(std::uint32_t f) const {
+        return !contacts_.pools.of.empty() && contacts_.pools.of[f] != no_group;
     }
 
     // Lists the faces of each part that may be repeated. Only triangles with a coplanar overlap can
@@ -210,7 +256,9 @@ private:
     void collect_repeated() {
         any_overlapped_ = std::find(contacts_.overlapped.begin(), contacts_.overlapped.end(),
                                     true) != contacts_.overlapped.end();
-        if (!any_overlapped_) return;
+        const bool any_in_faces = any_overlapped_;
+        any_overlapped_ |= !contacts_.pools.of.empty();
+        if (!any_in_faces) return;
         for_each_part(0, soup_.triangles.size(), [&](const Part& p) {
             if (contacts_.overlapped[p.face]) faces_of_[sorted(p.corners)].push_back(p.face);
         });
@@ -274,7 +322,8 @@ private:
         const auto faces =
             contacts_.overlapped[part.face]
                 ? std::span<const std::uint32_t>(faces_of_.find(sorted(part.corners))->second)
-                : alone;
+            : part.cover != no_cover ? covers_[part.cover]
+                                     : alone;
         if (faces.front() != part.face) return;
         const Triangle& whole = soup_.triangles[part.face];
         const bool is_whole = part.corners[0] == whole[0] && part.corners[1] == whole[1] &&
@@ -303,6 +352,7 @@ private:
     const TriangleSoup& soup_;
     const Contacts& contacts_;
     std::span<const Part> parts_;
+    const IndexLists<std::uint32_t>& covers_;
     const Run& run_;
     Retriangulation& out_;
     std::vector<Block> blocks_;
@@ -318,6 +368,9 @@ Retriangulation retriangulate(std::vector<Point3> points, std::span<const Triang
     Retriangulation out;
     const TriangleSoup soup{points, triangles}; // moving the vector does not move the points
     Contacts contacts = find_contacts(soup, std::move(points), candidates, run);
+    if (run.stop.stop_requested()) return out;
+    merge_segments(soup, contacts, run);
+    if (run.stop.stop_requested()) return out; // the pieces may be unfinished
     find_crossings(soup, contacts, run);
     if (run.stop.stop_requested()) return out;
     PointOrder order = order_points(soup, contacts, run);
@@ -333,6 +386,7 @@ Retriangulation retriangulate(std::vector<Point3> points, std::span<const Triang
     out.points = std::move(contacts.points);
     out.ascending = std::move(order.ascending);
     out.near = std::move(contacts.near);
+    out.has_pools = !contacts.pools.of.empty();
     return out;
 }
 

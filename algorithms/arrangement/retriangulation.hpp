@@ -38,7 +38,9 @@ struct Retriangulation {
         unchanged_as;                ///< per triangle of the soup: its index in triangles if it is
                                      ///< undivided and the only face there; else UINT32_MAX
     std::vector<CandidatePair> near; ///< candidates whose parts may meet when their points are
-                                     ///< rounded to nearest doubles; the others stay apart
+                                     ///< rounded to nearest doubles; the others stay apart, but
+                                     ///< for those within a pool
+    bool has_pools = false;          ///< whether there are pools, whose pairs `near` leaves out
     RetriangulationStatistics statistics;
 };
 

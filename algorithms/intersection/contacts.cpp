@@ -9,6 +9,7 @@
 
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/intersection/detail/construction_table.hpp>
+#include <terrane/algorithms/intersection/detail/equal_points.hpp>
 #include <terrane/kernel/separation_filter.hpp>
 
 namespace terrane {
@@ -50,7 +51,8 @@ bool have_common_vertex(const Triangle& t, const Triangle& u) {
                        [&](std::uint32_t v) { return v == u[0] || v == u[1] || v == u[2]; });
 }
 
-PairBlock test_pairs(const TriangleSoup& soup, std::span<const CandidatePair> pairs) {
+PairBlock test_pairs(const TriangleSoup& soup, const PlanePools& pools,
+                     std::span<const CandidatePair> pairs) {
     PairBlock block;
     const PredicateCounts before = predicate_counts();
     const auto at = [&](std::uint32_t t, unsigned i) -> const Point3& {
@@ -60,6 +62,7 @@ PairBlock test_pairs(const TriangleSoup& soup, std::span<const CandidatePair> pa
     std::optional<SeparationFilter> first; // reused, as pairs are sorted by their first triangle
     for (const CandidatePair& p : pairs) {
         const auto [f, g] = p;
+        if (pools.are_one(f, g)) continue;
         if (f != last) first.emplace(at(f, 0), at(f, 1), at(f, 2));
         last = f;
         const bool joined = have_common_vertex(soup.triangles[f], soup.triangles[g]);
@@ -95,10 +98,13 @@ std::vector<FaceConstraint> by_face(std::vector<FaceConstraint> of_first,
     return all;
 }
 
+/// Collects the blocks. Points and pieces that came since the last call of settle() are not merged
+/// yet.
 class Collector {
 public:
-    Collector(const TriangleSoup& soup, Contacts& contacts) :
-        table_(static_cast<PointIndex>(soup.points.size())), contacts_(contacts) {}
+    Collector(const TriangleSoup& soup, Contacts& contacts, const Run& run) :
+        soup_(soup), run_(run), first_(static_cast<PointIndex>(soup.points.size())), table_(first_),
+        contacts_(contacts), equal_(contacts.points) {}
 
     void add(const PairBlock& block) {
         index_.clear();
@@ -114,14 +120,98 @@ public:
         contacts_.predicates += block.predicates;
     }
 
-    std::span<const Construction> constructions() const { return table_.constructions(); }
+    /// Whether so much came that merging is worthwhile.
+    [[nodiscard]] bool is_full() const {
+        constexpr std::size_t many = 32768;
+        return table_.constructions().size() - settled_ > many + settled_ / 2 ||
+               pieces_[0].size() + pieces_[1].size() > 4 * many + 2 * kept_pieces_;
+    }
+
+    void settle() {
+        merge_points();
+        drop_repeated_pieces();
+    }
+
     std::vector<FaceConstraint> pieces() && {
         return by_face(std::move(pieces_[0]), std::move(pieces_[1]));
     }
 
 private:
+    /// Appends the new points to the store and keeps one of equal ones, with the lowest of their
+    /// constructions.
+    void merge_points() {
+        PointStore& store = contacts_.points;
+        const auto fresh = table_.constructions().subspan(settled_);
+        const auto start = static_cast<PointIndex>(first_ + settled_);
+        const auto end = static_cast<PointIndex>(start + fresh.size());
+        store.append(fresh, sharing(run_));
+        std::vector<PointIndex> now(fresh.size());
+        PointIndex next = start;
+        for (PointIndex p = start; p < end; ++p) {
+            PointIndex* const same = equal_.enter(p);
+            if (same != nullptr && *same != p) {
+                if (store.construction(p) < store.construction(*same)) store.exchange(p, *same);
+                now[p - start] = *same;
+                continue;
+            }
+            if (next != p) store.exchange(p, next);
+            if (same != nullptr) *same = next;
+            now[p - start] = next++;
+        }
+        settled_ = next - first_;
+        if (next == end) return;
+        rename_ends(start, now);
+        std::vector<PointIndex> kept(settled_);
+        std::iota(kept.begin(), kept.end(), first_);
+        store.keep_constructed(kept);
+        table_ = ConstructionTable(first_);
+        for (PointIndex p = first_; p < next; ++p) table_.enter(store.construction(p));
+    }
+
+    void rename_ends(PointIndex start, const std::vector<PointIndex>& now) {
+        for (auto& pieces : pieces_)
+            for (FaceConstraint& piece : pieces)
+                for (PointIndex& end : piece.ends)
+                    if (end >= start) end = now[end - start];
+    }
+
+    /// Drops pieces with the same ends as an earlier one from triangles with many pieces. In others
+    /// they do no harm, and which of several planes through a line names its crossings stays as is.
+    void drop_repeated_pieces() {
+        constexpr std::uint32_t many = 64;
+        std::vector<std::uint32_t> counts(soup_.triangles.size(), 0);
+        bool any = false;
+        for (const auto& pieces : pieces_)
+            for (const FaceConstraint& piece : pieces) any |= ++counts[piece.face] > many;
+        kept_pieces_ = pieces_[0].size() + pieces_[1].size();
+        if (!any) return;
+        std::vector<std::array<std::uint32_t, 4>> keys; // face, ends, position
+        std::vector<bool> repeated(kept_pieces_, false);
+        std::uint32_t position = 0;
+        for (const unsigned k : {1u, 0u})
+            for (const FaceConstraint& piece : pieces_[k]) {
+                const auto [low, high] = std::minmax(piece.ends[0], piece.ends[1]);
+                if (counts[piece.face] > many) keys.push_back({piece.face, low, high, position});
+                ++position;
+            }
+        std::sort(keys.begin(), keys.end());
+        for (std::size_t i = 1; i < keys.size(); ++i)
+            repeated[keys[i][3]] =
+                std::equal(keys[i].begin(), keys[i].end() - 1, keys[i - 1].begin());
+        position = 0;
+        for (const unsigned k : {1u, 0u})
+            std::erase_if(pieces_[k],
+                          [&](const FaceConstraint&) -> bool { return repeated[position++]; });
+        kept_pieces_ = pieces_[0].size() + pieces_[1].size();
+    }
+
+    const TriangleSoup& soup_;
+    const Run& run_;
+    PointIndex first_;
+    std::size_t settled_ = 0, kept_pieces_ = 0;
     ConstructionTable table_;
     Contacts& contacts_;
+    EqualPoints equal_;
     std::array<std::vector<FaceConstraint>, 2> pieces_; ///< on the first and the second faces
     std::vector<PointIndex> index_;                     ///< per point of a block: its index
 };
@@ -137,17 +227,24 @@ bool FaceConstraint::is_inner_segment() const {
 
 Contacts find_contacts(const TriangleSoup& soup, std::vector<Point3> points,
                        std::span<const CandidatePair> candidates, const Run& run) {
-    const auto blocks =
-        for_blocks<PairBlock>(candidates.size(), 1024, run, [&](std::size_t a, std::size_t b) {
-            return test_pairs(soup, candidates.subspan(a, b - a));
-        });
     Contacts contacts;
     contacts.candidates = candidates.size();
     contacts.overlapped.assign(soup.triangles.size(), false);
-    Collector collector(soup, contacts);
-    for (const PairBlock& block : blocks) collector.add(block);
+    contacts.pools = find_plane_pools(soup, candidates, run);
     contacts.points = PointStore(std::move(points));
-    contacts.points.append(collector.constructions(), sharing(run));
+    Collector collector(soup, contacts, run);
+    constexpr std::size_t wave = 65536; // pairs whose contacts are in memory at a time
+    for (std::size_t start = 0; start < candidates.size(); start += wave) {
+        const auto pairs = candidates.subspan(start, std::min(wave, candidates.size() - start));
+        const auto blocks =
+            for_blocks<PairBlock>(pairs.size(), 1024, run, [&](std::size_t a, std::size_t b) {
+                return test_pairs(soup, contacts.pools, pairs.subspan(a, b - a));
+            });
+        for (const PairBlock& block : blocks) collector.add(block);
+        if (run.stop.stop_requested()) return contacts;
+        if (collector.is_full()) collector.settle();
+    }
+    collector.settle();
     contacts.pieces = std::move(collector).pieces();
     return contacts;
 }
@@ -223,6 +320,7 @@ PointOrder order_points(const TriangleSoup& soup, const Contacts& contacts, cons
         for (const PointIndex c : soup.triangles[p.face]) use(c);
         for (const PointIndex e : p.ends) use(e);
     }
+    for (const FaceCrossing& c : contacts.crossings) use(c.point); // on merged segments
     for (PointIndex p = inputs; p < store.size(); ++p) used.push_back(p);
 
     std::vector<Key> keys(used.size());

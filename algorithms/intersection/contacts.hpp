@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include <terrane/algorithms/core/index_lists.hpp>
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/intersection/intersection.hpp>
 #include <terrane/algorithms/search/search.hpp>
@@ -42,11 +43,27 @@ struct FaceConstraint {
     [[nodiscard]] bool is_inner_segment() const;
 };
 
-/// A crossing of two inner segments of one face, strictly inside both.
+/// A crossing of two inner segments of one face, strictly inside both; or, if both are the same, a
+/// point that lies inside it.
 struct FaceCrossing {
     std::uint32_t face;
     std::array<std::uint32_t, 2> pieces; ///< indices into Contacts::pieces
     PointIndex point;
+};
+
+/// Sets of coplanar triangles of which so many overlap that each plane is divided as a whole. Two
+/// coplanar triangles that overlap are in one pool or in none.
+struct PlanePools {
+    std::vector<std::uint32_t> of;   ///< per triangle: its pool or no_group; empty without pools
+    IndexLists<std::uint32_t> faces; ///< per pool: its triangles, ascending
+
+    [[nodiscard]] bool are_one(std::uint32_t f, std::uint32_t g) const {
+        return !of.empty() && of[f] != no_group && of[f] == of[g];
+    }
+    /// Returns the pool that is stored under this triangle, its first one, or no_group.
+    [[nodiscard]] std::uint32_t led_by(std::uint32_t f) const {
+        return of.empty() || of[f] == no_group || faces[of[f]].front() != f ? no_group : of[f];
+    }
 };
 
 /// The contacts of a triangle soup.
@@ -54,24 +71,36 @@ struct Contacts {
     PointStore points;                   ///< the soup's points, then those of all contacts
     std::vector<FaceConstraint> pieces;  ///< by face, then in the order of pairs
     std::vector<FaceCrossing> crossings; ///< by face
-    std::vector<bool> overlapped;        ///< per triangle: whether a coplanar one overlaps it
+    PlanePools pools;                    ///< the pieces of a pool are those of its first triangle
+    std::vector<bool> overlapped;        ///< per triangle in no pool: whether a coplanar one
+                                         ///< overlaps it
     std::vector<CandidatePair> near;     ///< candidates that may meet when points are rounded to
                                          ///< nearest doubles
     std::size_t candidates = 0;          ///< number of candidate pairs
-    std::size_t improper = 0;            ///< number of pairs with an improper contact
+    std::size_t improper = 0;            ///< number of pairs with an improper contact, without
+                                         ///< pairs within a pool, which are not tested
     PredicateCounts predicates;
 };
 
 /// Returns a function with which PointStore::append distributes its work over the run's threads.
 PointStore::Share sharing(const Run& run);
 
+/// Finds the pools. Cost: linear in the candidates; next to nothing without triangles that have many.
+PlanePools find_plane_pools(const TriangleSoup& soup, std::span<const CandidatePair> candidates,
+                            const Run& run);
+
 /// Performs steps (b) and (c): tests all candidates and collects the points and segments that must
 /// appear in each triangle. `points` are the soup's points; the store of the result takes them
-/// over.
+/// over. Equal points and, in triangles with many, equal segments are merged as they come. So the
+/// memory follows the distinct ones.
 Contacts find_contacts(const TriangleSoup& soup, std::vector<Point3> points,
                        std::span<const CandidatePair> candidates, const Run& run);
 
-/// Finds where segments cross inside a face: fills `crossings` and appends their points.
+/// Merges collinear segments that overlap: in pools, whose edges become segments, and in triangles
+/// with many segments on few lines. Fills `crossings` with the points that lie on merged segments.
+void merge_segments(const TriangleSoup& soup, Contacts& contacts, const Run& run);
+
+/// Finds where segments cross inside a face: adds to `crossings` and appends their points.
 void find_crossings(const TriangleSoup& soup, Contacts& contacts, const Run& run);
 
 /// The classes of equal points, and the order of the points.

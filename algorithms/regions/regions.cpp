@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <set>
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/no_index.hpp>
@@ -174,6 +175,7 @@ private:
         // Along a curve the same few regions meet at each edge; sets that were seen last are
         // skipped.
         std::array<std::array<std::uint32_t, 4>, 256> seen{};
+        std::set<std::vector<std::uint32_t>> seen_large; // where many surfaces coincide
         std::vector<std::uint32_t> here;
         for (std::size_t e = 0; e < at_stop_.size(); ++e) {
             here.clear();
@@ -188,6 +190,8 @@ private:
                 auto& last = seen[(key[0] * 31 + key[1] * 7 + key[2] * 3 + key[3]) % seen.size()];
                 if (last == key) continue;
                 last = key;
+            } else if (!seen_large.insert(here).second) {
+                continue;
             }
             for (const std::uint32_t r : here)
                 for (const std::uint32_t q : here)

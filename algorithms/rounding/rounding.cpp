@@ -213,6 +213,10 @@ std::vector<CandidatePair> Rounding::first_contacts() {
                                               dirty, state_.is_dirty, turn, a.state->patches);
         },
         [&] {
+            if (a.state->has_pools) { // not all pairs are known, and they would be too many
+                unproven.parts = dirty;
+                return;
+            }
             unproven = find_unproven({a.state->points.inputs(), a.state->corners, a.vertices,
                                       state_.points, state_.move, state_.triangles, a.parents_of},
                                      a.state->neighbours, run_);

@@ -20,6 +20,7 @@ void FaceInput::clear() {
     inner_points.clear();
     segments.clear();
     segment_lines.clear();
+    frame = nullptr;
 }
 
 std::span<const std::array<PointIndex, 3>>
@@ -28,15 +29,21 @@ FaceTriangulation::operator()(const PointStore& points, std::span<const std::uin
     store_ = &points;
     rank_ = rank;
     axis_ = face.axis;
+    frame_ = face.frame;
+    result_.clear();
+    segment_edges_.clear();
     start(face);
     const bool reversed = cells_[0].v[1] != 1;
     insert_edge_points(face);
     legalise();
     insert_inner_points(face);
+    if (face.stop.stop_requested()) return {}; // some points may be missing
 
-    for (const Segment& s : segments_) insert_segment(s[0], s[1]);
+    for (std::uint32_t s = 0; s < segments_.size(); ++s) {
+        if (s % 256 == 255 && face.stop.stop_requested()) return {};
+        insert_segment(s);
+    }
 
-    result_.clear();
     for (const Cell& c : cells_) {
         std::array<PointIndex, 3> t{points_[c.v[0]], points_[c.v[1]], points_[c.v[2]]};
         if (reversed) std::swap(t[1], t[2]);
@@ -66,7 +73,7 @@ void FaceTriangulation::take_points(const FaceInput& face) {
     flat_.clear();
     const auto take = [&](PointIndex p) {
         points_.push_back(p);
-        flat_.push_back(store_->approximate(axis_, p));
+        flat_.push_back(approximate(p));
     };
     for (const PointIndex p : face.corners) take(p);
     for (const auto& on_edge : face.edge_points)
@@ -167,6 +174,7 @@ void FaceTriangulation::insert_inner_points(const FaceInput& face) {
     Local near = 0;
     for (auto p = static_cast<Local>(points_.size() - face.inner_points.size()); p < points_.size();
          ++p) {
+        if (p % 1024 == 1023 && face.stop.stop_requested()) return;
         const Side s = locate(p, near);
         if (s.i == 3)
             split_cell(s.cell, p);
@@ -242,6 +250,9 @@ Sign FaceTriangulation::turn(Local a, Local b, Local c) const {
         return *sign;
     }
     if (on_one_line(a, b, c)) return Sign::Zero;
+    if (frame_ != nullptr && std::min({a, b, c}) < 3)
+        return exact_sign(
+            polynomial::orient2d(axis_, exact(points_[a]), exact(points_[b]), exact(points_[c])));
     return store_->orient2d(upward_, axis_, points_[a], points_[b], points_[c]);
 }
 
@@ -251,8 +262,38 @@ Sign FaceTriangulation::in_circle(const Cell& c, Local d) const {
         ++predicate_counts().static_filter;
         return *sign;
     }
+    if (frame_ != nullptr && std::min({c.v[0], c.v[1], c.v[2], d}) < 3)
+        return exact_sign(polynomial::in_circle(axis_, exact(points_[c.v[0]]),
+                                                exact(points_[c.v[1]]), exact(points_[c.v[2]]),
+                                                exact(points_[d])));
     return store_->in_circle(upward_, axis_, points_[c.v[0]], points_[c.v[1]], points_[c.v[2]],
                              points_[d]);
+}
+
+ApproximatePoint FaceTriangulation::approximate(PointIndex p) const {
+    if (frame_ == nullptr || !Frame::has(p)) return store_->approximate(axis_, p);
+    const unsigned i = p - Frame::corner(0);
+    return {frame_->u[i], frame_->v[i], 0};
+}
+
+// A corner of the frame gets coordinate 0 along the axis, which no predicate in the projection uses.
+ExactPoint FaceTriangulation::exact(PointIndex p) const {
+    if (!Frame::has(p)) return store_->exact(p);
+    const unsigned i = p - Frame::corner(0);
+    const Exact u(frame_->u[i]), v(frame_->v[i]);
+    switch (axis_) {
+    case Axis::x:
+        return {Exact(0), u, v, Exact(1)};
+    case Axis::y:
+        return {v, Exact(0), u, Exact(1)};
+    default:
+        return {u, v, Exact(0), Exact(1)};
+    }
+}
+
+// Corners of the frame come after all points.
+std::uint32_t FaceTriangulation::rank_of(Local p) const {
+    return frame_ != nullptr && p < 3 ? points_[p] : rank_[points_[p]];
 }
 
 unsigned FaceTriangulation::index_in(Local cell, Local neighbour) const {
@@ -357,7 +398,7 @@ bool FaceTriangulation::in_perturbed_circle(const Cell& c, Local d) const {
     if (s != Sign::Zero) return s == Sign::Positive;
     std::array<Local, 4> order{c.v[0], c.v[1], c.v[2], d};
     std::sort(order.begin(), order.end(),
-              [&](Local a, Local b) { return rank_[points_[a]] > rank_[points_[b]]; });
+              [&](Local a, Local b) { return rank_of(a) > rank_of(b); });
     for (const Local p : order) {
         if (p == d) return false;
         const Sign t = p == c.v[2]   ? turn(c.v[0], c.v[1], d)

@@ -11,6 +11,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <stop_token>
 #include <vector>
 
 #include <terrane/algorithms/mesh/surface.hpp>
@@ -20,6 +21,16 @@ namespace terrane {
 
 /// A segment that must become a union of edges.
 using Segment = std::array<PointIndex, 2>;
+
+/// Three doubles in a projection, strictly round all points of a face. They stand for the corners
+/// where the face is a region of any shape. Triangles at them are no part of the face.
+struct Frame {
+    std::array<double, 3> u{}, v{};
+
+    /// The index of corner i, which no stored point has.
+    static constexpr PointIndex corner(unsigned i) { return UINT32_MAX - 3 + i; }
+    static constexpr bool has(PointIndex p) { return p >= corner(0) && p <= corner(2); }
+};
 
 /// The points and segments that divide one triangle. Different indices denote different points.
 struct FaceInput {
@@ -34,6 +45,8 @@ struct FaceInput {
     std::vector<std::uint32_t>
         segment_lines; ///< per segment a number below 2^31, equal only for segments on one line;
                        ///< or empty. It saves exact tests
+    const Frame* frame = nullptr; ///< if set, corners are Frame::corner(0), (1), (2)
+    std::stop_token stop{};       ///< if requested, the result is empty
 
     /// Removes all points and segments, but keeps the memory.
     void clear();
@@ -52,15 +65,29 @@ public:
                                                           std::span<const std::uint32_t> rank,
                                                           const FaceInput& face);
 
-private:
-    using Local = std::uint32_t; ///< index into points_ or triangles_
+    using Local = std::uint32_t; ///< index into points_ or cells_
     static constexpr Local none = UINT32_MAX;
 
+    /// A triangle of the last face.
     struct Cell {
         std::array<Local, 3> v{};    ///< counterclockwise in the projection
         std::array<Local, 3> n{};    ///< neighbour across the edge opposite to v[i], or none
         std::array<bool, 3> fixed{}; ///< whether that edge is a constraint
     };
+
+    /// An edge that lies on a segment.
+    struct SegmentEdge {
+        std::uint32_t segment; ///< index into the segments of the face
+        std::array<Local, 2> ends;
+    };
+
+    /// Of the last face, until the next call: its triangles with their neighbours, the point of
+    /// each Local, and the edges on each segment, along it. The edges are kept for framed faces.
+    [[nodiscard]] std::span<const Cell> cells() const { return cells_; }
+    [[nodiscard]] std::span<const PointIndex> points() const { return points_; }
+    [[nodiscard]] std::span<const SegmentEdge> segment_edges() const { return segment_edges_; }
+
+private:
     struct Side { ///< the edge of a cell opposite to v[i]
         Local cell;
         unsigned i;
@@ -81,7 +108,7 @@ private:
     [[nodiscard]] bool on_one_line(Local a, Local b, Local c) const;
     void insert_edge_points(const FaceInput& face);
     void insert_inner_points(const FaceInput& face);
-    void insert_segment(Local u, Local v);
+    void insert_segment(std::uint32_t segment);
     bool advance(Local u, Local v, Local& reached);
     void collect_crossed(Local u, Local v, Side first, Local& reached);
     void remove_crossed(Local u, Local v);
@@ -101,11 +128,15 @@ private:
     [[nodiscard]] Sign turn(Local a, Local b, Local c) const;
     [[nodiscard]] Sign in_circle(const Cell& c, Local d) const;
     [[nodiscard]] bool must_flip(Side s) const;
+    [[nodiscard]] ApproximatePoint approximate(PointIndex p) const;
+    [[nodiscard]] ExactPoint exact(PointIndex p) const;
+    [[nodiscard]] std::uint32_t rank_of(Local p) const;
     [[nodiscard]] bool in_perturbed_circle(const Cell& c, Local d) const;
     [[nodiscard]] bool is_convex(Side s) const;
 
     [[no_unique_address]] UpwardWitness upward_;
     const PointStore* store_ = nullptr;
+    const Frame* frame_ = nullptr;
     std::span<const std::uint32_t> rank_;
     Axis axis_ = Axis::z;
     std::vector<PointIndex> points_;        ///< corners, edge points, inner points as inserted
@@ -121,6 +152,7 @@ private:
     std::vector<std::array<Local, 2>> crossed_;
     std::vector<std::pair<std::uint64_t, PointIndex>> order_; ///< inner points by level and rank
     std::vector<Inner> inner_;                                ///< inner points as inserted
+    std::vector<SegmentEdge> segment_edges_;
     std::vector<std::array<PointIndex, 3>> result_;
 };
 

@@ -75,9 +75,9 @@ bool have_common_end(const FaceConstraint& a, const FaceConstraint& b) {
 class FaceSweep {
 public:
     FaceSweep(UpwardWitness upward, const TriangleSoup& soup, const Contacts& contacts,
-              std::vector<NewCrossing>& out) :
+              const Run& run, std::vector<NewCrossing>& out) :
         upward_(upward),
-        soup_(soup), contacts_(contacts), out_(out) {}
+        soup_(soup), contacts_(contacts), run_(run), out_(out) {}
 
     /// Tests pieces [first, last), which are those of one face.
     void operator()(std::uint32_t first, std::uint32_t last) {
@@ -86,10 +86,12 @@ public:
         std::sort(segments_.begin(), segments_.end(), [](const auto& a, const auto& b) {
             return std::pair{a.low[0], a.piece} < std::pair{b.low[0], b.piece};
         });
-        for (std::size_t i = 0; i < segments_.size(); ++i)
+        for (std::size_t i = 0; i < segments_.size(); ++i) {
+            if (i % 64 == 63 && run_.stop.stop_requested()) return; // a pool has very many
             for (std::size_t j = i + 1;
                  j < segments_.size() && segments_[j].low[0] <= segments_[i].high[0]; ++j)
                 test(segments_[i], segments_[j]);
+        }
     }
 
 private:
@@ -164,6 +166,7 @@ private:
     [[no_unique_address]] UpwardWitness upward_;
     const TriangleSoup& soup_;
     const Contacts& contacts_;
+    const Run& run_;
     std::vector<NewCrossing>& out_;
     std::vector<InnerSegment> segments_;
     std::uint32_t face_ = 0;
@@ -183,7 +186,7 @@ void find_crossings(const TriangleSoup& soup, Contacts& contacts, const Run& run
         faces, 64, run, [&](UpwardWitness upward, std::size_t first, std::size_t last) {
             CrossingBlock block;
             const PredicateCounts before = predicate_counts();
-            FaceSweep sweep(upward, soup, contacts, block.crossings);
+            FaceSweep sweep(upward, soup, contacts, run, block.crossings);
             for (std::size_t f = first; f < last; ++f) sweep(starts[f], starts[f + 1]);
             block.predicates = predicate_counts() - before;
             return block;
@@ -195,11 +198,16 @@ void find_crossings(const TriangleSoup& soup, Contacts& contacts, const Run& run
          ++p)
         table.enter(contacts.points.construction(p));
     const std::size_t known = table.constructions().size();
+    const bool any_merged = !contacts.crossings.empty();
     for (const CrossingBlock& block : blocks) {
         contacts.predicates += block.predicates;
         for (const NewCrossing& c : block.crossings)
             contacts.crossings.push_back({c.face, c.pieces, table.enter(c.how)});
     }
+    if (any_merged)
+        std::stable_sort(
+            contacts.crossings.begin(), contacts.crossings.end(),
+            [](const FaceCrossing& a, const FaceCrossing& b) { return a.face < b.face; });
     contacts.points.append(table.constructions().subspan(known), sharing(run));
 }
 

@@ -16,11 +16,13 @@ void FaceTriangulation::fix(Side s) {
     if (o != none) cells_[o].fixed[index_in(o, s.cell)] = true;
 }
 
-// Inserts the segment from u to v vertex by vertex, because it may pass through other points.
-void FaceTriangulation::insert_segment(Local u, Local v) {
+// Inserts a segment vertex by vertex, because it may pass through other points.
+void FaceTriangulation::insert_segment(std::uint32_t segment) {
+    auto [u, v] = segments_[segment];
     while (u != v) {
         Local reached = none;
         if (!advance(u, v, reached)) remove_crossed(u, reached);
+        if (frame_ != nullptr) segment_edges_.push_back({segment, {u, reached}});
         u = reached;
     }
 }

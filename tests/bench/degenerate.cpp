@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Measures how the cost of arranging and rounding grows with the result for inputs in which
+// everything coincides. Each family is measured at n, 2 n and 4 n, each in a process of its own,
+// since a peak of memory never falls. The size of a result is its number of triangles plus that of
+// their parents: n coplanar triangles, each in the next, have 2 n - 1 parts with n^2 parents.
+//   terrane_bench_degenerate [--exact] [--wall] [FAMILY...]
+// --exact: without rounding. Seconds are those of the processor, or with --wall of a clock.
+#include <malloc.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <exception>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <terrane/algorithms/arrangement/arrangement.hpp>
+#include <terrane/algorithms/core/process_memory.hpp>
+#include <terrane/algorithms/rounding/rounding.hpp>
+
+#include "degenerate_families.hpp"
+
+namespace {
+
+using namespace terrane;
+using namespace bench;
+
+struct Settings {
+    bool exact = false, wall = false;
+    std::vector<std::string> names;
+};
+
+/// What one process measured; zeros if it failed.
+struct Measured {
+    double input = 0, triangles = 0, parents = 0; ///< numbers
+    double seconds = 0, bytes = 0;
+
+    [[nodiscard]] double size() const { return triangles + parents; }
+};
+
+constexpr double largest_exponent = 1.2;
+constexpr double most_bytes = 1000; ///< per triangle and parent of the result
+
+double size_of_process(const std::string& key) {
+    std::ifstream status("/proc/self/status");
+    for (std::string line; std::getline(status, line);)
+        if (line.compare(0, key.size() + 1, key + ':') == 0)
+            return 1024 * std::strtod(line.c_str() + key.size() + 1, nullptr);
+    throw std::runtime_error("/proc/self/status has no " + key);
+}
+
+double seconds_now(bool wall) {
+    if (!wall) return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+}
+
+Measured measure(const Family& family, int n, const Settings& settings) {
+    keep_freed_memory();
+    const std::vector<Surface> surfaces = family.make(n);
+    malloc_trim(0);
+    Measured m;
+    for (const Surface& s : surfaces) m.input += static_cast<double>(s.triangles.size());
+    const double before = size_of_process("VmRSS");
+    std::ofstream("/proc/self/clear_refs") << "5\n";
+    const double start = seconds_now(settings.wall);
+    const auto arranged = arrange(surfaces);
+    if (!arranged) throw std::runtime_error(arranged.error().message());
+    m.triangles = static_cast<double>(arranged.value().triangles.size());
+    m.parents = static_cast<double>(arranged.value().parents_of.values.size());
+    if (!settings.exact) {
+        const auto rounded = round_to_doubles(arranged.value());
+        if (!rounded) throw std::runtime_error(rounded.error().message());
+    }
+    m.seconds = seconds_now(settings.wall) - start;
+    m.bytes = size_of_process("VmHWM") - before;
+    return m;
+}
+
+/// Measures in a process of its own.
+Measured measured_apart(const Family& family, int n, const Settings& settings) {
+    std::fflush(stdout);
+    int ends[2];
+    if (pipe(ends) != 0) throw std::runtime_error("can't make a pipe");
+    const pid_t child = fork();
+    if (child < 0) throw std::runtime_error("can't start a process");
+    if (child == 0) {
+        try {
+            const Measured m = measure(family, n, settings);
+            std::_Exit(write(ends[1], &m, sizeof m) == sizeof m ? 0 : 2);
+        } catch (const std::exception& e) {
+            std::fprintf(stderr, "%s %d: %s\n", family.name, n, e.what());
+            std::_Exit(2);
+        }
+    }
+    close(ends[1]);
+    Measured m;
+    if (read(ends[0], &m, sizeof m) != static_cast<ssize_t>(sizeof m)) m = {};
+    close(ends[0]);
+    int status = 0;
+    waitpid(child, &status, 0);
+    return m;
+}
+
+/// Returns the power of the output's growth with which a cost grows; 0 if the output does not.
+double exponent(double cost_before, double cost, double size_before, double size) {
+    if (cost_before <= 0 || cost <= 0 || size <= size_before) return 0;
+    return std::log(cost / cost_before) / std::log(size / size_before);
+}
+
+/// Prints the rows of a family. Returns whether all are measured.
+bool print_family(const Family& family, const Settings& settings) {
+    Measured before;
+    for (const int n : {family.n, 2 * family.n, 4 * family.n}) {
+        const Measured m = measured_apart(family, n, settings);
+        if (m.size() == 0) return false;
+        std::printf("%-16s %6d %8.0f %9.0f %10.0f %9.3f %8.1f", family.name, n, m.input,
+                    m.triangles, m.parents, m.seconds, m.bytes / 1e6);
+        const double per_entry = m.bytes / m.size();
+        if (before.size() > 0) {
+            const double time = exponent(before.seconds, m.seconds, before.size(), m.size());
+            const double memory = exponent(before.bytes, m.bytes, before.size(), m.size());
+            std::printf(" %6.2f%c %6.2f%c", time, time > largest_exponent ? '!' : ' ', memory,
+                        memory > largest_exponent ? '!' : ' ');
+        } else {
+            std::printf(" %7s %7s", "", "");
+        }
+        std::printf(" %8.0f %8.0f%c\n", m.bytes / m.triangles, per_entry,
+                    per_entry > most_bytes ? '!' : ' ');
+        before = m;
+    }
+    return true;
+}
+
+Settings settings_of(int argc, char** argv) {
+    Settings settings;
+    for (int i = 1; i < argc; ++i) {
+        const std::string word = argv[i];
+        if (word == "--exact")
+            settings.exact = true;
+        else if (word == "--wall")
+            settings.wall = true;
+        else
+            settings.names.push_back(word);
+    }
+    return settings;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    const Settings settings = settings_of(argc, argv);
+    std::printf("%-16s %6s %8s %9s %10s %9s %8s %7s %7s %8s %9s\n", "degenerate", "n", "input",
+                "output", "parents", "seconds", "MB", "time^", "memory^", "B/tri", "B/entry");
+    int result = 0;
+    for (const Family& family : families()) {
+        const auto& names = settings.names;
+        if (!names.empty() && std::find(names.begin(), names.end(), family.name) == names.end())
+            continue;
+        if (!print_family(family, settings)) result = 2;
+    }
+    return result;
+}
