@@ -64,6 +64,8 @@ private:
         if (const Json* v = in_.find(json, "seal_of")) project.seal_of = seal_of(*v);
         if (const Json* v = in_.find(json, "min_volume"))
             project.min_volume = automatic(*v, "min_volume");
+        if (const Json* v = in_.find(json, "max_move"))
+            project.max_move = in_.positive(*v, "max_move");
         if (const Json* v = in_.find(json, "improve")) project.improve = improve(*v);
         if (const Json* v = in_.find(json, "tetrahedra")) project.tetrahedra = tetrahedra(*v);
         const bool turned = std::any_of(project.surfaces.begin(), project.surfaces.end(),

@@ -3,6 +3,7 @@
 // Defines the state that an arrangement keeps for later stages and hides from users of the library.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <vector>
 
@@ -36,6 +37,11 @@ struct ExactState {
     /// Removes the same part from an arrangement of the same surfaces after a small move of their
     /// vertices. Rounding needs it if it arranges again. Empty if `whole`, or if unknown.
     std::function<Result<Arrangement>(Arrangement, const Run&)> restrict_again{};
+    bool measures = true; ///< whether restrict_again compares lengths or volumes, so that it needs
+                          ///< the unit of the input
+    /// Per axis: the coordinates of the planes across it that bound the volume of interest;
+    /// ascending. Rounding moves no point off them or over them.
+    std::array<std::vector<double>, 3> kept_planes{};
 };
 
 /// Returns the state of an arrangement for modification. It is copied first if another arrangement

@@ -276,7 +276,8 @@ Result<Layered> stack_valid(std::span<const Surface> surfaces, std::span<const L
             surface_of(arrangement.value(), sets[i], resolver, whole, surfaces[order[i].surface]));
     const auto exact = arrange(stacked, {}, run);
     if (!exact) return exact.error();
-    auto rounded = round_to_doubles(exact.value(), {options.max_rounds, options.check}, run);
+    auto rounded =
+        round_to_doubles(exact.value(), {options.max_rounds, options.check, options.max_move}, run);
     if (!rounded) return rounded.error();
     progress(0.9);
     const double width = width_of_steps(*rounded);

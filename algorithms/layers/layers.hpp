@@ -33,6 +33,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -53,9 +54,10 @@ struct Layer {
 
 /// Options of stack_layers() and harden().
 struct LayerOptions {
-    double min_thickness = 0; ///< D, along z, unit of the surfaces; >= 0
-    unsigned max_rounds = 8;  ///< of snapping, see rounding.hpp
-    PairCheckOptions check{}; ///< how the doubles are checked
+    double min_thickness = 0;         ///< D, along z, unit of the surfaces; >= 0
+    unsigned max_rounds = 8;          ///< of snapping, see rounding.hpp
+    PairCheckOptions check{};         ///< how the doubles are checked
+    std::optional<double> max_move{}; ///< see rounding.hpp
 };
 
 /// Describes the changes of one horizon. Areas are true areas, squared unit, in floating point.

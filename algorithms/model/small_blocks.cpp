@@ -178,8 +178,11 @@ Result<WithoutSmallBlocks> without_blocks_below(Arrangement a, double least, con
     const bool is_repeatable = a.state->whole || a.state->restrict_again;
     auto before = a.state->restrict_again;
     result.arrangement = restricted(std::move(a), graph.keep(), run);
-    if (is_repeatable && !result.arrangement.state->whole)
-        own_state(result.arrangement).restrict_again = merged_again(std::move(before), least);
+    if (is_repeatable && !result.arrangement.state->whole) {
+        ExactState& state = own_state(result.arrangement);
+        state.restrict_again = merged_again(std::move(before), least);
+        state.measures = true;
+    }
     return result;
 }
 

@@ -84,11 +84,12 @@ private:
     }
 
     Status arrange_surfaces() {
-        ArrangeWithinOptions options{.rounding = {.check = project_.check},
-                                     .seal = project_.seal.value_or(0),
-                                     .seal_automatic = project_.seal == 0.0,
-                                     .extend = project_.extend.value_or(0),
-                                     .min_volume = least_volume()};
+        ArrangeWithinOptions options{
+            .rounding = {.check = project_.check, .max_move = project_.max_move},
+            .seal = project_.seal.value_or(0),
+            .seal_automatic = project_.seal == 0.0,
+            .extend = project_.extend.value_or(0),
+            .min_volume = least_volume()};
         const auto infos = infos_of(input_.surfaces);
         const auto labels = unique_labels(infos);
         for (const auto& [name, distance] : project_.seal_of) {

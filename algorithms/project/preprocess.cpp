@@ -128,7 +128,8 @@ Status stack(const std::vector<Layer>& order, const Project& project,
              std::vector<Surface>& surfaces, const Run& run, Preprocessed& done) {
     if (run.progress) run.progress("layers", 0);
     const LayerOptions options{.min_thickness = project.layers->min_thickness,
-                               .check = project.check};
+                               .check = project.check,
+                               .max_move = project.max_move};
     auto layered = stack_layers(surfaces, order, options, run);
     if (!layered) return layered.error();
     auto replaced = surfaces_of(layered->rounded.mesh);

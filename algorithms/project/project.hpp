@@ -137,6 +137,8 @@ struct Project {
                                         ///< surfaces, "F1/F2"; 0: never close these
     std::optional<double> min_volume{}; ///< smaller blocks are merged with a neighbour, cubic unit;
                                         ///< 0: "auto", see small_volume_for()
+    std::optional<double> max_move{};   ///< of surfaces, when exact points become doubles, unit of
+                                        ///< the surfaces; none: see RoundingOptions
     std::optional<ProjectImprove> improve{}; ///< none: triangles stay as they are
     ProjectTetrahedra tetrahedra{};          ///< made where outputs.tetrahedra asks for them
     ProjectOutputs outputs{};                ///< what is written

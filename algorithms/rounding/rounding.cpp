@@ -4,370 +4,24 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <utility>
 
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/algorithms/arrangement/intersection_edges.hpp>
-#include <terrane/algorithms/arrangement/retriangulation.hpp>
-#include <terrane/algorithms/arrangement/soup.hpp>
-#include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/core/stage_timer.hpp>
-#include <terrane/algorithms/intersection/intersection.hpp>
-#include <terrane/algorithms/mesh/work_hook.hpp>
-#include <terrane/algorithms/regions/regions_over.hpp>
-#include <terrane/algorithms/rounding/detail/pair_decisions.hpp>
+#include <terrane/algorithms/rounding/detail/attempt.hpp>
 #include <terrane/algorithms/rounding/detail/reports.hpp>
-#include <terrane/algorithms/rounding/detail/separation.hpp>
 #include <terrane/algorithms/rounding/detail/snapped_input.hpp>
-#include <terrane/algorithms/rounding/detail/state.hpp>
 #include <terrane/algorithms/rounding/detail/tuning.hpp>
-#include <terrane/kernel/predicates.hpp>
 
 namespace terrane {
-
-namespace rounding::detail {
-
-/// Creates the ConformingMesh that the rounds below prove: they know all pairs that meet
-/// improperly, and end without one.
-class RoundingProof {
-public:
-    static ConformingMesh of(const SharedMesh& mesh, const std::optional<PairCounts>& pairs) {
-        terrane::detail::announce_work("prove conforming", mesh->vertices, mesh->triangles);
-        return {mesh, pairs};
-    }
-};
-
-} // namespace rounding::detail
 
 using namespace rounding::detail;
 
 namespace {
-
-class Rounding {
-public:
-    /// Crowded contacts are not repaired unless `even_crowded`.
-    Rounding(const Arrangement& a, const RoundingOptions& options, bool even_crowded,
-             const Run& run) :
-        arrangement_(a),
-        options_(options), even_crowded_(even_crowded), run_(run) {}
-
-    Result<RoundedMesh> operator()() {
-        to_nearest();
-        auto pairs = first_contacts();
-        state_.only_dirty(pairs);
-        find_first_regions();
-        out_.report.naive_contacts = pairs.size();
-        left_crowded_ = !even_crowded_ && pairs.size() >= rounding_tuning.many &&
-                        rounding_tuning.crowded * pairs.size() > arrangement_.triangles.size();
-        if (!pairs.empty() && !left_crowded_) repair(pairs);
-        if (run_.stop.stop_requested())
-            return Error{ErrorCode::interrupted, "stopped on request", ""};
-        finish(pairs);
-        return std::move(out_);
-    }
-
-    /// Whether contacts were not repaired because they were crowded.
-    [[nodiscard]] bool left_crowded() const { return left_crowded_; }
-
-private:
-    void repair(std::vector<CandidatePair>& pairs);
-    void to_nearest();
-    [[nodiscard]] PairFilter is_improper() const;
-    std::vector<CandidatePair> first_contacts();
-    std::vector<CandidatePair> contacts();
-    bool snap_round(std::span<const CandidatePair> pairs, const SnapGrid& grid);
-    void snap_corners(std::span<const CandidatePair> pairs, const SnapGrid& grid);
-    bool divide_again(std::size_t most_pairs);
-    void find_first_regions();
-    void finish(std::span<const CandidatePair> pairs);
-    [[nodiscard]] bool tests_all() const { return options_.check.method == PairCheck::full; }
-    void report_moves();
-    void report_vanished();
-
-    const Arrangement& arrangement_;
-    const RoundingOptions& options_;
-    const bool even_crowded_;
-    const Run& run_;
-    RoundingState state_;
-    bool left_crowded_ = false;
-    FirstSearch first_search_;       ///< how the first search decided pairs, if they are counted
-    bool changed_ = false;           ///< whether the triangles differ from the arrangement's
-    std::optional<Regions> regions_; ///< set in advance while the triangles do not differ
-    RoundedMesh out_;
-};
-
-void Rounding::to_nearest() {
-    const Arrangement& a = arrangement_;
-    const auto first_constructed = static_cast<std::size_t>(
-        std::lower_bound(a.vertices.begin(), a.vertices.end(), a.state->points.input_count()) -
-        a.vertices.begin());
-    state_.input_vertices = first_constructed;
-    both(
-        run_,
-        [&] {
-            state_.triangles = a.triangles;
-            state_.parents_of = a.parents_of;
-        },
-        [&] {
-            state_.points.reserve(a.vertices.size());
-            for (std::size_t v = 0; v < first_constructed; ++v)
-                state_.points.push_back(a.state->points.input(a.vertices[v]));
-            state_.points.resize(a.vertices.size());
-            state_.move.assign(a.vertices.size(), 0);
-            state_.is_dirty.assign(a.vertices.size(), false);
-        });
-    struct Nothing {};
-    const std::size_t constructed = a.vertices.size() - first_constructed;
-    for_blocks<Nothing>(constructed, 1024, run_, [&](std::size_t first, std::size_t last) {
-        for (std::size_t k = first; k < last; ++k) {
-            const std::size_t v = first_constructed + k;
-            state_.points[v] = a.state->points.nearest(a.vertices[v]);
-            state_.move[v] = rounding_bound(a.state->points, a.vertices[v]);
-        }
-        return Nothing{};
-    });
-    for (std::size_t v = first_constructed; v < a.vertices.size(); ++v)
-        state_.is_dirty[v] = state_.move[v] > 0;
-    state_.end_round();
-    changed_ = state_.tidy(run_);
-}
-
-/// Performs rounds of local snapping, and keeps the mesh with fewest contacts. With a whole
-/// arrangement it ends as soon as a round does not help much, as the input can be snapped instead.
-/// What was removed from an arrangement would then have to be decided again, perhaps otherwise.
-/// Therefore a part of one gets coarser grids, too, each as long as it removes contacts.
-void Rounding::repair(std::vector<CandidatePair>& pairs) {
-    const bool is_whole = arrangement_.state->whole;
-    std::vector<int> grids(rounding_tuning.fine_digits.begin(), rounding_tuning.fine_digits.end());
-    if (!is_whole)
-        grids.insert(grids.end(), rounding_tuning.coarse_digits.begin(),
-                     rounding_tuning.coarse_digits.end());
-    for (auto digits = grids.begin(); digits != grids.end();) {
-        if (out_.report.rounds == options_.max_rounds || run_.stop.stop_requested()) return;
-        ++out_.report.rounds;
-        const RoundingState before = state_;
-        const std::size_t count = pairs.size();
-        auto left = snap_round(pairs, grid_of_digits(state_.points, *digits)) ? contacts() : pairs;
-        if (left.size() < count)
-            pairs = std::move(left);
-        else
-            state_ = before;
-        if (pairs.empty()) return;
-        if (is_whole && rounding_tuning.shrinking * pairs.size() > count) return;
-        if (is_whole || pairs.size() == count) ++digits;
-    }
-}
-
-PairFilter Rounding::is_improper() const {
-    return [this](const CandidatePair& p) {
-        return improper_contact(state_.points, state_.triangles[p.first],
-                                state_.triangles[p.second])
-            .has_value();
-    };
-}
-
-/// Finds the pairs that meet improperly. Two triangles without a dirty corner never do, and are
-/// tested on request only.
-std::vector<CandidatePair> Rounding::contacts() {
-    state_.search_dirty();
-    std::vector<std::uint32_t> active;
-    if (tests_all()) {
-        active.resize(state_.triangles.size());
-        std::iota(active.begin(), active.end(), 0U);
-    } else {
-        active = state_.dirty_triangles(run_);
-    }
-    if (active.empty()) return {};
-    auto pairs =
-        candidate_pairs_of({state_.points, state_.triangles}, active, {}, is_improper(), run_);
-    state_.only_dirty(pairs);
-    return pairs;
-}
-
-/// Finds the pairs that meet improperly right after rounding to nearest. Only pairs that neither
-/// injective patches nor the separation of faces exclude need a test.
-std::vector<CandidatePair> Rounding::first_contacts() {
-    if (changed_ || tests_all()) return contacts();
-    const Arrangement& a = arrangement_;
-    const auto& dirty = state_.found_dirty;
-    if (dirty.empty()) return {};
-    std::vector<bool> holds;         // per patch
-    std::uint32_t last = UINT32_MAX; // the parts of a face are consecutive
-    Sign last_turn{};
-    const auto turn = [&](std::uint32_t t, Axis axis) { // a part is oriented as its parent
-        const std::uint32_t parent = a.parents_of[t][0];
-        if (parent == last) return last_turn;
-        const Triangle& c = a.state->corners[last = parent];
-        const auto at = [&](unsigned i) { return a.state->points.input(c[i]); };
-        return last_turn = orient2d(axis, at(0), at(1), at(2));
-    };
-    Unproven unproven;
-    both(
-        run_,
-        [&] {
-            holds = recheck_injective_patches(state_.points, state_.triangles, a.state->adjacency,
-                                              dirty, state_.is_dirty, turn, a.state->patches);
-        },
-        [&] {
-            if (a.state->has_pools) { // not all pairs are known, and they would be too many
-                unproven.parts = dirty;
-                return;
-            }
-            unproven = find_unproven({a.state->points.inputs(), a.state->corners, a.vertices,
-                                      state_.points, state_.move, state_.triangles, a.parents_of},
-                                     a.state->neighbours, run_);
-        });
-    const auto improper = is_improper();
-    std::vector<CandidatePair> pairs;
-    {
-        const UpwardRounding guard;
-        for (const CandidatePair& p : unproven.pairs)
-            if (improper(p)) pairs.push_back(p);
-    }
-    const auto patch_of = [&](std::uint32_t t) {
-        const std::uint32_t p = a.state->patches.of[t];
-        return p != no_group && holds[p] ? p : no_group;
-    };
-    for (const std::uint32_t t : dirty)
-        if (patch_of(t) != a.state->patches.of[t]) unproven.parts.push_back(t);
-    for (const std::uint32_t t : unproven.ill_conditioned) // parts of one patch meet properly
-        if (patch_of(t) == no_group) unproven.parts.push_back(t);
-    const bool counts = options_.check.counts(arrangement_.triangles.size());
-    if (unproven.parts.empty() && !counts) return pairs;
-    sort_unique(unproven.parts);
-    std::vector<std::uint32_t> patches(state_.triangles.size());
-    for (std::uint32_t t = 0; t < patches.size(); ++t) patches[t] = patch_of(t);
-    if (counts) first_search_ = {unproven.pairs, unproven.parts, dirty, patches};
-    if (unproven.parts.empty()) return pairs;
-    const auto more = candidate_pairs_of({state_.points, state_.triangles}, unproven.parts, patches,
-                                         improper, run_);
-    pairs.insert(pairs.end(), more.begin(), more.end());
-    sort_unique(pairs);
-    return pairs;
-}
-
-/// Performs one round. Returns false if snapping multiplied the contacts so much that dividing them
-/// is not worthwhile.
-bool Rounding::snap_round(std::span<const CandidatePair> pairs, const SnapGrid& grid) {
-    changed_ = true;
-    snap_corners(pairs, grid);
-    state_.tidy(run_);
-    if (!divide_again(rounding_tuning.multiplied * pairs.size())) return false;
-    state_.end_round();
-    state_.tidy(run_);
-    return true;
-}
-
-void Rounding::snap_corners(std::span<const CandidatePair> pairs, const SnapGrid& grid) {
-    std::vector<std::uint32_t> corners;
-    for (const CandidatePair& p : pairs)
-        for (const std::uint32_t t : {p.first, p.second})
-            corners.insert(corners.end(), state_.triangles[t].begin(), state_.triangles[t].end());
-    std::vector<Point3> cells;
-    for (const std::uint32_t v : corners) cells.push_back(grid.snap(state_.points[v]));
-    state_.move_into(cells, [&](const Point3& p) { return grid.snap(p); });
-}
-
-/// Divides the triangles that still cross, exactly, and rounds the new points to the nearest
-/// doubles. These are much finer than the grid, so most of the parts stay clear of each other.
-/// Returns false without dividing anything if there are more than most_pairs pairs.
-bool Rounding::divide_again(std::size_t most_pairs) {
-    const auto pairs = contacts();
-    if (pairs.size() > most_pairs) return false;
-    if (pairs.empty()) return true;
-    Retriangulation division = retriangulate(state_.points, state_.triangles, pairs, run_);
-    if (run_.stop.stop_requested()) return true;
-    const auto first_new = static_cast<std::uint32_t>(state_.points.size());
-    std::vector<std::uint32_t> name_of(division.points.size());
-    for (const PointIndex p : division.ascending) {
-        name_of[p] = static_cast<std::uint32_t>(state_.points.size());
-        state_.add_point(division.points.nearest(p), rounding_bound(division.points, p));
-    }
-    for (Triangle& t : division.triangles)
-        for (std::uint32_t& v : t)
-            if (v >= first_new) v = name_of[v];
-    state_.replace_triangles(std::move(division.triangles), division.faces_of);
-    return true;
-}
-
-void Rounding::report_moves() {
-    RoundingReport& r = out_.report;
-    r.deviation = state_.total_deviation();
-    for (std::size_t v = 0; v < state_.points.size(); ++v) {
-        const double m = state_.move[v];
-        r.max_move = std::max(r.max_move, m);
-        const double decade = m > 0 ? std::floor(std::log10(m)) + 24 : 0;
-        ++r.moves[static_cast<std::size_t>(m > 0 ? std::clamp(decade, 1.0, 31.0) : 0)];
-        if (v < state_.input_vertices &&
-            state_.points[v] != arrangement_.state->points.input(arrangement_.vertices[v]))
-            ++r.moved_input_vertices;
-    }
-    r.merged_vertices = state_.merged();
-    r.collapsed_triangles = state_.collapsed;
-}
-
-void Rounding::report_vanished() {
-    if (changed_) out_.report.vanished = vanished(arrangement_, state_.parents_of);
-}
-
-/// Computes the regions as long as triangles have only moved: they are then those of the
-/// arrangement.
-void Rounding::find_first_regions() {
-    if (changed_) return;
-    const StageTimer step(run_, "regions");
-    const Arrangement& a = arrangement_;
-    regions_ = find_regions(state_.points, state_.triangles, a.surfaces_of, a.state->adjacency,
-                            a.intersection_edges, run_);
-}
-
-void Rounding::finish(std::span<const CandidatePair> pairs) {
-    out_.report.clean = pairs.empty();
-    Mesh mesh;
-    both(
-        run_, [&] { report_moves(); },
-        [&] {
-            if (!changed_) mesh.surfaces_of = arrangement_.surfaces_of;
-        });
-    report_vanished();
-    if (options_.check.counts(arrangement_.triangles.size()))
-        out_.report.pairs = count_decisions(state_, arrangement_.triangles, first_search_,
-                                            options_.check.method, run_);
-    if (changed_) state_.drop_unused_points();
-    for (const CandidatePair& p : pairs) {
-        const auto contact =
-            improper_contact(state_.points, state_.triangles[p.first], state_.triangles[p.second]);
-        out_.report.contacts.push_back(
-            {{p.first, p.second},
-             kind_of(*contact),
-             nearest(state_.points, contact->points[contact->point_count - 1u].how)});
-    }
-    mesh.surfaces = arrangement_.surfaces;
-    mesh.vertices = std::move(state_.points);
-    mesh.triangles = std::move(state_.triangles);
-    mesh.parents_of = std::move(state_.parents_of);
-    if (changed_) {
-        const StageTimer step(run_, "regions"); // with intersection edges
-        const InputTriangles& inputs = arrangement_.inputs;
-        mesh.surfaces_of = surfaces_of_parents(inputs, mesh.parents_of, run_);
-        const Adjacency adjacency =
-            adjacency_of(group_edges(mesh.triangles, mesh.vertices.size(), run_),
-                         labels_of(mesh.surfaces_of, mesh.parents_of));
-        mesh.intersection_edges = find_intersection_edges(adjacency, inputs, mesh.parents_of);
-        regions_ = find_regions(mesh.vertices, mesh.triangles, mesh.surfaces_of, adjacency,
-                                mesh.intersection_edges, run_);
-    } else {
-        mesh.intersection_edges = arrangement_.intersection_edges;
-    }
-    mesh.regions_of = std::move(regions_->regions_of);
-    out_.regions = std::move(regions_->regions);
-    out_.mesh = std::move(mesh);
-    if (out_.report.clean)
-        out_.conforming = rounding::detail::RoundingProof::of(out_.mesh, out_.report.pairs);
-}
 
 /// Makes the arrangement of the snapped input one of the original input: triangles that have the
 /// same points only because they were snapped do not count as duplicates.
@@ -383,48 +37,128 @@ bool is_external(ErrorCode code) {
     return code == ErrorCode::interrupted || code == ErrorCode::out_of_memory;
 }
 
-/// Arranges the input again with vertices snapped to ever coarser grids, until the doubles are
-/// conforming.
-Result<RoundedMesh> snap_input(const Arrangement& a, RoundedMesh first,
-                               const RoundingOptions& options, const Run& run) {
-    SnappedInput snapped(a);
-    snapped.choose(first);
-    // A part of an arrangement has been repaired in place as far as that goes, and begins anew.
-    unsigned rounds = a.state->whole ? first.report.rounds : 0;
-    for (const int digits : rounding_tuning.coarse_digits)
-        for (unsigned w = 0; w < rounding_tuning.widenings && rounds < options.max_rounds; ++w) {
-            auto again = arrange(snapped.surfaces(digits), {}, run);
-            if (!again) return again.error();
-            name_input(a, again.value());
-            if (a.state->restrict_again) {
-                again = a.state->restrict_again(std::move(again).value(), run);
-                if (!again && is_external(again.error().code)) return again.error();
-                if (!again) return first; // the grid is so coarse that a boundary is not closed
-            }
-            auto rounded = Rounding(again.value(), options, true, run)();
-            if (!rounded) return rounded;
-            ++rounds;
-            if (rounded.value().report.clean) {
-                add_to_report(snapped, a, first.report, rounded.value());
-                rounded.value().report.rounds += rounds;
-                return rounded;
-            }
-            if (!snapped.choose(rounded.value())) break;
+/// Arranges a moved input and rounds that. Returns nothing where a boundary is then not closed.
+Result<std::optional<RoundedMesh>> arrange_again(const Arrangement& a,
+                                                 const std::vector<Surface>& surfaces,
+                                                 const MovedInput& moved, const Task& task) {
+    auto again = arrange(surfaces, {}, task.run);
+    if (!again) return again.error();
+    name_input(a, again.value());
+    if (a.state->restrict_again) {
+        again = a.state->restrict_again(std::move(again).value(), task.run);
+        if (!again && is_external(again.error().code)) return again.error();
+        if (!again) return {std::nullopt};
+    }
+    auto rounded = Rounding(again.value(), moved, true, task)();
+    if (!rounded) return rounded.error();
+    return {std::move(rounded).value()};
+}
+
+/// Attempts to round an arrangement by moving its input.
+class MovedAttempts {
+public:
+    MovedAttempts(const Arrangement& a, RoundedMesh first, const Task& task) :
+        arrangement_(a), task_(task), first_(std::move(first)), input_(a) {
+        input_.choose(first_);
+        // A part of an arrangement has been repaired in place as far as that goes, and begins anew.
+        rounds_ = a.state->whole ? first_.report.rounds : 0;
+    }
+
+    /// Returns the first rounding that is conforming, or the one before any was attempted.
+    Result<RoundedMesh> operator()() {
+        if (auto done = as_decimals(); !done) return done.error();
+        const auto points = arrangement_.state->points.inputs();
+        double last = 0;
+        for (const int digits : rounding_tuning.coarse_digits) {
+            if (found_) break;
+            const auto grid =
+                grid_of_digits(points, digits, task_.limit - room(points), task_.kept);
+            if (!grid || grid->reach() == last) break; // coarser ones are as fine
+            last = grid->reach();
+            if (auto done = on_grid(*grid); !done) return done.error();
+            if (is_over_) break;
         }
-    return first;
+        return found_ ? std::move(*found_) : std::move(first_);
+    }
+
+private:
+    Status as_decimals();
+    Status on_grid(const SnapGrid& grid);
+    Status attempt(const std::vector<Surface>& surfaces);
+    [[nodiscard]] double room(std::span<const Point3> points) const;
+    [[nodiscard]] bool may_go_on() const {
+        return !found_ && !is_over_ && rounds_ < task_.options.max_rounds;
+    }
+
+    const Arrangement& arrangement_;
+    const Task& task_;
+    RoundedMesh first_;
+    SnappedInput input_;
+    unsigned rounds_ = 0;
+    bool is_over_ = false; ///< a grid was so coarse that a boundary was not closed
+    std::optional<RoundedMesh> found_, last_; ///< conforming; the last one that is not
+};
+
+/// Returns what is left for the repair of the doubles after the input was moved.
+double MovedAttempts::room(std::span<const Point3> points) const {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    double sum = 0;
+    for (const int digits : {rounding_tuning.fine_digits[0], rounding_tuning.fine_digits[1]})
+        if (const auto grid = grid_of_digits(points, digits, infinity, task_.kept))
+            sum += grid->reach();
+    return std::min(sum, task_.limit / 4);
+}
+
+/// Arranges and rounds the moved input.
+Status MovedAttempts::attempt(const std::vector<Surface>& surfaces) {
+    auto rounded = arrange_again(arrangement_, surfaces, input_.how(), task_);
+    if (!rounded) return rounded.error();
+    ++rounds_;
+    last_ = std::move(rounded).value();
+    is_over_ = !last_;
+    if (!last_ || !last_->report.clean || last_->report.surface_deviation > task_.limit)
+        return Done{};
+    add_to_report(input_.how(), arrangement_, first_.report, *last_);
+    last_->report.rounds += rounds_;
+    found_ = std::move(last_);
+    return Done{};
+}
+
+/// Arranges the input as the decimals that it stands for. What compares lengths can't be repeated
+/// in a frame.
+Status MovedAttempts::as_decimals() {
+    const ExactState& state = *arrangement_.state;
+    if (!may_go_on() || (state.restrict_again && state.measures)) return Done{};
+    const auto frame = DecimalFrame::of(state.points.inputs(), input_.chosen(), task_.kept);
+    if (!frame || 2 * frame->largest_error() > task_.limit) return Done{};
+    if (auto done = attempt(input_.surfaces(*frame)); !done) return done;
+    is_over_ = false; // a grid may do
+    return Done{};
+}
+
+/// Snaps the vertices of triangles in contact to a grid, then those of what is in contact then.
+Status MovedAttempts::on_grid(const SnapGrid& grid) {
+    for (unsigned w = 0; w < rounding_tuning.widenings && may_go_on(); ++w) {
+        if (auto done = attempt(input_.surfaces(grid)); !done) return done;
+        if (last_ && !input_.choose(*last_)) break;
+    }
+    return Done{};
 }
 
 Result<RoundedMesh> round_all(const Arrangement& a, const RoundingOptions& options,
                               const Run& run) {
+    const Task task{options, options.max_move.value_or(default_max_move(a)), a.state->kept_planes,
+                    run};
     // Arranging the input again would restore triangles that were removed from the arrangement.
-    const bool may_snap_input =
+    const bool may_move_input =
         (a.state->whole || a.state->restrict_again) && options.max_rounds > 0;
-    Rounding where_it_lies(a, options, !may_snap_input || !a.state->whole, run);
+    const MovedInput unmoved;
+    Rounding where_it_lies(a, unmoved, !may_move_input || !a.state->whole, task);
     auto rounded = where_it_lies();
     const auto is_unclean = [&] { return rounded && !rounded.value().report.clean; };
-    if (is_unclean() && may_snap_input)
-        rounded = snap_input(a, std::move(rounded).value(), options, run);
-    if (is_unclean() && where_it_lies.left_crowded()) rounded = Rounding(a, options, true, run)();
+    if (is_unclean() && may_move_input)
+        rounded = MovedAttempts(a, std::move(rounded).value(), task)();
+    if (is_unclean() && where_it_lies.left_crowded()) rounded = Rounding(a, unmoved, true, task)();
     if (rounded && (rounded.value().report.collapsed_triangles > 0 ||
                     !rounded.value().report.vanished.empty()))
         report_lost_regions(a, rounded.value());
@@ -442,6 +176,18 @@ Result<RoundedMesh> round_to_doubles(const Arrangement& arrangement, const Round
         with_threads(run, [&] { rounded = round_all(arrangement, options, inner); });
         return rounded;
     });
+}
+
+double default_max_move(const Arrangement& a) {
+    double largest = 0;
+    for (const Triangle& t : a.state->corners)
+        for (const std::uint32_t v : t) {
+            const Point3& p = a.state->points.input(v);
+            largest = std::max({largest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+        }
+    if (!(largest > 0)) return std::numeric_limits<double>::min();
+    const int digits = std::ilogb(largest) - 52 + rounding_tuning.allowed_digits;
+    return std::ldexp(1.0, std::max(digits, -1074 + rounding_tuning.allowed_digits));
 }
 
 std::vector<NamedConstant> rounding_constants() {

@@ -2,12 +2,15 @@
 //
 // Rounds an arrangement from exact points to doubles. Each point goes to the nearest doubles. Where
 // the mesh of doubles is then no longer conforming, iterated snap rounding moves the corners of the
-// triangles that cross, and all points in the same grid cells.
+// triangles that cross, and all points in the same grid cells. Inputs that were written as decimals
+// are arranged as these decimals instead, so that what is coplanar in decimals is coplanar.
 //
 // Guarantee: if report.clean, no two triangles of the mesh meet other than in a shared vertex or
 // edge, none is degenerate and none is repeated, as exact predicates on the doubles have shown.
 // Otherwise report.contacts lists the remaining pairs. There is no proof that the rounds succeed
-// for every input; therefore the result is checked.
+// for every input; therefore the result is checked. No surface moves farther than options.max_move,
+// whether report.clean or not, and no point leaves or passes a plane of a volume of interest that
+// is parallel to two axes.
 // Cost: nearest doubles of the constructed points and one box search for the triangles that have
 // such points; then, per round, the same for the points that moved.
 // Source: Valque and Lazard, Removing self-intersections in triangular meshes (2025), made local.
@@ -37,6 +40,10 @@ struct RoundingOptions {
     unsigned max_rounds = 8;  ///< limit on the rounds of snapping, for a part of an arrangement
                               ///< in place and with moved input each; 0: nearest doubles only
     PairCheckOptions check{}; ///< how the doubles are checked; the mesh does not depend on it
+    /// The farthest that surfaces may move, unit of the input: what no move up to it makes
+    /// conforming is refused. None: default_max_move(). Must be at least the error of the nearest
+    /// doubles.
+    std::optional<double> max_move{};
 };
 
 /// A surface that lost regions because they were too thin for doubles.
@@ -52,10 +59,17 @@ struct RoundingReport {
     unsigned rounds = 0;                   ///< number of snapping rounds
     std::size_t naive_contacts = 0;        ///< pairs that meet improperly at the nearest doubles
     std::vector<ImproperContact> contacts; ///< remaining contacts; triangles of the mesh
-    double max_move = 0;  ///< no vertex is farther from its exact point; unit of the
-                          ///< input
-    double deviation = 0; ///< no point of the mesh is farther from the exact surfaces,
-                          ///< nor the reverse, except in vanished parts; >= max_move
+    /// No point of the mesh is farther from the input triangles that it is part of, and no point of
+    /// an input triangle is farther from its parts, except for what vanished; unit of the input.
+    double surface_deviation = 0;
+    double max_allowed = 0; ///< the limit of surface_deviation: max_move of the options
+    double lost_length = 0; ///< points of slivers that became narrower than doubles, and vanished,
+                            ///< are at most so much farther from the rest
+    double max_move = 0;    ///< no vertex is farther from its exact point
+    bool arranged_again = false; ///< whether exact points are those in which surfaces cross after
+                                 ///< they were moved, by at most surface_deviation
+    double deviation = 0; ///< what a certificate states of all points, vanished slivers included:
+                          ///< >= surface_deviation + lost_length, >= max_move of the same triangles
     std::array<std::size_t, 32> moves{};   ///< vertices by move: [0] none, [k] from 10^(k - 24) on
     std::size_t moved_input_vertices = 0;  ///< number of input vertices that moved
     std::size_t merged_vertices = 0;       ///< number of points that were merged with another one
@@ -73,9 +87,13 @@ struct RoundedMesh {
     RoundingReport report;                      ///< moves, contacts and losses
 };
 
-/// Rounds an arrangement. Errors: interrupted, out_of_memory, bad_number (a constructed point is
-/// beyond the largest double), internal. Times: round, with the step regions (intersection edges
-/// and regions of the mesh, which are not rounding).
+/// Returns the largest move that is allowed unless options say otherwise: 1024 times the spacing of
+/// doubles at the largest coordinate (docs/explanation/rounding.md has the reason).
+double default_max_move(const Arrangement& arrangement);
+
+/// Rounds an arrangement. Errors: interrupted, out_of_memory, bad_option (no doubles are within
+/// max_move), bad_number (a constructed point is beyond the largest double), internal. Times:
+/// round, with the step regions (intersection edges and regions of the mesh; not rounding).
 Result<RoundedMesh> round_to_doubles(const Arrangement& arrangement,
                                      const RoundingOptions& options = {}, const Run& run = {});
 

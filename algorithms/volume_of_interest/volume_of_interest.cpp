@@ -101,6 +101,23 @@ again(std::function<Result<Arrangement>(Arrangement, const Run&)> before,
     };
 }
 
+/// Returns the coordinates of the boundary's triangles across each axis.
+std::array<std::vector<double>, 3> planes_of(const Arrangement& a,
+                                             std::span<const std::uint32_t> boundary) {
+    std::array<std::vector<double>, 3> planes;
+    for (const std::uint32_t s : boundary)
+        for (std::uint32_t t = a.inputs.first[s]; t < a.inputs.first[s + 1]; ++t) {
+            const Triangle& c = a.state->corners[t];
+            const Point3 &p = a.state->points.input(c[0]), &q = a.state->points.input(c[1]),
+                         &r = a.state->points.input(c[2]);
+            if (p.x == q.x && q.x == r.x) planes[0].push_back(p.x);
+            if (p.y == q.y && q.y == r.y) planes[1].push_back(p.y);
+            if (p.z == q.z && q.z == r.z) planes[2].push_back(p.z);
+        }
+    for (auto& coordinates : planes) sort_unique(coordinates);
+    return planes;
+}
+
 // ---- Report
 
 double area_of(std::span<const Point3> places, const Triangle& t) {
@@ -230,9 +247,12 @@ Result<VolumeOfInterest> cut(Arrangement a, std::span<const std::uint32_t> bound
     for (std::size_t t = 0; t < keep.size(); ++t) keep[t] = where.value()[t] != Where::outside;
     auto before = a.state->restrict_again;
     result.arrangement = restricted(std::move(a), keep, run);
-    if (!result.arrangement.state->whole)
-        own_state(result.arrangement).restrict_again =
-            again(std::move(before), {boundary.begin(), boundary.end()});
+    ExactState& state = own_state(result.arrangement);
+    state.kept_planes = planes_of(result.arrangement, boundary);
+    if (!state.whole) {
+        state.measures = before && state.measures;
+        state.restrict_again = again(std::move(before), {boundary.begin(), boundary.end()});
+    }
     count_pieces(result.arrangement, result.report.surfaces);
     result.report.borders = open_borders(result.arrangement, boundary);
     for (const OpenBorder& b : result.report.borders) {

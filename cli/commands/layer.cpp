@@ -13,6 +13,7 @@
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/options/files.hpp>
+#include <terrane/cli/options/max_move.hpp>
 #include <terrane/cli/options/statistics.hpp>
 #include <terrane/cli/reports/pair_report.hpp>
 #include <terrane/cli/stages/certificate_output.hpp>
@@ -28,6 +29,7 @@ struct LayerCommand {
     std::string keep;
     std::vector<std::string> layers; ///< NAME=HARDNESS, from the top down
     double min_thickness = 0;
+    std::optional<double> max_move;
     PairCheckOptions check = few_pairs;
     ProofOptions proof; ///< a certificate only
 };
@@ -133,10 +135,11 @@ Result<ExitStatus> layer_files(LayerCommand& command, Session& session) {
     const auto order = order_of(command, inputs.value());
     if (!order) return order.error();
 
-    const auto layered = layer_inputs(
-        inputs.value(), order.value(),
-        {.min_thickness = command.min_thickness, .check = check_of(command.check, inputs.value())},
-        session, statistics);
+    const auto layered = layer_inputs(inputs.value(), order.value(),
+                                      {.min_thickness = command.min_thickness,
+                                       .check = check_of(command.check, inputs.value()),
+                                       .max_move = command.max_move},
+                                      session, statistics);
     if (!layered) return layered.error();
     const RoundedMesh& rounded = layered.value().rounded;
     const bool is_stack = layered->is_stack();
@@ -181,6 +184,7 @@ Command layer_command(CLI::App& program) {
                     "of the files (default: 0)")
         ->type_name("LENGTH");
     add_output(*app, command->files, "File for the mesh; - is standard output");
+    add_max_move(*app, command->max_move);
     add_check(*app, command->check);
     app->add_flag("--ascii", command->files.ascii, "STL as text, with doubles, not float32");
     add_certificate(*app, command->proof.certificate);

@@ -64,7 +64,11 @@ void add_statistics(Json& json, const RoundedMesh& rounded, const StageTimes& ti
                       {"regions", rounded.regions.size()},
                       {"volumes", nullptr}};
     json["rounding"] = {{"iterations", r.rounds},
+                        {"surface_deviation", r.surface_deviation},
+                        {"max_allowed", r.max_allowed},
+                        {"lost_length", r.lost_length},
                         {"max_move", r.max_move},
+                        {"arranged_again", r.arranged_again},
                         {"deviation", r.deviation},
                         {"moves", r.moves}, // vertices by decade of their move: see RoundingReport
                         {"verified", r.clean},

@@ -14,6 +14,7 @@
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/model/seal_rules.hpp>
 #include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
+#include <terrane/cli/options/max_move.hpp>
 #include <terrane/cli/reports/merge_report.hpp>
 #include <terrane/cli/reports/seal_report.hpp>
 #include <terrane/cli/session/console.hpp>
@@ -75,10 +76,21 @@ std::string rounding_text(const RoundingReport& r) {
     if (r.max_move > 0)
         text =
             fmt::format("doubles: no vertex is more than {:.3g} from its exact place", r.max_move);
+    if (r.arranged_again)
+        text += fmt::format(", where surfaces cross after they moved by up to {:.3g}",
+                            r.surface_deviation);
     if (r.rounds > 0)
         text += fmt::format("; {} of snapping, for {} that met improperly",
                             counted(r.rounds, "round"), counted(r.naive_contacts, "pair"));
     text += '\n';
+    if (r.rounds > 0)
+        text += fmt::format("doubles: no surface is more than {:.3g} from where it was, nor any of "
+                            "its parts; {:.3g} is allowed\n",
+                            r.surface_deviation, r.max_allowed);
+    if (r.lost_length > 0)
+        text += fmt::format("doubles: slivers that doubles can't hold vanished, which reached up "
+                            "to {:.3g} beyond the rest\n",
+                            r.lost_length);
     if (r.moved_input_vertices > 0)
         text += fmt::format("doubles: {} had to give way\n",
                             r.moved_input_vertices == 1
@@ -93,8 +105,9 @@ std::string rounding_text(const RoundingReport& r) {
                                 ? std::string("1 surface has")
                                 : fmt::format("{} surfaces have", r.lost_regions.size()));
     text += r.clean ? "verified: the doubles are a conforming mesh, by exact check\n"
-                    : fmt::format("NOT verified: {} of triangles still meet improperly\n",
-                                  counted(r.contacts.size(), "pair"));
+                    : fmt::format("NOT verified: {} of triangles still meet improperly, and no "
+                                  "surface may move by more than {:.3g} to separate them\n",
+                                  counted(r.contacts.size(), "pair"), r.max_allowed);
     return text + text_of(r.pairs);
 }
 
@@ -187,6 +200,7 @@ void add_settings(CLI::App& command, ArrangeSettings& settings) {
                     "0: only to the nearest double (default: 8)")
         ->check(CLI::Range(0U, most_rounds).description(""))
         ->type_name("N");
+    add_max_move(command, settings.max_move);
     add_check(command, settings.check);
     add_seal(command, settings);
     add_automatic(command, "--min-volume", settings.min_volume, settings.min_volume_automatic,
@@ -227,14 +241,16 @@ void add_statistics(Json& statistics, const Arranged& arranged, const Inputs& in
 }
 
 Result<ArrangeWithinOptions> options_within(const ArrangeSettings& settings, const Inputs& inputs) {
-    ArrangeWithinOptions options{
-        .arrange = {.search = settings.search},
-        .rounding = {.max_rounds = settings.rounds, .check = check_of(settings.check, inputs)},
-        .seal = settings.seal,
-        .seal_automatic = settings.seal_automatic,
-        .extend = settings.volume.extend,
-        .min_volume = settings.min_volume_automatic ? small_volume_for(inputs.surfaces)
-                                                    : settings.min_volume};
+    ArrangeWithinOptions options{.arrange = {.search = settings.search},
+                                 .rounding = {.max_rounds = settings.rounds,
+                                              .check = check_of(settings.check, inputs),
+                                              .max_move = settings.max_move},
+                                 .seal = settings.seal,
+                                 .seal_automatic = settings.seal_automatic,
+                                 .extend = settings.volume.extend,
+                                 .min_volume = settings.min_volume_automatic
+                                                   ? small_volume_for(inputs.surfaces)
+                                                   : settings.min_volume};
     const auto infos = infos_of(inputs.surfaces);
     for (const auto& [name, distance] : settings.seal_of) {
         const auto rules = seal_rules_for(name, distance, infos, inputs.labels);

@@ -22,6 +22,7 @@ namespace terrane::cli {
 struct ArrangeSettings {
     Search search = Search::automatic;
     unsigned rounds = RoundingOptions{}.max_rounds;
+    std::optional<double> max_move;     ///< of surfaces, in rounding; none: the default
     PairCheckOptions check = few_pairs; ///< how the mesh is checked
     VolumeOptions volume;               ///< volume of interest
     double seal = 0;                    ///< distance within which gaps are sealed; 0: not at all

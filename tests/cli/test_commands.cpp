@@ -53,7 +53,7 @@ TEST_CASE("cli: statistics have the promised keys", "[cli]") {
     CHECK(json["search"]["method"] == "hierarchy"); // what auto stands for
     CHECK(json["rounding"]["verified"] == true);
     CHECK(json["seconds"]["total"].get<double>() > 0);
-    CHECK(json["constants"]["round"]["coarse_digits_1"] == 16);
+    CHECK(json["constants"]["round"]["coarse_digits_1"] == 9);
     CHECK_FALSE(json["constants"].contains("improve")); // a stage that was not run
     CHECK(json["peak_rss_mb"].get<double>() > 1);
 
@@ -112,6 +112,29 @@ TEST_CASE("cli: the summary counts what decided each pair; --check full tests al
     const auto wrong = folder.run("arrange " + real_model + " -o no.obj --check most");
     CHECK(wrong.status == 2);
     CHECK(contains(wrong.err, "--check"));
+}
+
+TEST_CASE("cli: no surface moves farther than --max-move", "[cli]") {
+    const Folder folder;
+    const std::string arrange_utm = "arrange $D/rounding/utm.obj -o out.obj --stats s.json";
+    REQUIRE(folder.run(arrange_utm).status == 0);
+    const auto rounding = Json::parse(folder.read("s.json"))["rounding"];
+    const double moved = rounding["surface_deviation"];
+    CHECK(moved < 1e-8);
+    CHECK(rounding["max_allowed"] == 1024 * 0x1p-31);
+    CHECK(rounding["max_move"] <= moved);
+
+    const Folder other;
+    const auto refused = other.run(arrange_utm + " --max-move 1e-9");
+    CHECK(refused.status == 1);
+    CHECK(contains(refused.out, "no surface may move by more than 1e-09 to separate them"));
+    CHECK(contains(refused.err, "(part of "));
+    CHECK(other.left() == std::set<std::string>{"s.json"});
+    const auto never = other.run(arrange_utm + " --max-move 1e-12");
+    CHECK(never.status == 2);
+    CHECK(contains(never.err, "max_move"));
+    CHECK(other.run(arrange_utm + " --max-move 0").status == 2);
+    CHECK(other.run(arrange_utm + " --max-move inf").status == 2);
 }
 
 TEST_CASE("cli: doubles that are not conforming are refused, by name", "[cli]") {

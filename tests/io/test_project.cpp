@@ -43,7 +43,7 @@ json full() {
         "layers": {"order": [{"surface": "top", "hardness": 1.5},
                              {"surface": "base", "hardness": -2}], "min_thickness": 0.5},
         "volume_of_interest": {"box": {"low": [0, 0, -1.5], "high": [1, 2, 3]}},
-        "extend": 100, "seal": 0.25, "seal_of": {"top": 0, "top/base": 3}, "min_volume": 2.5,
+        "extend": 100, "seal": 0.25, "seal_of": {"top": 0, "top/base": 3}, "min_volume": 2.5, "max_move": 0.5,
         "improve": {"edge_length": 4, "max_deviation": 0.125, "edge_length_of": {"top": 3},
                     "layers_in_gaps": 0.5, "smallest": 0.25},
         "tetrahedra": {"edge_length": 2, "max_volume": 3.5, "quality": 1.4, "split_surfaces": true,
@@ -264,6 +264,7 @@ TEST_CASE("project: all keys are read", "[io][project]") {
     CHECK(box->high == Point3{1, 2, 3});
     REQUIRE(p.improve.has_value());
     CHECK(p.improve->edge_length == 4.0);
+    CHECK(p.max_move == 0.5);
     CHECK(p.improve->max_deviation == 0.125);
     CHECK(p.improve->edge_length_of == std::vector<ProjectSize>{{"top", 3}});
     CHECK(p.extend == 100.0);

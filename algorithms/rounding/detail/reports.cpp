@@ -2,6 +2,7 @@
 #include <terrane/algorithms/rounding/detail/reports.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <span>
 
@@ -14,15 +15,15 @@ namespace terrane::rounding::detail {
 
 namespace {
 
-/// Returns the largest distance between exact vertices and those of a mesh with the same triangles.
-/// Returns 0 for any other mesh, whose vertices do not correspond to exact points.
-double largest_distance(const Arrangement& a, const Mesh& mesh) {
-    double largest = 0;
-    if (mesh.triangles != a.triangles) return largest;
-    for (std::size_t v = 0; v < std::min(a.vertices.size(), mesh.vertices.size()); ++v)
-        largest = std::max(
-            largest, distance_bound(a.state->points.enclosure(a.vertices[v]), mesh.vertices[v]));
-    return largest;
+/// Returns the distances between exact vertices and those of a mesh with the same triangles.
+/// Returns none for any other mesh, whose vertices do not correspond to exact points.
+std::vector<double> exact_moves(const Arrangement& a, const Mesh& mesh) {
+    std::vector<double> moves;
+    if (mesh.triangles != a.triangles || mesh.vertices.size() != a.vertices.size()) return moves;
+    moves.reserve(a.vertices.size());
+    for (std::size_t v = 0; v < a.vertices.size(); ++v)
+        moves.push_back(distance_bound(a.state->points.enclosure(a.vertices[v]), mesh.vertices[v]));
+    return moves;
 }
 
 std::vector<std::size_t> regions_per_surface(std::size_t surfaces,
@@ -45,16 +46,28 @@ std::vector<std::uint32_t> vanished(const Arrangement& a,
     return result;
 }
 
-void add_to_report(const SnappedInput& snapped, const Arrangement& a, const RoundingReport& first,
+std::array<std::size_t, 32> decades_of(std::span<const double> moves) {
+    std::array<std::size_t, 32> decades{};
+    for (const double m : moves) {
+        const double decade = m > 0 ? std::floor(std::log10(m)) + 24 : 0;
+        ++decades[static_cast<std::size_t>(m > 0 ? std::clamp(decade, 1.0, 31.0) : 0)];
+    }
+    return decades;
+}
+
+void add_to_report(const MovedInput& moved, const Arrangement& a, const RoundingReport& first,
                    RoundedMesh& rounded) {
     RoundingReport& report = rounded.report;
+    report.arranged_again = true;
     report.naive_contacts = first.naive_contacts;
-    report.max_move = std::max((report.max_move + snapped.largest_move()) * (1 + 0x1p-52),
-                               largest_distance(a, rounded.mesh));
-    report.deviation =
-        std::max((report.deviation + snapped.largest_move()) * (1 + 0x1p-52), report.max_move);
-    report.moved_input_vertices += snapped.moved();
-    report.merged_vertices += snapped.merged();
+    if (const auto moves = exact_moves(a, rounded.mesh); !moves.empty()) {
+        report.max_move = *std::ranges::max_element(moves);
+        report.moves = decades_of(moves);
+        report.arranged_again = false;
+        report.deviation = std::max(report.deviation, report.max_move);
+    }
+    report.moved_input_vertices += moved.moved;
+    report.merged_vertices += moved.merged;
     report.vanished = vanished(a, rounded.mesh->parents_of);
 }
 

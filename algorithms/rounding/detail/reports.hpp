@@ -3,7 +3,10 @@
 // Parts of the report that compare the mesh of doubles with the arrangement.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>
@@ -18,10 +21,14 @@ namespace terrane::rounding::detail {
 std::vector<std::uint32_t> vanished(const Arrangement& arrangement,
                                     const IndexLists<std::uint32_t>& parents_of);
 
-/// Adds the moves of the snapped input to those of its rounding. Where surfaces cross at a small
-/// angle, their intersection moves farther than their corners. `first` is the report of the
-/// rounding without snapped input.
-void add_to_report(const SnappedInput& snapped, const Arrangement& arrangement,
+/// Counts moves of vertices in decades: see RoundingReport::moves.
+std::array<std::size_t, 32> decades_of(std::span<const double> moves);
+
+/// Completes the report of the rounding of a moved input. Where the triangles are those of the
+/// arrangement all the same, each vertex has its exact point, and its move is measured: where
+/// surfaces cross at a small angle, it is larger than theirs. `first` is the report of the rounding
+/// before the input was moved.
+void add_to_report(const MovedInput& moved, const Arrangement& arrangement,
                    const RoundingReport& first, RoundedMesh& rounded);
 
 /// Compares the regions with those of the exact surfaces and reports losses.

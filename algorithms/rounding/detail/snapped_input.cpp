@@ -9,20 +9,42 @@
 
 namespace terrane::rounding::detail {
 
-SnapGrid grid_of_digits(std::span<const Point3> points, int digits) {
+double SnapGrid::reach() const {
+    return length_bound(step[0], step[1], step[2]) / 2;
+}
+
+// Division and multiplication by a power of two are exact, so a node is its own nearest node.
+double SnapGrid::snap(double x, unsigned axis) const {
+    const double s = step[axis];
+    if (!(s > 0)) return x;
+    const auto& planes = kept[axis];
+    const auto above = std::lower_bound(planes.begin(), planes.end(), x);
+    if (above != planes.end() && *above == x) return x;
+    double node = std::nearbyint(x / s) * s;
+    if (above != planes.end()) node = std::min(node, *above);
+    if (above != planes.begin()) node = std::max(node, above[-1]);
+    return node;
+}
+
+std::optional<SnapGrid> grid_of_digits(std::span<const Point3> points, int digits, double limit,
+                                       const KeptPlanes& kept) {
     std::array<double, 3> largest{};
     for (const Point3& p : points) {
         largest[0] = std::max(largest[0], std::fabs(p.x));
         largest[1] = std::max(largest[1], std::fabs(p.y));
         largest[2] = std::max(largest[2], std::fabs(p.z));
     }
-    SnapGrid grid;
-    for (unsigned k = 0; k < 3; ++k)
-        if (largest[k] > 0) {
+    for (; digits > 0; --digits) {
+        SnapGrid grid;
+        for (unsigned k = 0; k < 3; ++k) {
+            grid.kept[k] = kept[k];
+            if (!(largest[k] > 0)) continue;
             const int ulp = std::ilogb(largest[k]) - 52;
             grid.step[k] = std::ldexp(1.0, std::max(ulp + digits, -1074));
         }
-    return grid;
+        if (grid.reach() <= limit) return grid;
+    }
+    return std::nullopt;
 }
 
 SnappedInput::SnappedInput(const Arrangement& a) :
@@ -40,41 +62,64 @@ bool SnappedInput::choose(const RoundedMesh& rounded) {
     return any;
 }
 
-std::vector<Surface> SnappedInput::surfaces(int digits) {
+std::vector<Surface> SnappedInput::surfaces(const SnapGrid& grid) {
     const auto inputs = arrangement_.state->points.inputs();
-    const SnapGrid grid = grid_of_digits(inputs, digits);
     std::unordered_set<Point3, PointHash> cells;
     for (std::size_t v = 0; v < inputs.size(); ++v)
         if (chosen_[v]) cells.insert(grid.snap(inputs[v]));
+    how_ = {};
+    std::vector<Point3> places(inputs.begin(), inputs.end());
+    for (Point3& p : places) {
+        const Point3 cell = grid.snap(p);
+        if (cell == p || !cells.contains(cell)) continue;
+        ++how_.moved;
+        const double d = distance_bound({{p.x, p.y, p.z}, {p.x, p.y, p.z}}, cell);
+        how_.largest = std::max(how_.largest, d);
+        double& most = how_.moves[cell];
+        most = std::max(most, d);
+        p = cell;
+    }
+    return surfaces_at(places);
+}
+
+/// Statement (4) of docs/explanation/rounding.md has the factor of two: one error of the way into
+/// the frame, and one of the way back.
+std::vector<Surface> SnappedInput::surfaces(const DecimalFrame& frame) {
+    const auto inputs = arrangement_.state->points.inputs();
+    how_ = {};
+    how_.largest = 2 * frame.largest_error();
+    how_.frame = &frame;
+    std::vector<Point3> places(inputs.begin(), inputs.end());
+    for (Point3& p : places) {
+        const Point3 there = frame.into(p), given = frame.back(there);
+        if (given != p) {
+            ++how_.moved;
+            double& most = how_.moves[there];
+            most = std::max(most, distance_bound({{p.x, p.y, p.z}, {p.x, p.y, p.z}}, given));
+        }
+        p = there;
+    }
+    return surfaces_at(places);
+}
+
+std::vector<Surface> SnappedInput::surfaces_at(std::span<const Point3> places) {
     std::vector<Surface> out;
-    moved_ = 0;
-    largest_ = 0;
     const InputTriangles& in = arrangement_.inputs;
     for (std::size_t s = 0; s + 1 < in.first.size(); ++s) {
         Surface& surface = out.emplace_back();
-        for (std::uint32_t v = in.first_vertex[s]; v < in.first_vertex[s + 1]; ++v)
-            surface.vertices.push_back(snapped(inputs[v], grid, cells));
+        surface.vertices.assign(places.begin() + in.first_vertex[s],
+                                places.begin() + in.first_vertex[s + 1]);
     }
-    std::unordered_set<Point3, PointHash> before, after;
-    before.insert(inputs.begin(), inputs.end());
-    for (const Surface& surface : out)
-        after.insert(surface.vertices.begin(), surface.vertices.end());
-    merged_ = before.size() - after.size();
+    const auto inputs = arrangement_.state->points.inputs();
+    const std::unordered_set<Point3, PointHash> before(inputs.begin(), inputs.end()),
+        after(places.begin(), places.end());
+    how_.merged = before.size() - after.size();
     // Corners are numbered through all surfaces and may name a vertex of an earlier surface with
     // the same coordinates. Each triangle gets corners in its own surface.
     for (std::size_t s = 0; s + 1 < in.first.size(); ++s)
         for (std::uint32_t t = in.first[s]; t < in.first[s + 1]; ++t)
             out[s].triangles.push_back(own_corners(s, corners_of(t), out));
     return out;
-}
-
-Point3 SnappedInput::snapped(const Point3& p, const SnapGrid& grid,
-                             const std::unordered_set<Point3, PointHash>& cells) {
-    const Point3 cell = grid.snap(p);
-    if (cell == p || !cells.contains(cell)) return p;
-    ++moved_;
-    largest_ = std::max(largest_, distance_bound({{p.x, p.y, p.z}, {p.x, p.y, p.z}}, cell));
-    return cell;
 }
 
 /// Returns the corners of an input triangle. For a degenerate one it returns the first corner three

@@ -17,20 +17,20 @@
 namespace terrane::rounding::detail {
 namespace {
 
-// Returns an upper bound of a length. The last factor covers the rounding errors, in any mode.
-double length_bound(double x, double y, double z) {
-    const double most = std::max({x, y, z});
-    if (most == 0 || std::isinf(most)) return most; // not 0 / 0 and not inf / inf
-    const double u = x / most, v = y / most, w = z / most;
-    return most * std::sqrt(u * u + v * v + w * w) * (1 + 0x1p-48);
-}
-
 Triangle sorted(Triangle t) {
     std::sort(t.begin(), t.end());
     return t;
 }
 
 } // namespace
+
+// The last factor covers the rounding errors, in any mode.
+double length_bound(double x, double y, double z) {
+    const double most = std::max({x, y, z});
+    if (most == 0 || std::isinf(most)) return most; // not 0 / 0 and not inf / inf
+    const double u = x / most, v = y / most, w = z / most;
+    return most * std::sqrt(u * u + v * v + w * w) * (1 + 0x1p-48);
+}
 
 double rounding_bound(const PointStore& points, PointIndex p) {
     const auto errors = points.rounding_errors(p);
@@ -94,8 +94,8 @@ void RoundingState::move_point(std::size_t v, const Point3& to) {
 void RoundingState::end_round() {
     if (deviation == 0 && largest_move_ == 0)
         for (const double m : move) largest_move_ = std::max(largest_move_, m);
-    const double most = std::exchange(largest_move_, 0) + std::exchange(largest_gap_, 0);
-    deviation = (deviation + most) * (1 + 0x1p-51);
+    deviation = (deviation + std::exchange(largest_move_, 0)) * (1 + 0x1p-51);
+    gaps = (gaps + std::exchange(largest_gap_, 0)) * (1 + 0x1p-51);
 }
 
 namespace {
@@ -174,8 +174,8 @@ void RoundingState::find_gaps(const std::vector<bool>& gone) {
     largest_gap_ = std::max(largest_gap_, largest_gap(open_lines, at_mesh));
 }
 
-double RoundingState::total_deviation() const {
-    return largest_gap_ == 0 ? deviation : (deviation + largest_gap_) * (1 + 0x1p-51);
+double RoundingState::total_gaps() const {
+    return (gaps + largest_gap_) * (1 + 0x1p-51);
 }
 
 /// Merges equal points into the one with the lowest index. Only a dirty point can have become equal

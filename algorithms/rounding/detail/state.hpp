@@ -38,6 +38,7 @@ struct RoundingState {
                                  ///< equal; points that are missing were not merged
     std::size_t collapsed = 0;   ///< number of triangles that lost their area
     double deviation = 0;        ///< sum of the largest moves of all ended rounds
+    double gaps = 0;             ///< sum of the largest gaps of all ended rounds
     std::vector<std::uint32_t>
         found_dirty; ///< dirty_triangles(), if the last tidy() changed nothing
 
@@ -76,10 +77,10 @@ struct RoundingState {
     /// no longer valid afterwards.
     void drop_unused_points();
 
-    /// Adds the largest move and the largest gap since the last call to the deviation.
+    /// Adds the largest move since the last call to the deviation, and the largest gap to the gaps.
     void end_round();
-    /// Returns the deviation with the gaps since the last round ended.
-    [[nodiscard]] double total_deviation() const;
+    /// Returns the gaps with those since the last round ended.
+    [[nodiscard]] double total_gaps() const;
 
 private:
     void move_point(std::size_t v, const Point3& to);
@@ -93,6 +94,8 @@ private:
                              ///< collapsed is farther from the mesh
 };
 
+/// Returns an upper bound of the length of a vector with these components, which are not negative.
+double length_bound(double x, double y, double z);
 /// Returns an upper bound of the distance between a point and its nearest doubles.
 double rounding_bound(const PointStore& points, PointIndex p);
 /// Returns an upper bound of the distance between the enclosed point and p.

@@ -23,15 +23,21 @@ namespace terrane::rounding::detail {
 ///     (coplanar_half_turned), this happens at once, because fine rounds would only multiply them.
 /// (3) For a part of an arrangement (restricted.hpp) that is the last resort: what was removed would
 ///     be decided again. It gets all grids in place first, each as long as it removes contacts.
+/// (4) No grid moves a point farther than surfaces may move. By default that is 1024 spacings of
+///     the doubles, which nearly coplanar surfaces need: snapped to a grid of 512 spacings, most of
+///     their parts are so far from each other that rounding to doubles does not make them cross.
 struct RoundingTuning {
-    std::array<int, 3> fine_digits{4, 8, 12};             ///< grids for the output, in this order
-    std::array<int, 5> coarse_digits{16, 20, 24, 28, 32}; ///< grids for the input, in this order,
-                                                          ///< and for parts of arrangements
-    std::size_t many = 1024;                              ///< fewer contacts are never crowded
-    std::size_t crowded = 8;    ///< contacts are crowded if there are fewer triangles per contact
-    std::size_t multiplied = 8; ///< growth of contacts in a round that counts as a failure
-    unsigned widenings = 3;     ///< attempts per grid of the input, each on more triangles
-    unsigned shrinking = 4;     ///< a round helps if it divides the contacts by at least this
+    std::array<int, 3> fine_digits{4, 8, 12}; ///< grids for the output, in this order
+    std::array<int, 6> coarse_digits{9, 16, 20, 24, 28, 32}; ///< grids for the input, in this
+                                                             ///< order, and for parts
+    int allowed_digits = 10;      ///< the largest move allowed by default, as digits of a grid
+    double decimal_share = 0.125; ///< inputs are decimals only if the spacing of doubles is less
+                                  ///< than this share of that of the decimals
+    std::size_t many = 1024;      ///< fewer contacts are never crowded
+    std::size_t crowded = 8;      ///< contacts are crowded if there are fewer triangles per contact
+    std::size_t multiplied = 8;   ///< growth of contacts in a round that counts as a failure
+    unsigned widenings = 3;       ///< attempts per grid of the input, each on more triangles
+    unsigned shrinking = 4;       ///< a round helps if it divides the contacts by at least this
 };
 
 inline constexpr RoundingTuning rounding_tuning;
@@ -48,6 +54,9 @@ inline std::vector<NamedConstant> named_constants() {
         {"coarse_digits_3", static_cast<double>(t.coarse_digits[2])},
         {"coarse_digits_4", static_cast<double>(t.coarse_digits[3])},
         {"coarse_digits_5", static_cast<double>(t.coarse_digits[4])},
+        {"coarse_digits_6", static_cast<double>(t.coarse_digits[5])},
+        {"allowed_digits", static_cast<double>(t.allowed_digits)},
+        {"decimal_share", t.decimal_share},
         {"many", static_cast<double>(t.many)},
         {"crowded", static_cast<double>(t.crowded)},
         {"multiplied", static_cast<double>(t.multiplied)},

@@ -47,44 +47,44 @@ TEST_CASE("rounding: triangles that became a line leave no corner inside their n
     CHECK_FALSE(state.tidy({}));
 }
 
-TEST_CASE("rounding: the deviation counts lines that collapsed triangles leave") {
+TEST_CASE("rounding: gaps are lines that collapsed triangles leave") {
     // Of each state triangle 0 remains, and the others are lines.
     SECTION("a line within a side of the triangle is no gap") {
         auto state = state_of({{0, 0, 0}, {8, 0, 0}, {0, 8, 0}, {3, 0, 0}}, {{0, 1, 2}, {0, 3, 1}});
         CHECK(state.tidy({}));
-        CHECK(state.total_deviation() == 0);
+        CHECK(state.total_gaps() == 0);
     }
     SECTION("a line between two triangles is up to half its length away") {
         auto state =
             state_of({{0, 0, 0}, {8, 0, 0}, {0, 8, 0}, {0, 0, 5}, {8, 0, 5}, {0, 8, 5}, {0, 0, 0}},
                      {{0, 1, 2}, {3, 4, 5}, {0, 3, 6}});
         CHECK(state.tidy({}));
-        CHECK(state.total_deviation() == Approx(2.5).epsilon(1e-12));
-        CHECK(state.total_deviation() >= 2.5);
+        CHECK(state.total_gaps() == Approx(2.5).epsilon(1e-12));
+        CHECK(state.total_gaps() >= 2.5);
     }
     SECTION("a line that ends freely is up to its length away") {
         auto state = state_of({{0, 0, 0}, {8, 0, 0}, {0, 8, 0}, {0, 0, 5}, {0, 0, 0}},
                               {{0, 1, 2}, {0, 3, 4}});
         CHECK(state.tidy({}));
-        CHECK(state.total_deviation() == Approx(5).epsilon(1e-12));
-        CHECK(state.total_deviation() >= 5);
+        CHECK(state.total_gaps() == Approx(5).epsilon(1e-12));
+        CHECK(state.total_gaps() >= 5);
     }
     SECTION("so are lines that are connected, with the sum of their lengths") {
         auto state =
             state_of({{0, 0, 0}, {8, 0, 0}, {0, 8, 0}, {0, 0, 5}, {0, 0, 0}, {3, 0, 5}, {0, 0, 5}},
                      {{0, 1, 2}, {0, 3, 4}, {3, 5, 6}});
         CHECK(state.tidy({}));
-        CHECK(state.total_deviation() == Approx(8).epsilon(1e-12));
-        CHECK(state.total_deviation() >= 8);
+        CHECK(state.total_gaps() == Approx(8).epsilon(1e-12));
+        CHECK(state.total_gaps() >= 8);
     }
     SECTION("the next round adds them once") {
         auto state = state_of({{0, 0, 0}, {8, 0, 0}, {0, 8, 0}, {0, 0, 5}, {0, 0, 0}},
                               {{0, 1, 2}, {0, 3, 4}});
         CHECK(state.tidy({}));
-        const double before = state.total_deviation();
+        const double before = state.total_gaps();
         state.end_round();
-        CHECK(state.deviation == Approx(before).epsilon(1e-12));
-        CHECK(state.total_deviation() == state.deviation);
+        CHECK(state.gaps == Approx(before).epsilon(1e-12));
+        CHECK(state.total_gaps() == Approx(state.gaps).epsilon(1e-12));
     }
 }
 

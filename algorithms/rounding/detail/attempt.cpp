@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/rounding/detail/attempt.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include <terrane/algorithms/arrangement/intersection_edges.hpp>
+#include <terrane/algorithms/arrangement/retriangulation.hpp>
+#include <terrane/algorithms/arrangement/soup.hpp>
+#include <terrane/algorithms/core/disjoint_sets.hpp>
+#include <terrane/algorithms/core/parallel.hpp>
+#include <terrane/algorithms/core/stage_timer.hpp>
+#include <terrane/algorithms/intersection/intersection.hpp>
+#include <terrane/algorithms/mesh/work_hook.hpp>
+#include <terrane/algorithms/rounding/detail/reports.hpp>
+#include <terrane/algorithms/rounding/detail/separation.hpp>
+#include <terrane/kernel/predicates.hpp>
+
+namespace terrane::rounding::detail {
+
+/// Creates the ConformingMesh that the rounds below prove: they know all pairs that meet
+/// improperly, and end without one.
+class RoundingProof {
+public:
+    static ConformingMesh of(const SharedMesh& mesh, const std::optional<PairCounts>& pairs) {
+        terrane::detail::announce_work("prove conforming", mesh->vertices, mesh->triangles);
+        return {mesh, pairs};
+    }
+};
+
+void Rounding::to_nearest() {
+    const Arrangement& a = arrangement_;
+    const auto first_constructed = static_cast<std::size_t>(
+        std::lower_bound(a.vertices.begin(), a.vertices.end(), a.state->points.input_count()) -
+        a.vertices.begin());
+    state_.input_vertices = first_constructed;
+    both(
+        run_,
+        [&] {
+            state_.triangles = a.triangles;
+            state_.parents_of = a.parents_of;
+        },
+        [&] {
+            state_.points.reserve(a.vertices.size());
+            for (std::size_t v = 0; v < first_constructed; ++v)
+                state_.points.push_back(given(a.state->points.input(a.vertices[v])));
+            state_.points.resize(a.vertices.size());
+            state_.move.assign(a.vertices.size(), 0);
+            state_.is_dirty.assign(a.vertices.size(), false);
+        });
+    struct Nothing {};
+    const std::size_t constructed = a.vertices.size() - first_constructed;
+    for_blocks<Nothing>(constructed, 1024, run_, [&](std::size_t first, std::size_t last) {
+        for (std::size_t k = first; k < last; ++k) constructed_to_nearest(first_constructed + k);
+        return Nothing{};
+    });
+    // In a frame nothing is known of the doubles, so that all pairs are tested.
+    for (std::size_t v = moved_.frame != nullptr ? 0 : first_constructed; v < a.vertices.size();
+         ++v)
+        state_.is_dirty[v] = moved_.frame != nullptr || state_.move[v] > 0;
+    state_.end_round();
+    changed_ = state_.tidy(run_);
+}
+
+void Rounding::constructed_to_nearest(std::size_t v) {
+    const PointStore& points = arrangement_.state->points;
+    const PointIndex p = arrangement_.vertices[v];
+    state_.points[v] = given(points.nearest(p));
+    state_.move[v] = moved_.frame == nullptr
+                         ? rounding_bound(points, p)
+                         : moved_.frame->error_of(points.nearest(p), points.rounding_errors(p));
+}
+
+/// Returns the doubles for a place in the arrangement's frame.
+Point3 Rounding::given(const Point3& input) const {
+    return moved_.frame == nullptr ? input : moved_.frame->back(input);
+}
+
+/// Returns a bound of the distance of surfaces from where they were.
+double Rounding::deviation() const {
+    if (moved_.largest == 0) return state_.deviation;
+    return (state_.deviation + moved_.largest) * (1 + 0x1p-52);
+}
+
+Error Rounding::too_far() const {
+    return {ErrorCode::bad_option,
+            fmt::format("the nearest doubles are up to {:.3g} from the exact result, which is more "
+                        "than the {:.3g} allowed; allow more",
+                        deviation(), task_.limit),
+            "max_move"};
+}
+
+/// Performs rounds of local snapping, and keeps the mesh with fewest contacts. With a whole
+/// arrangement it ends as soon as a round does not help much, as the input can be snapped instead.
+/// What was removed from an arrangement would then have to be decided again, perhaps otherwise.
+/// Therefore a part of one gets coarser grids, too, each as long as it removes contacts.
+void Rounding::repair(std::vector<CandidatePair>& pairs) {
+    const bool is_whole = arrangement_.state->whole;
+    std::vector<int> grids(rounding_tuning.fine_digits.begin(), rounding_tuning.fine_digits.end());
+    if (!is_whole)
+        grids.insert(grids.end(), rounding_tuning.coarse_digits.begin(),
+                     rounding_tuning.coarse_digits.end());
+    for (auto digits = grids.begin(); digits != grids.end();) {
+        if (out_.report.rounds == options_.max_rounds || run_.stop.stop_requested()) return;
+        const auto grid =
+            grid_of_digits(state_.points, *digits, task_.limit - deviation(), task_.kept);
+        if (!grid) return;
+        ++out_.report.rounds;
+        const RoundingState before = state_;
+        const std::size_t count = pairs.size();
+        auto left = snap_round(pairs, *grid) ? contacts() : pairs;
+        if (left.size() < count && deviation() <= task_.limit)
+            pairs = std::move(left);
+        else
+            state_ = before;
+        if (pairs.empty()) return;
+        if (is_whole && rounding_tuning.shrinking * pairs.size() > count) return;
+        if (is_whole || pairs.size() == count) ++digits;
+    }
+}
+
+PairFilter Rounding::is_improper() const {
+    return [this](const CandidatePair& p) {
+        return improper_contact(state_.points, state_.triangles[p.first],
+                                state_.triangles[p.second])
+            .has_value();
+    };
+}
+
+/// Finds the pairs that meet improperly. Two triangles without a dirty corner never do, and are
+/// tested on request only.
+std::vector<CandidatePair> Rounding::contacts() {
+    state_.search_dirty();
+    std::vector<std::uint32_t> active;
+    if (tests_all()) {
+        active.resize(state_.triangles.size());
+        std::iota(active.begin(), active.end(), 0U);
+    } else {
+        active = state_.dirty_triangles(run_);
+    }
+    if (active.empty()) return {};
+    auto pairs =
+        candidate_pairs_of({state_.points, state_.triangles}, active, {}, is_improper(), run_);
+    state_.only_dirty(pairs);
+    return pairs;
+}
+
+/// Finds the pairs that meet improperly right after rounding to nearest. Only pairs that neither
+/// injective patches nor the separation of faces exclude need a test.
+std::vector<CandidatePair> Rounding::first_contacts() {
+    if (changed_ || tests_all() || moved_.frame != nullptr) return contacts();
+    const Arrangement& a = arrangement_;
+    const auto& dirty = state_.found_dirty;
+    if (dirty.empty()) return {};
+    std::vector<bool> holds;         // per patch
+    std::uint32_t last = UINT32_MAX; // the parts of a face are consecutive
+    Sign last_turn{};
+    const auto turn = [&](std::uint32_t t, Axis axis) { // a part is oriented as its parent
+        const std::uint32_t parent = a.parents_of[t][0];
+        if (parent == last) return last_turn;
+        const Triangle& c = a.state->corners[last = parent];
+        const auto at = [&](unsigned i) { return a.state->points.input(c[i]); };
+        return last_turn = orient2d(axis, at(0), at(1), at(2));
+    };
+    Unproven unproven;
+    both(
+        run_,
+        [&] {
+            holds = recheck_injective_patches(state_.points, state_.triangles, a.state->adjacency,
+                                              dirty, state_.is_dirty, turn, a.state->patches);
+        },
+        [&] {
+            if (a.state->has_pools) { // not all pairs are known, and they would be too many
+                unproven.parts = dirty;
+                return;
+            }
+            unproven = find_unproven({a.state->points.inputs(), a.state->corners, a.vertices,
+                                      state_.points, state_.move, state_.triangles, a.parents_of},
+                                     a.state->neighbours, run_);
+        });
+    const auto improper = is_improper();
+    std::vector<CandidatePair> pairs;
+    {
+        const UpwardRounding guard;
+        for (const CandidatePair& p : unproven.pairs)
+            if (improper(p)) pairs.push_back(p);
+    }
+    const auto patch_of = [&](std::uint32_t t) {
+        const std::uint32_t p = a.state->patches.of[t];
+        return p != no_group && holds[p] ? p : no_group;
+    };
+    for (const std::uint32_t t : dirty)
+        if (patch_of(t) != a.state->patches.of[t]) unproven.parts.push_back(t);
+    for (const std::uint32_t t : unproven.ill_conditioned) // parts of one patch meet properly
+        if (patch_of(t) == no_group) unproven.parts.push_back(t);
+    const bool counts = options_.check.counts(arrangement_.triangles.size());
+    if (unproven.parts.empty() && !counts) return pairs;
+    sort_unique(unproven.parts);
+    std::vector<std::uint32_t> patches(state_.triangles.size());
+    for (std::uint32_t t = 0; t < patches.size(); ++t) patches[t] = patch_of(t);
+    if (counts) first_search_ = {unproven.pairs, unproven.parts, dirty, patches};
+    if (unproven.parts.empty()) return pairs;
+    const auto more = candidate_pairs_of({state_.points, state_.triangles}, unproven.parts, patches,
+                                         improper, run_);
+    pairs.insert(pairs.end(), more.begin(), more.end());
+    sort_unique(pairs);
+    return pairs;
+}
+
+/// Performs one round. Returns false if snapping multiplied the contacts so much that dividing them
+/// is not worthwhile.
+bool Rounding::snap_round(std::span<const CandidatePair> pairs, const SnapGrid& grid) {
+    changed_ = true;
+    snap_corners(pairs, grid);
+    state_.tidy(run_);
+    if (!divide_again(rounding_tuning.multiplied * pairs.size())) return false;
+    state_.end_round();
+    state_.tidy(run_);
+    return true;
+}
+
+void Rounding::snap_corners(std::span<const CandidatePair> pairs, const SnapGrid& grid) {
+    std::vector<std::uint32_t> corners;
+    for (const CandidatePair& p : pairs)
+        for (const std::uint32_t t : {p.first, p.second})
+            corners.insert(corners.end(), state_.triangles[t].begin(), state_.triangles[t].end());
+    std::vector<Point3> cells;
+    for (const std::uint32_t v : corners) cells.push_back(grid.snap(state_.points[v]));
+    state_.move_into(cells, [&](const Point3& p) { return grid.snap(p); });
+}
+
+/// Divides the triangles that still cross, exactly, and rounds the new points to the nearest
+/// doubles. These are much finer than the grid, so most of the parts stay clear of each other.
+/// Returns false without dividing anything if there are more than most_pairs pairs.
+bool Rounding::divide_again(std::size_t most_pairs) {
+    const auto pairs = contacts();
+    if (pairs.size() > most_pairs) return false;
+    if (pairs.empty()) return true;
+    Retriangulation division = retriangulate(state_.points, state_.triangles, pairs, run_);
+    if (run_.stop.stop_requested()) return true;
+    const auto first_new = static_cast<std::uint32_t>(state_.points.size());
+    std::vector<std::uint32_t> name_of(division.points.size());
+    for (const PointIndex p : division.ascending) {
+        name_of[p] = static_cast<std::uint32_t>(state_.points.size());
+        state_.add_point(division.points.nearest(p), rounding_bound(division.points, p));
+    }
+    for (Triangle& t : division.triangles)
+        for (std::uint32_t& v : t)
+            if (v >= first_new) v = name_of[v];
+    state_.replace_triangles(std::move(division.triangles), division.faces_of);
+    return true;
+}
+
+/// Each vertex is at most as far from where it was as its own moves and that of the input add up
+/// to: where the vertex is one of the input, that of the vertex.
+void Rounding::report_moves() {
+    RoundingReport& r = out_.report;
+    r.surface_deviation = deviation();
+    r.max_allowed = task_.limit;
+    r.lost_length = state_.total_gaps();
+    r.deviation = r.lost_length == 0 ? r.surface_deviation
+                                     : (r.surface_deviation + r.lost_length) * (1 + 0x1p-51);
+    std::vector<double> moves = state_.move;
+    for (std::size_t v = 0; v < state_.points.size(); ++v) {
+        double before = moved_.largest;
+        if (v < state_.input_vertices) {
+            const Point3& place = arrangement_.state->points.input(arrangement_.vertices[v]);
+            before = moved_.move_of(place);
+            r.moved_input_vertices += state_.points[v] != given(place);
+        }
+        if (before > 0) moves[v] = (moves[v] + before) * (1 + 0x1p-52);
+        r.max_move = std::max(r.max_move, moves[v]);
+    }
+    r.moves = decades_of(moves);
+    r.merged_vertices = state_.merged();
+    r.collapsed_triangles = state_.collapsed;
+}
+
+void Rounding::report_vanished() {
+    if (changed_) out_.report.vanished = vanished(arrangement_, state_.parents_of);
+}
+
+/// Computes the regions as long as triangles have only moved: they are then those of the
+/// arrangement.
+void Rounding::find_first_regions() {
+    if (changed_) return;
+    const StageTimer step(run_, "regions");
+    const Arrangement& a = arrangement_;
+    regions_ = find_regions(state_.points, state_.triangles, a.surfaces_of, a.state->adjacency,
+                            a.intersection_edges, run_);
+}
+
+void Rounding::finish(std::span<const CandidatePair> pairs) {
+    out_.report.clean = pairs.empty();
+    Mesh mesh;
+    both(
+        run_, [&] { report_moves(); },
+        [&] {
+            if (!changed_) mesh.surfaces_of = arrangement_.surfaces_of;
+        });
+    report_vanished();
+    if (options_.check.counts(arrangement_.triangles.size()))
+        out_.report.pairs = count_decisions(state_, arrangement_.triangles, first_search_,
+                                            options_.check.method, run_);
+    if (changed_) state_.drop_unused_points();
+    for (const CandidatePair& p : pairs) {
+        const auto contact =
+            improper_contact(state_.points, state_.triangles[p.first], state_.triangles[p.second]);
+        out_.report.contacts.push_back(
+            {{p.first, p.second},
+             kind_of(*contact),
+             nearest(state_.points, contact->points[contact->point_count - 1u].how)});
+    }
+    mesh.surfaces = arrangement_.surfaces;
+    mesh.vertices = std::move(state_.points);
+    mesh.triangles = std::move(state_.triangles);
+    mesh.parents_of = std::move(state_.parents_of);
+    if (changed_) {
+        const StageTimer step(run_, "regions"); // with intersection edges
+        const InputTriangles& inputs = arrangement_.inputs;
+        mesh.surfaces_of = surfaces_of_parents(inputs, mesh.parents_of, run_);
+        const Adjacency adjacency =
+            adjacency_of(group_edges(mesh.triangles, mesh.vertices.size(), run_),
+                         labels_of(mesh.surfaces_of, mesh.parents_of));
+        mesh.intersection_edges = find_intersection_edges(adjacency, inputs, mesh.parents_of);
+        regions_ = find_regions(mesh.vertices, mesh.triangles, mesh.surfaces_of, adjacency,
+                                mesh.intersection_edges, run_);
+    } else {
+        mesh.intersection_edges = arrangement_.intersection_edges;
+    }
+    mesh.regions_of = std::move(regions_->regions_of);
+    out_.regions = std::move(regions_->regions);
+    out_.mesh = std::move(mesh);
+    if (out_.report.clean) out_.conforming = RoundingProof::of(out_.mesh, out_.report.pairs);
+}
+
+} // namespace terrane::rounding::detail

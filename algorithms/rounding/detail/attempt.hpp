@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Rounds one arrangement, the input of which may have been moved, and repairs what then crosses
+// where it lies.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <terrane/algorithms/arrangement/exact_arrangement.hpp>
+#include <terrane/algorithms/core/result.hpp>
+#include <terrane/algorithms/core/run.hpp>
+#include <terrane/algorithms/regions/regions_over.hpp>
+#include <terrane/algorithms/rounding/detail/pair_decisions.hpp>
+#include <terrane/algorithms/rounding/detail/snapped_input.hpp>
+#include <terrane/algorithms/rounding/detail/state.hpp>
+#include <terrane/algorithms/rounding/detail/tuning.hpp>
+#include <terrane/algorithms/rounding/rounding.hpp>
+
+namespace terrane::rounding::detail {
+
+/// What does not change between attempts to round one arrangement.
+struct Task {
+    const RoundingOptions& options;
+    double limit;           ///< of surface_deviation
+    const KeptPlanes& kept; ///< as given, in no frame
+    const Run& run;
+};
+
+/// Rounds an arrangement once. A moved input may have used up the limit: see surface_deviation.
+class Rounding {
+public:
+    /// Rounds `a`, the input of which was moved. Crowded contacts are not repaired unless
+    /// `even_crowded`.
+    Rounding(const Arrangement& a, const MovedInput& moved, bool even_crowded, const Task& task) :
+        arrangement_(a), moved_(moved), even_crowded_(even_crowded), task_(task),
+        options_(task.options), run_(task.run) {}
+
+    Result<RoundedMesh> operator()() {
+        to_nearest();
+        if (moved_.largest == 0 && deviation() > task_.limit) return too_far();
+        auto pairs = first_contacts();
+        state_.only_dirty(pairs);
+        find_first_regions();
+        out_.report.naive_contacts = pairs.size();
+        left_crowded_ = !even_crowded_ && pairs.size() >= rounding_tuning.many &&
+                        rounding_tuning.crowded * pairs.size() > arrangement_.triangles.size();
+        if (!pairs.empty() && !left_crowded_) repair(pairs);
+        if (run_.stop.stop_requested())
+            return Error{ErrorCode::interrupted, "stopped on request", ""};
+        finish(pairs);
+        return std::move(out_);
+    }
+
+    /// Whether contacts were not repaired because they were crowded.
+    [[nodiscard]] bool left_crowded() const { return left_crowded_; }
+
+private:
+    void repair(std::vector<CandidatePair>& pairs);
+    void to_nearest();
+    void constructed_to_nearest(std::size_t v);
+    [[nodiscard]] Point3 given(const Point3& input) const;
+    [[nodiscard]] double deviation() const;
+    [[nodiscard]] Error too_far() const;
+    [[nodiscard]] PairFilter is_improper() const;
+    std::vector<CandidatePair> first_contacts();
+    std::vector<CandidatePair> contacts();
+    bool snap_round(std::span<const CandidatePair> pairs, const SnapGrid& grid);
+    void snap_corners(std::span<const CandidatePair> pairs, const SnapGrid& grid);
+    bool divide_again(std::size_t most_pairs);
+    void find_first_regions();
+    void finish(std::span<const CandidatePair> pairs);
+    [[nodiscard]] bool tests_all() const { return options_.check.method == PairCheck::full; }
+    void report_moves();
+    void report_vanished();
+
+    const Arrangement& arrangement_;
+    const MovedInput& moved_;
+    const bool even_crowded_;
+    const Task& task_;
+    const RoundingOptions& options_;
+    const Run& run_;
+    RoundingState state_;
+    bool left_crowded_ = false;
+    FirstSearch first_search_;       ///< how the first search decided pairs, if they are counted
+    bool changed_ = false;           ///< whether the triangles differ from the arrangement's
+    std::optional<Regions> regions_; ///< set in advance while the triangles do not differ
+    RoundedMesh out_;
+};
+
+} // namespace terrane::rounding::detail

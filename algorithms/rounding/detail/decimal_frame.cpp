@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/rounding/detail/decimal_frame.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include <terrane/algorithms/rounding/detail/state.hpp>
+#include <terrane/algorithms/rounding/detail/tuning.hpp>
+
+namespace terrane::rounding::detail {
+namespace {
+
+constexpr double no_bound = std::numeric_limits<double>::infinity();
+constexpr double ulp_of_1 = std::numeric_limits<double>::epsilon();
+
+// All powers that are doubles. A quotient of an integer and one of them is the nearest double.
+constexpr std::array<double, 23> powers_of_ten{1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                               1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
+                                               1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+
+double coordinate(const Point3& p, unsigned axis) {
+    return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
+}
+
+/// Returns the integer k for which x is k / factor, or a double next to it.
+std::optional<double> decimal(double x, double factor) {
+    const double k = std::nearbyint(x * factor), nearest = k / factor;
+    if (nearest == x || std::nextafter(x, no_bound) == nearest ||
+        std::nextafter(x, -no_bound) == nearest)
+        return k;
+    return std::nullopt;
+}
+
+/// Returns the least power of ten that makes all of `values` integers. Decimals must be many
+/// doubles apart, as else each double is near one.
+std::optional<double> factor_for(std::span<const double> values) {
+    double largest = 0;
+    for (const double x : values) largest = std::max(largest, std::fabs(x));
+    for (const double factor : powers_of_ten) {
+        if (!(largest * factor * ulp_of_1 < rounding_tuning.decimal_share)) return std::nullopt;
+        if (std::ranges::all_of(values, [&](double x) { return decimal(x, factor).has_value(); }))
+            return factor;
+    }
+    return std::nullopt;
+}
+
+} // namespace
+
+double DecimalFrame::Axis::into(double x) const {
+    if (factor == 1) return x;
+    return decimal(x, factor).value_or(x * factor) + 0.0; // never -0
+}
+
+double DecimalFrame::Axis::back(double x) const {
+    if (factor == 1) return x;
+    const auto above =
+        std::ranges::lower_bound(places, x, {}, [](const Place& p) { return p.in_frame; });
+    if (above != places.end() && above->in_frame == x) return above->given;
+    double given = x / factor;
+    if (above != places.end()) given = std::min(given, above->given);
+    if (above != places.begin()) given = std::max(given, above[-1].given);
+    return given;
+}
+
+// The computed quotient errs by half a unit of its last place at most, the difference by less.
+double DecimalFrame::Axis::error(double x, double given) const {
+    if (factor == 1) return std::fabs(x - given);
+    const double quotient = x / factor;
+    return std::fabs(quotient - given) * (1 + ulp_of_1) + std::fabs(quotient) * (ulp_of_1 / 2) +
+           std::numeric_limits<double>::denorm_min();
+}
+
+std::optional<DecimalFrame> DecimalFrame::of(std::span<const Point3> points,
+                                             const std::vector<bool>& chosen,
+                                             const KeptPlanes& kept) {
+    DecimalFrame frame;
+    bool is_other = false;
+    for (unsigned axis = 0; axis < 3; ++axis) {
+        std::vector<double> values;
+        for (std::size_t v = 0; v < points.size(); ++v)
+            if (chosen[v]) values.push_back(coordinate(points[v], axis));
+        frame.axes_[axis].factor = factor_for(values).value_or(1);
+        is_other = is_other || frame.axes_[axis].factor != 1;
+    }
+    if (!is_other) return std::nullopt;
+    frame.keep_places(points, kept);
+    return frame;
+}
+
+void DecimalFrame::keep_places(std::span<const Point3> points, const KeptPlanes& kept) {
+    std::array<double, 3> largest{};
+    for (unsigned axis = 0; axis < 3; ++axis) {
+        Axis& a = axes_[axis];
+        if (a.factor == 1) continue;
+        for (const Point3& p : points) {
+            const double x = coordinate(p, axis);
+            a.places.push_back({a.into(x), x, std::ranges::binary_search(kept[axis], x)});
+        }
+        // Of the coordinates that become the same, a kept one or the lowest is where they go back.
+        std::ranges::sort(a.places, [](const Place& p, const Place& q) {
+            return std::tuple(p.in_frame, !p.is_kept, p.given) <
+                   std::tuple(q.in_frame, !q.is_kept, q.given);
+        });
+        for (const Place& p : a.places)
+            largest[axis] = std::max(largest[axis], a.error(p.in_frame, p.given));
+        const auto same =
+            std::ranges::unique(a.places, {}, [](const Place& p) { return p.in_frame; });
+        a.places.erase(same.begin(), same.end());
+    }
+    largest_error_ = length_bound(largest[0], largest[1], largest[2]);
+}
+
+Point3 DecimalFrame::into(const Point3& p) const {
+    return {axes_[0].into(p.x), axes_[1].into(p.y), axes_[2].into(p.z)};
+}
+
+Point3 DecimalFrame::back(const Point3& q) const {
+    return {axes_[0].back(q.x), axes_[1].back(q.y), axes_[2].back(q.z)};
+}
+
+double DecimalFrame::error_of(const Point3& q, const std::array<double, 3>& errors) const {
+    const Point3 given = back(q);
+    std::array<double, 3> most{};
+    for (unsigned axis = 0; axis < 3; ++axis)
+        most[axis] = axes_[axis].error(coordinate(q, axis), coordinate(given, axis)) +
+                     errors[axis] / axes_[axis].factor * (1 + ulp_of_1);
+    return length_bound(most[0], most[1], most[2]) * (1 + ulp_of_1);
+}
+
+} // namespace terrane::rounding::detail

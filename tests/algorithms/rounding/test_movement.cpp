@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// How far rounding moves surfaces and vertices, and that it keeps its limit.
+// tests/oracles/rounded_soups.py measures the same in rational numbers.
+#include "support/effort.hpp"
+#include "support/read.hpp"
+#include "support/rounded.hpp"
+#include "support/shapes.hpp"
+#include "support/soup_laws.hpp"
+
+#include <terrane/algorithms/model/arrange_within.hpp>
+#include <terrane/algorithms/rounding/detail/decimal_frame.hpp>
+#include <terrane/algorithms/rounding/detail/snapped_input.hpp>
+#include <terrane/algorithms/rounding/rounding.hpp>
+#include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <random>
+
+namespace {
+
+using namespace terrane;
+using namespace terrane::rounding::detail;
+using namespace test_support;
+
+constexpr double spacing_at_4e6 = 0x1p-31;
+
+/// Returns triangles with corners on a decimal lattice at map coordinates, each a surface.
+std::vector<Surface> decimal_soup(std::uint32_t seed, int triangles) {
+    std::mt19937 random(seed);
+    const auto at = [&](double origin) {
+        return (10 * origin + static_cast<double>(random() % 3)) / 10;
+    };
+    std::vector<Surface> soup;
+    for (int t = 0; t < triangles; ++t) {
+        std::vector<Point3> corners;
+        for (int k = 0; k < 3; ++k) corners.push_back({at(5e5), at(4e6), at(-1000)});
+        soup.push_back(surface(std::move(corners), {{0, 1, 2}}));
+    }
+    return soup;
+}
+
+/// Two sheets in nearly one plane.
+std::vector<Surface> nearly_coplanar(unsigned n) {
+    const double h = 0.5 / n;
+    const auto lifted = [](double x, double y) {
+        return Point3{std::cos(0.4) * x - 0.3 * y + 0.3, y - 0.2, std::sin(0.4) * x + 0.7 * y};
+    };
+    return {unit_grid(n, n, lifted),
+            unit_grid(n, n, [=](double x, double y) { return lifted(x + h, y + h); })};
+}
+
+/// Checks that no statement of the report contradicts another.
+void check_consistent(const RoundingReport& r) {
+    CHECK(r.surface_deviation <= r.max_allowed);
+    CHECK(r.deviation >= r.surface_deviation + r.lost_length);
+    std::size_t last = 0;
+    for (std::size_t k = 0; k < r.moves.size(); ++k)
+        if (r.moves[k] > 0) last = k;
+    if (last == 0)
+        CHECK(r.max_move == 0);
+    else if (last > 1)
+        CHECK(std::floor(std::log10(r.max_move)) + 24 == static_cast<double>(last));
+}
+
+} // namespace
+
+TEST_CASE("movement: surfaces on a decimal lattice move by a few spacings of the doubles") {
+    const auto surfaces = read_data("rounding/utm.obj");
+    const auto a = arranged(surfaces);
+    const auto r = rounded(a);
+    REQUIRE(r.report.clean);
+    CHECK(r.report.surface_deviation < 10 * spacing_at_4e6);
+    CHECK(r.report.max_allowed == 1024 * spacing_at_4e6);
+    CHECK(r.report.moved_input_vertices == 0);
+    check_consistent(r.report);
+    CHECK(soup_laws::rounding_flaw(surfaces, a).empty());
+}
+
+TEST_CASE("movement: random soups on a decimal lattice") {
+    for (int i = 0; i < cases(20); ++i) {
+        INFO(i);
+        const auto surfaces = decimal_soup(static_cast<std::uint32_t>(i), 30);
+        const auto a = arranged(surfaces);
+        const auto r = rounded(a);
+        CHECK(r.report.clean);
+        CHECK(r.report.surface_deviation < 1000 * spacing_at_4e6);
+        check_consistent(r.report);
+        CHECK(soup_laws::rounding_flaw(surfaces, a) == "");
+    }
+}
+
+TEST_CASE("movement: the length of a needle that vanished is no move of a surface") {
+    const auto a = arranged(read_data("rounding/re1000070.obj"));
+    const auto r = rounded(a);
+    REQUIRE(r.report.clean);
+    CHECK(r.report.surface_deviation < 1e-14);
+    CHECK(r.report.lost_length > 1);
+    check_consistent(r.report);
+}
+
+TEST_CASE("movement: the limit is kept, and what it leaves is named") {
+    const auto a = arranged(nearly_coplanar(16));
+    const auto free = rounded(a);
+    REQUIRE(free.report.clean);
+    CHECK(free.report.surface_deviation <= default_max_move(a));
+    check_consistent(free.report);
+    const double unit = default_max_move(a) / 1024;
+    bool refused_any = false;
+    for (const double units : {3., 20., 100., 1e5}) {
+        const auto r = rounded(a, {.max_move = units * unit});
+        CHECK(r.report.max_allowed == units * unit);
+        CHECK(r.report.clean == r.report.contacts.empty());
+        CHECK(r.report.clean == verify_conforming(r.mesh->vertices, r.mesh->triangles).empty());
+        refused_any = refused_any || !r.report.clean;
+        check_consistent(r.report);
+    }
+    CHECK(refused_any);
+    const auto none = round_to_doubles(a, {.max_move = unit / 1e6});
+    REQUIRE_FALSE(none);
+    CHECK(none.error().code == ErrorCode::bad_option);
+    CHECK(none.error().place == "max_move");
+}
+
+TEST_CASE("movement: no point leaves a box by one unit, and its sides stay planes") {
+    const Point3 low{500000.03, 4000000.03, -999.97}, high{500000.17, 4000000.17, -999.83};
+    for (std::uint32_t seed = 0; seed < 6; ++seed) {
+        INFO(seed);
+        // Those that are turned a little are no decimals, and are snapped to grids.
+        auto surfaces = decimal_soup(seed, 25);
+        if (seed % 2 == 1)
+            for (Surface& s : surfaces)
+                for (Point3& p : s.vertices) p.x += 0.01 * (p.y - 4e6) + 0.003 * (p.z + 1000);
+        const auto made = arrange_within(surfaces, box_boundary(low, high).value());
+        REQUIRE(made);
+        const auto& vertices = made->rounded.mesh->vertices;
+        CHECK(std::ranges::all_of(vertices, [&](const Point3& p) {
+            return low.x <= p.x && p.x <= high.x && low.y <= p.y && p.y <= high.y && low.z <= p.z &&
+                   p.z <= high.z;
+        }));
+        for (const Point3& corner : {low, high})
+            CHECK(std::ranges::find(vertices, corner) != vertices.end());
+        check_consistent(made->rounded.report);
+    }
+}
+
+TEST_CASE("movement: grids contain the planes that are kept") {
+    const std::vector<Point3> points{{1, 1, 1}};
+    const KeptPlanes kept{std::vector<double>{0.3, 0.7}, {}, {}};
+    const auto grid = grid_of_digits(points, 51, 10, kept); // a spacing of 0.5
+    REQUIRE(grid);
+    CHECK(grid->snap({0.3, 0.3, 0.3}) == Point3{0.3, 0.5, 0.5});
+    CHECK(grid->snap({0.2, 0.2, 0.2}) == Point3{0, 0, 0});
+    CHECK(grid->snap({0.29, 0, 0}).x == 0.3); // not 0.5, behind the plane
+    CHECK(grid->snap({0.8, 0, 0}).x == 1);
+    CHECK(grid->snap({0.71, 0, 0}).x == 0.7);
+    CHECK(grid->reach() >= 0.25 * std::sqrt(3));
+    const auto finer = grid_of_digits(points, 51, 0.3, kept);
+    REQUIRE(finer);
+    CHECK(finer->step[0] == 0.25);
+    CHECK_FALSE(grid_of_digits(points, 51, 1e-17, kept));
+}
+
+TEST_CASE("decimal frame: goes back to what was given, in order") {
+    const std::vector<Point3> points{{500000.1, 4000000.25, -999.7},
+                                     {500000.2, 4000000.5, 3},
+                                     {500000.3, std::nextafter(4000000.75, 0), 0},
+                                     {500000.123456, 4000001, -1e-3}};
+    const std::vector<bool> chosen{true, true, true, false};
+    const auto frame = DecimalFrame::of(points, chosen, {});
+    REQUIRE(frame);
+    CHECK(frame->into(points[0]) == Point3{5000001, 400000025, -9997});
+    CHECK(frame->into(points[1]) == Point3{5000002, 400000050, 30});
+    CHECK(frame->into(points[2]) == Point3{5000003, 400000075, 0});
+    for (const Point3& p : points) CHECK(frame->back(frame->into(p)) == p);
+    CHECK(frame->largest_error() < 3 * spacing_at_4e6);
+    std::mt19937 random(1);
+    std::vector<double> places{5000001, 5000001.23456};
+    for (int k = 0; k < 1000; ++k)
+        places.push_back(5000000.9 + 1e-9 * static_cast<double>(random() % 4000000000));
+    std::ranges::sort(places);
+    double last = 0;
+    for (const double x : places) {
+        const double back = frame->back({x, 0, 0}).x;
+        CHECK(last <= back);
+        last = back;
+    }
+}
+
+TEST_CASE("decimal frame: there is none for integers, nor for what is no decimal") {
+    const std::vector<bool> chosen(2, true);
+    CHECK_FALSE(DecimalFrame::of(std::vector<Point3>{{1, 2, 3}, {4, 5, -6}}, chosen, {}));
+    const double third = 1.0 / 3;
+    CHECK_FALSE(DecimalFrame::of(std::vector<Point3>{{third, third, third}, {2 * third, 0, 1}},
+                                 chosen, {}));
+    CHECK(DecimalFrame::of(std::vector<Point3>{{third, third, third}, {2 * third, 0.1, 0.1}},
+                           std::vector<bool>{false, true}, {}));
+}
+
+TEST_CASE("decimal frame: of coordinates that become the same, the kept one is where they go") {
+    const double at = 4000000.1, below = std::nextafter(at, 0);
+    const std::vector<Point3> points{{below, 0, 0}, {at, 0, 0}};
+    const std::vector<bool> chosen(2, true);
+    CHECK(DecimalFrame::of(points, chosen, {})->back({40000001, 0, 0}).x == below);
+    const KeptPlanes kept{std::vector<double>{at}, {}, {}};
+    CHECK(DecimalFrame::of(points, chosen, kept)->back({40000001, 0, 0}).x == at);
+}
