@@ -2,7 +2,7 @@
 //
 // soak [CALLS] [SEED]: calls the stages of the library CALLS times (default 2 000) in one process, on random
 // soups in which much coincides, and tells how much memory is in use. It must not grow: after the
-// first tenth of the calls, which fills caches and pools, by less than a byte for each call.
+// first half of the calls, which fills caches and pools, by less than a byte for each call.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -108,20 +108,20 @@ std::pair<double, double> in_use() {
 int main(int argc, char** argv) {
     const long calls = std::max(100L, argc > 1 ? std::atol(argv[1]) : 2000L);
     Random random(argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1);
-    const long first = calls / 10;
+    const long step = calls / 10, half = 5 * step;
     std::pair<double, double> before{}, now{};
     std::printf("%10s %14s %14s\n", "calls", "allocated", "in memory");
     for (long n = 1; n <= calls; ++n) {
         call(random, n % 50 == 0);
-        if (n % first != 0 && n != calls) continue;
+        if (n % step != 0 && n != calls) continue;
         now = in_use();
-        if (n == first) before = now;
+        if (n == half) before = now;
         std::printf("%10ld %14.0f %14.0f\n", n, now.first, now.second);
         std::fflush(stdout);
     }
     // Each kind must have occurred, or little was tried.
     const bool tried = calls_with_volumes > 0 && calls_stopped > 0 && errors > 0;
-    const double growth = (now.first - before.first) / static_cast<double>(calls - first);
+    const double growth = (now.first - before.first) / static_cast<double>(calls - half);
     std::printf("%.3f bytes more for each call; volumes in %zu calls, %zu stopped, %zu errors\n",
                 growth, calls_with_volumes, calls_stopped, errors);
     return tried && growth < 1 ? EXIT_SUCCESS : EXIT_FAILURE;
