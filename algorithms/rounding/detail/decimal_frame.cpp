@@ -105,9 +105,10 @@ void DecimalFrame::keep_places(std::span<const Point3> points, const KeptPlanes&
         });
         for (const Place& p : a.places)
             largest[axis] = std::max(largest[axis], a.error(p.in_frame, p.given));
-        const auto same =
-            std::ranges::unique(a.places, {}, [](const Place& p) { return p.in_frame; });
-        a.places.erase(same.begin(), same.end());
+        a.places.erase(
+            std::unique(a.places.begin(), a.places.end(),
+                        [](const Place& p, const Place& q) { return p.in_frame == q.in_frame; }),
+            a.places.end());
     }
     largest_error_ = length_bound(largest[0], largest[1], largest[2]);
 }
