@@ -15,6 +15,7 @@
 #include <terrane/algorithms/arrangement/soup.hpp>
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
+#include <terrane/algorithms/core/is_external.hpp>
 #include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/layers/detail/resolver.hpp>
 #include <terrane/algorithms/layers/detail/whole_triangles.hpp>
@@ -238,7 +239,7 @@ Result<std::optional<Layered>> stack_again(std::span<const Surface> surfaces,
     Run quiet = run;
     quiet.progress = nullptr;
     auto again = stack_valid(exact, order, same, quiet);
-    if (!again && again.error().code == ErrorCode::interrupted) return again.error();
+    if (!again && is_external(again.error().code)) return again.error();
     if (!again || !again->is_stack()) return {std::nullopt};
     again->height_error += unit; // more than heights were rounded by
     return {std::move(*again)};

@@ -10,6 +10,7 @@
 
 #include <terrane/algorithms/check/conforming.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
+#include <terrane/algorithms/core/is_external.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
@@ -300,9 +301,7 @@ Status Improver::check(Mesh after, std::span<const std::uint32_t> sheets, Improv
     std::optional<Result<ConformingMesh>> proof;
     std::optional<Result<bool>> kept;
     proof = prove_conforming(std::move(after), sheets, options_.check, run_);
-    const auto is_found = [&](ErrorCode code) { return !*proof && proof->error().code == code; };
-    if (is_found(ErrorCode::interrupted) || is_found(ErrorCode::out_of_memory))
-        return proof->error();
+    if (!*proof && is_external(proof->error().code)) return proof->error();
     if (!*proof)
         return Error{ErrorCode::internal,
                      "the improved mesh is not conforming: " + proof->error().message(), ""};

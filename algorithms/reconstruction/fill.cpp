@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <terrane/algorithms/core/guarded.hpp>
+#include <terrane/algorithms/core/is_external.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/reconstruction/holes/expected_points.hpp>
 #include <terrane/algorithms/reconstruction/rbf/rbf_join.hpp>
@@ -87,8 +88,7 @@ void take_over(const OneFilled& filled, std::size_t number, HoledSurface& to) {
 
 /// Whether an error concerns one hole, so that the others can still be filled.
 bool only_this_hole(ErrorCode code) {
-    return code != ErrorCode::interrupted && code != ErrorCode::out_of_memory &&
-           code != ErrorCode::bad_option && code != ErrorCode::internal;
+    return !is_external(code) && code != ErrorCode::bad_option && code != ErrorCode::internal;
 }
 
 } // namespace

@@ -10,6 +10,7 @@
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/algorithms/arrangement/intersection_edges.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
+#include <terrane/algorithms/core/is_external.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/rounding/detail/attempt.hpp>
@@ -30,11 +31,6 @@ void name_input(const Arrangement& a, Arrangement& snapped) {
     snapped.inputs.duplicates = a.inputs.duplicates;
     snapped.intersection_edges =
         find_intersection_edges(snapped.state->adjacency, snapped.inputs, snapped.parents_of);
-}
-
-/// Whether an error is not caused by the surfaces.
-bool is_external(ErrorCode code) {
-    return code == ErrorCode::interrupted || code == ErrorCode::out_of_memory;
 }
 
 /// Arranges a moved input and rounds that. Returns nothing where a boundary is then not closed.

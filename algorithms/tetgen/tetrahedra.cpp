@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include <terrane/algorithms/core/guarded.hpp>
+#include <terrane/algorithms/core/is_external.hpp>
 #include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/algorithms/tetgen/detail/assembly.hpp>
@@ -272,8 +273,7 @@ Error with_causes(Error error, const Mesh& mesh) {
 /// Tells whether the same failure is to be expected in every other way of asking a mesher. An error
 /// with a place is about the helper.
 bool is_final(const Error& error) {
-    return error.code == ErrorCode::interrupted || error.code == ErrorCode::out_of_memory ||
-           !error.place.empty();
+    return is_external(error.code) || !error.place.empty();
 }
 
 const char* name_of(Mesher mesher) {

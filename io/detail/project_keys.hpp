@@ -9,13 +9,11 @@
 
 namespace terrane::detail {
 
-inline constexpr std::array<std::string_view, 16> project_level{
-    "format",     "folder",  "threads",
-    "surfaces",   "unit",    "column",
-    "fill",       "layers",  "volume_of_interest",
-    "extend",     "seal",    "seal_of",
-    "min_volume", "improve", "tetrahedra",
-    "outputs"};
+inline constexpr std::array<std::string_view, 17> project_level{
+    "format",     "folder",  "threads",    "surfaces",           "unit",
+    "column",     "fill",    "layers",     "volume_of_interest", "extend",
+    "seal",       "seal_of", "min_volume", "max_move",           "improve",
+    "tetrahedra", "outputs"};
 inline constexpr std::array<std::string_view, 5> surfaces_level{"file", "objects", "name", "role",
                                                                 "depth"};
 inline constexpr std::array<std::string_view, 8> fill_level{

@@ -404,3 +404,19 @@ TEST_CASE("cli: without TetGen's helper, tetrahedra are refused before anything 
     }
     CHECK(c.folder.left().empty());
 }
+
+TEST_CASE("cli: build: one file named 1000 times is one surface with many names", "[cli]") {
+    const Folder folder;
+    folder.input("sheet.obj", "v 0 0 0\nv 4 0 0\nv 4 4 1\nv 0 4 0\nf 1 2 3\nf 1 3 4\n");
+    folder.input("fault.obj", "v 1 -1 -2\nv 1 5 -2\nv 3 5 3\nf 1 2 3\n");
+    Json project = {{"format", "terrane-project 1"}, {"outputs", {{"surfaces", {"vtp"}}}}};
+    project["surfaces"] = {{{"file", "fault.obj"}}};
+    for (int i = 0; i < 1000; ++i)
+        project["surfaces"].push_back({{"file", "sheet.obj"}, {"name", std::to_string(i)}});
+    folder.input("many.json", project.dump());
+    const auto made = folder.run("build in/many.json -o out");
+    INFO(made.err);
+    CHECK(made.status == 0);
+    const auto model = Json::parse(folder.read("out/statistics.json"));
+    CHECK(model["output"]["triangles"] < 50);
+}

@@ -106,6 +106,7 @@ std::vector<Stage> reading_json() {
     stages.push_back(stage(
         "read_exact", [exact] { return read_exact(exact, "a file with a name that needs memory"); },
         [](const ExactText& read) { return to_text(read); }));
+    for (Stage& reading : stages) reading.uses_json = true;
     stages.push_back(stage_of(
         "record_input", [] { return std::string("a name in the certificate, with memory"); },
         [obj](std::string name) { return record_input(obj, std::move(name), 1); },
@@ -131,6 +132,7 @@ std::vector<Stage> formatting() {
         as_it_is));
     stages.push_back(stage(
         "to_json", [&f] { return to_json(*f.mesh, f.model.structure, {}); }, as_it_is));
+    stages.back().uses_json = true;
     return stages;
 }
 

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // The number of random cases in a test: all of them, or one in twenty under sanitizers, which are
-// slow.
+// slow; for longer runs, TERRANE_EFFORT times as many, in many tests.
 #pragma once
+
+#include <algorithm>
+#include <cstdlib>
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define TERRANE_SANITIZED 1
@@ -21,9 +24,12 @@ inline constexpr int effort_divisor = 20;
 inline constexpr int effort_divisor = 1;
 #endif
 
-/// Returns `full`, or fewer under sanitizers, but at least one.
-constexpr int cases(int full) {
-    return full / effort_divisor > 0 ? full / effort_divisor : 1;
+/// Returns `full`, or fewer under sanitizers, or more where the environment asks for it; at least
+/// one.
+inline int cases(int full) {
+    static const char* const wanted = std::getenv("TERRANE_EFFORT");
+    static const int factor = wanted != nullptr ? std::max(1, std::atoi(wanted)) : 1;
+    return std::max(1, full / effort_divisor * factor);
 }
 
 } // namespace test_support

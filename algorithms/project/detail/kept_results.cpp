@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include <terrane/algorithms/core/is_external.hpp>
 #include <terrane/algorithms/core/sha256.hpp>
 #include <terrane/algorithms/project/detail/bytes.hpp>
 
@@ -160,9 +161,7 @@ Result<std::optional<ImprovedAndMeasured>> improved_from(std::string_view bytes,
     }
     auto proven = prove_conforming(std::move(mesh), labels, options.check, run);
     if (!proven) {
-        const ErrorCode code = proven.error().code;
-        if (code == ErrorCode::interrupted || code == ErrorCode::out_of_memory)
-            return proven.error();
+        if (is_external(proven.error().code)) return proven.error();
         return {std::nullopt};
     }
     kept.improved.mesh = proven->mesh();

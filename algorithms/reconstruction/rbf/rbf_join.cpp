@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <terrane/algorithms/check/check.hpp>
+#include <terrane/algorithms/core/is_external.hpp>
 #include <terrane/algorithms/reconstruction/kriging/fill_kriging.hpp>
 
 namespace terrane {
@@ -28,7 +29,7 @@ std::optional<Result<FilledByRbf>> try_graph(const Surface& surface, const Borde
                                              const RbfOptions& options, const Run& run) {
     FilledByRbf made;
     auto filling = fill_graph_by_rbf(surface, loop, options, made.report, run);
-    if (!filling && filling.error().code == ErrorCode::interrupted) return filling.error();
+    if (!filling && is_external(filling.error().code)) return filling.error();
     if (!filling) return std::nullopt;
     made.filling = std::move(*filling);
     made.joined.surface = joined(surface, made.filling);
@@ -63,7 +64,7 @@ Result<FilledByRbf> fill_and_join_by_rbf(const Surface& surface, const BorderLoo
     RbfOptions again = options;
     again.long_edges = true;
     auto second = try_once(surface, loop, again, join, run);
-    if (second || second.error().code == ErrorCode::interrupted) return second;
+    if (second || is_external(second.error().code)) return second;
     return filled;
 }
 

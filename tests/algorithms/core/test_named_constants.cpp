@@ -54,7 +54,7 @@ TEST_CASE("constants: the lists have the values that documents state", "[constan
     CHECK(value(kriging_constants(), "most_places") == 20'000);
     CHECK(value(rbf_constants(), "left_out_width") == 0.25);
     CHECK(value(structure_constants(), "least_share") == 0.1);
-    CHECK(value(rounding_constants(), "coarse_digits_5") == 32);
+    CHECK(value(rounding_constants(), "coarse_digits_6") == 32);
     CHECK(value(boundary_constants(), "most_named_sides") == 12);
     CHECK(value(point_constants(), "worth_tilting") == 0.8);
     CHECK(value(join_constants(), "strips_4") == 1.4);

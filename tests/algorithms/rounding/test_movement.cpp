@@ -45,7 +45,7 @@ std::vector<Surface> decimal_soup(std::uint32_t seed, int triangles) {
 }
 
 /// Two sheets in nearly one plane.
-std::vector<Surface> nearly_coplanar(unsigned n) {
+std::vector<Surface> sheets_in_nearly_one_plane(unsigned n) {
     const double h = 0.5 / n;
     const auto lifted = [](double x, double y) {
         return Point3{std::cos(0.4) * x - 0.3 * y + 0.3, y - 0.2, std::sin(0.4) * x + 0.7 * y};
@@ -104,7 +104,7 @@ TEST_CASE("movement: the length of a needle that vanished is no move of a surfac
 }
 
 TEST_CASE("movement: the limit is kept, and what it leaves is named") {
-    const auto a = arranged(nearly_coplanar(16));
+    const auto a = arranged(sheets_in_nearly_one_plane(16));
     const auto free = rounded(a);
     REQUIRE(free.report.clean);
     CHECK(free.report.surface_deviation <= default_max_move(a));

@@ -24,13 +24,15 @@ using namespace impostor;
 namespace {
 
 Mesh square() {
-    return {.surfaces = {{"sheet", Role::unknown}},
-            .vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},
-            .triangles = {{0, 1, 2}, {0, 2, 3}},
-            .surfaces_of = {{0, 1, 2}, {0, 0}},
-            .regions_of = {},
-            .parents_of = {},
-            .intersection_edges = {}};
+    Mesh mesh{.surfaces = {{"sheet", Role::unknown}},
+              .vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},
+              .triangles = {{0, 1, 2}, {0, 2, 3}},
+              .surfaces_of = {},
+              .regions_of = {},
+              .parents_of = {},
+              .intersection_edges = {}};
+    for (int t = 0; t < 2; ++t) mesh.surfaces_of.push_back(std::array{0U});
+    return mesh;
 }
 
 } // namespace

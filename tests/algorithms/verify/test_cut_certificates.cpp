@@ -122,8 +122,9 @@ Forgery cut_doubles(const std::string& name, const std::function<void(Json&)>& c
 } // namespace
 
 TEST_CASE("cut certificates: accepted with each shape and format", "[volume_of_interest]") {
-    CHECK(judged(cut_subject(crossing_sheets(), the_box(),
-                             {"obj", "off", "ply", "vtp", "ts", "stl"})) == "");
+    CHECK(judged(cut_subject(crossing_sheets(), the_box(), {"obj", "off", "ply", "vtp", "ts"})) ==
+          "");
+    CHECK(judged(cut_subject({crossing_sheets().back()}, the_box(), {"stl"})) == ""); // in float32
     CHECK(judged(cut_subject(crossing_sheets(), the_prism())) == "");
     CHECK(judged(cut_subject(crossing_sheets(),
                              rotated_volume({{5, 5, 0.5}, false, {5, 4, 3}, 20, 5, 3}))) == "");

@@ -1,0 +1,61 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: LGPL-3.0-or-later
+#
+# Repeats what takes too long for each commit: scripts/nightly.sh [FOLDER [PART...]]
+# The parts, all of them unless some are named; with two cores they take some ten hours together:
+#   soups      20 000 random soups and more, judged by the verifier and by rational numbers
+#   decimals   2 000 soups on decimal lattices: how far surfaces moved, in rational numbers
+#   models     5 000 random block models against an oracle; 300 improved ones
+#   stacks     2 000 random stacks of layers, judged in rational numbers
+#   signals    2 000 interrupts at random times
+#   memory     each allocation fails once; limits on the memory of the program; 100 000 calls in one process
+#   threads    ThreadSanitizer
+#   fuzz       all fuzz targets, FUZZ_SECONDS (default 540) each: six hours of one core
+# FOLDER (default: build/nightly) gets a log for each part, and keeps the fuzz corpora. It ends with a
+# table; the status is 1 if a part found something.
+set -uo pipefail
+cd "$(dirname "$0")/.."
+folder=${1:-build/nightly}
+shift || true
+parts=("$@")
+[[ ${#parts[@]} -gt 0 ]] || parts=(soups decimals models stacks signals memory threads fuzz)
+mkdir -p "$folder"
+
+cmake --preset release >/dev/null && cmake --build --preset release || exit 2
+terrane=build/release/cli/terrane
+tests=build/release/tests
+
+run_part() {
+    case $1 in
+    soups)
+        # 3 290 soups for each unit of effort, of seven shapes; also nudged, shifted and scaled.
+        TERRANE_EFFORT=7 "$tests/terrane_tests" "random soups*" &&
+            TERRANE_EFFORT=10 "$tests/terrane_tests" "rounding: random soups*" ;;
+    decimals)
+        for kind in "" --turned --box; do
+            /usr/bin/python3 tests/oracles/rounded_soups.py --terrane $terrane --count 700 $kind || return 1
+        done ;;
+    models)
+        TERRANE_RANDOM_MODELS=5000 "$tests/terrane_tests" "volumes: 1000 random models*" &&
+            /usr/bin/python3 tests/oracles/improved.py --terrane $terrane ;;
+    stacks) "$tests/stacks" random 2000 1 ;;
+    signals) scripts/interrupts.py --runs 2000 ;;
+    memory)
+        scripts/failing_allocations.sh && scripts/memory_limits.py && "$tests/soak" 100000 ;;
+    threads) scripts/thread_sanitizer.sh ;;
+    fuzz) FUZZ_CORPUS=$PWD/$folder/corpus scripts/fuzz.sh "${FUZZ_SECONDS:-540}" ;;
+    *) echo "nightly: there is no part $1" && return 2 ;;
+    esac
+}
+
+failed=0
+table=
+for part in "${parts[@]}"; do
+    start=$SECONDS
+    if (run_part "$part") >"$folder/$part.log" 2>&1; then verdict=right; else verdict=WRONG && failed=1; fi
+    printf -v row '%-10s %-6s %6d s   %s\n' "$part" $verdict $((SECONDS - start)) "$(tail -n 1 "$folder/$part.log" | cut -c 1-90)"
+    printf '%s' "$row"
+    table+=$row
+done
+printf '%s' "$table" >"$folder/table.txt"
+exit $failed
