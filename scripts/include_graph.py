@@ -26,7 +26,7 @@ ORDER = (
     "algorithms/reconstruction/kriging algorithms/reconstruction/rbf algorithms/reconstruction "
     "algorithms/sealing algorithms/volume_of_interest algorithms/model algorithms/tetrahedra "
     "algorithms/tetgen algorithms/project algorithms/verify "
-    "io/text io/atomic io/surfaces io/gocad io/grids io/points io/meshes io "
+    "io/text io/atomic io/surfaces io/gocad io/grids io/points io/meshes io capi "
     "cli/session cli/options cli/paper cli/reports cli/stages cli/commands cli"
 ).split()
 
@@ -34,12 +34,12 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]terrane/([^>"]+)[>"]', re.M)
 
 
 def sources(root: Path):
-    """Paths of all C++ files of the library and the program, relative to the root."""
+    """Paths of all files of the library and the program, relative to the root."""
     return [
         path.relative_to(root)
-        for top in ("kernel", "algorithms", "io", "cli")
+        for top in ("kernel", "algorithms", "io", "capi", "cli")
         for path in sorted((root / top).rglob("*"))
-        if path.suffix in (".hpp", ".cpp")
+        if path.suffix in (".hpp", ".cpp", ".h")
     ]
 
 

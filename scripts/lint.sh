@@ -8,10 +8,10 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-git ls-files -z '*.hpp' '*.cpp' | xargs -0 -r clang-format-14 --dry-run -Werror
+git ls-files -z '*.hpp' '*.cpp' '*.h' '*.c' | xargs -0 -r clang-format-14 --dry-run -Werror
 echo "lint: formatted"
 
-tidied=('kernel/*.cpp' 'algorithms/*.cpp' 'io/*.cpp' 'cli/*.cpp')
+tidied=('kernel/*.cpp' 'algorithms/*.cpp' 'io/*.cpp' 'capi/*.cpp' 'cli/*.cpp')
 if [[ $# -gt 0 ]]; then
     mapfile -t files < <(git diff --name-only --diff-filter=d "$1" -- "${tidied[@]}")
 else

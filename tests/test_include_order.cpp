@@ -72,7 +72,7 @@ bool is_standard(const std::string& include) {
 } // namespace
 
 TEST_CASE("includes: all that is ours is included by its installed name") {
-    for (const std::string folder : {"kernel", "algorithms", "io", "cli"})
+    for (const std::string folder : {"kernel", "algorithms", "io", "capi", "cli"})
         for (const fs::path& file : sources_in(folder))
             for (const std::string& include : includes_of(file)) {
                 INFO(file << " includes " << include);

@@ -42,6 +42,8 @@ bool is_length(double x) {
 Status check_options(const Mesh& mesh, const ImproveOptions& o) {
     if (!is_length(o.edge_length) || !is_length(o.max_deviation) || !is_length(o.curve_length))
         return wrong("lengths must be finite and not negative");
+    if (!is_length(o.smallest) || !is_length(o.layers_in_gaps))
+        return wrong("smallest and layers_in_gaps must be finite and not negative");
     if (!o.edge_length_of.empty() && o.edge_length_of.size() != mesh.surfaces.size())
         return wrong("edge_length_of needs one length per surface");
     for (const double l : o.edge_length_of)

@@ -18,8 +18,7 @@ if(TERRANE_HARDEN AND NOT TERRANE_SANITIZE)
   check_pie_supported(LANGUAGES CXX)
 endif()
 
-# terrane_harden(TARGET) hardens a program or library. Programs are position-independent; so must be the static library
-# that is linked into them. A shared library, or one for use in shared libraries, is so already.
+# terrane_harden(TARGET) hardens a program or library. Programs are position-independent, as libraries are already.
 function(terrane_harden target)
   if(NOT TERRANE_HARDEN OR TERRANE_SANITIZE)
     return()
@@ -29,7 +28,7 @@ function(terrane_harden target)
   if(type STREQUAL EXECUTABLE)
     set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
     target_link_options(${target} PRIVATE ${terrane_hardened_linking})
-  elseif(type STREQUAL STATIC_LIBRARY AND NOT CMAKE_POSITION_INDEPENDENT_CODE)
-    target_compile_options(${target} PRIVATE -fPIE)
+  elseif(type STREQUAL SHARED_LIBRARY)
+    target_link_options(${target} PRIVATE ${terrane_hardened_linking})
   endif()
 endfunction()

@@ -88,3 +88,17 @@ set(verify_headers
     algorithms/verify/changed_claims.hpp
     algorithms/verify/verify.hpp
     algorithms/verify/verify_certificate.hpp)
+# The C interface. terrane.h includes the others.
+set(terrane_c_headers
+    terrane.h
+    capi/arrangement.h
+    capi/base.h
+    capi/mesh.h
+    capi/model.h
+    capi/project.h
+    capi/reconstruction.h
+    capi/sealing.h
+    capi/structure.h
+    capi/surfaces.h
+    capi/tetrahedra.h
+    capi/verification.h)

@@ -13,7 +13,7 @@ TITLES = {
     "GPL-3.0-or-later": "GNU GENERAL PUBLIC LICENSE",  # the LGPL refers to it
     "AGPL-3.0-or-later": "GNU AFFERO GENERAL PUBLIC LICENSE",  # the program with TetGen
 }
-FOLDERS = ("kernel", "algorithms", "io", "cli", "fuzz", "scripts", "tests", "docs")
+FOLDERS = ("kernel", "algorithms", "io", "capi", "cli", "fuzz", "scripts", "tests", "docs")
 SOURCES = {".cpp", ".hpp", ".py", ".sh", ".cmake", ".txt"}
 FOREIGN = ("tests/data", "tests/certified", "fuzz/corpus", "docs/data")
 

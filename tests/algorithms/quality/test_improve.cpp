@@ -256,6 +256,12 @@ TEST_CASE("improve: invalid options and meshes are refused", "[improve]") {
     options = {};
     options.crease_angle = std::numeric_limits<double>::quiet_NaN();
     CHECK(refusal(mesh, options) == ErrorCode::bad_option);
+    options = {};
+    options.smallest = std::numeric_limits<double>::quiet_NaN();
+    CHECK(refusal(mesh, options) == ErrorCode::bad_option);
+    options = {};
+    options.layers_in_gaps = std::numeric_limits<double>::infinity();
+    CHECK(refusal(mesh, options) == ErrorCode::bad_option);
 
     Mesh broken = mesh;
     broken.triangles[3][1] = static_cast<std::uint32_t>(mesh.vertices.size());

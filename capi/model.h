@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// The volumes that surfaces enclose, and models: a mesh with its blocks, which have names.
+#pragma once
+
+#include <terrane/capi/arrangement.h>
+#include <terrane/capi/base.h>
+#include <terrane/capi/mesh.h>
+#include <terrane/capi/structure.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// The volumes of a mesh or of an arrangement: 0 is the outside, 1, 2, ... are the blocks.
+typedef struct terrane_volumes terrane_volumes;
+/// A mesh with its blocks, numbered as those of the exact arrangement.
+typedef struct terrane_model terrane_model;
+
+/// A unit of a stratigraphic column.
+typedef struct terrane_column_unit {
+    const char* name;    ///< of the unit; not empty, and in no other entry
+    const char* surface; ///< name of the horizon at its base; NULL: the lowest unit, which needs
+                         ///< none
+    double age;          ///< of its base, in any unit of time before present; NaN: not stated
+    int32_t is_erosive;  ///< not 0: its base is erosive
+    int32_t reserved;    ///< 0
+} terrane_column_unit;
+
+/// Options of terrane_make_model.
+typedef struct terrane_model_options {
+    size_t struct_size;                ///< sizeof(terrane_model_options)
+    const terrane_column_unit* column; ///< units from the top down, which name the blocks; NULL:
+                                       ///< none
+    size_t unit_count;                 ///< number of units
+} terrane_model_options;
+
+/// Gives options their defaults: no column. Errors: BAD_ARGUMENT.
+TERRANE_API terrane_code terrane_model_options_init(terrane_model_options* options,
+                                                    size_t struct_size);
+
+/// Finds the volumes that a conforming mesh encloses, exactly. A mesh without proof is proven
+/// first. Free them with terrane_volumes_free. Errors: IMPROPER_CONTACT, INTERRUPTED,
+/// OUT_OF_MEMORY.
+TERRANE_API terrane_code terrane_find_volumes(const terrane_mesh* mesh, const terrane_run* run,
+                                              terrane_volumes** out, terrane_error** error);
+/// Finds the volumes of an arrangement, before any rounding. Errors: INTERRUPTED, OUT_OF_MEMORY.
+TERRANE_API terrane_code terrane_find_exact_volumes(const terrane_arrangement* arrangement,
+                                                    const terrane_run* run, terrane_volumes** out,
+                                                    terrane_error** error);
+/// Frees volumes.
+TERRANE_API void terrane_volumes_free(terrane_volumes* volumes);
+/// Returns, per triangle, the volume in front of it and the one behind it: `triangle_count` pairs.
+/// They are equal where the triangle dangles.
+TERRANE_API const uint32_t* terrane_volumes_of_sides(const terrane_volumes* volumes,
+                                                     size_t* triangle_count);
+/// Returns, per volume, the double nearest to its exact measure, in cubic units; [0] is that of all
+/// blocks together.
+TERRANE_API const double* terrane_volumes_measures(const terrane_volumes* volumes, size_t* count);
+/// Writes the exact measure of a volume as a reduced fraction, "125/6", into `buffer`, cut short to
+/// `size` bytes with NUL; *length becomes the length of the whole text. The first call for a handle
+/// takes the time for all volumes: some seconds for 10 000 constructed corners. Errors: BAD_INDEX,
+/// BAD_ARGUMENT, OUT_OF_MEMORY.
+TERRANE_API terrane_code terrane_volumes_exact(const terrane_volumes* volumes, size_t volume,
+                                               char* buffer, size_t size, size_t* length,
+                                               terrane_error** error);
+/// Finds for each point, 3 numbers, the volume that contains it, exactly, and writes its number to
+/// blocks[]. A point on a triangle counts to the side of greater x, else greater y, else greater z.
+/// The volumes are those of a mesh. Errors: BAD_NUMBER with the point, BAD_OPTION (volumes of an
+/// arrangement), INTERRUPTED, OUT_OF_MEMORY.
+TERRANE_API terrane_code terrane_locate_points(const terrane_volumes* volumes, const double* points,
+                                               size_t point_count, const terrane_run* run,
+                                               uint32_t* blocks, terrane_error** error);
+/// Builds the corners, lines, patches, interfaces and blocks of a mesh from its volumes. Free it
+/// with terrane_structure_free. Errors: BAD_OPTION (volumes of an arrangement), OUT_OF_MEMORY.
+TERRANE_API terrane_code terrane_build_structure(const terrane_volumes* volumes,
+                                                 terrane_structure** out, terrane_error** error);
+
+/// Makes the model of an arrangement: blocks of the rounded mesh with the numbers of the exact
+/// ones. `rounded` was made from `arrangement` and is conforming. `improved` was made from
+/// `rounded`, and the model is then about it; or it is NULL. Free the model with
+/// terrane_model_free. Errors: IMPROPER_CONTACT, BAD_OPTION (the handles do not belong together, or
+/// the column), INTERRUPTED, OUT_OF_MEMORY.
+TERRANE_API terrane_code terrane_make_model(const terrane_arrangement* arrangement,
+                                            const terrane_mesh* rounded,
+                                            const terrane_improved* improved,
+                                            const terrane_model_options* options,
+                                            const terrane_run* run, terrane_model** out,
+                                            terrane_error** error);
+/// Frees a model.
+TERRANE_API void terrane_model_free(terrane_model* model);
+/// Returns the mesh of the model, a part of it.
+TERRANE_API const terrane_mesh* terrane_model_mesh(const terrane_model* model);
+/// Returns the volumes of the mesh by the numbers of the exact blocks, a part of the model.
+TERRANE_API const terrane_volumes* terrane_model_volumes(const terrane_model* model);
+/// Returns the structure by the same numbers, a part of the model.
+TERRANE_API const terrane_structure* terrane_model_structure(const terrane_model* model);
+/// Returns, per exact block, the double nearest to its volume before rounding, in cubic units; [0]:
+/// of all.
+TERRANE_API const double* terrane_model_exact_volumes(const terrane_model* model, size_t* count);
+/// Returns the number of exact blocks that were too thin for doubles.
+TERRANE_API size_t terrane_model_lost(const terrane_model* model);
+/// Returns the number of blocks that rounding made; they come last.
+TERRANE_API size_t terrane_model_made(const terrane_model* model);
+/// Returns the structure with leaks as JSON text, as `terrane volume` writes model.json;
+/// docs/reference/model.md describes its keys. Free it with terrane_text_free. Errors:
+/// BAD_ARGUMENT, OUT_OF_MEMORY.
+TERRANE_API terrane_code terrane_model_to_json(const terrane_model* model, char** text,
+                                               terrane_error** error);
+/// Frees a text that a function handed out.
+TERRANE_API void terrane_text_free(char* text);
+
+#ifdef __cplusplus
+}
+#endif

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/capi/surfaces.h>
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include <terrane/algorithms/mesh/submesh.hpp>
+#include <terrane/algorithms/mesh/validation.hpp>
+#include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
+#include <terrane/capi/detail/call.hpp>
+#include <terrane/capi/detail/handles.hpp>
+#include <terrane/io/files.hpp>
+
+namespace terrane::capi::detail {
+namespace {
+
+using MadeSurfaces = Result<std::unique_ptr<terrane_surfaces>>;
+
+terrane_write_options default_writing() noexcept {
+    return {sizeof(terrane_write_options), nullptr, 0, 1};
+}
+
+/// Returns the format that a caller names; none: the extension counts.
+std::optional<Format> named_format(const char* name) {
+    if (!name || *name == '\0') return std::nullopt;
+    const auto format = format_named(name);
+    if (!format) throw BadArgument{"options.format", "is no format that Terrane knows"};
+    return format;
+}
+
+Role role_of(terrane_role role) {
+    if (role < TERRANE_ROLE_UNKNOWN || role > TERRANE_ROLE_BOUNDARY)
+        throw BadArgument{"role", "is none of the roles"};
+    return static_cast<Role>(role);
+}
+
+Surface surface_of(const char* name, terrane_role role, std::vector<Point3> vertices,
+                   const uint32_t* triangles, std::size_t triangle_count) {
+    Surface surface{name ? name : "", role_of(role), std::move(vertices), {}, {}};
+    surface.triangles.resize(triangle_count);
+    if (triangle_count > 0)
+        std::memcpy(surface.triangles.data(), triangles, triangle_count * sizeof(Triangle));
+    return surface;
+}
+
+/// Appends surfaces to a list as a whole or, where memory is short, not at all.
+void append(std::vector<Surface>& list, std::vector<Surface> more) {
+    list.reserve(list.size() + more.size());
+    for (Surface& s : more) list.push_back(std::move(s));
+}
+
+MadeSurfaces handle_of(Result<std::vector<Surface>> made) {
+    if (!made) return made.error();
+    auto handle = std::make_unique<terrane_surfaces>();
+    handle->list = *std::move(made);
+    return handle;
+}
+
+Point3 point_of(const double (&numbers)[3]) {
+    return {numbers[0], numbers[1], numbers[2]};
+}
+
+const Surface* surface_at(const terrane_surfaces* surfaces, std::size_t index) noexcept {
+    return known(surfaces) && index < surfaces->list.size() ? &surfaces->list[index] : nullptr;
+}
+
+} // namespace
+
+terrane_read_options default_reading() noexcept {
+    return {sizeof(terrane_read_options), nullptr, 0, 0, 0, nullptr};
+}
+
+Reading reading_of(const terrane_read_options* given) {
+    const auto options = options_of(given, default_reading());
+    return {named_format(options.format),
+            {options.depth != 0, options.max_edge, options.unit ? options.unit : ""}};
+}
+
+WriteOptions writing_of(const terrane_write_options* given) {
+    const auto options = options_of(given, default_writing());
+    WriteOptions writing;
+    writing.format = named_format(options.format);
+    writing.ascii = options.ascii != 0;
+    writing.compress = options.compress != 0;
+    return writing;
+}
+
+} // namespace terrane::capi::detail
+
+using namespace terrane::capi::detail;
+using terrane::Done;
+using terrane::Result;
+using terrane::Status;
+
+terrane_code terrane_read_options_init(terrane_read_options* options, size_t struct_size) {
+    return init_options(options, struct_size, default_reading());
+}
+
+terrane_code terrane_write_options_init(terrane_write_options* options, size_t struct_size) {
+    return init_options(options, struct_size, default_writing());
+}
+
+terrane_code terrane_surfaces_new(terrane_surfaces** out, terrane_error** error) {
+    return produce(out, error, [] { return Result(std::make_unique<terrane_surfaces>()); });
+}
+
+void terrane_surfaces_free(terrane_surfaces* surfaces) {
+    delete known(surfaces);
+}
+
+terrane_code terrane_surfaces_add(terrane_surfaces* surfaces, const char* name, terrane_role role,
+                                  const double* vertices, size_t vertex_count,
+                                  const uint32_t* triangles, size_t triangle_count,
+                                  terrane_error** error) {
+    return call(error, [&]() -> Status {
+        auto& list = needed(surfaces, "surfaces").list;
+        need_array(vertices, vertex_count, "vertices");
+        need_array(triangles, triangle_count, "triangles");
+        auto surface =
+            surface_of(name, role, points_of(vertices, vertex_count), triangles, triangle_count);
+        if (auto valid = terrane::validate(std::span(&surface, 1)); !valid) return valid;
+        list.push_back(std::move(surface));
+        return Done{};
+    });
+}
+
+terrane_code terrane_surfaces_append(terrane_surfaces* surfaces, const terrane_surfaces* others,
+                                     terrane_error** error) {
+    return call(error, [&]() -> Status {
+        auto copies = needed(others, "others").list;
+        append(needed(surfaces, "surfaces").list, std::move(copies));
+        return Done{};
+    });
+}
+
+terrane_code terrane_surfaces_read(terrane_surfaces* surfaces, const char* path,
+                                   const terrane_read_options* options, terrane_error** error) {
+    return call(error, [&]() -> Status {
+        auto& list = needed(surfaces, "surfaces").list;
+        const auto [format, reading] = reading_of(options);
+        auto read = terrane::read_surfaces(needed_file(path), format, reading);
+        if (!read) return read.error();
+        append(list, *std::move(read));
+        return Done{};
+    });
+}
+
+terrane_code terrane_surfaces_parse(terrane_surfaces* surfaces, const void* contents, size_t size,
+                                    const char* source, const terrane_read_options* options,
+                                    terrane_error** error) {
+    return call(error, [&]() -> Status {
+        auto& list = needed(surfaces, "surfaces").list;
+        need_array(contents, size, "contents");
+        const auto [format, reading] = reading_of(options);
+        if (!format) throw BadArgument{"options.format", "must name the format of the contents"};
+        auto read = terrane::parse_surfaces({static_cast<const char*>(contents), size},
+                                            source ? source : "contents", *format, reading);
+        if (!read) return read.error();
+        append(list, *std::move(read));
+        return Done{};
+    });
+}
+
+terrane_code terrane_surfaces_write(const terrane_surfaces* surfaces, const char* path,
+                                    const terrane_write_options* options, terrane_error** error) {
+    return call(error, [&]() -> Status {
+        const auto& list = needed(surfaces, "surfaces").list;
+        const auto writing = writing_of(options);
+        if (auto valid = terrane::validate(list); !valid) return valid;
+        return terrane::write_mesh(terrane::concatenate(list), needed_file(path), writing);
+    });
+}
+
+size_t terrane_surfaces_count(const terrane_surfaces* surfaces) {
+    return known(surfaces) ? surfaces->list.size() : 0;
+}
+
+const char* terrane_surfaces_name(const terrane_surfaces* surfaces, size_t surface) {
+    const auto* found = surface_at(surfaces, surface);
+    return found ? found->name.c_str() : nullptr;
+}
+
+terrane_role terrane_surfaces_role(const terrane_surfaces* surfaces, size_t surface) {
+    const auto* found = surface_at(surfaces, surface);
+    return found ? static_cast<terrane_role>(found->role) : TERRANE_ROLE_UNKNOWN;
+}
+
+terrane_code terrane_surfaces_label(terrane_surfaces* surfaces, size_t surface, const char* name,
+                                    terrane_role role, terrane_error** error) {
+    return call(error, [&]() -> Status {
+        auto& list = needed(surfaces, "surfaces").list;
+        std::string text = needed_text(name, "name");
+        const auto meant = role_of(role);
+        if (surface >= list.size())
+            return terrane::Error{terrane::ErrorCode::bad_index, "there is no such surface",
+                                  "surface " + std::to_string(surface)};
+        list[surface].name = std::move(text);
+        list[surface].role = meant;
+        return Done{};
+    });
+}
+
+const double* terrane_surfaces_vertices(const terrane_surfaces* surfaces, size_t surface,
+                                        size_t* vertex_count) {
+    const auto* found = surface_at(surfaces, surface);
+    return found ? array_of<double>(found->vertices, vertex_count) : no_array<double>(vertex_count);
+}
+
+const uint32_t* terrane_surfaces_triangles(const terrane_surfaces* surfaces, size_t surface,
+                                           size_t* triangle_count) {
+    const auto* found = surface_at(surfaces, surface);
+    return found ? array_of<uint32_t>(found->triangles, triangle_count)
+                 : no_array<uint32_t>(triangle_count);
+}
+
+terrane_code terrane_box_boundary(const double low[3], const double high[3], terrane_surfaces** out,
+                                  terrane_error** error) {
+    return produce(out, error, [&]() -> MadeSurfaces {
+        need_array(low, 3, "low");
+        need_array(high, 3, "high");
+        const auto lowest = points_of(low, 1), highest = points_of(high, 1);
+        return handle_of(terrane::box_boundary(lowest[0], highest[0]));
+    });
+}
+
+terrane_code terrane_rotated_box_boundary(const terrane_rotated_box* box, terrane_surfaces** out,
+                                          terrane_error** error) {
+    return produce(out, error, [&]() -> MadeSurfaces {
+        need_array(box, 1, "box");
+        return handle_of(terrane::rotated_box_boundary(
+            {.place = point_of(box->place),
+             .is_corner = box->is_corner != 0,
+             .lengths = {box->lengths[0], box->lengths[1], box->lengths[2]},
+             .azimuth = box->azimuth,
+             .plunge = box->plunge,
+             .roll = box->roll}));
+    });
+}
+
+terrane_code terrane_polygon_boundary(const double* corners, size_t corner_count, double low,
+                                      double high, terrane_surfaces** out, terrane_error** error) {
+    return produce(out, error, [&]() -> MadeSurfaces {
+        need_array(corners, corner_count, "corners");
+        std::vector<terrane::Point2> polygon(corner_count);
+        if (corner_count > 0)
+            std::memcpy(polygon.data(), corners, corner_count * sizeof(terrane::Point2));
+        return handle_of(terrane::polygon_boundary(polygon, low, high));
+    });
+}
+
+terrane_code terrane_closed_boundary(const terrane_surfaces* surfaces, const terrane_run* run,
+                                     terrane_surfaces** out, terrane_error** error) {
+    return produce(out, error, [&]() -> MadeSurfaces {
+        return handle_of(terrane::closed_boundary(needed(surfaces, "surfaces").list, run_of(run)));
+    });
+}

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/capi/verification.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include <terrane/algorithms/verify/verify.hpp>
+#include <terrane/algorithms/verify/verify_certificate.hpp>
+#include <terrane/capi/detail/call.hpp>
+#include <terrane/capi/detail/handles.hpp>
+#include <terrane/io/atomic/atomic_file.hpp>
+#include <terrane/io/files.hpp>
+
+namespace terrane::capi::detail {
+namespace {
+
+namespace fs = std::filesystem;
+using MadeVerdict = Result<std::unique_ptr<terrane_verdict>>;
+
+terrane_verify_options default_verifying() noexcept {
+    return {sizeof(terrane_verify_options), nullptr, 0, default_reading(), -1, -1};
+}
+
+void add(const std::vector<Violation>& violations, terrane_verdict& verdict) {
+    for (const Violation& v : violations)
+        verdict.items.push_back({name_of(v.rule), v.sentence, v.elements});
+}
+
+std::unique_ptr<terrane_verdict> verdict_of(const std::vector<Violation>& violations) {
+    auto verdict = std::make_unique<terrane_verdict>();
+    add(violations, *verdict);
+    return verdict;
+}
+
+/// Converts the exact result of the library to the claim that the verifier judges.
+ArrangementClaim claim_of(const Arrangement& a) {
+    ArrangementClaim claim;
+    for (std::uint32_t v = 0; v < a.vertices.size(); ++v)
+        claim.vertices.push_back(a.construction(VertexId(v)));
+    claim.triangles = a.triangles;
+    claim.parents_of = a.parents_of;
+    claim.intersection_edges = a.intersection_edges;
+    claim.degenerate = a.degenerate;
+    claim.duplicates = a.inputs.duplicates;
+    return claim;
+}
+
+/// Reads and parses an input file. A file whose hash differs from the certificate's need not parse:
+/// the verifier rejects it by its hash.
+Result<InputFile> read_input(const fs::path& path, const CertifiedInput& stated,
+                             const Reading& reading) {
+    const auto contents = read_file(path);
+    if (!contents) return contents.error();
+    const auto format = reading.format ? reading.format : format_of(stated.name);
+    if (!format)
+        return Error{ErrorCode::unknown_format, "no format that can be read has this extension",
+                     stated.name};
+    auto surfaces = parse_surfaces(*contents, stated.name, *format, reading.options);
+    InputFile file = input_file(*contents, {});
+    if (!surfaces && file.sha256 == stated.sha256) return surfaces.error();
+    if (surfaces) file.surfaces = *std::move(surfaces);
+    return file;
+}
+
+Result<std::vector<InputFile>> read_inputs(const fs::path& folder,
+                                           const terrane_verify_options& options,
+                                           const Certificate& certificate) {
+    const auto& stated = certificate.inputs;
+    if (options.inputs && options.input_count != stated.size())
+        return Error{ErrorCode::bad_option,
+                     "the certificate is about " + std::to_string(stated.size()) + " files, not " +
+                         std::to_string(options.input_count),
+                     "options.inputs"};
+    const auto reading = reading_of(&options.reading);
+    std::vector<InputFile> files;
+    for (std::size_t i = 0; i < stated.size(); ++i) {
+        const auto path = options.inputs
+                              ? fs::path(needed_text(options.inputs[i], "options.inputs"))
+                              : folder / stated[i].name;
+        auto file = read_input(path, stated[i], reading);
+        if (!file) return file.error();
+        files.push_back(*std::move(file));
+    }
+    return files;
+}
+
+/// Judges the output files that a certificate names; one that can't be judged is a violation, too.
+void judge_outputs(const fs::path& folder, const Certificate& certificate,
+                   terrane_verdict& verdict) {
+    const auto refuse = [&](const std::string& sentence, std::uint32_t output) {
+        verdict.items.push_back({"output", sentence, {output}});
+    };
+    if (certificate.outputs.empty())
+        verdict.items.push_back({"output", "the certificate names no output file", {}});
+    OutputVerifier verifier(certificate);
+    for (std::uint32_t i = 0; i < certificate.outputs.size(); ++i) {
+        const std::string& name = certificate.outputs[i].name;
+        if (name == "-") {
+            refuse("the certificate names standard output", i);
+            continue;
+        }
+        const auto contents = read_file(folder / name);
+        if (!contents) {
+            refuse(contents.error().message(), i);
+            continue;
+        }
+        const OutputVerdict found = verifier(*contents, i);
+        add(found.violations, verdict);
+        if (found.violations.empty() && found.check == OutputCheck::hash_only)
+            refuse(name + ": there is no reader for its format", i);
+    }
+}
+
+MadeVerdict judge(const char* path, const terrane_verify_options* given) {
+    const fs::path file = needed_file(path);
+    const auto options = options_of(given, default_verifying());
+    const auto text = read_file(file);
+    if (!text) return text.error();
+    const auto certificate = parse_certificate(*text, file.string());
+    if (!certificate) return certificate.error();
+    const auto inputs = read_inputs(file.parent_path(), options, *certificate);
+    if (!inputs) return inputs.error();
+    VerifyOptions limits;
+    if (options.max_deviation >= 0) limits.max_deviation = options.max_deviation;
+    if (options.max_change >= 0) limits.max_change = options.max_change;
+    auto verdict = verdict_of(verify_certificate(*inputs, *certificate, limits).violations);
+    if (verdict->items.empty()) judge_outputs(file.parent_path(), *certificate, *verdict);
+    return verdict;
+}
+
+const terrane_verdict::Item* item_at(const terrane_verdict* verdict,
+                                     std::size_t violation) noexcept {
+    return known(verdict) && violation < verdict->items.size() ? &verdict->items[violation]
+                                                               : nullptr;
+}
+
+} // namespace
+} // namespace terrane::capi::detail
+
+using namespace terrane::capi::detail;
+
+terrane_code terrane_verify_options_init(terrane_verify_options* options, size_t struct_size) {
+    return init_options(options, struct_size, default_verifying());
+}
+
+terrane_code terrane_verify_arrangement(const terrane_surfaces* surfaces,
+                                        const terrane_arrangement* arrangement,
+                                        terrane_verdict** out, terrane_error** error) {
+    return produce(out, error, [&]() -> MadeVerdict {
+        const auto& list = needed(surfaces, "surfaces").list;
+        return verdict_of(
+            terrane::verify_arrangement(list, claim_of(*needed(arrangement, "arrangement").exact)));
+    });
+}
+
+terrane_code terrane_verify_mesh(const terrane_mesh* mesh, terrane_verdict** out,
+                                 terrane_error** error) {
+    return produce(out, error, [&]() -> MadeVerdict {
+        const terrane::Mesh& judged = needed(mesh, "mesh").mesh;
+        return verdict_of(terrane::verify_conforming(judged.vertices, judged.triangles));
+    });
+}
+
+terrane_code terrane_verify_certificate(const char* path, const terrane_verify_options* options,
+                                        terrane_verdict** out, terrane_error** error) {
+    return produce(out, error, [&] { return judge(path, options); });
+}
+
+void terrane_verdict_free(terrane_verdict* verdict) {
+    delete known(verdict);
+}
+
+int terrane_verdict_is_valid(const terrane_verdict* verdict) {
+    return known(verdict) && verdict->items.empty() ? 1 : 0;
+}
+
+size_t terrane_verdict_count(const terrane_verdict* verdict) {
+    return known(verdict) ? verdict->items.size() : 0;
+}
+
+const char* terrane_verdict_rule(const terrane_verdict* verdict, size_t violation) {
+    const auto* item = item_at(verdict, violation);
+    return item ? item->rule.c_str() : nullptr;
+}
+
+const char* terrane_verdict_sentence(const terrane_verdict* verdict, size_t violation) {
+    const auto* item = item_at(verdict, violation);
+    return item ? item->sentence.c_str() : nullptr;
+}
+
+const uint32_t* terrane_verdict_elements(const terrane_verdict* verdict, size_t violation,
+                                         size_t* count) {
+    const auto* item = item_at(verdict, violation);
+    return item ? array_of<uint32_t>(item->elements, count) : no_array<uint32_t>(count);
+}

@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Null handles, handles of other types, and wrong structs: codes, never a crash.
+#include "support.h"
+
+#include <math.h>
+#include <string.h>
+
+static void* out = NULL; // of any type
+#define REFUSED(call) FAILS(TERRANE_BAD_ARGUMENT, call)
+
+/// Getters of a handle that is null or of another type return nothing. `h` is such a handle.
+static void test_getters(void* h) {
+    size_t n = 7;
+    terrane_lists lists = {NULL, NULL, 7};
+#define NOTHING(call) CHECK((call) == NULL && n == 0), n = 7
+#define NO_LISTS(call) CHECK((call) == TERRANE_BAD_ARGUMENT && lists.count == 0), lists.count = 7
+    CHECK(terrane_surfaces_count(h) == 0 && terrane_surfaces_name(h, 0) == NULL);
+    CHECK(terrane_surfaces_role(h, 0) == TERRANE_ROLE_UNKNOWN);
+    NOTHING(terrane_surfaces_vertices(h, 0, &n));
+    NOTHING(terrane_surfaces_triangles(h, 0, &n));
+    NOTHING(terrane_check_contacts(h, &n));
+    NOTHING(terrane_check_degenerate(h, &n));
+    NOTHING(terrane_check_repeated(h, &n));
+    NOTHING(terrane_check_shared(h, &n));
+    NOTHING(terrane_check_non_manifold_edges(h, &n));
+    NOTHING(terrane_arrangement_vertices(h, &n));
+    NOTHING(terrane_arrangement_triangles(h, &n));
+    NOTHING(terrane_arrangement_intersection_edges(h, &n));
+    NOTHING(terrane_arrangement_degenerate(h, &n));
+    NO_LISTS(terrane_arrangement_parents(h, &lists));
+    NO_LISTS(terrane_arrangement_surfaces(h, &lists));
+    CHECK(terrane_cut_arrangement(h) == NULL);
+    NOTHING(terrane_cut_surfaces(h, &n));
+    CHECK(terrane_mesh_is_conforming(h) == 0 && terrane_mesh_surface_count(h) == 0);
+    CHECK(terrane_mesh_surface_name(h, 0) == NULL);
+    CHECK(terrane_mesh_surface_role(h, 0) == TERRANE_ROLE_UNKNOWN);
+    NOTHING(terrane_mesh_vertices(h, &n));
+    NOTHING(terrane_mesh_triangles(h, &n));
+    NOTHING(terrane_mesh_intersection_edges(h, &n));
+    NOTHING(terrane_mesh_contacts(h, &n));
+    NO_LISTS(terrane_mesh_surfaces(h, &lists));
+    NO_LISTS(terrane_mesh_regions(h, &lists));
+    NO_LISTS(terrane_mesh_parents(h, &lists));
+    NOTHING(terrane_regions_array(h, &n));
+    NO_LISTS(terrane_regions_neighbours(h, &lists));
+    NO_LISTS(terrane_regions_of_triangles(h, &lists));
+    CHECK(terrane_improved_mesh(h) == NULL);
+    NOTHING(terrane_improved_bounds(h, &n));
+    CHECK(terrane_sealed_surfaces(h) == NULL && terrane_sealed_arrangement(h) == NULL);
+    NOTHING(terrane_sealed_changes(h, &n));
+    NOTHING(terrane_sealed_closed(h, &n));
+    NOTHING(terrane_sealed_open(h, &n));
+    CHECK(isnan(terrane_sealed_left(h)) && terrane_extended_surfaces(h) == NULL);
+    NOTHING(terrane_extended_borders(h, &n));
+    NOTHING(terrane_volumes_of_sides(h, &n));
+    NOTHING(terrane_volumes_measures(h, &n));
+    NOTHING(terrane_structure_corners(h, &n));
+    NOTHING(terrane_structure_lines(h, &n));
+    NOTHING(terrane_structure_patches(h, &n));
+    NOTHING(terrane_structure_interfaces(h, &n));
+    NOTHING(terrane_structure_blocks(h, &n));
+    NOTHING(terrane_structure_patch_of(h, &n));
+    NOTHING(terrane_structure_interface_of(h, &n));
+    CHECK(terrane_structure_block_name(h, 0) == NULL && terrane_structure_block_unit(h, 0) == NULL);
+    NO_LISTS(terrane_structure_get_lists(h, TERRANE_BLOCK_NEIGHBOURS, &lists));
+    CHECK(terrane_model_mesh(h) == NULL && terrane_model_volumes(h) == NULL);
+    CHECK(terrane_model_structure(h) == NULL && terrane_model_lost(h) == 0 &&
+          terrane_model_made(h) == 0);
+    NOTHING(terrane_model_exact_volumes(h, &n));
+    NOTHING(terrane_holes_array(h, &n));
+    NO_LISTS(terrane_holes_borders(h, &lists));
+    CHECK(terrane_holes_refusal(h, 0) == NULL && terrane_holes_model(h, 0) == NULL);
+    CHECK(terrane_holes_surfaces(h) == NULL);
+    NOTHING(terrane_holes_expected_errors(h, 0, &n));
+    NOTHING(terrane_holes_of_triangles(h, 0, &n));
+    CHECK(terrane_layered_is_stack(h) == 0 && terrane_layered_mesh(h) == NULL);
+    CHECK(isnan(terrane_layered_step_width(h)));
+    NOTHING(terrane_layered_reports(h, &n));
+    CHECK(terrane_tetrahedra_violation_count(h) == 0 && terrane_tetrahedra_violation(h, 0) == NULL);
+    NOTHING(terrane_tetrahedra_vertices(h, &n));
+    NOTHING(terrane_tetrahedra_cells(h, &n));
+    NOTHING(terrane_tetrahedra_region_of(h, &n));
+    NOTHING(terrane_tetrahedra_faces(h, &n));
+    NOTHING(terrane_tetrahedra_face_triangle(h, &n));
+    NO_LISTS(terrane_tetrahedra_face_surfaces(h, &lists));
+    NOTHING(terrane_tetrahedra_twins(h, &n));
+    NOTHING(terrane_tetrahedra_volumes(h, &n));
+    CHECK(terrane_tetrahedra_surface_count(h) == 0 &&
+          terrane_tetrahedra_surface_name(h, 0) == NULL);
+    CHECK(terrane_tetrahedra_region_count(h) == 0 && terrane_tetrahedra_region_name(h, 0) == NULL);
+    CHECK(terrane_tetrahedra_mesher(h) == NULL);
+    CHECK(terrane_verdict_is_valid(h) == 0 && terrane_verdict_count(h) == 0);
+    CHECK(terrane_verdict_rule(h, 0) == NULL && terrane_verdict_sentence(h, 0) == NULL);
+    NOTHING(terrane_verdict_elements(h, 0, &n));
+    CHECK(terrane_built_model(h) == NULL && terrane_built_tetrahedra(h) == NULL);
+    CHECK(terrane_built_surfaces(h) == NULL && terrane_built_arrangement(h) == NULL);
+    CHECK(terrane_run_stop_requested(h) == 0);
+    union {
+        terrane_check_summary check;
+        terrane_arrangement_summary arrangement;
+        terrane_rounding_report rounding;
+        terrane_improve_report improvement;
+    } r;
+    CHECK(terrane_check_get_summary(h, &r.check, sizeof r.check) == TERRANE_BAD_ARGUMENT);
+    CHECK(terrane_arrangement_get_summary(h, &r.arrangement, sizeof r.arrangement) ==
+          TERRANE_BAD_ARGUMENT);
+    CHECK(terrane_mesh_get_rounding(h, &r.rounding, sizeof r.rounding) == TERRANE_BAD_ARGUMENT);
+    CHECK(terrane_improved_get_report(h, &r.improvement, sizeof r.improvement) ==
+          TERRANE_BAD_ARGUMENT);
+}
+
+/// Stages refuse a handle that is null or of another type, as `h` is.
+static void test_stages(void* h) {
+    const double numbers[9] = {0};
+    const uint32_t indices[3] = {0, 1, 2};
+    double number = 0;
+    uint32_t index = 0;
+    char text[4];
+    REFUSED(terrane_surfaces_add(h, "", 0, numbers, 3, indices, 1, &error));
+    REFUSED(terrane_surfaces_append(h, h, &error));
+    REFUSED(terrane_surfaces_read(h, "a.ts", NULL, &error));
+    REFUSED(terrane_surfaces_parse(h, "", 0, "", NULL, &error));
+    REFUSED(terrane_surfaces_write(h, "a.ts", NULL, &error));
+    REFUSED(terrane_surfaces_label(h, 0, "", 0, &error));
+    REFUSED(terrane_closed_boundary(h, NULL, (terrane_surfaces**)&out, &error));
+    REFUSED(terrane_check(h, NULL, (terrane_check_report**)&out, &error));
+    REFUSED(terrane_arrange(h, NULL, NULL, (terrane_arrangement**)&out, &error));
+    REFUSED(terrane_arrangement_coordinate(h, 0, 0, text, 4, NULL, &error));
+    REFUSED(terrane_arrangement_digest(h, h, NULL, text, 4, NULL, &error));
+    REFUSED(terrane_cut_to_volume(h, indices, 3, NULL, (terrane_cut**)&out, &error));
+    REFUSED(terrane_merge_small_blocks(h, 1, NULL, (terrane_arrangement**)&out, NULL, &error));
+    REFUSED(terrane_round(h, NULL, NULL, (terrane_mesh**)&out, &error));
+    REFUSED(terrane_mesh_from_surfaces(h, (terrane_mesh**)&out, &error));
+    REFUSED(terrane_mesh_to_surfaces(h, (terrane_surfaces**)&out, &error));
+    REFUSED(terrane_mesh_prove(h, NULL, (terrane_mesh**)&out, &error));
+    REFUSED(terrane_mesh_write(h, "a.vtp", NULL, &error));
+    REFUSED(terrane_find_regions(h, NULL, (terrane_regions**)&out, &error));
+    terrane_quality quality;
+    REFUSED(terrane_measure_quality(h, NULL, &quality, sizeof quality, &error));
+    REFUSED(terrane_improve(h, NULL, NULL, (terrane_improved**)&out, &error));
+    REFUSED(terrane_seal(h, NULL, NULL, (terrane_sealed**)&out, &error));
+    REFUSED(terrane_choose_seal(h, h, 0, NULL, &number, &error));
+    REFUSED(terrane_extend_to_boundary(h, indices, 3, 1, NULL, (terrane_extended**)&out, &error));
+    REFUSED(terrane_find_volumes(h, NULL, (terrane_volumes**)&out, &error));
+    REFUSED(terrane_find_exact_volumes(h, NULL, (terrane_volumes**)&out, &error));
+    REFUSED(terrane_volumes_exact(h, 0, text, 4, NULL, &error));
+    REFUSED(terrane_locate_points(h, numbers, 1, NULL, &index, &error));
+    REFUSED(terrane_build_structure(h, (terrane_structure**)&out, &error));
+    REFUSED(terrane_make_model(h, h, h, NULL, NULL, (terrane_model**)&out, &error));
+    char* json = NULL;
+    REFUSED(terrane_model_to_json(h, &json, &error));
+    REFUSED(terrane_find_holes(h, NULL, 0, NULL, (terrane_holes**)&out, &error));
+    REFUSED(terrane_fill(h, NULL, 0, NULL, (terrane_holes**)&out, &error));
+    REFUSED(terrane_stack_layers(h, NULL, 0, NULL, NULL, (terrane_layered**)&out, &error));
+    REFUSED(terrane_tetrahedralize(h, NULL, NULL, (terrane_tetrahedra**)&out, &error));
+    REFUSED(terrane_tetrahedra_write(h, "a.vtu", NULL, &error));
+    REFUSED(terrane_verify_arrangement(h, h, (terrane_verdict**)&out, &error));
+    REFUSED(terrane_verify_mesh(h, (terrane_verdict**)&out, &error));
+    REFUSED(terrane_run_set_threads(h, 1, &error));
+    REFUSED(terrane_run_set_progress(h, NULL, NULL, &error));
+    REFUSED(terrane_run_set_timing(h, NULL, NULL, &error));
+    REFUSED(terrane_run_request_stop(h, &error));
+    REFUSED(terrane_run_reset(h, &error));
+    CHECK(out == NULL && json == NULL);
+}
+
+/// Freeing null, or a handle of another type, does nothing.
+static void test_frees(void* h) {
+    terrane_surfaces_free(h);
+    terrane_check_free(h);
+    terrane_arrangement_free(h);
+    terrane_cut_free(h);
+    terrane_mesh_free(h);
+    terrane_regions_free(h);
+    terrane_improved_free(h);
+    terrane_sealed_free(h);
+    terrane_extended_free(h);
+    terrane_volumes_free(h);
+    terrane_structure_free(h);
+    terrane_model_free(h);
+    terrane_holes_free(h);
+    terrane_layered_free(h);
+    terrane_tetrahedra_free(h);
+    terrane_verdict_free(h);
+    terrane_built_free(h);
+    terrane_run_free(h);
+}
+
+/// What is wanted but missing: places for results, names of files, arrays.
+static void test_missing(const terrane_surfaces* s) {
+    terrane_surfaces* list = NULL;
+    terrane_arrangement* a = NULL;
+    const double low[] = {0, 0, 0}, high[] = {1, 1, 1};
+    REFUSED(terrane_run_new(NULL, &error));
+    REFUSED(terrane_surfaces_new(NULL, &error));
+    REFUSED(terrane_arrange(s, NULL, NULL, NULL, &error));
+    REFUSED(terrane_box_boundary(NULL, high, &list, &error));
+    REFUSED(terrane_box_boundary(low, NULL, &list, &error));
+    REFUSED(terrane_rotated_box_boundary(NULL, &list, &error));
+    REFUSED(terrane_polygon_boundary(NULL, 3, 0, 1, &list, &error));
+    CHECK(list == NULL);
+    WORKS(terrane_surfaces_new(&list, &error));
+    REFUSED(terrane_surfaces_add(list, "", 0, NULL, 3, NULL, 0, &error));
+    REFUSED(terrane_surfaces_add(list, "", 0, low, 1, NULL, 1, &error));
+    REFUSED(terrane_surfaces_add(list, "", 4, low, 1, NULL, 0, &error));
+    REFUSED(terrane_surfaces_add(list, "", -1, low, 1, NULL, 0, &error));
+    REFUSED(terrane_surfaces_append(list, NULL, &error));
+    REFUSED(terrane_surfaces_read(list, NULL, NULL, &error));
+    REFUSED(terrane_surfaces_read(list, "-", NULL, &error));
+    REFUSED(terrane_surfaces_write(list, "-", NULL, &error));
+    REFUSED(terrane_surfaces_parse(list, NULL, 1, "", NULL, &error));
+    REFUSED(terrane_surfaces_parse(list, "", 0, "", NULL, &error)); // no format
+    REFUSED(terrane_surfaces_label(list, 0, NULL, 0, &error));
+    FAILS(TERRANE_BAD_INDEX, terrane_surfaces_label(list, 0, "a", 0, &error));
+    CHECK(terrane_surfaces_count(list) == 0);
+    WORKS(terrane_arrange(list, NULL, NULL, &a, &error)); // without surfaces
+    const uint32_t boundary[] = {0, 0};
+    terrane_cut* cut = NULL;
+    REFUSED(terrane_cut_to_volume(a, boundary, 1, NULL, &cut, &error)); // no such surface
+    REFUSED(terrane_cut_to_volume(a, NULL, 1, NULL, &cut, &error));
+    REFUSED(terrane_cut_to_volume(a, NULL, 0, NULL, &cut, &error));
+    terrane_arrangement_free(a);
+    WORKS(terrane_arrange(s, NULL, NULL, &a, &error));
+    REFUSED(terrane_cut_to_volume(a, boundary, 2, NULL, &cut, &error)); // twice
+    REFUSED(terrane_merge_small_blocks(a, 1, NULL, NULL, NULL, &error));
+    CHECK(terrane_arrangement_parents(a, NULL) == TERRANE_BAD_ARGUMENT);
+    terrane_verdict* verdict = NULL;
+    REFUSED(terrane_verify_certificate(NULL, NULL, &verdict, &error));
+    terrane_built* built = NULL;
+    REFUSED(terrane_build(NULL, NULL, NULL, NULL, &built, &error));
+    REFUSED(terrane_build_file(NULL, NULL, &built, &error));
+    terrane_arrangement* none = NULL;
+    REFUSED(terrane_arrange(s, NULL, (const terrane_run*)(const void*)a, &none, &error)); // no run
+    CHECK(none == NULL);
+    terrane_arrangement_free(a);
+    terrane_surfaces_free(list);
+}
+
+/// Structs whose size is that of no version of them.
+static void test_sizes(const terrane_surfaces* s) {
+    terrane_arrange_options options;
+    terrane_arrangement* a = NULL;
+    CHECK(terrane_arrange_options_init(NULL, sizeof options) == TERRANE_BAD_ARGUMENT);
+    CHECK(terrane_arrange_options_init(&options, sizeof options + 8) == TERRANE_BAD_ARGUMENT);
+    CHECK(terrane_arrange_options_init(&options, 0) == TERRANE_BAD_ARGUMENT);
+    CHECK(terrane_round_options_init(NULL, 8) == TERRANE_BAD_ARGUMENT);
+    CHECK(terrane_improve_options_init(NULL, 8) == TERRANE_BAD_ARGUMENT);
+    CHECK(terrane_seal_options_init(NULL, 8) == TERRANE_BAD_ARGUMENT);
+    CHECK(terrane_layer_options_init(NULL, 8) == TERRANE_BAD_ARGUMENT);
+    CHECK(terrane_model_options_init(NULL, 8) == TERRANE_BAD_ARGUMENT);
+    CHECK(terrane_tetrahedra_options_init(NULL, 8) == TERRANE_BAD_ARGUMENT);
+    CHECK(terrane_verify_options_init(NULL, 8) == TERRANE_BAD_ARGUMENT);
+    CHECK(terrane_fill_task_init(NULL, 8, 0) == TERRANE_BAD_ARGUMENT);
+    CHECK(terrane_read_options_init(NULL, 8) == TERRANE_BAD_ARGUMENT);
+    CHECK(terrane_write_options_init(NULL, 8) == TERRANE_BAD_ARGUMENT);
+
+    memset(&options, 0, sizeof options); // not initialised: a size of 0
+    REFUSED(terrane_arrange(s, &options, NULL, &a, &error));
+    CHECK(a == NULL);
+
+    struct {
+        terrane_improve_options options;
+        char beyond[8];
+    } known;
+    memset(&known, 0x5a, sizeof known);
+    const size_t older =
+        offsetof(terrane_improve_options, curve_length); // as an older program knows it
+    CHECK(terrane_improve_options_init(&known.options, older) == TERRANE_OK);
+    CHECK(known.options.struct_size == older);
+    const char* const bytes = (const char*)&known;
+    for (size_t i = older; i < sizeof known; ++i)
+        CHECK(bytes[i] == 0x5a); // nothing is written beyond
+    terrane_mesh* mesh = NULL;
+    terrane_improved* improved = NULL;
+    WORKS(terrane_arrange(s, NULL, NULL, &a, &error));
+    WORKS(terrane_round(a, NULL, NULL, &mesh, &error));
+    WORKS(terrane_improve(mesh, &known.options, NULL, &improved, &error)); // nor read
+    terrane_improved_free(improved);
+
+    terrane_rounding_report report;
+    CHECK(terrane_mesh_get_rounding(mesh, NULL, sizeof report) == TERRANE_BAD_ARGUMENT);
+    CHECK(terrane_mesh_get_rounding(mesh, &report, sizeof report + 1) == TERRANE_BAD_ARGUMENT);
+    report.rounds = 77;
+    CHECK(terrane_mesh_get_rounding(mesh, &report, sizeof report.is_conforming) == TERRANE_OK);
+    CHECK(report.is_conforming == 1 && report.rounds == 77);
+    terrane_quality quality;
+    REFUSED(terrane_measure_quality(mesh, NULL, NULL, sizeof quality, &error));
+    REFUSED(terrane_measure_quality(mesh, NULL, &quality, sizeof quality + 1, &error));
+    CHECK(terrane_surfaces_vertices(s, 99, NULL) == NULL);
+    terrane_mesh_free(mesh);
+    terrane_arrangement_free(a);
+}
+
+void test_arguments(void) {
+    terrane_surfaces* const s = small_surfaces();
+    terrane_arrangement* a = NULL;
+    terrane_run* run = NULL;
+    terrane_check_report* report = NULL;
+    WORKS(terrane_arrange(s, NULL, NULL, &a, &error));
+    WORKS(terrane_run_new(&run, &error));
+    WORKS(terrane_check(s, NULL, &report, &error));
+    test_getters(NULL);
+    test_stages(NULL);
+    test_frees(NULL);
+    const uint64_t strange[4] = {1, 2, 3, 4}; // no handle at all
+    test_getters((void*)strange);
+    test_stages((void*)strange);
+    test_frees((void*)strange);
+    test_missing(s);
+    test_sizes(s);
+    CHECK(terrane_check_contacts((const terrane_check_report*)(const void*)s, NULL) == NULL);
+    CHECK(terrane_arrangement_triangles((const terrane_arrangement*)(const void*)run, NULL) ==
+          NULL);
+    terrane_mesh_free((terrane_mesh*)(void*)a); // of another type: it stays
+    CHECK(terrane_arrangement_triangles(a, NULL) != NULL);
+    terrane_check_free(report);
+    terrane_run_free(run);
+    terrane_arrangement_free(a);
+    terrane_surfaces_free(s);
+}
