@@ -78,6 +78,7 @@
 #include <terrane/io/grids/grid.hpp>
 #include <terrane/io/meshes/cell_array.hpp>
 #include <terrane/io/meshes/poly.hpp>
+#include <terrane/io/model_folder.hpp>
 #include <terrane/io/project.hpp>
 #include <terrane/io/project_inputs.hpp>
 #include <terrane/io/structure_json.hpp>

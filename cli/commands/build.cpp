@@ -31,6 +31,7 @@
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/atomic/atomic_folder.hpp>
 #include <terrane/io/gocad/gocad_model.hpp>
+#include <terrane/io/model_folder.hpp>
 #include <terrane/io/project.hpp>
 #include <terrane/io/project_inputs.hpp>
 
@@ -321,8 +322,8 @@ private:
             return Error{ErrorCode::cannot_open, "cannot be made: " + failed.message(),
                          (to / "model").string()};
         written_.emplace_back("model/");
-        return write_model({*built_.model, built_.arranged.sealed, leaks_}, project_.outputs.blocks,
-                           to / "model", session_);
+        return write_model_files({*built_.model, built_.arranged.sealed, leaks_},
+                                 project_.outputs.blocks, to / "model", session_.run());
     }
 
     Status write_gocad(const fs::path& to) {

@@ -20,6 +20,7 @@
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/atomic/atomic_folder.hpp>
 #include <terrane/io/gocad/gocad_model.hpp>
+#include <terrane/io/model_folder.hpp>
 
 namespace terrane::cli {
 namespace {
@@ -97,7 +98,8 @@ Status write_folder(const VolumeCommand& command, const ModelReports& reports, S
     session.begin("write", Phase::folder);
     auto folder = NewFolder::create(command.folder);
     if (!folder) return folder.error();
-    if (auto done = write_model(reports, command.part_format, folder.value().temporary(), session);
+    if (auto done = write_model_files(reports, command.part_format, folder.value().temporary(),
+                                      session.run());
         !done)
         return done;
     auto published = folder.value().publish();

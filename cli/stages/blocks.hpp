@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Blocks of a model as text, statistics and a folder of files: shared by `volume` and `build`.
+// Blocks of a model as text and statistics: shared by `volume` and `build`.
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,22 +29,5 @@ Result<std::optional<LeakAdvice>> judge_leaks(const Arranged& arranged, const Mo
 /// Reports blocks, structure, dangling surfaces and leaks, which may have been judged.
 std::string model_text(const Inputs& inputs, const Model& model,
                        const std::optional<LeakAdvice>& advice);
-
-/// Lists the names of the formats of blocks and interfaces.
-std::vector<std::string> part_formats();
-
-/// A model, and what is known beside it.
-struct ModelReports {
-    const Model& model;
-    const std::optional<SealReport>& sealed;
-    const std::optional<LeakAdvice>& leaks;
-};
-
-/// Writes model.json (with what was sealed or judged, if anything), result.vtp, and the blocks and interfaces
-/// in `part_format` into an empty folder that exists; with vtp also model.vtm, which has them all
-/// under their names. Errors: those of writing;
-/// interrupted.
-Status write_model(const ModelReports& reports, const std::string& part_format,
-                   const std::filesystem::path& folder, const Session& session);
 
 } // namespace terrane::cli

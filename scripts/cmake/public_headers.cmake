@@ -80,6 +80,7 @@ set(terrane_headers
     io/grids/grid.hpp
     io/meshes/cell_array.hpp
     io/meshes/poly.hpp
+    io/model_folder.hpp
     io/project.hpp
     io/project_inputs.hpp
     io/structure_json.hpp)

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// The folder of files that a model is written to, as `terrane volume` makes it.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <terrane/algorithms/core/result.hpp>
+#include <terrane/algorithms/core/run.hpp>
+#include <terrane/algorithms/model/arrange_within.hpp>
+#include <terrane/algorithms/model/leak_advice.hpp>
+#include <terrane/algorithms/model/model.hpp>
+
+namespace terrane {
+
+/// A model, and what is known beside it; by reference: the values must outlive it.
+struct ModelReports {
+    const Model& model;                      ///< what is written
+    const std::optional<SealReport>& sealed; ///< what was sealed; none: nothing
+    const std::optional<LeakAdvice>& leaks;  ///< leaks that were judged; none: they were not
+};
+
+/// Lists the names of the formats of blocks and interfaces.
+std::vector<std::string> part_formats();
+
+/// Writes model.json (with what was sealed or judged, if anything), result.vtp, and the blocks and
+/// interfaces in `part_format` into an empty folder that exists; with vtp also model.vtm, which has
+/// them all under their names. Errors: those of write_mesh; interrupted.
+Status write_model_files(const ModelReports& reports, const std::string& part_format,
+                         const std::filesystem::path& folder, const Run& run = {});
+
+/// Does the same into a folder that does not exist, or is empty, and appears when it is complete.
+/// Errors: as above; unknown_format; cannot_open if the folder cannot be made.
+Status write_model_folder(const ModelReports& reports, const std::string& part_format,
+                          const std::filesystem::path& folder, const Run& run = {});
+
+} // namespace terrane

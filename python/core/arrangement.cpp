@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <terrane/algorithms/arrangement/digest.hpp>
+#include <terrane/algorithms/mesh/labels.hpp>
+#include <terrane/algorithms/search/method.hpp>
+#include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
+#include <terrane/algorithms/volume_of_interest/extension.hpp>
+#include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
+
+#include "handles.hpp"
+#include "surfaces.hpp"
+
+namespace terrane::python {
+
+using namespace py::literals;
+
+namespace {
+
+Search to_search(const std::string& name) {
+    if (const auto search = search_named(name)) return *search;
+    throw Failure{
+        {ErrorCode::bad_option,
+         "is no method of search: auto, grid, ab, ab-balanced, ab-median, mixed, hierarchy, brute",
+         "search=" + name}};
+}
+
+ArrangementPointer arrange_all(const py::sequence& surfaces, const std::string& search,
+                               const HowToRun& how) {
+    auto given = std::make_shared<const std::vector<Surface>>(to_surfaces(surfaces));
+    const ArrangeOptions options{.search = to_search(search)};
+    return std::make_shared<Arrangement>(
+        run_stage(how, [given, options](const Run& run) { return arrange(*given, options, run); }));
+}
+
+py::tuple rounded(const ArrangementPointer& arrangement, unsigned max_rounds, const HowToRun& how) {
+    const RoundingOptions options{.max_rounds = max_rounds};
+    const auto made = run_stage(how, [arrangement, options](const Run& run) {
+        return round_to_doubles(*arrangement, options, run);
+    });
+    return py::make_tuple(handle_of(made.mesh, made.conforming), to_list(made.regions),
+                          to_dict(made.report));
+}
+
+/// The doubles nearest to the vertices.
+py::array nearest(const Arrangement& a) {
+    std::vector<Point3> points;
+    points.reserve(a.vertices.size());
+    for (std::uint32_t v = 0; v < a.vertices.size(); ++v) points.push_back(a.nearest(VertexId(v)));
+    return owned(std::move(points));
+}
+
+py::dict statistics(const Arrangement& a) {
+    const ArrangeStatistics& s = a.statistics;
+    return py::dict("search"_a = std::string(name_of(s.search)), "candidates"_a = s.candidates,
+                    "improper_contacts"_a = s.improper_contacts, "divided"_a = s.divided,
+                    "constructed_points"_a = s.constructed_points, "triangles"_a = s.triangles,
+                    "vertices"_a = s.vertices);
+}
+
+py::tuple construction(const Arrangement& a, std::uint32_t vertex) {
+    constexpr std::array<const char*, 4> kinds{"input", "line_plane", "three_planes", "line_line"};
+    constexpr std::array<std::size_t, 4> used{1, 5, 9, 4};
+    const Construction c = a.construction(VertexId(vertex));
+    const auto kind = static_cast<std::size_t>(c.kind);
+    const std::vector<std::uint32_t> v(c.v.begin(), c.v.begin() + used[kind]);
+    return py::make_tuple(kinds[kind], py::tuple(py::cast(v)));
+}
+
+std::string digest(const py::sequence& surfaces, const ArrangementPointer& arrangement,
+                   const HowToRun& how) {
+    auto given = std::make_shared<const std::vector<Surface>>(to_surfaces(surfaces));
+    return run_plainly(how, [given, arrangement](const Run& run) {
+        return canonical_digest(*given, *arrangement, run);
+    });
+}
+
+py::dict to_dict(const VolumeReport& report) {
+    py::list cuts, borders;
+    for (const SurfaceCut& c : report.surfaces)
+        cuts.append(py::make_tuple(c.area_inside, c.area_outside, c.area_on_boundary, c.pieces,
+                                   c.open_length, c.open_borders));
+    for (const OpenBorder& b : report.borders)
+        borders.append(py::make_tuple(std::uint32_t(b.surface), b.length, to_tuple(b.place)));
+    return py::dict("surfaces"_a = cuts, "borders"_a = borders);
+}
+
+py::tuple cut(const ArrangementPointer& arrangement, const std::vector<std::uint32_t>& boundary,
+              const HowToRun& how) {
+    auto made = run_stage(how, [arrangement, boundary](const Run& run) {
+        return cut_to_volume(*arrangement, boundary, run);
+    });
+    auto report = to_dict(made.report);
+    return py::make_tuple(std::make_shared<Arrangement>(std::move(made.arrangement)), report);
+}
+
+py::tuple extend(const py::sequence& surfaces, const std::vector<std::uint32_t>& boundary,
+                 double limit, const HowToRun& how) {
+    auto given = std::make_shared<std::vector<Surface>>(to_surfaces(surfaces));
+    auto made = run_stage(how, [given, boundary, limit](const Run& run) {
+        return extend_to_boundary(std::move(*given), boundary, {.limit = limit}, run);
+    });
+    py::list borders;
+    for (const ExtendedBorder& b : made.borders)
+        borders.append(py::make_tuple(std::uint32_t(b.surface), b.reached, b.length,
+                                      to_tuple(b.place), b.edges));
+    return py::make_tuple(from_surfaces(std::move(made.surfaces)), borders);
+}
+
+void bind_boundaries(py::module_& module) {
+    module.def(
+        "box_boundary",
+        [](const py::object& low, const py::object& high) {
+            return from_surfaces(value_of(box_boundary(to_point(low), to_point(high))));
+        },
+        "low"_a, "high"_a);
+    module.def(
+        "rotated_box_boundary",
+        [](const py::object& place, bool is_corner, const std::array<double, 3>& lengths,
+           double azimuth, double plunge, double roll) {
+            return from_surfaces(value_of(rotated_box_boundary(
+                {to_point(place), is_corner, lengths, azimuth, plunge, roll})));
+        },
+        "place"_a, "is_corner"_a, "lengths"_a, "azimuth"_a, "plunge"_a, "roll"_a);
+    module.def(
+        "polygon_boundary",
+        [](const py::array& corners, double low, double high) {
+            return from_surfaces(value_of(polygon_boundary(copied<Point2>(corners), low, high)));
+        },
+        "corners"_a, "low"_a, "high"_a);
+    module.def(
+        "closed_boundary",
+        [](const py::sequence& surfaces, const HowToRun& how) {
+            auto given = std::make_shared<const std::vector<Surface>>(to_surfaces(surfaces));
+            return from_surfaces(
+                run_stage(how, [given](const Run& run) { return closed_boundary(*given, run); }));
+        },
+        "surfaces"_a, "how"_a);
+}
+
+} // namespace
+
+py::dict to_dict(const RoundingReport& r) {
+    py::list lost;
+    for (const LostRegions& l : r.lost_regions)
+        lost.append(py::make_tuple(std::uint32_t(l.surface), l.exact, l.rounded));
+    return py::dict(
+        "clean"_a = r.clean, "rounds"_a = r.rounds, "naive_contacts"_a = r.naive_contacts,
+        "contacts"_a = to_list(r.contacts), "max_move"_a = r.max_move, "deviation"_a = r.deviation,
+        "moved_input_vertices"_a = r.moved_input_vertices, "merged_vertices"_a = r.merged_vertices,
+        "collapsed_triangles"_a = r.collapsed_triangles, "lost_regions"_a = lost,
+        "vanished"_a = owned(r.vanished));
+}
+
+void bind_arrangement(py::module_& module) {
+    py::class_<Arrangement, ArrangementPointer> bound(module, "Arrangement");
+    bound
+        .def_property_readonly("surfaces", [](const Arrangement& a) { return to_list(a.surfaces); })
+        .def_property_readonly("statistics", &statistics)
+        .def("nearest", &nearest)
+        .def("coordinates",
+             [](const Arrangement& a, std::uint32_t v) { return a.coordinates(VertexId(v)); })
+        .def("construction", &construction);
+    using A = Arrangement;
+    add_array<A>(
+        bound, "points", [](const A& a) -> auto& { return a.vertices; });
+    add_array<A>(
+        bound, "triangles", [](const A& a) -> auto& { return a.triangles; });
+    add_array<A>(
+        bound, "intersection_edges", [](const A& a) -> auto& { return a.intersection_edges; });
+    add_array<A>(
+        bound, "degenerate", [](const A& a) -> auto& { return a.degenerate; });
+    add_array<A>(
+        bound, "duplicates", [](const A& a) -> auto& { return a.inputs.duplicates; });
+    add_array<A>(
+        bound, "first_triangle", [](const A& a) -> auto& { return a.inputs.first; });
+    add_array<A>(
+        bound, "first_vertex", [](const A& a) -> auto& { return a.inputs.first_vertex; });
+    add_lists<A>(
+        bound, "parents_of", [](const A& a) -> auto& { return a.parents_of; });
+    add_lists<A>(
+        bound, "surfaces_of", [](const A& a) -> auto& { return a.surfaces_of; });
+    module.def("arrange", &arrange_all, "surfaces"_a, "search"_a, "how"_a);
+    module.def("round", &rounded, "arrangement"_a, "max_rounds"_a, "how"_a);
+    module.def("digest", &digest, "surfaces"_a, "arrangement"_a, "how"_a);
+    module.def("cut", &cut, "arrangement"_a, "boundary"_a, "how"_a);
+    module.def("extend", &extend, "surfaces"_a, "boundary"_a, "limit"_a, "how"_a);
+    module.def(
+        "unique_labels",
+        [](const py::sequence& surfaces) { return to_texts(unique_labels(to_infos(surfaces))); },
+        "surfaces"_a);
+    bind_boundaries(module);
+}
+
+} // namespace terrane::python

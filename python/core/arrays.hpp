@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Arrays of the library as NumPy arrays, and back. Arrays that go to Python are views: read-only, and
+// they keep the object alive that owns the memory.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <terrane/algorithms/core/index_lists.hpp>
+#include <terrane/kernel/point.hpp>
+
+namespace terrane::python {
+
+namespace py = pybind11;
+
+/// Text of the library as str. Bytes that are no UTF-8 survive (surrogateescape).
+py::str to_text(std::string_view text);
+/// The same back. Raises TypeError for what is no str.
+std::string from_text(py::handle text);
+/// A list of str.
+py::list to_texts(const std::vector<std::string>& texts);
+
+/// The scalar and the row length of the elements of an array.
+template <class T>
+struct Row {
+    using Scalar = T;
+    static constexpr std::size_t length = 0; ///< 0: elements are scalars
+};
+template <>
+struct Row<Point3> {
+    using Scalar = double;
+    static constexpr std::size_t length = 3;
+};
+template <class T, std::size_t n>
+struct Row<std::array<T, n>> {
+    using Scalar = T;
+    static constexpr std::size_t length = n;
+};
+
+/// Returns a read-only array of the elements, which `owner` keeps alive.
+template <class T>
+py::array view(const T* data, std::size_t count, py::handle owner) {
+    using Scalar = typename Row<T>::Scalar;
+    static_assert(sizeof(T) == sizeof(Scalar) * std::max<std::size_t>(Row<T>::length, 1));
+    std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(count)};
+    if constexpr (Row<T>::length > 0) shape.push_back(Row<T>::length);
+    static const Scalar nothing{};
+    const auto* first = reinterpret_cast<const Scalar*>(data);
+    py::array_t<Scalar> array(shape, first != nullptr ? first : &nothing, owner);
+    array.attr("setflags")(py::arg("write") = false);
+    return array;
+}
+template <class T>
+py::array view(const std::vector<T>& values, py::handle owner) {
+    return view(values.data(), values.size(), owner);
+}
+
+/// Moves values into an array that owns them.
+template <class T>
+py::array owned(std::vector<T> values) {
+    auto* kept = new std::vector<T>(std::move(values));
+    const py::capsule owner(kept, [](void* p) { delete static_cast<std::vector<T>*>(p); });
+    return view(*kept, owner);
+}
+
+/// Copies an array of the right type and shape, which the Python side has checked.
+template <class T>
+std::vector<T> copied(const py::array& array) {
+    using Scalar = typename Row<T>::Scalar;
+    const auto rows = py::array_t<Scalar, py::array::c_style | py::array::forcecast>::ensure(array);
+    if (!rows) throw py::error_already_set();
+    const auto count =
+        static_cast<std::size_t>(rows.size()) / std::max<std::size_t>(Row<T>::length, 1);
+    const auto* first = reinterpret_cast<const T*>(rows.data());
+    return {first, first + count};
+}
+
+/// Lists as (offsets, values).
+template <class T>
+py::tuple lists(const IndexLists<T>& all, py::handle owner) {
+    return py::make_tuple(view(all.offsets, owner), view(all.values, owner));
+}
+inline IndexLists<std::uint32_t> copied_lists(const py::tuple& pair) {
+    return {copied<std::uint32_t>(pair[0].cast<py::array>()),
+            copied<std::uint32_t>(pair[1].cast<py::array>())};
+}
+
+/// (x, y, z)
+inline py::tuple to_tuple(const Point3& p) {
+    return py::make_tuple(p.x, p.y, p.z);
+}
+inline Point3 to_point(const py::handle& three) {
+    const auto xyz = three.cast<std::array<double, 3>>();
+    return {xyz[0], xyz[1], xyz[2]};
+}
+
+} // namespace terrane::python

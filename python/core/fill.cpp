@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <terrane/algorithms/reconstruction/fill.hpp>
+#include <terrane/algorithms/reconstruction/holes/holes.hpp>
+
+#include "handles.hpp"
+#include "surfaces.hpp"
+
+namespace terrane::python {
+
+using namespace py::literals;
+
+namespace {
+
+constexpr std::array<const char*, 3> kinds{"outer", "hole", "fault gap"};
+
+py::tuple to_tuple_of(const BorderLoop& loop) {
+    return py::make_tuple(kinds[static_cast<std::size_t>(loop.kind)], owned(loop.vertices),
+                          loop.length, loop.area, to_tuple(loop.centre), loop.fault_throw,
+                          loop.width);
+}
+
+py::list border_loops(const py::sequence& surfaces, double gap_slope, const HowToRun& how) {
+    auto given = std::make_shared<const std::vector<Surface>>(to_surfaces(surfaces));
+    const auto loops = run_stage(how, [given, gap_slope](const Run& run) {
+        return find_border_loops(given->at(0), run, {.slope = gap_slope});
+    });
+    py::list all;
+    for (const BorderLoop& loop : loops) all.append(to_tuple_of(loop));
+    return all;
+}
+
+FillOptions to_options(const py::dict& given) {
+    FillOptions o;
+    o.method = given["method"].cast<std::string>() == "rbf" ? FillMethod::rbf : FillMethod::kriging;
+    const auto model = given["model"].cast<std::string>();
+    o.model = variogram_model_named(model);
+    if (!o.model && model != "auto")
+        throw Failure{{ErrorCode::bad_option,
+                       "is no model: auto, spherical, exponential, gaussian, power, matern",
+                       "model=" + model}};
+    o.max_area = given["max_area"].cast<double>();
+    o.mesh_size = given["mesh_size"].cast<double>();
+    o.rings = given["rings"].cast<std::size_t>();
+    o.gap_slope = given["gap_slope"].cast<double>();
+    o.isotropic = given["isotropic"].cast<bool>();
+    o.bridge = given["bridge"].cast<bool>();
+    if (!given["smoothing"].is_none()) o.smoothing = given["smoothing"].cast<double>();
+    return o;
+}
+
+py::object to_object(const std::optional<FillReport>& r) {
+    if (!r) return py::none();
+    return py::make_tuple(r->data, r->interpolated, r->area, r->expected_error, r->validated_error,
+                          to_text(r->model));
+}
+
+/// Fills the holes of one surface; `numbers` are those of the holes, or none for those that are wanted.
+Result<FillWork> filled(const std::vector<Surface>& surfaces, const FillOptions& options,
+                        const std::optional<std::vector<std::size_t>>& numbers, const Run& run) {
+    const std::vector<FillTask> tasks{{SurfaceId(0), options}};
+    auto work = find_holes(surfaces, tasks, run);
+    if (!work) return work;
+    auto chosen = wanted_holes(*work);
+    if (numbers) {
+        chosen.assign(work->holes.size(), false);
+        for (const std::size_t n : *numbers) {
+            if (n == 0 || n > chosen.size())
+                return Error{ErrorCode::bad_option,
+                             "there are " + std::to_string(chosen.size()) + " holes, from 1",
+                             "holes=" + std::to_string(n)};
+            chosen[n - 1] = true;
+        }
+    }
+    if (auto done = fill_holes(surfaces, chosen, *work, run); !done) return done.error();
+    const auto contacts = contacts_of_new(*work, run);
+    if (!contacts) return contacts.error();
+    if (contacts->empty()) return work;
+    const NewContact& c = contacts->front();
+    return Error{ErrorCode::improper_contact,
+                 "what was invented meets other triangles: " + std::string(name_of(c.kind)),
+                 "hole " + std::to_string(c.hole)};
+}
+
+py::tuple fill(const py::sequence& surfaces, const py::dict& options,
+               const std::optional<std::vector<std::size_t>>& numbers, const HowToRun& how) {
+    auto given = std::make_shared<const std::vector<Surface>>(to_surfaces(surfaces));
+    auto work = run_stage(how, [given, o = to_options(options), numbers](const Run& run) {
+        return filled(*given, o, numbers, run);
+    });
+    py::list holes;
+    for (const NumberedHole& h : work.holes)
+        holes.append(py::make_tuple(h.number, to_tuple_of(loop_of(work, h)), to_object(h.report),
+                                    to_text(h.refused)));
+    HoledSurface& s = work.surfaces.at(0);
+    return py::make_tuple(from_surface(std::move(s.filled)), s.given_vertices, s.given_triangles,
+                          owned(std::move(s.deviation)), owned(std::move(s.invented)), holes);
+}
+
+} // namespace
+
+void bind_fill(py::module_& module) {
+    module.def("border_loops", &border_loops, "surfaces"_a, "gap_slope"_a, "how"_a);
+    module.def("fill", &fill, "surfaces"_a, "options"_a, "numbers"_a, "how"_a);
+}
+
+} // namespace terrane::python

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <utility>
+#include <vector>
+
+#include <terrane/algorithms/layers/layers.hpp>
+
+#include "handles.hpp"
+#include "surfaces.hpp"
+
+namespace terrane::python {
+
+using namespace py::literals;
+
+namespace {
+
+py::list to_list(const std::vector<LayerReport>& reports) {
+    py::list all;
+    for (const LayerReport& r : reports)
+        all.append(py::make_tuple(std::uint32_t(r.surface), r.dropped, r.taken, r.parts,
+                                  r.dropped_area, r.taken_area, r.largest_move, r.step_length));
+    return all;
+}
+
+py::tuple stack(const py::sequence& surfaces,
+                const std::vector<std::pair<std::uint32_t, double>>& order, double min_thickness,
+                const HowToRun& how) {
+    auto given = std::make_shared<const std::vector<Surface>>(to_surfaces(surfaces));
+    std::vector<Layer> layers;
+    for (const auto& [surface, hardness] : order) layers.push_back({SurfaceId(surface), hardness});
+    const LayerOptions options{.min_thickness = min_thickness};
+    const auto made = run_stage(how, [given, layers, options](const Run& run) {
+        return stack_layers(*given, layers, options, run);
+    });
+    py::list wrong;
+    for (const OutOfOrder& o : made.out_of_order)
+        wrong.append(py::make_tuple(o.upper, o.lower,
+                                    py::make_tuple(o.triangles[0], o.triangles[1]),
+                                    to_tuple(o.place), o.depth));
+    const py::dict report("layers"_a = to_list(made.reports), "step_width"_a = made.step_width,
+                          "min_thickness"_a = made.min_thickness, "out_of_order"_a = wrong,
+                          "is_stack"_a = made.is_stack(),
+                          "rounding"_a = to_dict(made.rounded.report));
+    return py::make_tuple(handle_of(made.rounded.mesh, made.rounded.conforming), report);
+}
+
+} // namespace
+
+void bind_layers(py::module_& module) {
+    module.def("layers", &stack, "surfaces"_a, "order"_a, "min_thickness"_a, "how"_a);
+}
+
+} // namespace terrane::python

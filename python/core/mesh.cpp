@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <algorithm>
+#include <vector>
+
+#include <terrane/algorithms/check/check.hpp>
+#include <terrane/algorithms/mesh/submesh.hpp>
+#include <terrane/algorithms/quality/quality.hpp>
+#include <terrane/algorithms/regions/regions.hpp>
+
+#include "handles.hpp"
+#include "surfaces.hpp"
+
+namespace terrane::python {
+
+using namespace py::literals;
+
+namespace {
+
+/// Makes a mesh of arrays, which Python has checked but for the lengths of lists.
+MeshPointer mesh_of(const py::tuple& state) {
+    Mesh mesh;
+    mesh.surfaces = to_infos(state[0].cast<py::sequence>());
+    mesh.vertices = copied<Point3>(state[1].cast<py::array>());
+    mesh.triangles = copied<Triangle>(state[2].cast<py::array>());
+    mesh.surfaces_of = copied_lists(state[3].cast<py::tuple>());
+    mesh.regions_of = copied_lists(state[4].cast<py::tuple>());
+    mesh.parents_of = copied_lists(state[5].cast<py::tuple>());
+    mesh.intersection_edges = copied<Edge>(state[6].cast<py::array>());
+    return handle_of(SharedMesh(std::move(mesh)));
+}
+
+/// Returns the mesh with a proof, which is made if there is none.
+MeshPointer proven(const MeshPointer& handle, const HowToRun& how) {
+    if (handle->conforming) return handle;
+    return handle_of(run_stage(how, [mesh = handle->mesh](const Run& run) {
+        std::vector<std::uint32_t> labels;
+        labels.reserve(mesh->triangles.size());
+        for (std::size_t t = 0; t < mesh->triangles.size(); ++t)
+            labels.push_back(mesh->surfaces_of[t].empty() ? 0 : mesh->surfaces_of[t].front());
+        return prove_conforming(Mesh(*mesh), labels, run);
+    }));
+}
+
+py::dict to_dict(const Spread& s) {
+    return py::dict("min"_a = s.min, "mean"_a = s.mean, "max"_a = s.max,
+                    "percentiles"_a =
+                        py::cast(std::vector<double>(s.percentiles.begin(), s.percentiles.end())));
+}
+
+py::dict quality(const MeshPointer& handle, const HowToRun& how) {
+    const auto q = run_plainly(how, [mesh = handle->mesh](const Run& run) {
+        return measure_quality(mesh->vertices, mesh->triangles, run);
+    });
+    const std::vector<std::size_t> histogram(q.histogram.begin(), q.histogram.end());
+    return py::dict("triangles"_a = q.triangles, "q"_a = to_dict(q.q),
+                    "smallest_angle"_a = to_dict(q.smallest_angle),
+                    "largest_angle"_a = to_dict(q.largest_angle),
+                    "edge_length"_a = to_dict(q.edge_length), "share_above_08"_a = q.share_above_08,
+                    "histogram"_a = py::cast(histogram));
+}
+
+py::dict check_all(const std::vector<Surface>& surfaces, const HowToRun& how) {
+    auto report = run_stage(how, [surfaces](const Run& run) { return check(surfaces, run); });
+    py::list edges;
+    for (const auto& [a, b] : report.non_manifold_edges)
+        edges.append(py::make_tuple(to_tuple(a), to_tuple(b)));
+    return py::dict(
+        "surfaces"_a = report.surfaces, "triangles"_a = report.triangles,
+        "vertices"_a = report.vertices, "first_triangle"_a = owned(report.first_triangle),
+        "contacts"_a = to_list(report.contacts), "degenerate"_a = owned(report.degenerate),
+        "repeated"_a = owned(report.repeated), "shared"_a = owned(report.shared),
+        "non_manifold_edges"_a = edges, "free_border_edges"_a = report.free_border_edges,
+        "components"_a = report.components, "clean"_a = report.clean());
+}
+
+py::tuple regions(const MeshPointer& handle, const HowToRun& how) {
+    auto found =
+        run_plainly(how, [mesh = handle->mesh](const Run& run) { return find_regions(mesh, run); });
+    return py::make_tuple(owned(std::move(found.regions_of.offsets)),
+                          owned(std::move(found.regions_of.values)), to_list(found.regions));
+}
+
+} // namespace
+
+py::list to_list(const std::vector<ImproperContact>& contacts) {
+    py::list all;
+    for (const ImproperContact& c : contacts)
+        all.append(py::make_tuple(py::make_tuple(c.triangles[0], c.triangles[1]),
+                                  to_text(name_of(c.kind)), to_tuple(c.place)));
+    return all;
+}
+
+py::list to_list(const std::vector<Region>& regions) {
+    py::list all;
+    for (const Region& r : regions)
+        all.append(py::make_tuple(std::uint32_t(r.surface), r.first_triangle, r.triangles, r.area,
+                                  py::tuple(py::cast(r.neighbours))));
+    return all;
+}
+
+void bind_mesh(py::module_& module) {
+    py::class_<MeshHandle, MeshPointer> mesh(module, "Mesh");
+    mesh.def(py::init([](const py::tuple& state) { return mesh_of(state); }), "state"_a)
+        .def_property_readonly("surfaces",
+                               [](const MeshHandle& m) { return to_list(m.mesh->surfaces); })
+        .def_property_readonly("is_proven",
+                               [](const MeshHandle& m) { return m.conforming.has_value(); });
+    using Handle = MeshHandle;
+    add_array<Handle>(
+        mesh, "vertices", [](const Handle& m) -> auto& { return m.mesh->vertices; });
+    add_array<Handle>(
+        mesh, "triangles", [](const Handle& m) -> auto& { return m.mesh->triangles; });
+    add_array<Handle>(
+        mesh, "intersection_edges",
+        [](const Handle& m) -> auto& { return m.mesh->intersection_edges; });
+    add_lists<Handle>(
+        mesh, "surfaces_of", [](const Handle& m) -> auto& { return m.mesh->surfaces_of; });
+    add_lists<Handle>(
+        mesh, "regions_of", [](const Handle& m) -> auto& { return m.mesh->regions_of; });
+    add_lists<Handle>(
+        mesh, "parents_of", [](const Handle& m) -> auto& { return m.mesh->parents_of; });
+    module.def("proven", &proven, "mesh"_a, "how"_a);
+    module.def("quality", &quality, "mesh"_a, "how"_a);
+    module.def("regions", &regions, "mesh"_a, "how"_a);
+    module.def(
+        "check",
+        [](const py::sequence& surfaces, const HowToRun& how) {
+            return check_all(to_surfaces(surfaces), how);
+        },
+        "surfaces"_a, "how"_a);
+    module.def(
+        "surfaces_of_mesh",
+        [](const MeshPointer& m) { return from_surfaces(surfaces_of_mesh(m->mesh)); }, "mesh"_a);
+    module.def(
+        "concatenate",
+        [](const py::sequence& surfaces) {
+            return handle_of(SharedMesh(concatenate(to_surfaces(surfaces))));
+        },
+        "surfaces"_a);
+}
+
+} // namespace terrane::python

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <terrane/algorithms/mesh/labels.hpp>
+#include <terrane/algorithms/model/seal_rules.hpp>
+#include <terrane/algorithms/structure/relations.hpp>
+#include <terrane/algorithms/structure/structure_meshes.hpp>
+#include <terrane/io/model_folder.hpp>
+
+#include "handles.hpp"
+#include "model_handle.hpp"
+#include "structure.hpp"
+#include "surfaces.hpp"
+
+namespace terrane::python {
+
+using namespace py::literals;
+
+namespace {
+
+/// What model() takes beside surfaces.
+struct ModelOptions {
+    ArrangeWithinOptions within;
+    bool small_automatic = false;
+    std::vector<std::pair<std::string, double>> seal_of;
+    StratigraphicColumn column;
+};
+
+/// Checks a column by itself and against the surfaces, with those of the boundary.
+Status check_columns(const StratigraphicColumn& column, std::vector<SurfaceInfo> infos,
+                     const std::vector<Surface>& boundary) {
+    if (auto sound = check_column(column); !sound) return sound;
+    const auto more = infos_of(boundary);
+    infos.insert(infos.end(), more.begin(), more.end());
+    return check_column(column, infos);
+}
+
+Result<std::shared_ptr<ModelHandle>> made(std::vector<Surface> surfaces,
+                                          std::vector<Surface> boundary, ModelOptions options,
+                                          const Run& run) {
+    const auto infos = infos_of(surfaces);
+    const auto labels = unique_labels(infos);
+    for (const auto& [name, distance] : options.seal_of) {
+        const auto rules = seal_rules_for(name, distance, infos, labels);
+        if (!rules) return Error{ErrorCode::bad_option, rules.error().sentence, "seal"};
+        options.within.seal_rules.insert(options.within.seal_rules.end(), rules->begin(),
+                                         rules->end());
+    }
+    if (auto sound = check_columns(options.column, infos, boundary); !sound) return sound.error();
+    if (options.small_automatic) options.within.min_volume = small_volume_for(surfaces);
+    auto arranged = arrange_within(std::move(surfaces), std::move(boundary), options.within, run);
+    if (!arranged) return arranged.error();
+    const RoundingReport& report = arranged->rounded.report;
+    if (!arranged->rounded.conforming)
+        return Error{ErrorCode::improper_contact,
+                     std::to_string(report.contacts.size()) +
+                         " pairs of triangles still meet improperly in doubles",
+                     ""};
+    auto model =
+        make_model(arranged->exact, *arranged->rounded.conforming, run, {.column = options.column});
+    if (!model) return model.error();
+    auto handle = std::make_shared<ModelHandle>(ModelHandle{std::move(*model)});
+    if (!arranged->sealed && !handle->model.borders.empty()) {
+        auto judged = judge_leaks(*arranged, handle->model.borders, {}, run);
+        if (!judged) return judged.error();
+        handle->leaks = std::move(*judged);
+    }
+    handle->sealed = std::move(arranged->sealed);
+    handle->cut = std::move(arranged->cut);
+    handle->merged = std::move(arranged->merged);
+    handle->choice = std::move(arranged->choice);
+    handle->rounding = report;
+    return handle;
+}
+
+/// seal: None, a number, "auto", or a dict of these by None, name or pair.
+ModelOptions to_options(const py::dict& given) {
+    ModelOptions options;
+    options.within.rounding.max_rounds = given["max_rounds"].cast<unsigned>();
+    options.within.seal = given["seal"].cast<double>();
+    options.within.seal_automatic = given["seal_automatic"].cast<bool>();
+    options.within.extend = given["extend"].cast<double>();
+    options.within.min_volume = given["min_volume"].cast<double>();
+    options.small_automatic = given["min_volume_automatic"].cast<bool>();
+    for (const auto& [name, distance] : given["seal_of"].cast<py::dict>())
+        options.seal_of.emplace_back(from_text(name), distance.cast<double>());
+    options.column = to_column(given["column"].cast<py::sequence>());
+    return options;
+}
+
+ModelPointer make(const py::sequence& surfaces, const py::sequence& boundary,
+                  const py::dict& options, const HowToRun& how) {
+    auto given = std::make_shared<std::vector<Surface>>(to_surfaces(surfaces));
+    auto around = std::make_shared<std::vector<Surface>>(to_surfaces(boundary));
+    return run_stage(how, [given, around, options = to_options(options)](const Run& run) {
+        return made(std::move(*given), std::move(*around), options, run);
+    });
+}
+
+py::list to_list(const std::vector<Leak>& leaks) {
+    py::list all;
+    for (const Leak& l : leaks)
+        all.append(py::make_tuple(std::uint32_t(l.from), std::uint32_t(l.to), l.borders, l.length,
+                                  l.least, l.largest, to_tuple(l.place)));
+    return all;
+}
+
+/// (separating, all, verdicts, distance)
+py::tuple leaks(const ModelHandle& m) {
+    const auto all = to_list(leaks_of(m.model.borders));
+    py::list verdicts;
+    if (!m.leaks) return py::make_tuple(py::list(), all, verdicts, 0.0);
+    constexpr std::array<const char*, 3> names{"separates", "harmless", "wide"};
+    for (const LeakVerdict v : m.leaks->verdicts)
+        verdicts.append(names[static_cast<std::size_t>(v)]);
+    return py::make_tuple(to_list(m.leaks->separating), all, verdicts, m.leaks->distance);
+}
+
+py::list borders(const ModelHandle& m) {
+    py::list all;
+    for (const FreeBorder& b : m.model.borders)
+        all.append(py::make_tuple(b.line, py::tuple(py::cast(b.surfaces)), b.length, b.closed));
+    return all;
+}
+
+py::list relations(const ModelHandle& m) {
+    py::list all;
+    for (const SurfaceRelation& r :
+         find_relations(m.model.mesh, m.model.structure, m.model.borders))
+        all.append(py::make_tuple(std::uint32_t(r.from), std::uint32_t(r.to),
+                                  to_text(name_of(r.kind)), r.length, r.least, r.largest,
+                                  to_tuple(r.place)));
+    return all;
+}
+
+py::list juxtapositions(const ModelHandle& m) {
+    py::list all;
+    for (const Juxtaposition& j : find_juxtapositions(m.model.structure))
+        all.append(py::make_tuple(std::uint32_t(j.surface),
+                                  py::make_tuple(j.blocks[0], j.blocks[1]), j.area));
+    return all;
+}
+
+py::tuple part(const ModelHandle& m, bool of_block, std::uint32_t number) {
+    const Model& model = m.model;
+    auto made =
+        of_block ? block_part(model.mesh, model.volumes, model.structure, BlockId(number))
+                 : interface_part(model.mesh, model.volumes, model.structure, InterfaceId(number));
+    return py::make_tuple(handle_of(SharedMesh(std::move(made.mesh))),
+                          owned(std::move(made.triangles)));
+}
+
+void save(const ModelPointer& m, const py::object& folder, const std::string& format,
+          const HowToRun& how) {
+    const std::filesystem::path to = from_text(folder);
+    run_stage(how, [m, to, format](const Run& run) {
+        return write_model_folder({m->model, m->sealed, m->leaks}, format, to, run);
+    });
+}
+
+} // namespace
+
+StratigraphicColumn to_column(const py::sequence& units) {
+    StratigraphicColumn column;
+    for (const py::handle item : units) {
+        const auto unit = item.cast<py::tuple>();
+        ColumnUnit made{from_text(unit[0]), from_text(unit[1])};
+        if (!unit[2].is_none()) made.age = unit[2].cast<double>();
+        if (unit[3].cast<bool>()) made.contact = UnitContact::erosive;
+        column.push_back(std::move(made));
+    }
+    return column;
+}
+
+void bind_model(py::module_& module) {
+    py::class_<ModelHandle, ModelPointer> bound(module, "Model");
+    using M = ModelHandle;
+    bound.def_property_readonly("mesh", [](const M& m) { return handle_of(m.model.mesh); })
+        .def_property_readonly(
+            "volumes", [](const M& m) { return std::make_shared<Volumes>(m.model.volumes); })
+        .def_property_readonly("structure", [](const M& m) { return to_dict(m.model.structure); })
+        .def_property_readonly("block_count", [](const M& m) { return m.model.block_count(); })
+        .def_property_readonly("lost", [](const M& m) { return m.model.lost; })
+        .def_property_readonly("made", [](const M& m) { return m.model.made; })
+        .def_property_readonly("leaks", &leaks)
+        .def_property_readonly("borders", &borders)
+        .def_property_readonly("relations", &relations)
+        .def_property_readonly("juxtapositions", &juxtapositions)
+        .def_property_readonly("rounding",
+                               [](const M& m) -> py::object {
+                                   if (!m.rounding) return py::none();
+                                   return to_dict(*m.rounding);
+                               })
+        .def_property_readonly("sealed",
+                               [](const M& m) -> py::object {
+                                   if (!m.sealed) return py::none();
+                                   return to_dict(*m.sealed);
+                               })
+        .def("part", &part, "of_block"_a, "number"_a)
+        .def("save", &save, "folder"_a, "format"_a, "how"_a);
+    add_array<M>(
+        bound, "exact_volumes", [](const M& m) -> auto& { return m.model.exact_volumes; });
+    module.def("model", &make, "surfaces"_a, "boundary"_a, "options"_a, "how"_a);
+}
+
+} // namespace terrane::python

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Runs stages of the library for Python.
+//
+// (1) The stage runs in a thread that is kept for stages, without the GIL. The calling thread waits, and every 50 ms looks
+//     for signals and calls the progress callback, so that a KeyboardInterrupt stops a stage of any length.
+// (2) An exception of a signal handler or of the callback requests a stop. A stage that has not ended after
+//     0.8 s more is left to end by itself, and the exception is raised. So the work must own what it uses, and
+//     hold no object of Python.
+// (3) Errors of the library become terrane.Error, except that lack of memory becomes a MemoryError.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include <pybind11/pybind11.h>
+
+#include <terrane/algorithms/core/result.hpp>
+#include <terrane/algorithms/core/run.hpp>
+
+namespace terrane::python {
+
+namespace py = pybind11;
+
+/// How a stage runs: the keyword arguments threads and progress.
+struct HowToRun {
+    unsigned threads = 1;
+    py::object progress = py::none(); ///< callable (stage: str, share: float), or None
+};
+
+/// The error that becomes an exception of Python.
+struct Failure {
+    Error error;
+};
+
+/// Calls the work in a thread as (1) and (2) say. The GIL is held.
+void run_watched(const HowToRun& how, std::function<void(const Run&)> work);
+
+/// Waits for stages that were left to themselves by (2); at the end of the interpreter.
+void wait_for_abandoned();
+
+/// Returns the value, or throws the error.
+template <class T>
+T value_of(Result<T> result) {
+    if (!result) throw Failure{std::move(result).error()};
+    return std::move(result).value();
+}
+
+/// Runs a stage, `work(const Run&) -> Result<T>`, and returns its value.
+template <class Work>
+auto run_stage(const HowToRun& how, Work work) {
+    using Made = decltype(work(std::declval<const Run&>()));
+    const auto made = std::make_shared<std::optional<Made>>();
+    const auto shared = std::make_shared<Work>(std::move(work));
+    run_watched(how, [made, shared](const Run& run) { made->emplace((*shared)(run)); });
+    return value_of(std::move(made->value()));
+}
+
+/// Runs what takes no Run and cannot fail for reasons of data, and returns its value.
+template <class Work>
+auto run_plainly(const HowToRun& how, Work work) {
+    using Made = decltype(work(std::declval<const Run&>()));
+    return run_stage(
+        how, [work = std::move(work)](const Run& run) -> Result<Made> { return work(run); });
+}
+
+/// Registers the translation of (3).
+void translate_errors();
+
+} // namespace terrane::python

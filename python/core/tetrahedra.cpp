@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <terrane/algorithms/tetgen/fill_blocks.hpp>
+#include <terrane/algorithms/tetgen/tetgen_helper.hpp>
+#include <terrane/algorithms/tetrahedra/check_tetrahedra.hpp>
+#include <terrane/algorithms/tetrahedra/split_nodes.hpp>
+#include <terrane/io/files.hpp>
+
+#include "handles.hpp"
+#include "model_handle.hpp"
+#include "surfaces.hpp"
+#include "tetrahedra_handle.hpp"
+
+namespace terrane::python {
+
+using namespace py::literals;
+
+namespace {
+
+std::optional<double> number(const py::dict& given, const char* name) {
+    return given[name].cast<std::optional<double>>();
+}
+
+/// size_of, size_in: names and lengths.
+std::vector<NamedSize> sizes(const py::dict& given, const char* name) {
+    std::vector<NamedSize> all;
+    for (const auto& [of, length] : given[name].cast<py::dict>())
+        all.push_back({{from_text(of), name}, length.cast<double>()});
+    return all;
+}
+
+Mesher to_mesher(const std::string& name) {
+    if (name == "auto") return Mesher::automatic;
+    if (name == "tetgen") return Mesher::tetgen;
+    if (name == "gmsh") return Mesher::gmsh;
+    throw Failure{{ErrorCode::bad_option, "is no mesher: auto, tetgen, gmsh", "mesher=" + name}};
+}
+
+TetrahedraRequest to_request(const py::dict& given) {
+    TetrahedraRequest r;
+    r.options.mesher = to_mesher(given["mesher"].cast<std::string>());
+    if (!given["box"].is_none()) {
+        const auto box = given["box"].cast<py::sequence>();
+        r.options.box = Box3{to_point(box[0]), to_point(box[1])};
+    }
+    r.options.margin = given["margin"].cast<double>();
+    r.options.edge_length = number(given, "edge_length");
+    r.options.radius_edge_ratio = number(given, "quality");
+    r.options.split_surfaces = given["split_surfaces"].cast<bool>();
+    r.options.max_volume = number(given, "max_volume");
+    r.options.time_limit = given["time_limit"].cast<double>();
+    r.options.helper = from_text(given["helper"]);
+    r.options.gmsh_helper = from_text(given["gmsh_helper"]);
+    r.size_of = sizes(given, "size_of");
+    r.size_in = sizes(given, "size_in");
+    for (const py::handle name : given["split"].cast<py::sequence>())
+        r.split.push_back({from_text(name), "split"});
+    r.outside = given["outside"].cast<bool>();
+    return r;
+}
+
+TetrahedraPointer fill(const ModelPointer& model, const py::dict& options, const HowToRun& how) {
+    return std::make_shared<FilledBlocks>(
+        run_stage(how, [model, request = to_request(options)](const Run& run) {
+            return fill_blocks(model->model, request, run);
+        }));
+}
+
+void write(const TetrahedraPointer& t, const py::object& path,
+           const std::optional<std::string>& format, bool compress, const HowToRun& how) {
+    const std::filesystem::path to = from_text(path);
+    WriteOptions options;
+    options.compress = compress;
+    if (format) {
+        options.format = format_named(*format);
+        if (!options.format)
+            throw Failure{
+                {ErrorCode::unknown_format, "no format is called so", "format=" + *format}};
+    }
+    run_stage(how, [t, to, options](const Run&) {
+        WriteOptions all = options;
+        all.region_names = t->block_names;
+        return write_tetrahedra(t->tetrahedra, to, all);
+    });
+}
+
+TetrahedraPointer made_of(const py::tuple& state) {
+    auto made = std::make_shared<FilledBlocks>();
+    TetrahedralMesh& t = made->tetrahedra;
+    t.surfaces = to_infos(state[0].cast<py::sequence>());
+    t.vertices = copied<Point3>(state[1].cast<py::array>());
+    t.tetrahedra = copied<std::array<std::uint32_t, 4>>(state[2].cast<py::array>());
+    t.region_of = copied<std::uint32_t>(state[3].cast<py::array>());
+    t.faces = copied<Triangle>(state[4].cast<py::array>());
+    t.face_triangle = copied<std::uint32_t>(state[5].cast<py::array>());
+    t.surfaces_of = copied_lists(state[6].cast<py::tuple>());
+    t.twins = copied<std::array<std::uint32_t, 2>>(state[7].cast<py::array>());
+    t.region_count = state[8].cast<std::uint32_t>();
+    t.mesher = from_text(state[9]);
+    for (const py::handle name : state[10].cast<py::sequence>())
+        made->block_names.push_back(from_text(name));
+    made->added_nodes = state[11].cast<std::size_t>();
+    return made;
+}
+
+py::list violations(const FilledBlocks& f) {
+    py::list all;
+    for (const TetrahedraViolation& v : f.report.violations)
+        all.append(py::make_tuple(to_text(name_of(v.defect)), v.count, to_text(v.first)));
+    return all;
+}
+
+py::list region_volumes(const FilledBlocks& f) {
+    py::list all;
+    for (const RegionVolume& v : f.report.volumes)
+        all.append(py::make_tuple(v.block, v.tetrahedra, v.difference, v.bound, v.equal));
+    return all;
+}
+
+py::dict shape(const FilledBlocks& f) {
+    const TetrahedraShape s = shape_of(f.tetrahedra);
+    const auto spread = [](const ShapeSpread& v) {
+        return py::make_tuple(v.least, v.mean, v.largest);
+    };
+    return py::dict("dihedral"_a = spread(s.dihedral), "radius_edge"_a = spread(s.radius_edge),
+                    "sicn"_a = spread(s.sicn), "mean_ratio"_a = spread(s.mean_ratio));
+}
+
+} // namespace
+
+void bind_tetrahedra(py::module_& module) {
+    py::class_<FilledBlocks, TetrahedraPointer> bound(module, "Tetrahedra");
+    using F = FilledBlocks;
+    bound.def(py::init(&made_of), "state"_a)
+        .def_property_readonly("surfaces",
+                               [](const F& f) { return to_list(f.tetrahedra.surfaces); })
+        .def_property_readonly("region_count", [](const F& f) { return f.tetrahedra.region_count; })
+        .def_property_readonly("mesher", [](const F& f) { return to_text(f.tetrahedra.mesher); })
+        .def_property_readonly("block_names", [](const F& f) { return to_texts(f.block_names); })
+        .def_property_readonly("added_nodes", [](const F& f) { return f.added_nodes; })
+        .def_property_readonly("violations", &violations)
+        .def_property_readonly("region_volumes", &region_volumes)
+        .def("shape", &shape);
+    add_array<F>(
+        bound, "vertices", [](const F& f) -> auto& { return f.tetrahedra.vertices; });
+    add_array<F>(
+        bound, "tetrahedra", [](const F& f) -> auto& { return f.tetrahedra.tetrahedra; });
+    add_array<F>(
+        bound, "region_of", [](const F& f) -> auto& { return f.tetrahedra.region_of; });
+    add_array<F>(
+        bound, "faces", [](const F& f) -> auto& { return f.tetrahedra.faces; });
+    add_array<F>(
+        bound, "face_triangle", [](const F& f) -> auto& { return f.tetrahedra.face_triangle; });
+    add_array<F>(
+        bound, "twins", [](const F& f) -> auto& { return f.tetrahedra.twins; });
+    add_lists<F>(
+        bound, "surfaces_of", [](const F& f) -> auto& { return f.tetrahedra.surfaces_of; });
+    module.def("fill_blocks", &fill, "model"_a, "options"_a, "how"_a);
+    module.def("write_tetrahedra", &write, "tetrahedra"_a, "path"_a, "format"_a, "compress"_a,
+               "how"_a);
+}
+
+} // namespace terrane::python

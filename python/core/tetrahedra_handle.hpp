@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <memory>
+
+#include <terrane/algorithms/tetgen/fill_blocks.hpp>
+
+namespace terrane::python {
+
+/// Tetrahedra with the report of their check.
+using TetrahedraPointer = std::shared_ptr<FilledBlocks>;
+
+} // namespace terrane::python

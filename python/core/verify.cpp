@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <terrane/algorithms/verify/verify_certificate.hpp>
+#include <terrane/io/atomic/atomic_file.hpp>
+#include <terrane/io/files.hpp>
+
+#include "handles.hpp"
+#include "surfaces.hpp"
+
+namespace terrane::python {
+
+using namespace py::literals;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// (rule, elements, sentence)
+py::list to_list(const std::vector<Violation>& violations) {
+    py::list all;
+    for (const Violation& v : violations)
+        all.append(
+            py::make_tuple(name_of(v.rule), py::tuple(py::cast(v.elements)), to_text(v.sentence)));
+    return all;
+}
+
+py::list verify_made(const py::sequence& surfaces, const ArrangementPointer& a,
+                     const HowToRun& how) {
+    auto given = std::make_shared<const std::vector<Surface>>(to_surfaces(surfaces));
+    return to_list(run_plainly(how, [given, a](const Run&) {
+        ArrangementClaim claim;
+        for (std::uint32_t v = 0; v < a->vertices.size(); ++v)
+            claim.vertices.push_back(a->construction(VertexId(v)));
+        claim.triangles = a->triangles;
+        claim.parents_of = a->parents_of;
+        claim.intersection_edges = a->intersection_edges;
+        claim.degenerate = a->degenerate;
+        claim.duplicates = a->inputs.duplicates;
+        return verify_arrangement(*given, claim);
+    }));
+}
+
+py::list verify_mesh(const MeshPointer& mesh, const HowToRun& how) {
+    return to_list(run_plainly(how, [mesh](const Run&) {
+        return verify_conforming(mesh->mesh->vertices, mesh->mesh->triangles);
+    }));
+}
+
+/// An output file as it was found.
+struct JudgedFile {
+    std::string path;
+    std::string check; ///< "missing: ..." where it could not be read
+    std::vector<Violation> violations;
+};
+
+/// What is found about a certificate and the files that it names.
+struct Judgement {
+    std::vector<Violation> violations;
+    std::vector<JudgedFile> outputs;
+    std::optional<Measured> measured;
+    std::string digest;
+};
+
+Result<std::vector<InputFile>> read_files(const Certificate& certificate, const fs::path& folder,
+                                          const std::vector<std::string>& given) {
+    if (!given.empty() && given.size() != certificate.inputs.size())
+        return Error{ErrorCode::bad_option,
+                     "the certificate is about " + std::to_string(certificate.inputs.size()) +
+                         " files, not " + std::to_string(given.size()),
+                     "inputs"};
+    std::vector<InputFile> files;
+    for (std::size_t i = 0; i < certificate.inputs.size(); ++i) {
+        const std::string& name = certificate.inputs[i].name;
+        const auto contents = read_file(given.empty() ? folder / name : fs::path(given[i]));
+        if (!contents) return contents.error();
+        const auto format = format_of(name);
+        if (!format)
+            return Error{ErrorCode::unknown_format, "no format that can be read has this extension",
+                         name};
+        auto surfaces = parse_surfaces(*contents, name, *format);
+        InputFile file = input_file(*contents, {});
+        if (surfaces)
+            file.surfaces = std::move(*surfaces);
+        else if (file.sha256 == certificate.inputs[i].sha256)
+            return surfaces.error();
+        files.push_back(std::move(file));
+    }
+    return files;
+}
+
+std::vector<JudgedFile> judge_outputs(const Certificate& certificate, const fs::path& folder) {
+    constexpr std::array<const char*, 4> checks{"doubles", "numbers", "float32", "hash only"};
+    OutputVerifier verifier(certificate);
+    std::vector<JudgedFile> judged;
+    for (std::size_t i = 0; i < certificate.outputs.size(); ++i) {
+        const fs::path path = folder / certificate.outputs[i].name;
+        const auto contents = read_file(path);
+        if (!contents) {
+            judged.push_back({path.string(), "missing: " + contents.error().sentence, {}});
+            continue;
+        }
+        auto verdict = verifier(*contents, i);
+        judged.push_back({path.string(), checks[static_cast<std::size_t>(verdict.check)],
+                          std::move(verdict.violations)});
+    }
+    return judged;
+}
+
+Result<Judgement> judge(const fs::path& path, const std::vector<std::string>& inputs,
+                        const VerifyOptions& options) {
+    const auto text = read_file(path);
+    if (!text) return text.error();
+    const auto certificate = parse_certificate(*text, path.string());
+    if (!certificate) return certificate.error();
+    const auto files = read_files(*certificate, path.parent_path(), inputs);
+    if (!files) return files.error();
+    auto verdict = verify_certificate(*files, *certificate, options);
+    Judgement found{std::move(verdict.violations), {}, verdict.measured, certificate->digest};
+    if (found.violations.empty()) found.outputs = judge_outputs(*certificate, path.parent_path());
+    return found;
+}
+
+py::dict verify_file(const py::object& path, const std::vector<std::string>& inputs,
+                     std::optional<double> max_deviation, std::optional<double> max_change,
+                     const HowToRun& how) {
+    const fs::path from = from_text(path);
+    const VerifyOptions options{max_deviation, max_change};
+    const auto found = run_stage(
+        how, [from, inputs, options](const Run&) { return judge(from, inputs, options); });
+    py::list outputs;
+    for (const JudgedFile& file : found.outputs)
+        outputs.append(
+            py::make_tuple(to_text(file.path), to_text(file.check), to_list(file.violations)));
+    py::object deviation = py::none();
+    if (found.measured) deviation = py::float_(found.measured->deviation);
+    return py::dict("violations"_a = to_list(found.violations), "outputs"_a = outputs,
+                    "deviation"_a = deviation, "digest"_a = found.digest);
+}
+
+} // namespace
+
+void bind_verify(py::module_& module) {
+    module.def("verify_arrangement", &verify_made, "surfaces"_a, "arrangement"_a, "how"_a);
+    module.def("verify_mesh", &verify_mesh, "mesh"_a, "how"_a);
+    module.def("verify_file", &verify_file, "path"_a, "inputs"_a, "max_deviation"_a, "max_change"_a,
+               "how"_a);
+}
+
+} // namespace terrane::python

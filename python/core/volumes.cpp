@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <terrane/algorithms/structure/structure.hpp>
+#include <terrane/algorithms/structure/structure_meshes.hpp>
+#include <terrane/algorithms/volumes/point_location.hpp>
+#include <terrane/algorithms/volumes/region_points.hpp>
+
+#include "handles.hpp"
+#include "structure.hpp"
+#include "surfaces.hpp"
+
+namespace terrane::python {
+
+using namespace py::literals;
+
+namespace {
+
+py::list to_list(const std::vector<ModelLine>& lines) {
+    py::list all;
+    for (const ModelLine& l : lines)
+        all.append(py::make_tuple(to_text(name_of(l.kind)), owned(l.vertices), owned(l.patches),
+                                  py::tuple(py::cast(l.surfaces)),
+                                  py::make_tuple(l.corners[0], l.corners[1]), l.length));
+    return all;
+}
+
+py::list to_list(const std::vector<ModelBlock>& blocks) {
+    py::list all;
+    for (const ModelBlock& b : blocks) {
+        const auto tuple = [](const std::vector<std::uint32_t>& v) {
+            return py::tuple(py::cast(v));
+        };
+        all.append(py::make_tuple(to_text(b.name), to_text(b.unit), py::cast(b.age), tuple(b.above),
+                                  tuple(b.below), tuple(b.beside), tuple(b.interfaces),
+                                  tuple(b.inner_interfaces), tuple(b.neighbours), b.volume,
+                                  b.area));
+    }
+    return all;
+}
+
+py::array locate(const MeshPointer& mesh, const VolumesPointer& volumes, const py::array& points,
+                 const HowToRun& how) {
+    const auto places = std::make_shared<const std::vector<Point3>>(copied<Point3>(points));
+    return owned(run_stage(how, [mesh, volumes, places](const Run& run) {
+        return locate_points(*places, mesh->mesh, *volumes, run);
+    }));
+}
+
+template <class Whole>
+std::vector<std::string> exact_measures(const std::shared_ptr<Whole>& whole,
+                                        const VolumesPointer& volumes, const HowToRun& how) {
+    return run_plainly(how, [whole, volumes](const Run&) {
+        if constexpr (std::is_same_v<Whole, Arrangement>)
+            return exact_volumes(*whole, *volumes);
+        else
+            return exact_volumes(*whole->mesh, *volumes);
+    });
+}
+
+VolumesPointer volumes_of(const py::array& of_sides, const py::array& measures) {
+    auto made = std::make_shared<Volumes>();
+    made->of_sides = copied<std::array<std::uint32_t, 2>>(of_sides);
+    made->measures = copied<double>(measures);
+    return made;
+}
+
+py::list points_in(const MeshPointer& mesh, const VolumesPointer& volumes, const HowToRun& how) {
+    const auto points = run_stage(
+        how, [mesh, volumes](const Run& run) { return region_points(mesh->mesh, *volumes, run); });
+    py::list all;
+    for (const RegionPoint& p : points)
+        all.append(py::make_tuple(to_tuple(p.place), std::uint32_t(p.region)));
+    return all;
+}
+
+} // namespace
+
+py::dict to_dict(const Structure& s) {
+    py::list corners, patches, interfaces;
+    for (const ModelCorner& c : s.corners)
+        corners.append(py::make_tuple(std::uint32_t(c.vertex), py::tuple(py::cast(c.lines))));
+    for (const ModelPatch& p : s.patches)
+        patches.append(py::make_tuple(std::uint32_t(p.interface), owned(p.triangles),
+                                      py::tuple(py::cast(p.lines)), p.area));
+    for (const ModelInterface& i : s.interfaces)
+        interfaces.append(py::make_tuple(
+            py::make_tuple(i.volumes[0], i.volumes[1]), py::tuple(py::cast(i.surfaces)),
+            py::tuple(py::cast(i.patches)), owned(i.triangles), i.area));
+    return py::dict("corners"_a = corners, "lines"_a = to_list(s.lines), "patches"_a = patches,
+                    "interfaces"_a = interfaces, "blocks"_a = to_list(s.blocks),
+                    "patch_of"_a = owned(s.patch_of), "interface_of"_a = owned(s.interface_of));
+}
+
+void bind_volumes(py::module_& module) {
+    py::class_<Volumes, VolumesPointer> bound(module, "Volumes");
+    bound.def(py::init(&volumes_of), "of_sides"_a, "measures"_a);
+    add_array<Volumes>(
+        bound, "of_sides", [](const Volumes& v) -> auto& { return v.of_sides; });
+    add_array<Volumes>(
+        bound, "measures", [](const Volumes& v) -> auto& { return v.measures; });
+    module.def(
+        "volumes_of_mesh",
+        [](const MeshPointer& mesh, const HowToRun& how) {
+            return std::make_shared<Volumes>(
+                run_stage(how, [mesh](const Run& run) { return find_volumes(*mesh->mesh, run); }));
+        },
+        "mesh"_a, "how"_a);
+    module.def(
+        "volumes_of_arrangement",
+        [](const ArrangementPointer& a, const HowToRun& how) {
+            return std::make_shared<Volumes>(
+                run_stage(how, [a](const Run& run) { return find_volumes(*a, run); }));
+        },
+        "arrangement"_a, "how"_a);
+    module.def("exact_volumes_of_mesh", &exact_measures<MeshHandle>, "mesh"_a, "volumes"_a,
+               "how"_a);
+    module.def("exact_volumes_of_arrangement", &exact_measures<Arrangement>, "arrangement"_a,
+               "volumes"_a, "how"_a);
+    module.def("locate", &locate, "mesh"_a, "volumes"_a, "points"_a, "how"_a);
+    module.def("region_points", &points_in, "mesh"_a, "volumes"_a, "how"_a);
+    module.def(
+        "structure",
+        [](const MeshPointer& mesh, const VolumesPointer& volumes, const HowToRun& how) {
+            return to_dict(run_plainly(how, [mesh, volumes](const Run&) {
+                return build_structure(mesh->mesh, *volumes);
+            }));
+        },
+        "mesh"_a, "volumes"_a, "how"_a);
+}
+
+} // namespace terrane::python

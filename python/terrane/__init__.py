@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Exact geometry of the subsurface: conforming meshes, blocks and tetrahedra of geological surfaces.
+
+NumPy arrays in, NumPy arrays out::
+
+    import terrane
+    model = terrane.model([top, base, fault], box=((0, 0, -3000), (10000, 10000, 500)), seal=5)
+    for name, block in model.blocks.items():
+        print(name, block.volume)
+
+Stages are functions; results are values with array attributes, ``save()``, ``to_pyvista()`` and ``to_meshio()``. All
+stages take ``threads=`` and ``progress=``, run without the GIL, and stop at a KeyboardInterrupt. Errors are
+`terrane.Error`. Coordinates, lengths, areas and volumes are in the unit of the input.
+"""
+
+import os as _os
+
+from . import _core
+from ._arrangement import (Arrangement, OpenBorder, RoundedMesh, RoundingReport, SurfaceCut,
+                           VolumeOfInterest, arrange, box, check, closed, extend, polygon, regions,
+                           rotated_box, round, volume_of_interest)
+from ._arrays import IndexLists, SurfaceInfo
+from ._blocks import (NO_INDEX, BlockParts, Corner, InterfaceParts, Line, Patch, Structure, Volumes,
+                      structure, volumes)
+from ._errors import ERROR_CODES, Error, OutOfMemory
+from ._files import read, save
+from ._holes import BorderLoop, Filled, FilledHole, FillReport, fill, holes
+from ._layers import Layered, LayerReport, OutOfOrder, layers
+from ._mesh import CheckReport, Contact, Mesh, Region, Regions, mesh
+from ._model import Block, Blocks, Interface, Juxtaposition, Leak, Model, Relation, model
+from ._project import Built, build
+from ._quality import Improved, distance, improve
+from ._sealing import (ClosedGap, OpenGap, SealAdvice, SealChange, Sealed, SealTrial, seal,
+                       suggest_seal)
+from ._surface import ROLES, Frame, Surface, as_surface, as_surfaces
+from ._tetrahedra import RegionVolume, Tetrahedra, Violation, tetrahedralize
+from ._verification import RuleViolation, Verdict, VerifiedFile, verify
+
+# Programs that make tetrahedra and came with the package; the environment goes first.
+for _name in ("tetgen", "gmsh"):
+    _helper = _os.path.join(_os.path.dirname(__file__), "_libexec", "terrane-" + _name)
+    if _os.path.exists(_helper):
+        _os.environ.setdefault("TERRANE_" + _name.upper(), _helper)
+
+__version__: str = _core.version
+
+__all__ = [
+    "Arrangement", "Block", "BlockParts", "Blocks", "BorderLoop", "Built", "CheckReport", "ClosedGap",
+    "Contact", "Corner", "ERROR_CODES", "Error", "FillReport", "Filled", "FilledHole", "Frame",
+    "Improved", "IndexLists", "Interface", "InterfaceParts", "Juxtaposition", "LayerReport", "Layered",
+    "Leak", "Line", "Mesh", "Model", "NO_INDEX", "OpenBorder", "OpenGap", "OutOfMemory", "OutOfOrder",
+    "Patch", "ROLES", "Region", "RegionVolume", "Regions", "Relation", "RoundedMesh", "RoundingReport",
+    "RuleViolation", "SealAdvice", "SealChange", "SealTrial", "Sealed", "Structure", "Surface",
+    "SurfaceCut", "SurfaceInfo", "Tetrahedra", "Verdict", "VerifiedFile", "Violation",
+    "VolumeOfInterest", "Volumes", "arrange", "as_surface", "as_surfaces", "box", "build", "check",
+    "closed", "distance", "extend", "fill", "holes", "improve", "layers", "mesh", "model", "polygon",
+    "read", "regions", "rotated_box", "round", "save", "seal", "structure", "suggest_seal",
+    "tetrahedralize", "verify", "volume_of_interest", "volumes",
+]

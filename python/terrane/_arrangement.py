@@ -1,0 +1,600 @@
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""The exact arrangement of surfaces, its part in a volume of interest, and its mesh of doubles."""
+
+from __future__ import annotations
+
+import os
+from fractions import Fraction
+from typing import Any, Callable, Dict, List, NamedTuple, Optional, Sequence, Tuple
+
+import numpy as np
+
+from . import _core
+from ._arrays import Float64Array, IndexLists, Point, SurfaceInfo, UInt32Array, as_count, as_number
+from ._errors import bad_option
+from ._mesh import CheckReport, Contact, Mesh, Path, Region, Regions, mesh_of, require_conforming
+from ._results import Result, counted
+from ._run import how
+from ._surface import Surface, as_surfaces, parts_of_surfaces, surface_of_parts
+
+
+class Arrangement(Result):
+    """The exact arrangement of surfaces.
+
+    Two triangles share a vertex, an edge, or nothing; each input triangle with area is exactly the union of the
+    triangles that name it as a parent. Coordinates are exact rational numbers: `vertices` has the nearest doubles,
+    `coordinates` the numbers themselves, and `terrane.round` makes a mesh of doubles that is conforming.
+
+    Input vertices and triangles are numbered through all surfaces. Pickling keeps the surfaces and makes the
+    arrangement again, which gives the same one.
+    """
+
+    __slots__ = ("_core", "_made_by", "_nearest")
+
+    def __init__(self, core: _core.Arrangement, made_by: Tuple[Any, ...]) -> None:
+        self._core = core
+        self._made_by = made_by  # a function of this module by name, and its arguments
+        self._nearest: Optional[Float64Array] = None
+
+    @property
+    def surfaces(self) -> List[SurfaceInfo]:
+        """Names and roles of the surfaces, in the order of the input."""
+        return [SurfaceInfo(*pair) for pair in self._core.surfaces]
+
+    @property
+    def vertices(self) -> Float64Array:
+        """The doubles nearest to the vertices: ndarray, shape (n, 3), float64."""
+        if self._nearest is None:
+            self._nearest = self._core.nearest()
+        return self._nearest
+
+    @property
+    def triangles(self) -> UInt32Array:
+        """Indices into `vertices`: ndarray, shape (m, 3), uint32."""
+        return self._core.triangles
+
+    @property
+    def parents_of(self) -> IndexLists:
+        """Per triangle all input triangles that contain it; several where surfaces overlap."""
+        return IndexLists(*self._core.parents_of)
+
+    @property
+    def surfaces_of(self) -> IndexLists:
+        """Per triangle the surfaces of its parents."""
+        return IndexLists(*self._core.surfaces_of)
+
+    @property
+    def intersection_edges(self) -> UInt32Array:
+        """Edges at which surfaces meet: ndarray, shape (k, 2), uint32."""
+        return self._core.intersection_edges
+
+    @property
+    def degenerate(self) -> UInt32Array:
+        """Input triangles without area: ndarray, uint32."""
+        return self._core.degenerate
+
+    @property
+    def duplicates(self) -> UInt32Array:
+        """Input triangles and the first with the same points: ndarray, shape (k, 2), uint32."""
+        return self._core.duplicates
+
+    @property
+    def first_triangle(self) -> UInt32Array:
+        """Per surface its first input triangle, and their number at the end."""
+        return self._core.first_triangle
+
+    @property
+    def statistics(self) -> Dict[str, Any]:
+        """Counts of the steps."""
+        return self._core.statistics
+
+    def coordinates(self, vertex: int) -> Tuple[Fraction, Fraction, Fraction]:
+        """Return the exact coordinates of a vertex.
+
+        Examples
+        --------
+        >>> import terrane
+        >>> flat = terrane.Surface([[0, 0, 0], [3, 0, 0], [0, 3, 0]], [[0, 1, 2]])
+        >>> wall = terrane.Surface([[1, 1, -1], [1, 1, 2], [1, 9, 0]], [[0, 1, 2]])
+        >>> a = terrane.arrange([flat, wall])
+        >>> sorted(a.coordinates(v) for v in range(len(a.vertices)))[3]
+        (Fraction(1, 1), Fraction(1, 1), Fraction(0, 1))
+        """
+        v = as_count(vertex, "vertex", 0, len(self._core.points) - 1)
+        x, y, z = (Fraction(text) for text in self._core.coordinates(v))
+        return x, y, z
+
+    def construction(self, vertex: int) -> Tuple[str, Tuple[int, ...]]:
+        """Return how a vertex is made of input vertices: its kind, and their numbers.
+
+        Kinds are "input", "line_plane" (2 and 3 vertices), "three_planes" (3, 3 and 3) and "line_line" (2 and 2).
+        """
+        v = as_count(vertex, "vertex", 0, len(self._core.points) - 1)
+        kind, numbers = self._core.construction(v)
+        return kind, numbers
+
+    def digest(self, *, threads: Optional[int] = None) -> str:
+        """Return a hash of the geometry that depends on no numbering: "sha256:...".
+
+        It is the one in certificates and of ``terrane arrange --stats``.
+
+        Examples
+        --------
+        >>> import terrane
+        >>> flat = terrane.Surface([[0, 0, 0], [3, 0, 0], [0, 3, 0]], [[0, 1, 2]], "top")
+        >>> terrane.arrange([flat]).digest()[:16]
+        'sha256:4dbe9ddec'
+        """
+        return _core.digest(parts_of_surfaces(_inputs(self)), self._core, how(threads, None))
+
+    def to_pyvista(self) -> Any:
+        """Return a ``pyvista.PolyData`` of the nearest doubles. Needs PyVista."""
+        from ._interop import polydata
+        return polydata(self.vertices, self.triangles, {"surface": self.surfaces_of.first})
+
+    def _state(self) -> Tuple[Any, ...]:
+        return self._made_by
+
+    @classmethod
+    def _from_state(cls, *state: Any) -> "Arrangement":
+        makers: Dict[str, Callable[..., Arrangement]] = {"arrange": _arranged, "cut": _cut_again,
+                                                         "seal": _sealed_again}
+        return makers[state[0]](*state[1:])
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Arrangement):
+            return NotImplemented
+        a, b = self._core, other._core
+        same_lists = all(np.array_equal(x, y) for n in ("parents_of", "surfaces_of")
+                         for x, y in zip(getattr(a, n), getattr(b, n)))
+        return bool(same_lists and list(a.surfaces) == list(b.surfaces)
+                    and np.array_equal(a.triangles, b.triangles)
+                    and np.array_equal(self.vertices, other.vertices)
+                    and _inputs(self) == _inputs(other))
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def _line(self) -> str:
+        return (f"{counted(len(self._core.surfaces), 'surface')}, {counted(len(self._core.points), 'vertex')}, "
+                f"{counted(len(self.triangles), 'triangle')}, "
+                f"{counted(len(self.intersection_edges), 'intersection edge')}")
+
+    def _numbers(self) -> Dict[str, Any]:
+        return {"surfaces": len(self._core.surfaces), "vertices": len(self._core.points),
+                "triangles": len(self.triangles), "intersection edges": len(self.intersection_edges)}
+
+    def _shape(self) -> Tuple[Any, Any]:
+        return self.vertices, self.triangles
+
+
+def _inputs(a: Arrangement) -> List[Surface]:
+    """Return the surfaces whose arrangement it is."""
+    if a._made_by[0] == "cut":
+        return _inputs(a._made_by[1])
+    surfaces: List[Surface] = a._made_by[1] if a._made_by[0] == "arrange" else a._made_by[4]
+    return surfaces
+
+
+def _arranged(surfaces: List[Surface], search: str, threads: Optional[int] = None,
+              progress: Any = None) -> Arrangement:
+    core = _core.arrange(parts_of_surfaces(surfaces), search, how(threads, progress))
+    return Arrangement(core, ("arrange", surfaces, search))
+
+
+def _cut_again(whole: Arrangement, boundary: List[int]) -> Arrangement:
+    core, _ = _core.cut(whole._core, boundary, how(None, None))
+    return Arrangement(core, ("cut", whole, boundary))
+
+
+def _sealed_again(surfaces: List[Surface], distance: float, distance_of: Dict[str, float],
+                  _: Any) -> Arrangement:
+    from ._sealing import seal
+    return seal(surfaces, distance, distance_of=distance_of).arrangement
+
+
+class RoundingReport(NamedTuple):
+    """The moves, contacts and losses of rounding; distances in the unit of the input."""
+
+    clean: bool
+    rounds: int
+    naive_contacts: int
+    contacts: List[Contact]
+    max_move: float
+    deviation: float
+    moved_input_vertices: int
+    merged_vertices: int
+    collapsed_triangles: int
+    lost_regions: List[Tuple[int, int, int]]
+    vanished: UInt32Array
+
+
+def rounding_report(values: Dict[str, Any]) -> RoundingReport:
+    """Return the report of the extension module with names."""
+    named: Dict[str, Any] = {**values, "contacts": [Contact(*c) for c in values["contacts"]]}
+    return RoundingReport(**named)
+
+
+class RoundedMesh(Result):
+    """The mesh of doubles of an arrangement, its regions, and the report of rounding.
+
+    Attributes
+    ----------
+    mesh : Mesh
+        Conforming, by exact check of the doubles, if `clean`.
+    regions : list of Region
+        Regions of the mesh; ``mesh.regions_of`` refers to them.
+    report : RoundingReport
+        Moves, contacts and losses.
+    """
+
+    __slots__ = ("mesh", "regions", "report")
+
+    def __init__(self, mesh: Mesh, regions: List[Region], report: RoundingReport) -> None:
+        self.mesh = mesh
+        self.regions = regions
+        self.report = report
+
+    @property
+    def clean(self) -> bool:
+        """Whether exact predicates have shown that the doubles are a conforming mesh."""
+        return self.report.clean
+
+    def save(self, path: Path, format: Optional[str] = None, *, keep_unverified: bool = False,
+             ascii: bool = False, compress: bool = True) -> None:
+        """Write the mesh as ``terrane arrange`` does: only if it is clean, or with `keep_unverified`."""
+        if not keep_unverified:
+            require_conforming(self.clean, len(self.report.contacts))
+        self.mesh.save(path, format, ascii=ascii, compress=compress)
+
+    def to_pyvista(self) -> Any:
+        """Return a ``pyvista.PolyData`` with the array ``surface``. Needs PyVista."""
+        return self.mesh.to_pyvista()
+
+    def to_meshio(self) -> Any:
+        """Return a ``meshio.Mesh`` with the array ``surface``. Needs meshio."""
+        return self.mesh.to_meshio()
+
+    def plot(self, **options: Any) -> Any:
+        """Show the mesh in a window or notebook. Needs PyVista."""
+        return self.mesh.plot(**options)
+
+    def _state(self) -> Tuple[Any, ...]:
+        report = dict(self.report._asdict(), contacts=[tuple(c) for c in self.report.contacts])
+        return self.mesh._state(), [tuple(r) for r in self.regions], report
+
+    @classmethod
+    def _from_state(cls, *state: Any) -> "RoundedMesh":
+        return cls(Mesh._from_state(*state[0]), [Region(*r) for r in state[1]],
+                   rounding_report(state[2]))
+
+    def _line(self) -> str:
+        verdict = "conforming" if self.clean else f"{len(self.report.contacts)} improper contacts"
+        return (f"{verdict}, {counted(len(self.mesh.triangles), 'triangle')}, "
+                f"{counted(len(self.regions), 'region')}, moved by {self.report.max_move:.3g} at most")
+
+    def _numbers(self) -> Dict[str, Any]:
+        return {"conforming": "yes" if self.clean else "no", "regions": len(self.regions),
+                "moved at most": f"{self.report.max_move:.3g}", **self.mesh._numbers()}
+
+    def _repr_html_(self) -> str:
+        from ._picture import card
+        return card("RoundedMesh", self._numbers(), self.mesh.vertices, self.mesh.triangles,
+                    self.mesh.surfaces_of.first)
+
+
+def arrange(surfaces: Any, *, search: str = "auto", threads: Optional[int] = None,
+            progress: Any = None) -> Arrangement:
+    """Compute the exact arrangement of surfaces, which may also intersect themselves.
+
+    Parameters
+    ----------
+    surfaces : Surface, list, or dict by name
+        What `as_surfaces` takes.
+    search : str, optional
+        How triangles that may meet are found; the result is the same.
+    threads : int, optional
+        How many threads to use; all cores unless given. The result does not depend on it.
+    progress : callable or bar, optional
+        Called with the name of the stage and the share of it that is done, about 20 times a second; or a bar of
+        tqdm. An exception that it raises stops the stage.
+
+    Returns
+    -------
+    Arrangement
+
+    Examples
+    --------
+    >>> import terrane
+    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]], "top")
+    >>> wall = terrane.Surface([[1, 1, -1], [1, 1, 1], [1, 9, 0]], [[0, 1, 2]], "F1", "fault")
+    >>> terrane.arrange([flat, wall])
+    <Arrangement: 2 surfaces, 8 vertices, 8 triangles, 1 intersection edge>
+    """
+    return _arranged(as_surfaces(surfaces), search, threads, progress)
+
+
+def round(arrangement: Any, *, max_rounds: int = 8, threads: Optional[int] = None,
+          progress: Any = None) -> RoundedMesh:
+    """Round an arrangement to a mesh of doubles, and check it exactly.
+
+    Parameters
+    ----------
+    arrangement : Arrangement, or a result that has one
+    max_rounds : int, optional
+        Limit on the rounds of snapping; 0: nearest doubles only.
+    threads, progress : optional
+        As in `arrange`.
+
+    Returns
+    -------
+    RoundedMesh
+        Look at ``clean`` before you use the mesh.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]], "top")
+    >>> wall = terrane.Surface([[1, 1, -1], [1, 1, 1], [1, 9, 0]], [[0, 1, 2]], "F1", "fault")
+    >>> terrane.round(terrane.arrange([flat, wall]))
+    <RoundedMesh: conforming, 8 triangles, 2 regions, moved by 0 at most>
+    """
+    a = arrangement_of(arrangement)
+    rounds = as_count(max_rounds, "max_rounds", 0, 8)
+    mesh, regions, report = _core.round(a._core, rounds, how(threads, progress))
+    return RoundedMesh(Mesh(mesh), [Region(*r) for r in regions], rounding_report(report))
+
+
+def arrangement_of(value: Any) -> Arrangement:
+    """Return the arrangement of a result that has one."""
+    if isinstance(value, Arrangement):
+        return value
+    found = getattr(value, "arrangement", None)
+    if isinstance(found, Arrangement):
+        return found
+    raise TypeError(f"that is an arrangement or a result with one, not {type(value).__name__}")
+
+
+def check(surfaces: Any, *, threads: Optional[int] = None, progress: Any = None) -> CheckReport:
+    """Diagnose surfaces, or a mesh, exactly. Nothing is repaired.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]], "top")
+    >>> wall = terrane.Surface([[1, 1, -1], [1, 1, 1], [1, 9, 0]], [[0, 1, 2]], "F1", "fault")
+    >>> report = terrane.check([flat, wall])
+    >>> report
+    <CheckReport: 1 improper contact, 0 without area, 0 repeated>
+    >>> report.contacts[0].kind
+    'crossing'
+    """
+    parts = [surfaces.replace()] if isinstance(surfaces, Surface) else None
+    if parts is None:
+        mesh = surfaces if isinstance(surfaces, Mesh) else getattr(surfaces, "mesh", None)
+        parts = _whole(mesh) if isinstance(mesh, Mesh) else as_surfaces(surfaces)
+    return CheckReport(_core.check(parts_of_surfaces(parts), how(threads, progress)))
+
+
+def _whole(mesh: Mesh) -> List[Surface]:
+    """Return a mesh as one surface, so that shared triangles are not repeated."""
+    return [Surface(mesh.vertices, mesh.triangles, "mesh")]
+
+
+def regions(mesh: Any, *, threads: Optional[int] = None, progress: Any = None) -> Regions:
+    """Find the regions into which intersection edges divide each surface of a mesh.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]], "top")
+    >>> wall = terrane.Surface([[1, -9, -9], [1, -9, 9], [1, 99, 0]], [[0, 1, 2]], "F1", "fault")
+    >>> found = terrane.regions(terrane.round(terrane.arrange([flat, wall])))
+    >>> [(r.surface, r.area) for r in found.regions]
+    [(0, 3.5), (0, 4.5), (1, 972.0)]
+    """
+    offsets, values, found = _core.regions(mesh_of(mesh)._core, how(threads, progress))
+    return Regions(IndexLists(offsets, values), [Region(*r) for r in found])
+
+
+class SurfaceCut(NamedTuple):
+    """What a cut did to one surface; areas in squared units, lengths in units of the input."""
+
+    area_inside: float
+    area_outside: float
+    area_on_boundary: float
+    pieces: int
+    open_length: float
+    open_borders: int
+
+
+class OpenBorder(NamedTuple):
+    """A border at which a surface ends inside the volume without meeting another one."""
+
+    surface: int
+    length: float
+    place: Point
+
+
+class VolumeOfInterest(Result):
+    """The part of an arrangement inside a closed boundary, with the boundary.
+
+    Attributes
+    ----------
+    arrangement : Arrangement
+        Restricted to the inside and the boundary.
+    surfaces : list of SurfaceCut
+        Effects on each surface.
+    borders : list of OpenBorder
+        Where surfaces end inside.
+    """
+
+    __slots__ = ("arrangement", "surfaces", "borders")
+
+    def __init__(self, arrangement: Arrangement, surfaces: List[SurfaceCut],
+                 borders: List[OpenBorder]) -> None:
+        self.arrangement = arrangement
+        self.surfaces = surfaces
+        self.borders = borders
+
+    def _state(self) -> Tuple[Any, ...]:
+        return (self.arrangement, [tuple(s) for s in self.surfaces], [tuple(b) for b in self.borders])
+
+    @classmethod
+    def _from_state(cls, *state: Any) -> "VolumeOfInterest":
+        return cls(state[0], [SurfaceCut(*s) for s in state[1]], [OpenBorder(*b) for b in state[2]])
+
+    def _line(self) -> str:
+        return (f"{counted(len(self.arrangement.triangles), 'triangle')} inside, "
+                f"{counted(len(self.borders), 'open border')}")
+
+    def _numbers(self) -> Dict[str, Any]:
+        return {**self.arrangement._numbers(), "open borders": len(self.borders)}
+
+    def _shape(self) -> Tuple[Any, Any]:
+        return self.arrangement._shape()
+
+
+def volume_of_interest(surfaces: Any, boundary: Any, *, threads: Optional[int] = None,
+                       progress: Any = None) -> VolumeOfInterest:
+    """Cut surfaces by a closed boundary and keep the inside, exactly.
+
+    Parameters
+    ----------
+    surfaces : as in `arrange`
+    boundary : list of Surface
+        From `box`, `rotated_box`, `polygon` or `closed`; or a pair of corners (low, high) of a box.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]], "top")
+    >>> inside = terrane.volume_of_interest([flat], terrane.box((0.5, 0.5, -1), (1, 1, 1)))
+    >>> inside.surfaces[0].area_inside
+    0.25
+    """
+    given, around = as_surfaces(surfaces), as_boundary(boundary)
+    numbers = list(range(len(given), len(given) + len(around)))
+    whole = _arranged(given + around, "auto", threads, progress)
+    core, report = _core.cut(whole._core, numbers, how(threads, progress))
+    return VolumeOfInterest(Arrangement(core, ("cut", whole, numbers)),
+                            [SurfaceCut(*s) for s in report["surfaces"]],
+                            [OpenBorder(*b) for b in report["borders"]])
+
+
+def box(low: Sequence[float], high: Sequence[float]) -> List[Surface]:
+    """Return the boundary of an axis-parallel box: surfaces "boundary top", "boundary side 1", ...
+
+    Examples
+    --------
+    >>> import terrane
+    >>> [s.name for s in terrane.box((0, 0, 0), (1, 1, 1))][:2]
+    ['boundary top', 'boundary bottom']
+    """
+    from ._arrays import as_point
+    return [surface_of_parts(p) for p in _core.box_boundary(as_point(low, "low"), as_point(high, "high"))]
+
+
+def rotated_box(place: Sequence[float], lengths: Sequence[float], *, azimuth: float = 0,
+                plunge: float = 0, roll: float = 0, is_corner: bool = False) -> List[Surface]:
+    """Return the boundary of a box in any direction.
+
+    Parameters
+    ----------
+    place : its centre, or with `is_corner` the corner that is lowest on all three edges
+    lengths : three numbers
+        Of its edges: across, along, up.
+    azimuth, plunge, roll : float
+        Degrees: of the edges along, clockwise from y; downwards; about these edges.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> len(terrane.rotated_box((0, 0, 0), (1, 2, 3), azimuth=30))
+    6
+    """
+    from ._arrays import as_point
+    return [surface_of_parts(p) for p in _core.rotated_box_boundary(
+        as_point(place, "place"), bool(is_corner), list(as_point(lengths, "lengths")),
+        as_number(azimuth, "azimuth"), as_number(plunge, "plunge"), as_number(roll, "roll"))]
+
+
+def polygon(corners: Any, low: float, high: float) -> List[Surface]:
+    """Return the boundary of a vertical prism over a simple polygon, between two heights.
+
+    Parameters
+    ----------
+    corners : array_like, shape (n, 2)
+        x, y in either order; the first may be repeated as the last.
+    low, high : float
+        Heights of its two ends.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> len(terrane.polygon([[0, 0], [2, 0], [0, 2]], -1, 1))
+    5
+    """
+    from ._arrays import as_points
+    return [surface_of_parts(p) for p in _core.polygon_boundary(
+        as_points(corners, "corners", 2), as_number(low, "low"), as_number(high, "high"))]
+
+
+def closed(surfaces: Any, *, threads: Optional[int] = None, progress: Any = None) -> List[Surface]:
+    """Check surfaces that are closed together, and return them with the role boundary.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> sides = [s.replace(role="unknown") for s in terrane.box((0, 0, 0), (1, 1, 1))]
+    >>> terrane.closed(sides)[0].role
+    'boundary'
+    """
+    made = _core.closed_boundary(parts_of_surfaces(as_surfaces(surfaces)), how(threads, progress))
+    return [surface_of_parts(p) for p in made]
+
+
+def as_boundary(value: Any) -> List[Surface]:
+    """Return the surfaces of a boundary: given as such, or as two corners of a box."""
+    if value is None:
+        return []
+    if isinstance(value, Surface):
+        return [value]
+    items = list(value)
+    if items and all(isinstance(item, Surface) for item in items):
+        return items
+    try:
+        corners = np.asarray(items, dtype=np.float64)
+    except (TypeError, ValueError):
+        corners = np.zeros(0)
+    if corners.shape == (6,):
+        corners = corners.reshape(2, 3)
+    if corners.shape == (2, 3):
+        return box(corners[0], corners[1])
+    raise bad_option("is neither surfaces, nor two corners (x, y, z) of a box, nor six numbers", "box")
+
+
+def extend(surfaces: Any, boundary: Any, limit: float, *, threads: Optional[int] = None,
+           progress: Any = None) -> List[Surface]:
+    """Extend horizons that end inside a boundary to it, by at most `limit` (unit of the input).
+
+    Returns the surfaces without the boundary; new triangles come last in each.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> flat = terrane.Surface([[1, 1, 0], [4, 1, 0], [1, 4, 0]], [[0, 1, 2]], "top", "horizon")
+    >>> longer, = terrane.extend([flat], terrane.box((0, 0, -1), (5, 5, 1)), 9)
+    >>> len(longer.triangles) > 1
+    True
+    """
+    given, around = as_surfaces(surfaces), as_boundary(boundary)
+    numbers = list(range(len(given), len(given) + len(around)))
+    made, _ = _core.extend(parts_of_surfaces(given + around), numbers,
+                           as_number(limit, "limit", positive=True), how(threads, progress))
+    return [surface_of_parts(p) for p in made][:len(given)]
+
+
+def save_arrangement(arrangement: Arrangement, path: Path) -> None:
+    """Write the nearest doubles of an arrangement that is not rounded."""
+    Mesh(_core.concatenate(parts_of_surfaces(
+        [Surface(arrangement.vertices, arrangement.triangles)]))).save(os.fspath(path))

@@ -1,0 +1,260 @@
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Volumes that surfaces enclose, and the boundary representation of a model."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Any, Dict, List, NamedTuple, Optional, Tuple
+
+import numpy as np
+
+from . import _core
+from ._arrangement import Arrangement, arrangement_of
+from ._arrays import Float64Array, Point, UInt32Array, as_points
+from ._errors import Error
+from ._mesh import Mesh, mesh_of, proven
+from ._results import Result, counted
+from ._run import how
+
+#: The index that means none, as in the corners of a closed line.
+NO_INDEX = 2**32 - 1
+
+
+class Volumes(Result):
+    """The volumes that a mesh or an arrangement encloses; 0 is the outside, 1, 2, ... are the blocks.
+
+    Attributes
+    ----------
+    of_sides : ndarray, shape (m, 2), uint32
+        Per triangle the volume in front of it (from where its corners are counterclockwise) and the one behind.
+    measures : ndarray, shape (n,), float64
+        Per volume the double nearest to its exact measure, cubic unit of the input; [0] is that of all blocks.
+    """
+
+    __slots__ = ("_core", "_source")
+
+    def __init__(self, core: _core.Volumes, source: Any) -> None:
+        self._core = core
+        self._source = source
+
+    @property
+    def of_sides(self) -> UInt32Array:
+        """Per triangle the volume in front of it and behind it."""
+        return self._core.of_sides
+
+    @property
+    def measures(self) -> Float64Array:
+        """Per volume its measure; [0]: that of all blocks."""
+        return self._core.measures
+
+    def __len__(self) -> int:
+        """Return the number of blocks, without the outside."""
+        return len(self.measures) - 1
+
+    def exact(self, *, threads: Optional[int] = None) -> List[Fraction]:
+        """Return the measures as exact fractions; slow for blocks with many constructed corners.
+
+        Examples
+        --------
+        >>> import terrane
+        >>> terrane.volumes(terrane.arrange(terrane.box((0, 0, 0), (1, 2, 3)))).exact()
+        [Fraction(6, 1), Fraction(6, 1)]
+        """
+        run = how(threads, None)
+        if isinstance(self._source, Arrangement):
+            texts = _core.exact_volumes_of_arrangement(self._source._core, self._core, run)
+        else:
+            texts = _core.exact_volumes_of_mesh(self._source._core, self._core, run)
+        return [Fraction(text) for text in texts]
+
+    def points(self, *, threads: Optional[int] = None) -> List[Tuple[Point, int]]:
+        """Return a point inside each block of a mesh, and the number of the block.
+
+        Examples
+        --------
+        >>> import terrane
+        >>> mesh = terrane.mesh(terrane.box((0, 0, 0), (2, 2, 2)))
+        >>> [number for place, number in terrane.volumes(terrane.round(terrane.arrange(
+        ...     terrane.box((0, 0, 0), (2, 2, 2))))).points()]
+        [1]
+        """
+        mesh = self._mesh()
+        return [(place, number) for place, number in
+                _core.region_points(mesh._core, self._core, how(threads, None))]
+
+    def locate(self, points: Any, *, threads: Optional[int] = None, progress: Any = None) -> UInt32Array:
+        """Return the volume that contains each point, exactly; the volumes are those of a mesh.
+
+        A point on a triangle counts to the side of greater x, then y, then z.
+        """
+        mesh = self._mesh()
+        places = as_points(points, "points")
+        if not np.all(np.isfinite(places)):
+            row = int(np.argmin(np.all(np.isfinite(places), axis=1)))
+            raise Error("bad_number", "is not finite", f"points[{row}]")
+        return _core.locate(mesh._core, self._core, places, how(threads, progress))
+
+    def _mesh(self) -> Mesh:
+        if isinstance(self._source, Mesh):
+            return self._source
+        raise Error("unsupported", "these are the volumes of an exact arrangement; those of its mesh of "
+                    "doubles can do that: terrane.volumes(terrane.round(arrangement))")
+
+    def _state(self) -> Tuple[Any, ...]:
+        return self.of_sides, self.measures, self._source
+
+    @classmethod
+    def _from_state(cls, *state: Any) -> "Volumes":
+        return cls(_core.Volumes(state[0], state[1]), state[2])
+
+    def _line(self) -> str:
+        return f"{counted(len(self), 'block')}, {self.measures[0]:.6g} in all"
+
+    def _numbers(self) -> Dict[str, Any]:
+        return {"blocks": len(self), "volume": f"{self.measures[0]:.6g}"}
+
+    def _shape(self) -> Tuple[Any, Any]:
+        return self._source.vertices, self._source.triangles
+
+
+def volumes(source: Any, *, threads: Optional[int] = None, progress: Any = None) -> Volumes:
+    """Find the volumes that an arrangement, or a conforming mesh, encloses, exactly.
+
+    Parameters
+    ----------
+    source : Arrangement, Mesh, or a result with one
+        A mesh that is not known to be conforming is checked first.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> terrane.volumes(terrane.round(terrane.arrange(terrane.box((0, 0, 0), (1, 2, 3)))))
+    <Volumes: 1 block, 6 in all>
+    """
+    if isinstance(source, Arrangement) or not hasattr(source, "mesh") and not isinstance(source, Mesh):
+        arrangement = arrangement_of(source)
+        return Volumes(_core.volumes_of_arrangement(arrangement._core, how(threads, progress)), arrangement)
+    mesh = proven(mesh_of(source), threads, progress)
+    return Volumes(_core.volumes_of_mesh(mesh._core, how(threads, progress)), mesh)
+
+
+class Corner(NamedTuple):
+    """A vertex at which lines end."""
+
+    vertex: int
+    lines: Tuple[int, ...]
+
+
+class Line(NamedTuple):
+    """A chain of edges at which patches meet or end.
+
+    ``kind`` is "free border", "boundary line", "cutoff line", "branch line" or "intersection curve"; ``vertices``
+    are those of the mesh, in order; ``corners`` are those at its ends, or `NO_INDEX` for a closed line.
+    """
+
+    kind: str
+    vertices: UInt32Array
+    patches: UInt32Array
+    surfaces: Tuple[int, ...]
+    corners: Tuple[int, int]
+    length: float
+
+
+class Patch(NamedTuple):
+    """A connected part of an interface."""
+
+    interface: int
+    triangles: UInt32Array
+    lines: Tuple[int, ...]
+    area: float
+
+
+class InterfaceParts(NamedTuple):
+    """The triangles between the same two volumes that belong to the same surfaces."""
+
+    volumes: Tuple[int, int]
+    surfaces: Tuple[int, ...]
+    patches: Tuple[int, ...]
+    triangles: UInt32Array
+    area: float
+
+
+class BlockParts(NamedTuple):
+    """A block by the surfaces around it; surfaces, interfaces and volumes by number."""
+
+    name: str
+    unit: str
+    age: Optional[float]
+    above: Tuple[int, ...]
+    below: Tuple[int, ...]
+    beside: Tuple[int, ...]
+    interfaces: Tuple[int, ...]
+    inner_interfaces: Tuple[int, ...]
+    neighbours: Tuple[int, ...]
+    volume: float
+    area: float
+
+
+class Structure(Result):
+    """The boundary representation of a model: corners, lines, patches, interfaces and blocks.
+
+    Attributes
+    ----------
+    corners, lines, patches, interfaces, blocks : lists
+        Of `Corner`, `Line`, `Patch`, `InterfaceParts`, `BlockParts`; blocks[0] is the outside.
+    patch_of, interface_of : ndarray, uint32
+        Per triangle.
+    """
+
+    __slots__ = ("corners", "lines", "patches", "interfaces", "blocks", "patch_of", "interface_of")
+
+    def __init__(self, values: Dict[str, Any]) -> None:
+        self.corners: List[Corner] = [Corner(*c) for c in values["corners"]]
+        self.lines: List[Line] = [Line(*c) for c in values["lines"]]
+        self.patches: List[Patch] = [Patch(*c) for c in values["patches"]]
+        self.interfaces: List[InterfaceParts] = [InterfaceParts(*c) for c in values["interfaces"]]
+        self.blocks: List[BlockParts] = [BlockParts(*c) for c in values["blocks"]]
+        self.patch_of: UInt32Array = values["patch_of"]
+        self.interface_of: UInt32Array = values["interface_of"]
+
+    def _state(self) -> Tuple[Any, ...]:
+        lists = {name: [tuple(item) for item in getattr(self, name)]
+                 for name in ("corners", "lines", "patches", "interfaces", "blocks")}
+        return ({**lists, "patch_of": self.patch_of, "interface_of": self.interface_of},)
+
+    @classmethod
+    def _from_state(cls, *state: Any) -> "Structure":
+        return cls(*state)
+
+    def _line(self) -> str:
+        return (f"{counted(len(self.blocks) - 1, 'block')}, {counted(len(self.interfaces), 'interface')}, "
+                f"{len(self.patches)} {'patch' if len(self.patches) == 1 else 'patches'}, "
+                f"{counted(len(self.lines), 'line')}, {counted(len(self.corners), 'corner')}")
+
+    def _numbers(self) -> Dict[str, Any]:
+        return {"blocks": len(self.blocks) - 1, "interfaces": len(self.interfaces),
+                "patches": len(self.patches), "lines": len(self.lines), "corners": len(self.corners)}
+
+
+def structure(mesh: Any, volumes_of_mesh: Optional[Volumes] = None, *, threads: Optional[int] = None,
+              progress: Any = None) -> Structure:
+    """Build the boundary representation of a conforming mesh.
+
+    Parameters
+    ----------
+    mesh : Mesh, or a result with one
+    volumes_of_mesh : Volumes, optional
+        Those of the mesh; found unless given.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> terrane.structure(terrane.round(terrane.arrange(terrane.box((0, 0, 0), (1, 2, 3)))))
+    <Structure: 1 block, 6 interfaces, 6 patches, 12 lines, 8 corners>
+    """
+    whole = mesh_of(mesh)
+    found = volumes(whole, threads=threads) if volumes_of_mesh is None else volumes_of_mesh
+    if len(found.of_sides) != len(whole.triangles):
+        raise Error("bad_option", f"the volumes are those of {len(found.of_sides)} triangles, not of "
+                    f"{len(whole.triangles)}", "volumes_of_mesh")
+    return Structure(_core.structure(whole._core, found._core, how(threads, progress)))

@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Errors of the library as exceptions."""
+
+from __future__ import annotations
+
+from typing import Tuple
+
+#: The codes of `Error.code`, in the order of the library's ``ErrorCode``.
+ERROR_CODES: Tuple[str, ...] = (
+    "cannot_open", "bad_syntax", "bad_number", "bad_index", "unknown_format", "unsupported",
+    "nothing_to_do", "write_failed", "bad_option", "improper_contact", "not_closed",
+    "out_of_memory", "interrupted", "timed_out", "internal",
+)
+
+
+class Error(Exception):
+    """An error caused by data.
+
+    Attributes
+    ----------
+    code : str
+        One of `ERROR_CODES`; docs/reference/errors.md explains them.
+    sentence : str
+        What is wrong, as the program ``terrane`` says it.
+    place : str
+        Where: ``"basin.ts:1204"``, ``"triangle 812"``, the name of an argument, or empty.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> try:
+    ...     terrane.read("missing.ts")
+    ... except terrane.Error as error:
+    ...     print(error.code, "at", error.place)
+    cannot_open at missing.ts
+    """
+
+    def __init__(self, code: str, sentence: str, place: str = "") -> None:
+        super().__init__(code, sentence, place)
+        self.code = code
+        self.sentence = sentence
+        self.place = place
+
+    def __str__(self) -> str:
+        return f"{self.place}: {self.sentence}" if self.place else self.sentence
+
+
+class OutOfMemory(Error, MemoryError):
+    """Not enough memory: a `MemoryError` that is a `terrane.Error` as well."""
+
+
+def exception_of(code: int, sentence: str, place: str) -> Error:
+    """Return the exception for an error of the library."""
+    name = ERROR_CODES[code]
+    kind = OutOfMemory if name == "out_of_memory" else Error
+    return kind(name, sentence or "stopped on request", place)
+
+
+def bad_option(sentence: str, place: str) -> Error:
+    """Return the error for an argument whose value makes no sense."""
+    return Error("bad_option", sentence, place)

@@ -1,0 +1,307 @@
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""One mesh of several surfaces, and what is found in it."""
+
+from __future__ import annotations
+
+import os
+from typing import Any, Dict, List, NamedTuple, Optional, Tuple, Union
+
+import numpy as np
+
+from . import _core
+from ._arrays import Float64Array, IndexLists, Point, SurfaceInfo, UInt32Array
+from ._errors import Error
+from ._results import Result, counted
+from ._run import how
+from ._surface import Surface, surface_of_parts
+
+Path = Union[str, "os.PathLike[str]"]
+
+
+class Mesh(Result):
+    """One mesh of several surfaces, with coordinates in doubles.
+
+    A triangle belongs to several surfaces where these coincide. All arrays are read-only views of the library's
+    memory, which they keep alive. Stages make meshes; `terrane.mesh` makes one of surfaces as they are.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]], "top")
+    >>> wall = terrane.Surface([[1, 1, -1], [1, 1, 1], [1, 9, 0]], [[0, 1, 2]], "F1", "fault")
+    >>> mesh = terrane.round(terrane.arrange([flat, wall])).mesh
+    >>> mesh
+    <Mesh: 2 surfaces, 8 vertices, 8 triangles, 1 intersection edge>
+    """
+
+    __slots__ = ("_core",)
+
+    def __init__(self, core: _core.Mesh) -> None:
+        self._core = core
+
+    @property
+    def surfaces(self) -> List[SurfaceInfo]:
+        """Names and roles of the surfaces, in the order of the input."""
+        return [SurfaceInfo(*pair) for pair in self._core.surfaces]
+
+    @property
+    def vertices(self) -> Float64Array:
+        """Coordinates in the unit of the input: ndarray, shape (n, 3), float64."""
+        return self._core.vertices
+
+    @property
+    def triangles(self) -> UInt32Array:
+        """Indices into `vertices`: ndarray, shape (m, 3), uint32."""
+        return self._core.triangles
+
+    @property
+    def surfaces_of(self) -> IndexLists:
+        """Per triangle the surfaces that it belongs to, at least one: indices into `surfaces`."""
+        return IndexLists(*self._core.surfaces_of)
+
+    @property
+    def regions_of(self) -> IndexLists:
+        """Per triangle its region in each of its surfaces; no lists where regions were not found."""
+        return IndexLists(*self._core.regions_of)
+
+    @property
+    def parents_of(self) -> IndexLists:
+        """Per triangle the input triangles that contain it, counted through all surfaces; or no lists."""
+        return IndexLists(*self._core.parents_of)
+
+    @property
+    def intersection_edges(self) -> UInt32Array:
+        """Edges at which surfaces meet: ndarray, shape (k, 2), uint32, vertices, the lower first."""
+        return self._core.intersection_edges
+
+    @property
+    def is_proven(self) -> bool:
+        """Whether exact predicates have shown that the doubles are a conforming mesh."""
+        return self._core.is_proven
+
+    def split(self) -> List[Surface]:
+        """Return the surfaces of the mesh as surfaces of their own.
+
+        Examples
+        --------
+        >>> import terrane
+        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]], "top")
+        >>> terrane.mesh([flat]).split() == [flat]
+        True
+        """
+        return [surface_of_parts(parts) for parts in _core.surfaces_of_mesh(self._core)]
+
+    def quality(self, *, threads: Optional[int] = None, progress: Any = None) -> Dict[str, Any]:
+        """Return the quality of the triangles: q = 2 r / R, angles in degrees, edge lengths.
+
+        Examples
+        --------
+        >>> import terrane
+        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]], "top")
+        >>> round(terrane.mesh([flat]).quality()["q"]["mean"], 3)
+        0.828
+        """
+        return _core.quality(self._core, how(threads, progress))
+
+    def save(self, path: Path, format: Optional[str] = None, *, ascii: bool = False,
+             compress: bool = True) -> None:
+        """Write the mesh; the extension selects the format, or `format` does ("vtp", "msh22", ...).
+
+        The bytes are those that ``terrane arrange`` writes. `ascii` is for STL, `compress` for VTP.
+
+        Examples
+        --------
+        >>> import terrane
+        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]], "top")
+        >>> terrane.mesh([flat]).save("flat.vtp")
+        """
+        _core.write_mesh(self._core, os.fspath(path), format, ascii, compress, how(1, None))
+
+    def to_pyvista(self) -> Any:
+        """Return a ``pyvista.PolyData`` with the array ``surface``. Needs PyVista."""
+        from ._interop import polydata
+        return polydata(self.vertices, self.triangles, {"surface": self.surfaces_of.first})
+
+    def to_meshio(self) -> Any:
+        """Return a ``meshio.Mesh`` with the array ``surface``. Needs meshio."""
+        from ._interop import meshio_mesh
+        return meshio_mesh(self.vertices, {"triangle": self.triangles},
+                           {"surface": [self.surfaces_of.first.astype(np.int32)]})
+
+    def plot(self, **options: Any) -> Any:
+        """Show the mesh in a window or notebook. Needs PyVista, which gets the options."""
+        return self.to_pyvista().plot(**{"scalars": "surface", "show_edges": True, **options})
+
+    def _state(self) -> Tuple[Any, ...]:
+        c = self._core
+        return (list(c.surfaces), c.vertices, c.triangles, tuple(c.surfaces_of), tuple(c.regions_of),
+                tuple(c.parents_of), c.intersection_edges)
+
+    @classmethod
+    def _from_state(cls, *state: Any) -> "Mesh":
+        return cls(_core.Mesh(tuple(state)))
+
+    def _line(self) -> str:
+        return (f"{counted(len(self._core.surfaces), 'surface')}, {counted(len(self.vertices), 'vertex')}, "
+                f"{counted(len(self.triangles), 'triangle')}, "
+                f"{counted(len(self.intersection_edges), 'intersection edge')}")
+
+    def _numbers(self) -> Dict[str, Any]:
+        return {"surfaces": len(self._core.surfaces), "vertices": len(self.vertices),
+                "triangles": len(self.triangles), "intersection edges": len(self.intersection_edges)}
+
+    def _repr_html_(self) -> str:
+        from ._picture import card
+        return card("Mesh", self._numbers(), self.vertices, self.triangles, self.surfaces_of.first)
+
+
+class Contact(NamedTuple):
+    """Two triangles that meet other than in a shared vertex or edge."""
+
+    triangles: Tuple[int, int]
+    kind: str
+    place: Point
+
+
+class Region(NamedTuple):
+    """A part of a surface that hangs together without crossing an intersection edge."""
+
+    surface: int
+    first_triangle: int
+    triangles: int
+    area: float
+    neighbours: Tuple[int, ...]
+
+
+class Regions(Result):
+    """The regions into which intersection edges divide each surface.
+
+    Attributes
+    ----------
+    regions_of : IndexLists
+        Per triangle its region in each of its surfaces.
+    regions : list of Region
+        By surface, then by lowest triangle; areas in squared units of the input.
+    """
+
+    __slots__ = ("regions_of", "regions")
+
+    def __init__(self, regions_of: IndexLists, regions: List[Region]) -> None:
+        self.regions_of = regions_of
+        self.regions = regions
+
+    def __len__(self) -> int:
+        return len(self.regions)
+
+    def _state(self) -> Tuple[Any, ...]:
+        return self.regions_of.offsets, self.regions_of.values, [tuple(r) for r in self.regions]
+
+    @classmethod
+    def _from_state(cls, *state: Any) -> "Regions":
+        return cls(IndexLists(state[0], state[1]), [Region(*r) for r in state[2]])
+
+    def _line(self) -> str:
+        return counted(len(self.regions), "region")
+
+    def _numbers(self) -> Dict[str, Any]:
+        return {"regions": len(self.regions)}
+
+
+class CheckReport(Result):
+    """All that is wrong with surfaces. Triangles are numbered through all surfaces.
+
+    Attributes
+    ----------
+    clean : bool
+        Whether the surfaces are a conforming mesh.
+    surfaces, triangles, vertices : int
+        Their numbers; distinct points in use.
+    first_triangle : ndarray, uint32
+        Per surface its first triangle, and the total at the end.
+    contacts : list of Contact
+        Pairs of triangles that meet improperly.
+    degenerate : ndarray, uint32
+        Triangles without area.
+    repeated, shared : ndarray, shape (k, 2), uint32
+        Triangles, and the first with the same points in the same surface, or in another one (no flaw).
+    non_manifold_edges : list
+        Edges with more than two triangles of one surface (no flaw by itself).
+    free_border_edges, components : int
+        Edges with one triangle of a surface; connected parts.
+    """
+
+    __slots__ = ("_values",)
+
+    def __init__(self, values: Dict[str, Any]) -> None:
+        self._values = values
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_"):
+            raise AttributeError(name)
+        try:
+            value = self._values[name]
+        except KeyError:
+            raise AttributeError(f"a CheckReport has no {name}") from None
+        return [Contact(*c) for c in value] if name == "contacts" else value
+
+    def __dir__(self) -> List[str]:
+        return [*super().__dir__(), *self._values]
+
+    def __bool__(self) -> bool:
+        return bool(self._values["clean"])
+
+    def _state(self) -> Tuple[Any, ...]:
+        return (self._values,)
+
+    @classmethod
+    def _from_state(cls, *state: Any) -> "CheckReport":
+        return cls(*state)
+
+    def _line(self) -> str:
+        v = self._values
+        if v["clean"]:
+            return f"clean, {counted(v['triangles'], 'triangle')}"
+        return (f"{counted(len(v['contacts']), 'improper contact')}, {len(v['degenerate'])} without area, "
+                f"{len(v['repeated'])} repeated")
+
+    def _numbers(self) -> Dict[str, Any]:
+        v = self._values
+        return {"triangles": v["triangles"], "improper contacts": len(v["contacts"]),
+                "without area": len(v["degenerate"]), "repeated": len(v["repeated"])}
+
+
+def mesh(surfaces: Any) -> Mesh:
+    """Return one mesh of surfaces as they are: nothing is divided or merged.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> terrane.mesh([terrane.Surface([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]])])
+    <Mesh: 1 surface, 3 vertices, 1 triangle, 0 intersection edges>
+    """
+    from ._surface import as_surfaces, parts_of_surfaces
+    return Mesh(_core.concatenate(parts_of_surfaces(as_surfaces(surfaces))))
+
+
+def mesh_of(value: Any, place: str = "mesh") -> Mesh:
+    """Return the mesh of a result that has one."""
+    if isinstance(value, Mesh):
+        return value
+    found = getattr(value, "mesh", None)
+    if isinstance(found, Mesh):
+        return found
+    raise TypeError(f"{place} is a mesh or a result with one, not {type(value).__name__}")
+
+
+def proven(value: Mesh, threads: Optional[int], progress: Any) -> Mesh:
+    """Return the mesh with a proof that it is conforming."""
+    if value.is_proven:
+        return value
+    return Mesh(_core.proven(value._core, how(threads, progress)))
+
+
+def require_conforming(clean: bool, contacts: int) -> None:
+    """Raise improper_contact unless a mesh is clean."""
+    if not clean:
+        raise Error("improper_contact", f"{counted(contacts, 'pair')} of triangles still meet improperly "
+                    "in doubles; report.contacts lists them")

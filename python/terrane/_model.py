@@ -1,0 +1,559 @@
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""The everyday call: surfaces to blocks with names, volumes, neighbours and leaks."""
+
+from __future__ import annotations
+
+import os
+from typing import Any, Dict, Iterator, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from ._arrangement import RoundingReport, as_boundary, rounding_report
+from ._arrays import Point, SurfaceInfo, UInt32Array, as_count, as_number
+from ._blocks import Structure, Volumes
+from ._errors import Error, bad_option
+from ._mesh import Mesh, Path
+from ._results import Result, counted
+from ._run import how
+from ._surface import as_surfaces, parts_of_surfaces
+
+
+class Leak(NamedTuple):
+    """Where a surface ends near another one without meeting it.
+
+    ``from_surface`` ends, ``to_surface`` is the nearest one; ``length`` is that of the border, ``least`` and
+    ``largest`` its distances, ``place`` where it is largest; unit of the input. ``verdict`` is "separates" (closing
+    the gap would separate blocks), "harmless", "wide" (wider than gaps that were tried), or "" (not judged).
+    """
+
+    from_surface: str
+    to_surface: str
+    length: float
+    least: float
+    largest: float
+    place: Point
+    verdict: str
+
+
+class Relation(NamedTuple):
+    """What two surfaces do where they meet or nearly meet: "stops at", "crosses", "meets", "overlaps", "ends near"."""
+
+    from_surface: str
+    to_surface: str
+    kind: str
+    length: float
+    least: float
+    largest: float
+    place: Point
+
+
+class Juxtaposition(NamedTuple):
+    """Two blocks that face each other across a surface, and the area."""
+
+    surface: str
+    blocks: Tuple[str, str]
+    area: float
+
+
+class Block:
+    """A block of a model.
+
+    Attributes
+    ----------
+    number : int
+        From 1; the outside is 0.
+    name : str
+        Different for all blocks.
+    key : str
+        ``"above/below|beside"`` by the names of the surfaces around it, without the model's boundary.
+    unit : str
+        Of the stratigraphic column, or empty.
+    volume : float
+        Exact volume, rounded once; cubic unit of the input.
+    area : float
+        Of its boundary, squared unit.
+    above, below, beside : tuple of str
+        Names of the surfaces there.
+    neighbours : tuple of str
+        Names of the blocks next to it, with "outside".
+    """
+
+    __slots__ = ("_model", "number")
+
+    def __init__(self, model: "Model", number: int) -> None:
+        self._model = model
+        self.number = number
+
+    @property
+    def name(self) -> str:
+        """The name."""
+        return self._model.structure.blocks[self.number].name
+
+    @property
+    def key(self) -> str:
+        """The surfaces above, below and beside: ``"top/base|F1"``."""
+        def names(numbers: Tuple[int, ...]) -> str:
+            surfaces = self._model.mesh.surfaces
+            return "+".join(self._model.labels[s] for s in numbers if surfaces[s].role != "boundary")
+        b = self._model.structure.blocks[self.number]
+        beside = names(b.beside)
+        return f"{names(b.above)}/{names(b.below)}" + (f"|{beside}" if beside else "")
+
+    @property
+    def unit(self) -> str:
+        """The unit of the stratigraphic column."""
+        return self._model.structure.blocks[self.number].unit
+
+    @property
+    def age(self) -> Optional[float]:
+        """The age of the base of the unit."""
+        return self._model.structure.blocks[self.number].age
+
+    @property
+    def volume(self) -> float:
+        """The exact volume, rounded once; cubic unit of the input."""
+        volumes = self._model._core.exact_volumes
+        return float(volumes[self.number]) if self.number < len(volumes) else float("nan")
+
+    @property
+    def area(self) -> float:
+        """The area of the boundary, squared unit."""
+        return self._model.structure.blocks[self.number].area
+
+    @property
+    def above(self) -> Tuple[str, ...]:
+        """Names of the surfaces above."""
+        return self._names(self._model.structure.blocks[self.number].above)
+
+    @property
+    def below(self) -> Tuple[str, ...]:
+        """Names of the surfaces below."""
+        return self._names(self._model.structure.blocks[self.number].below)
+
+    @property
+    def beside(self) -> Tuple[str, ...]:
+        """Names of the surfaces beside."""
+        return self._names(self._model.structure.blocks[self.number].beside)
+
+    @property
+    def neighbours(self) -> Tuple[str, ...]:
+        """Names of the blocks next to it."""
+        blocks = self._model.structure.blocks
+        return tuple(blocks[b].name for b in blocks[self.number].neighbours)
+
+    @property
+    def mesh(self) -> Mesh:
+        """The closed boundary of the block, wound outward. Neighbours share vertices to the last bit."""
+        return Mesh(self._model._core.part(True, self.number)[0])
+
+    def _names(self, numbers: Tuple[int, ...]) -> Tuple[str, ...]:
+        return tuple(self._model.labels[s] for s in numbers)
+
+    def __repr__(self) -> str:
+        return f"<Block {self.number} {self.name!r}: volume {self.volume:.6g}>"
+
+    def _repr_html_(self) -> str:
+        from ._picture import card
+        mesh = self.mesh
+        return card(self.name, {"number": self.number, "volume": f"{self.volume:.6g}",
+                                "area": f"{self.area:.6g}", "neighbours": ", ".join(self.neighbours)},
+                    mesh.vertices, mesh.triangles, mesh.surfaces_of.first)
+
+
+class Blocks(Mapping[str, Block]):
+    """The blocks of a model by name; also by number, and by ``"above/below|beside"`` where that is one block."""
+
+    __slots__ = ("_model", "_by_name")
+
+    def __init__(self, model: "Model") -> None:
+        self._model = model
+        self._by_name = {b.name: Block(model, i)
+                         for i, b in enumerate(model.structure.blocks) if i > 0}
+
+    def __getitem__(self, key: Any) -> Block:
+        if isinstance(key, str):
+            if key in self._by_name:
+                return self._by_name[key]
+            found = [b for b in self._by_name.values() if b.key == key]
+            if len(found) == 1:
+                return found[0]
+            names = ", ".join(repr(b.name) for b in (found or self._by_name.values()))
+            raise KeyError(f"{key!r} is {'several blocks' if found else 'no block'}: {names}")
+        number = as_count(key, "number of a block")
+        if not 1 <= number <= len(self):
+            raise KeyError(f"there is no block {number}; they are 1 to {len(self)}")
+        return Block(self._model, number)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._by_name)
+
+    def __len__(self) -> int:
+        return len(self._by_name)
+
+    def __repr__(self) -> str:
+        return f"<Blocks: {', '.join(self._by_name)}>"
+
+
+class Interface:
+    """The triangles between the same two blocks that belong to the same surfaces.
+
+    Attributes
+    ----------
+    number : int
+    surfaces : tuple of str
+    blocks : tuple of two str
+        Equal where the surface ends inside a block.
+    area : float
+        Squared unit of the input.
+    triangles : ndarray, uint32
+        Of the mesh of the model.
+    """
+
+    __slots__ = ("_model", "number")
+
+    def __init__(self, model: "Model", number: int) -> None:
+        self._model = model
+        self.number = number
+
+    @property
+    def surfaces(self) -> Tuple[str, ...]:
+        """Names of the surfaces."""
+        return tuple(self._model.labels[s]
+                     for s in self._model.structure.interfaces[self.number].surfaces)
+
+    @property
+    def blocks(self) -> Tuple[str, str]:
+        """Names of the blocks on its sides."""
+        low, high = self._model.structure.interfaces[self.number].volumes
+        blocks = self._model.structure.blocks
+        return blocks[low].name, blocks[high].name
+
+    @property
+    def area(self) -> float:
+        """Squared unit of the input."""
+        return self._model.structure.interfaces[self.number].area
+
+    @property
+    def triangles(self) -> UInt32Array:
+        """Triangles of the mesh of the model."""
+        return self._model.structure.interfaces[self.number].triangles
+
+    @property
+    def mesh(self) -> Mesh:
+        """The interface as a mesh of its own."""
+        return Mesh(self._model._core.part(False, self.number)[0])
+
+    def __repr__(self) -> str:
+        return f"<Interface {self.number} of {' and '.join(self.surfaces)}: {self.blocks[0]} | {self.blocks[1]}>"
+
+
+class Model(Result):
+    """A conforming mesh with its blocks.
+
+    Attributes
+    ----------
+    mesh : Mesh
+        All surfaces and the boundary, conforming, in doubles.
+    blocks : Blocks
+        By name.
+    interfaces : list of Interface
+    leaks : list of Leak
+        Where surfaces end without meeting another one: those that separate blocks first.
+    volumes : Volumes
+        By the numbers of the blocks.
+    structure : Structure
+        Corners, lines, patches, interfaces, blocks.
+    """
+
+    __slots__ = ("_core", "_made_by", "_mesh", "_structure", "_labels", "_blocks")
+
+    def __init__(self, core: _core.Model, made_by: Tuple[Any, ...]) -> None:
+        self._core = core
+        self._made_by = made_by
+        self._mesh: Optional[Mesh] = None
+        self._structure: Optional[Structure] = None
+        self._labels: Optional[List[str]] = None
+        self._blocks: Optional[Blocks] = None
+
+    @property
+    def mesh(self) -> Mesh:
+        """The conforming mesh of all surfaces."""
+        if self._mesh is None:
+            self._mesh = Mesh(self._core.mesh)
+        return self._mesh
+
+    @property
+    def structure(self) -> Structure:
+        """Corners, lines, patches, interfaces, blocks."""
+        if self._structure is None:
+            self._structure = Structure(self._core.structure)
+        return self._structure
+
+    @property
+    def labels(self) -> List[str]:
+        """The names of the surfaces, made different."""
+        if self._labels is None:
+            self._labels = _core.unique_labels(self._core.mesh.surfaces)
+        return self._labels
+
+    @property
+    def volumes(self) -> Volumes:
+        """The volumes of the mesh, by the numbers of the blocks."""
+        return Volumes(self._core.volumes, self.mesh)
+
+    @property
+    def blocks(self) -> Blocks:
+        """The blocks by name."""
+        if self._blocks is None:
+            self._blocks = Blocks(self)
+        return self._blocks
+
+    @property
+    def interfaces(self) -> List[Interface]:
+        """The interfaces, by number."""
+        return [Interface(self, i) for i in range(len(self.structure.interfaces))]
+
+    @property
+    def leaks(self) -> List[Leak]:
+        """Where surfaces end without meeting another one."""
+        separating, others, verdicts, _ = self._core.leaks
+        made = [self._leak(leak, "separates") for leak in separating]
+        for i, leak in enumerate(others):
+            verdict = verdicts[i] if verdicts else ""
+            if verdict != "separates" or not separating:
+                made.append(self._leak(leak, verdict))
+        return made
+
+    @property
+    def relations(self) -> List[Relation]:
+        """Which surface stops at which other one, crosses it, or ends near it."""
+        return [Relation(self.labels[r[0]], self.labels[r[1]], *r[2:]) for r in self._core.relations]
+
+    @property
+    def juxtapositions(self) -> List[Juxtaposition]:
+        """Which blocks face each other across which surface, and the area."""
+        blocks = self.structure.blocks
+        return [Juxtaposition(self.labels[s], (blocks[pair[0]].name, blocks[pair[1]].name), area)
+                for s, pair, area in self._core.juxtapositions]
+
+    @property
+    def rounding(self) -> Optional[RoundingReport]:
+        """How the exact result became doubles."""
+        values = self._core.rounding
+        return None if values is None else rounding_report(values)
+
+    @property
+    def sealed(self) -> Optional[Dict[str, Any]]:
+        """What sealing changed, as in `Sealed`; None where nothing was sealed."""
+        report: Optional[Dict[str, Any]] = self._core.sealed
+        return report
+
+    def _leak(self, leak: Tuple[Any, ...], verdict: str) -> Leak:
+        return Leak(self.labels[leak[0]], self.labels[leak[1]], leak[3], leak[4], leak[5], leak[6], verdict)
+
+    def block_of(self, points: Any, *, threads: Optional[int] = None,
+                 progress: Any = None) -> npt.NDArray[np.uint32]:
+        """Return the number of the block that each point lies in, exactly; 0 is the outside.
+
+        Parameters
+        ----------
+        points : array_like, shape (n, 3)
+            Unit of the input. Points on a surface count to the side of greater x, then y, then z.
+
+        Examples
+        --------
+        >>> import terrane
+        >>> flat = terrane.Surface([[-1, -1, 0], [9, -1, 0], [-1, 9, 0]], [[0, 1, 2]], "top", "horizon")
+        >>> model = terrane.model([flat], box=((0, 0, -1), (2, 2, 1)))
+        >>> numbers = model.block_of([[1, 1, -0.5], [1, 1, 0.5], [1, 1, 7]])
+        >>> [model.structure.blocks[n].name for n in numbers]
+        ['below top', 'above top', 'outside']
+        """
+        return self.volumes.locate(points, threads=threads, progress=progress)
+
+    def names_of(self, points: Any, *, threads: Optional[int] = None) -> List[str]:
+        """Return the name of the block that each point lies in, as `block_of`."""
+        blocks = self.structure.blocks
+        return [blocks[n].name for n in self.block_of(points, threads=threads)]
+
+    def tetrahedra(self, edge_length: Optional[float] = None, **options: Any) -> Any:
+        """Fill the blocks with tetrahedra; see `terrane.tetrahedralize` for the options."""
+        from ._tetrahedra import tetrahedralize
+        return tetrahedralize(self, edge_length=edge_length, **options)
+
+    def save(self, folder: Path, format: str = "vtp", *, threads: Optional[int] = None) -> None:
+        """Write the model into a new folder, as ``terrane volume -o`` does.
+
+        `format` is that of blocks and interfaces. The folder must not exist, or be empty.
+        """
+        self._core.save(os.fspath(folder), format, how(threads, None))
+
+    def to_pyvista(self) -> Any:
+        """Return a ``pyvista.MultiBlock`` of the blocks by name. Needs PyVista."""
+        import importlib
+        blocks = importlib.import_module("pyvista").MultiBlock()
+        for name, block in self.blocks.items():
+            blocks[name] = block.mesh.to_pyvista()
+        return blocks
+
+    def to_meshio(self) -> Any:
+        """Return a ``meshio.Mesh`` of the surfaces, with the blocks on both sides. Needs meshio."""
+        from ._interop import meshio_mesh
+        sides = self._core.volumes.of_sides.astype(np.int32)
+        return meshio_mesh(self.mesh.vertices, {"triangle": self.mesh.triangles},
+                           {"surface": [self.mesh.surfaces_of.first.astype(np.int32)],
+                            "volume_front": [sides[:, 0]], "volume_back": [sides[:, 1]]})
+
+    def plot(self, **options: Any) -> Any:
+        """Show the blocks in a window or notebook. Needs PyVista, which gets the options."""
+        return self.to_pyvista().plot(**{"multi_colors": True, **options})
+
+    def _state(self) -> Tuple[Any, ...]:
+        return self._made_by
+
+    @classmethod
+    def _from_state(cls, *state: Any) -> "Model":
+        if state[0] == "build":
+            from ._project import build
+            return build(*state[1:]).model
+        surfaces, boundary, options = state[1:]
+        return _made(surfaces, boundary, options, None, None)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Model):
+            return NotImplemented
+        return bool(self.mesh == other.mesh and self.structure == other.structure
+                    and np.array_equal(self._core.exact_volumes, other._core.exact_volumes))
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def _line(self) -> str:
+        return (f"{counted(len(self.blocks), 'block')}, {counted(len(self._core.mesh.surfaces), 'surface')}, "
+                f"{counted(len(self.mesh.triangles), 'triangle')}, {counted(len(self.leaks), 'leak')}")
+
+    def _numbers(self) -> Dict[str, Any]:
+        return {"blocks": len(self.blocks), "surfaces": len(self._core.mesh.surfaces),
+                "triangles": len(self.mesh.triangles), "leaks": len(self.leaks),
+                "volume": f"{self._core.exact_volumes[0]:.6g}"}
+
+    def _repr_html_(self) -> str:
+        from ._picture import card
+        return card("Model", self._numbers(), self.mesh.vertices, self.mesh.triangles,
+                    self.mesh.surfaces_of.first)
+
+
+def _length(value: Any, place: str) -> Tuple[float, bool]:
+    """Return a length and whether it is chosen automatically; None is 0."""
+    if value is None:
+        return 0.0, False
+    if isinstance(value, str):
+        if value == "auto":
+            return 0.0, True
+        raise bad_option(f"{value!r} is neither a number nor 'auto'", place)
+    return as_number(value, place, least=0), False
+
+
+def _seal_options(seal: Any) -> Tuple[float, bool, Dict[str, float]]:
+    """Return the distance, whether it is automatic, and exceptions by "F1" or "F1/F2"."""
+    if not isinstance(seal, Mapping):
+        return (*_length(seal, "seal"), {})
+    distance, automatic = _length(seal.get(None), "seal[None]")
+    of = {}
+    for name, value in seal.items():
+        if name is not None:
+            pair = "/".join(name) if isinstance(name, tuple) else name
+            of[pair] = as_number(value, f"seal[{pair!r}]", least=0)
+    return distance, automatic, of
+
+
+def column_of(column: Any) -> List[Tuple[str, str, Optional[float], bool]]:
+    """Return units as tuples (unit, surface, age, erosive), from the top down."""
+    made = []
+    for i, entry in enumerate(column or []):
+        if not isinstance(entry, Mapping):
+            entry = dict(zip(("unit", "surface", "age", "contact"), entry))
+        unknown = set(entry) - {"unit", "surface", "age", "contact"}
+        if unknown or "unit" not in entry:
+            raise bad_option("an entry has unit, surface, and perhaps age and contact", f"column[{i}]")
+        age = None if entry.get("age") is None else as_number(entry["age"], f"column[{i}].age")
+        contact = entry.get("contact", "conformable")
+        if contact not in ("conformable", "erosive"):
+            raise bad_option(f"{contact!r} is neither conformable nor erosive", f"column[{i}].contact")
+        made.append((entry["unit"], entry.get("surface") or "", age, contact == "erosive"))
+    return made
+
+
+def _made(surfaces: List[Any], boundary: List[Any], options: Dict[str, Any], threads: Optional[int],
+          progress: Any) -> Model:
+    core = _core.model(parts_of_surfaces(surfaces), parts_of_surfaces(boundary), options,
+                       how(threads, progress))
+    return Model(core, ("model", surfaces, boundary, options))
+
+
+def model(surfaces: Any, box: Any = None, seal: Union[None, float, str, Mapping[Any, float]] = None, *,
+          extend: float = 0, min_volume: Union[None, float, str] = None,
+          column: Optional[Sequence[Any]] = None, max_rounds: int = 8, threads: Optional[int] = None,
+          progress: Any = None) -> Model:
+    """Make blocks of surfaces in one call: extend, seal, arrange, cut, round, and find the blocks.
+
+    Parameters
+    ----------
+    surfaces : Surface, list, or dict by name
+        What `as_surfaces` takes. Roles help to name lines: give ``role="fault"``, ``"horizon"``.
+    box : two corners, six numbers, or list of Surface, optional
+        Volume of interest: from `box`, `polygon`, `rotated_box` or `closed`. It closes the blocks.
+    seal : float, "auto", or dict, optional
+        Close gaps up to this width, unit of the input. A dict has exceptions by ``"F1"`` or ``("F1", "F2")``, and the
+        distance for all others under None.
+    extend : float, optional
+        Extend horizons that end inside the box to it, by at most this length.
+    min_volume : float or "auto", optional
+        Merge smaller blocks with a neighbour.
+    column : list, optional
+        Stratigraphic column from the top down: entries (unit, surface at its base, age, "conformable" or
+        "erosive"), or dicts with these keys. The lowest needs no surface.
+    max_rounds, threads, progress : optional
+        As in `round` and `arrange`.
+
+    Returns
+    -------
+    Model
+
+    Raises
+    ------
+    terrane.Error
+        ``improper_contact`` where the doubles are not conforming.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> flat = terrane.Surface([[-1, -1, 0], [9, -1, 0], [-1, 9, 0]], [[0, 1, 2]], "top", "horizon")
+    >>> model = terrane.model([flat], box=((0, 0, -1), (2, 2, 1)))
+    >>> model
+    <Model: 2 blocks, 7 surfaces, 34 triangles, 0 leaks>
+    >>> model.blocks["below top"].volume, model.blocks["top/"].name
+    (4.0, 'below top')
+    """
+    distance, automatic, of = _seal_options(seal)
+    least, small = _length(min_volume, "min_volume")
+    options = {"max_rounds": as_count(max_rounds, "max_rounds", 0, 8), "seal": distance,
+               "seal_automatic": automatic, "seal_of": of, "extend": as_number(extend, "extend", least=0),
+               "min_volume": least, "min_volume_automatic": small, "column": column_of(column)}
+    return _made(as_surfaces(surfaces), as_boundary(box), options, threads, progress)
+
+
+def surface_infos(model_of: Model) -> List[SurfaceInfo]:
+    """Return names and roles of the surfaces of a model."""
+    return model_of.mesh.surfaces
+
+
+def number_of(model_of: Model, block: Any) -> int:
+    """Return the number of a block, given as a block, a number, a name or a key."""
+    if isinstance(block, Block):
+        return block.number
+    try:
+        return model_of.blocks[block].number
+    except KeyError as missing:
+        raise Error("bad_option", str(missing.args[0]), "block") from None

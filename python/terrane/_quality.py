@@ -1,0 +1,156 @@
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Better triangles."""
+
+from __future__ import annotations
+
+from typing import Any, Dict, List, Mapping, Optional, Tuple
+
+import numpy as np
+
+from . import _core
+from ._arrays import Float64Array, UInt32Array, as_number
+from ._errors import bad_option
+from ._blocks import Volumes
+from ._mesh import Mesh, Path, mesh_of, proven
+from ._results import Result
+from ._run import how
+from ._surface import as_surface, parts_of_surfaces
+
+_OPTIONS = ("edge_length", "max_deviation", "curve_length", "turn", "layers_in_gaps", "smallest", "growth",
+            "crease_angle", "curve_angle", "thickness_share", "least_quality", "max_volume_change",
+            "max_triangles")
+
+
+class Improved(Result):
+    """An improved mesh: conforming, with the same blocks, regions, lines and corners.
+
+    Attributes
+    ----------
+    mesh : Mesh
+    volumes : Volumes
+        Of the mesh.
+    near_of : ndarray, uint32
+        Per triangle a triangle of the mesh before, near its centroid.
+    bounds : ndarray, float64
+        Per surface no point of it is farther from the mesh before; unit of the input.
+    deviations : ndarray, shape (s, 2), float64
+        Per surface the measured distance from the new to the old mesh, and back.
+    report : dict
+        Counts of changes, and why the worst triangle cannot be better.
+    """
+
+    __slots__ = ("mesh", "volumes", "near_of", "bounds", "deviations", "report")
+
+    def __init__(self, mesh: Mesh, volumes: Volumes, near_of: UInt32Array, bounds: Float64Array,
+                 deviations: Float64Array, report: Dict[str, Any]) -> None:
+        self.mesh = mesh
+        self.volumes = volumes
+        self.near_of = near_of
+        self.bounds = bounds
+        self.deviations = deviations
+        self.report = report
+
+    def save(self, path: Path, format: Optional[str] = None, **options: Any) -> None:
+        """Write the mesh; see `Mesh.save`."""
+        self.mesh.save(path, format, **options)
+
+    def to_pyvista(self) -> Any:
+        """Return a ``pyvista.PolyData``. Needs PyVista."""
+        return self.mesh.to_pyvista()
+
+    def to_meshio(self) -> Any:
+        """Return a ``meshio.Mesh``. Needs meshio."""
+        return self.mesh.to_meshio()
+
+    def plot(self, **options: Any) -> Any:
+        """Show the mesh. Needs PyVista."""
+        return self.mesh.plot(**options)
+
+    def _state(self) -> Tuple[Any, ...]:
+        return (self.mesh._state(), self.volumes.of_sides, self.volumes.measures, self.near_of, self.bounds,
+                self.deviations, self.report)
+
+    @classmethod
+    def _from_state(cls, *state: Any) -> "Improved":
+        mesh = Mesh._from_state(*state[0])
+        return cls(mesh, Volumes(_core.Volumes(state[1], state[2]), mesh), *state[3:])
+
+    def _line(self) -> str:
+        largest = float(np.max(self.bounds)) if len(self.bounds) else 0.0
+        return f"{len(self.mesh.triangles)} triangles, within {largest:.3g} of the mesh before"
+
+    def _numbers(self) -> Dict[str, Any]:
+        return {**self.mesh._numbers(), "splits": self.report["splits"],
+                "collapses": self.report["collapses"], "swaps": self.report["swaps"]}
+
+    def _shape(self) -> Tuple[Any, Any]:
+        return self.mesh.vertices, self.mesh.triangles
+
+
+def improve(mesh: Any, edge_length: float = 0, *, max_deviation: float = 0,
+            edge_length_of: Optional[Mapping[str, float]] = None, passes: int = 6,
+            threads: Optional[int] = None, progress: Any = None, **options: float) -> Improved:
+    """Remesh a conforming mesh with better triangles.
+
+    Parameters
+    ----------
+    mesh : Mesh, or a result with one
+    edge_length : float, optional
+        Wanted length, unit of the input; 0: about as many triangles as before.
+    max_deviation : float, optional
+        No point moves farther from its surface; 0: a twentieth of the edge length.
+    edge_length_of : dict, optional
+        Lengths by surface.
+    passes : int, optional
+        Rounds of the four operations, 1 to 100.
+    **options : float
+        curve_length, turn, layers_in_gaps, smallest, growth, crease_angle, curve_angle, thickness_share,
+        least_quality, max_volume_change, max_triangles: as in docs/how-to/improve.md.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> mesh = terrane.round(terrane.arrange(terrane.box((0, 0, 0), (1, 1, 1)))).mesh
+    >>> better = terrane.improve(mesh, 0.25)
+    >>> len(better.mesh.triangles) > 100, better.report["sides_kept"]
+    (True, True)
+    """
+    from ._arrays import as_count
+    whole = proven(mesh_of(mesh), threads, progress)
+    values: Dict[str, Any] = {"passes": as_count(passes, "passes", 1, 100)}
+    for name, value in {"edge_length": edge_length, "max_deviation": max_deviation, **options}.items():
+        if name not in _OPTIONS:
+            raise TypeError(f"improve() has no option {name}; it has {', '.join(_OPTIONS)}")
+        values[name] = as_number(value, name, least=0)
+    if edge_length_of:
+        names = [s.name for s in whole.surfaces]
+        lengths = [0.0] * len(names)
+        for name, length in edge_length_of.items():
+            if name not in names:
+                raise bad_option(f"no surface is called {name}; there are {', '.join(names)}", "edge_length_of")
+            for i, own in enumerate(names):
+                if own == name:
+                    lengths[i] = as_number(length, f"edge_length_of[{name!r}]", least=0)
+        values["edge_length_of"] = lengths
+    core, volumes, near_of, bounds, _, deviations, report = _core.improve(whole._core, values, how(threads, progress))
+    made = Mesh(core)
+    return Improved(made, Volumes(volumes, made), near_of, bounds, deviations, report)
+
+
+def distance(from_surface: Any, to_surface: Any, *, threads: Optional[int] = None, progress: Any = None) -> float:
+    """Return the largest distance of a point of one surface to another (one-sided Hausdorff), within 5 %.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]])
+    >>> terrane.distance(flat, flat.replace(vertices=flat.vertices + [0, 0, 2]))
+    2.0
+    """
+    return _core.distance(parts_of_surfaces([as_surface(from_surface)]),
+                          parts_of_surfaces([as_surface(to_surface)]), how(threads, progress))
+
+
+def infinite_or(values: List[float]) -> float:
+    """Return the largest of the values; infinite without any."""
+    return max(values, default=float("inf"))

@@ -1,0 +1,296 @@
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Surfaces, made of arrays and of what other packages call surfaces."""
+
+from __future__ import annotations
+
+import os
+from typing import Any, Dict, Iterable, List, NamedTuple, Optional, Sequence, Tuple, Union
+
+import numpy as np
+
+from ._arrays import Float64Array, UInt32Array, as_points, as_triangles
+from ._errors import Error, bad_option
+
+#: The roles that a surface can have.
+ROLES: Tuple[str, ...] = ("unknown", "horizon", "fault", "boundary")
+
+
+class Frame(NamedTuple):
+    """What the file of a surface states about its coordinates. It influences no geometry."""
+
+    horizontal_unit: str = ""
+    vertical_unit: str = ""
+    system: str = ""
+    vertical_axis: int = 0
+    column_of_depths: bool = False
+
+
+class Surface:
+    """A triangulated surface. It may be open, cross itself, and have duplicate or flat triangles.
+
+    Parameters
+    ----------
+    vertices : array_like, shape (n, 3)
+        Coordinates x, y, z in any one unit. An array of float64 in C order is not copied: do not change it
+        as long as the surface is in use. Anything else is copied once.
+    triangles : array_like of integers, shape (m, 3)
+        Indices into `vertices`, from 0. Arrays of uint32 and int32 in C order are not copied.
+    name : str, optional
+        Name of the surface; need not be unique.
+    role : {"unknown", "horizon", "fault", "boundary"}, optional
+        What the surface is to the geologist.
+
+    Raises
+    ------
+    terrane.Error
+        ``bad_option`` for arrays of another shape or type, ``bad_index`` for a triangle that names a vertex
+        that does not exist.
+
+    Notes
+    -----
+    Stages copy the arrays once more while they run: 24 bytes per vertex and 12 per triangle. Coordinates that are
+    not finite are refused by the stages.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> terrane.Surface([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]], name="top", role="horizon")
+    <Surface 'top': horizon, 3 vertices, 1 triangle>
+    """
+
+    __slots__ = ("_vertices", "_triangles", "_name", "_role", "_frame")
+
+    def __init__(self, vertices: Any, triangles: Any, name: str = "", role: str = "unknown",
+                 frame: Optional[Frame] = None) -> None:
+        if not isinstance(name, str):
+            raise TypeError(f"name is a str, not {type(name).__name__}")
+        if role not in ROLES:
+            raise bad_option(f"no role is called {role!r}; there are {', '.join(ROLES)}", "role")
+        place = f"{name}: " if name else ""
+        self._vertices = as_points(vertices, place + "vertices")
+        self._triangles = as_triangles(triangles, len(self._vertices), place + "triangles")
+        self._name = str(name)
+        self._role = str(role)
+        self._frame = Frame() if frame is None else Frame(*frame)
+
+    @property
+    def vertices(self) -> Float64Array:
+        """Coordinates: ndarray, shape (n, 3), float64, read-only."""
+        return self._vertices
+
+    @property
+    def triangles(self) -> UInt32Array:
+        """Indices into `vertices`: ndarray, shape (m, 3), uint32, read-only."""
+        return self._triangles
+
+    @property
+    def name(self) -> str:
+        """The name; may be empty."""
+        return self._name
+
+    @property
+    def role(self) -> str:
+        """One of `terrane.ROLES`."""
+        return self._role
+
+    @property
+    def frame(self) -> Frame:
+        """What a file stated about the coordinates."""
+        return self._frame
+
+    @property
+    def bounds(self) -> Tuple[Tuple[float, float, float], Tuple[float, float, float]]:
+        """The least and the largest x, y, z of the vertices.
+
+        Examples
+        --------
+        >>> import terrane
+        >>> terrane.Surface([[0, 0, 0], [1, 0, 0], [0, 1, 2]], [[0, 1, 2]]).bounds
+        ((0.0, 0.0, 0.0), (1.0, 1.0, 2.0))
+        """
+        if len(self._vertices) == 0:
+            raise Error("nothing_to_do", "a surface without vertices has no bounds", self._name)
+        low, high = self._vertices.min(axis=0), self._vertices.max(axis=0)
+        return (float(low[0]), float(low[1]), float(low[2])), (float(high[0]), float(high[1]), float(high[2]))
+
+    def replace(self, **changes: Any) -> "Surface":
+        """Return a copy in which some of vertices, triangles, name, role and frame are others.
+
+        Examples
+        --------
+        >>> import terrane
+        >>> s = terrane.Surface([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+        >>> s.replace(name="F1", role="fault")
+        <Surface 'F1': fault, 3 vertices, 1 triangle>
+        """
+        values: Dict[str, Any] = {"vertices": self._vertices, "triangles": self._triangles,
+                                  "name": self._name, "role": self._role, "frame": self._frame}
+        unknown = set(changes) - set(values)
+        if unknown:
+            raise TypeError(f"a surface has no {', '.join(sorted(unknown))}")
+        values.update(changes)
+        return Surface(**values)
+
+    def save(self, path: Union[str, "os.PathLike[str]"], format: Optional[str] = None) -> None:
+        """Write the surface to a file; the extension selects the format, or `format` does.
+
+        Examples
+        --------
+        >>> import terrane
+        >>> terrane.Surface([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]], "top").save("top.obj")
+        >>> terrane.read("top.obj")[0].name
+        'top'
+        """
+        from ._files import save
+        save([self], path, format=format)
+
+    def to_pyvista(self) -> Any:
+        """Return a ``pyvista.PolyData``. Needs PyVista."""
+        from ._interop import surface_to_pyvista
+        return surface_to_pyvista(self)
+
+    def to_meshio(self) -> Any:
+        """Return a ``meshio.Mesh``. Needs meshio."""
+        from ._interop import surface_to_meshio
+        return surface_to_meshio(self)
+
+    def plot(self, **options: Any) -> Any:
+        """Show the surface in a window or notebook. Needs PyVista, which gets the options."""
+        return self.to_pyvista().plot(**options)
+
+    def _parts(self) -> Tuple[Any, ...]:
+        return self._name, self._role, self._vertices, self._triangles, tuple(self._frame)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Surface):
+            return NotImplemented
+        return bool(self._name == other._name and self._role == other._role
+                    and self._frame == other._frame
+                    and np.array_equal(self._vertices, other._vertices, equal_nan=True)
+                    and np.array_equal(self._triangles, other._triangles))
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __copy__(self) -> "Surface":
+        return self
+
+    def __deepcopy__(self, memo: Dict[int, Any]) -> "Surface":
+        return self.replace(vertices=np.array(self._vertices), triangles=np.array(self._triangles))
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        return Surface, (np.array(self._vertices), np.array(self._triangles), self._name,
+                         self._role, tuple(self._frame))
+
+    def __repr__(self) -> str:
+        from ._results import counted
+        return (f"<Surface {self._name!r}: {self._role}, {counted(len(self._vertices), 'vertex')}, "
+                f"{counted(len(self._triangles), 'triangle')}>")
+
+    def _repr_html_(self) -> str:
+        from ._picture import card
+        return card("Surface " + self._name,
+                    {"role": self._role, "vertices": len(self._vertices),
+                     "triangles": len(self._triangles)},
+                    self._vertices, self._triangles)
+
+
+def _faces_of_polydata(faces: Any) -> Any:
+    """Return the triangles of a VTK array of cells (3, a, b, c, 3, ...)."""
+    flat = np.asarray(faces).reshape(-1)
+    if len(flat) % 4 != 0 or np.any(flat[::4] != 3):
+        raise bad_option("cells are not all triangles; use .triangulate() first", "faces")
+    return flat.reshape(-1, 4)[:, 1:]
+
+
+def _parts_of_meshio(mesh: Any) -> Tuple[Any, Any]:
+    blocks = [np.asarray(b.data) for b in mesh.cells if b.type == "triangle"]
+    if not blocks:
+        raise Error("nothing_to_do", "the meshio.Mesh has no triangles", "cells")
+    return mesh.points, np.concatenate(blocks)
+
+
+def _parts_of(value: Any) -> Optional[Tuple[Any, Any]]:
+    """Return vertices and triangles of an object, judged by its attributes; None if it has none."""
+    if hasattr(value, "vertices") and hasattr(value, "faces"):  # trimesh.Trimesh
+        return np.asarray(value.vertices), np.asarray(value.faces)
+    if hasattr(value, "points") and hasattr(value, "cells") and hasattr(value, "cell_data"):
+        if not hasattr(value, "faces") and not callable(getattr(value, "cells", None)):
+            return _parts_of_meshio(value)  # meshio.Mesh
+    if hasattr(value, "points") and hasattr(value, "faces"):  # pyvista.PolyData
+        return np.asarray(value.points), _faces_of_polydata(value.faces)
+    if hasattr(value, "vertices") and hasattr(value, "triangles"):  # LoopStructural's Surface, and ours
+        return value.vertices, value.triangles
+    if hasattr(value, "vertices") and hasattr(value, "edges"):  # GemPy's surfaces: edges are triangles
+        edges = np.asarray(value.edges)
+        if edges.ndim == 2 and edges.shape[1] == 3:
+            return value.vertices, edges
+    return None
+
+
+def as_surface(value: Any, name: Optional[str] = None, role: Optional[str] = None) -> Surface:
+    """Return a surface of what has vertices and triangles, whatever package it is from.
+
+    Parameters
+    ----------
+    value : object
+        A `Surface`; a ``pyvista.PolyData`` of triangles; a ``meshio.Mesh``; a ``trimesh.Trimesh``; a surface of
+        LoopStructural (``vertices``, ``triangles``) or GemPy (``vertices``, ``edges`` of three indices); a tuple
+        (vertices, triangles). The packages are not needed: attributes decide.
+    name, role : str, optional
+        Name and role, instead of those that the object has.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> terrane.as_surface(([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]), name="F1", role="fault")
+    <Surface 'F1': fault, 3 vertices, 1 triangle>
+    """
+    if isinstance(value, Surface):
+        changes = {k: v for k, v in (("name", name), ("role", role)) if v is not None}
+        return value.replace(**changes) if changes else value
+    parts = value if isinstance(value, tuple) and len(value) == 2 else _parts_of(value)
+    if parts is None:
+        raise TypeError(f"{type(value).__name__} is no surface: it has no vertices with faces, "
+                        "triangles or cells")
+    given = getattr(value, "name", "") if name is None else name
+    own_role = getattr(value, "role", "unknown") if role is None else role
+    return Surface(parts[0], parts[1], given if isinstance(given, str) else "",
+                   own_role if own_role in ROLES else "unknown")
+
+
+def as_surfaces(value: Any, place: str = "surfaces") -> List[Surface]:
+    """Return a list of surfaces of one surface, a list of them, or a dict of them by name.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> flat = ([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+    >>> terrane.as_surfaces({"top": flat, "base": flat})
+    [<Surface 'top': unknown, 3 vertices, 1 triangle>, <Surface 'base': unknown, 3 vertices, 1 triangle>]
+    """
+    if isinstance(value, Surface):
+        return [value]
+    if isinstance(value, dict):
+        return [as_surface(surface, name=name) for name, surface in value.items()]
+    if isinstance(value, (str, bytes)):
+        raise TypeError(f"{place} are surfaces, not a name; read files with terrane.read()")
+    if isinstance(value, np.ndarray):
+        raise TypeError(f"{place} are surfaces, not one array; make terrane.Surface(vertices, triangles)")
+    if _parts_of(value) is not None:
+        return [as_surface(value)]
+    try:
+        items: Sequence[Any] = list(value)
+    except TypeError:
+        raise TypeError(f"{place} are surfaces, not {type(value).__name__}") from None
+    return [as_surface(item) for item in items]
+
+
+def parts_of_surfaces(surfaces: Iterable[Surface]) -> List[Tuple[Any, ...]]:
+    """Return the tuples that the extension module takes."""
+    return [surface._parts() for surface in surfaces]
+
+
+def surface_of_parts(parts: Tuple[Any, ...]) -> Surface:
+    """Return the surface of a tuple that the extension module made."""
+    name, role, vertices, triangles, frame = parts
+    return Surface(vertices, triangles, name, role, Frame(*frame))

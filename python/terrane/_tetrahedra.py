@@ -1,0 +1,254 @@
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Tetrahedra in the blocks of a model."""
+
+from __future__ import annotations
+
+import os
+from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tuple
+
+import numpy as np
+
+from . import _core
+from ._arrays import Float64Array, IndexLists, SurfaceInfo, UInt32Array, as_number, as_point
+from ._errors import Error
+from ._mesh import Path
+from ._model import Model, number_of
+from ._results import Result, counted
+from ._run import how
+
+
+class Violation(NamedTuple):
+    """What the check of tetrahedra found wrong."""
+
+    defect: str
+    occurrences: int
+    first: str
+
+
+class RegionVolume(NamedTuple):
+    """The volume of a block and of its tetrahedra, cubic unit; `equal`: exactly."""
+
+    block: float
+    tetrahedra: float
+    difference: float
+    bound: float
+    equal: bool
+
+
+class Tetrahedra(Result):
+    """A tetrahedral mesh that conforms to the triangles of a model, checked exactly.
+
+    Attributes
+    ----------
+    vertices : ndarray, shape (n, 3), float64
+        Unit of the input.
+    tetrahedra : ndarray, shape (m, 4), uint32
+        Positively oriented.
+    region_of : ndarray, shape (m,), uint32
+        Per tetrahedron the number of its block; 0 is the outside.
+    faces : ndarray, shape (k, 3), uint32
+        Faces of tetrahedra that lie on a surface.
+    face_triangle : ndarray, shape (k,), uint32
+        Per face the triangle of the model's mesh that it is part of, or 2**32 - 1 on the box around all.
+    surfaces_of : IndexLists
+        Per face its surfaces.
+    twins : ndarray, shape (c, 2), uint32
+        Pairs of faces in front of and behind a split surface.
+    block_names : list of str
+        By number.
+    """
+
+    __slots__ = ("_core",)
+
+    def __init__(self, core: _core.Tetrahedra) -> None:
+        self._core = core
+
+    @property
+    def surfaces(self) -> List[SurfaceInfo]:
+        """Names and roles of the surfaces."""
+        return [SurfaceInfo(*pair) for pair in self._core.surfaces]
+
+    @property
+    def vertices(self) -> Float64Array:
+        """Coordinates: ndarray, shape (n, 3), float64."""
+        return self._core.vertices
+
+    @property
+    def tetrahedra(self) -> UInt32Array:
+        """Indices into `vertices`: ndarray, shape (m, 4), uint32."""
+        return self._core.tetrahedra
+
+    @property
+    def region_of(self) -> UInt32Array:
+        """Per tetrahedron the number of its block."""
+        return self._core.region_of
+
+    @property
+    def faces(self) -> UInt32Array:
+        """Faces on surfaces: ndarray, shape (k, 3), uint32."""
+        return self._core.faces
+
+    @property
+    def face_triangle(self) -> UInt32Array:
+        """Per face the triangle of the mesh that it is part of."""
+        return self._core.face_triangle
+
+    @property
+    def surfaces_of(self) -> IndexLists:
+        """Per face its surfaces."""
+        return IndexLists(*self._core.surfaces_of)
+
+    @property
+    def twins(self) -> UInt32Array:
+        """Pairs of faces of split surfaces."""
+        return self._core.twins
+
+    @property
+    def block_names(self) -> List[str]:
+        """Names of the blocks by number."""
+        return self._core.block_names
+
+    @property
+    def mesher(self) -> str:
+        """The program that made the tetrahedra."""
+        return self._core.mesher
+
+    @property
+    def violations(self) -> List[Violation]:
+        """What the exact check found wrong; empty: the tetrahedra are what they should be."""
+        return [Violation(*v) for v in self._core.violations]
+
+    @property
+    def volumes(self) -> List[RegionVolume]:
+        """Volumes of blocks and of their tetrahedra, by number."""
+        return [RegionVolume(*v) for v in self._core.region_volumes]
+
+    def shape(self) -> Dict[str, Tuple[float, float, float]]:
+        """Return least, mean and largest of: dihedral angles (degrees), radius-edge ratio, SICN, mean ratio."""
+        return self._core.shape()
+
+    def of_block(self, block: Any) -> UInt32Array:
+        """Return the tetrahedra of a block, given by number or name."""
+        number = self.block_names.index(block) if isinstance(block, str) else int(block)
+        return np.asarray(self.tetrahedra[self.region_of == number])
+
+    def save(self, path: Path, format: Optional[str] = None, *, compress: bool = True) -> None:
+        """Write the tetrahedra as .vtu, .msh, .inp or .mesh, as ``terrane tetrahedralize`` does."""
+        _core.write_tetrahedra(self._core, os.fspath(path), format, compress, how(1, None))
+
+    def to_pyvista(self) -> Any:
+        """Return a ``pyvista.UnstructuredGrid`` with the array ``region``. Needs PyVista."""
+        from ._interop import unstructured_grid
+        return unstructured_grid(self.vertices, self.tetrahedra, {"region": self.region_of})
+
+    def to_meshio(self) -> Any:
+        """Return a ``meshio.Mesh`` of tetrahedra and faces. Needs meshio."""
+        from ._interop import meshio_mesh
+        kinds = {"tetra": self.tetrahedra, "triangle": self.faces}
+        none = np.full(len(self.faces), -1, dtype=np.int32)
+        return meshio_mesh(self.vertices, kinds, {
+            "region": [self.region_of.astype(np.int32), none],
+            "surface": [np.full(len(self.tetrahedra), -1, dtype=np.int32),
+                        self.surfaces_of.first.astype(np.int32)]})
+
+    def plot(self, **options: Any) -> Any:
+        """Show the tetrahedra in a window or notebook. Needs PyVista."""
+        return self.to_pyvista().plot(**{"scalars": "region", "show_edges": True, **options})
+
+    def _state(self) -> Tuple[Any, ...]:
+        c = self._core
+        return (list(c.surfaces), c.vertices, c.tetrahedra, c.region_of, c.faces, c.face_triangle,
+                tuple(c.surfaces_of), c.twins, c.region_count, c.mesher, list(c.block_names), c.added_nodes)
+
+    @classmethod
+    def _from_state(cls, *state: Any) -> "Tetrahedra":
+        return cls(_core.Tetrahedra(tuple(state)))
+
+    def _line(self) -> str:
+        return (f"{counted(len(self.tetrahedra), 'tetrahedron')} in {counted(len(set(self.region_of.tolist())), 'region')}, "
+                f"{counted(len(self.vertices), 'vertex')}, {counted(len(self.faces), 'face')}")
+
+    def _numbers(self) -> Dict[str, Any]:
+        return {"tetrahedra": len(self.tetrahedra), "vertices": len(self.vertices),
+                "faces": len(self.faces), "mesher": self.mesher}
+
+    def _shape(self) -> Tuple[Any, Any]:
+        return self.vertices, self.faces
+
+
+def tetrahedralize(model: Model, *, edge_length: Optional[float] = None,
+                   size_of: Optional[Mapping[str, float]] = None,
+                   size_in: Optional[Mapping[Any, float]] = None, quality: Optional[float] = None,
+                   max_volume: Optional[float] = None, split: Sequence[str] = (),
+                   split_surfaces: bool = False, outside: bool = False, around: Any = None,
+                   margin: float = 0.1, mesher: str = "auto", time_limit: float = 600,
+                   helper: Path = "", gmsh_helper: Path = "", threads: Optional[int] = None,
+                   progress: Any = None) -> Tetrahedra:
+    """Fill the blocks of a model with tetrahedra and check them exactly.
+
+    Parameters
+    ----------
+    model : Model
+    edge_length : float, optional
+        Wanted length, unit of the input; as few tetrahedra as possible unless given.
+    size_of : dict, optional
+        Edge lengths on surfaces, by name.
+    size_in : dict, optional
+        Edge lengths in blocks, by name or number.
+    quality : float, optional
+        Bound of circumradius over shortest edge, at least 1.1.
+    max_volume : float, optional
+        Largest volume of a tetrahedron, cubic unit.
+    split : list of str, optional
+        Surfaces whose sides get nodes of their own; "fault": all with that role.
+    split_surfaces : bool, optional
+        Triangles may be divided for `quality`.
+    outside : bool, optional
+        Fill the space between the model and a box around it as well, as region 0.
+    around, margin : optional
+        That box as two corners; or the bounding box, larger by this share of its longest edge.
+    mesher : {"auto", "tetgen", "gmsh"}, optional
+    time_limit : float, optional
+        Seconds for each way of asking a mesher.
+    helper, gmsh_helper : path, optional
+        The helper programs, where they are not found.
+
+    Returns
+    -------
+    Tetrahedra
+
+    Raises
+    ------
+    terrane.Error
+        ``internal`` where the exact check finds violations, which are in its sentence.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> model = terrane.model(terrane.box((0, 0, 0), (1, 1, 1)))
+    >>> cells = terrane.tetrahedralize(model)
+    >>> cells.volumes[1].equal, cells.violations
+    (True, [])
+    """
+    if not isinstance(model, Model):
+        raise TypeError(f"tetrahedra are made of a Model, not of a {type(model).__name__}: terrane.model()")
+    def number(value: Optional[float], name: str) -> Optional[float]:
+        return None if value is None else as_number(value, name, positive=True)
+    sizes_in = {}
+    for block, length in (size_in or {}).items():
+        of = "0" if block in (0, "0", "outside") else str(number_of(model, block))
+        sizes_in[of] = as_number(length, f"size_in[{block!r}]", positive=True)
+    corners = None if around is None else (as_point(around[0], "around[0]"), as_point(around[1], "around[1]"))
+    options = {
+        "mesher": mesher, "box": corners, "margin": as_number(margin, "margin"),
+        "edge_length": number(edge_length, "edge_length"), "quality": number(quality, "quality"),
+        "split_surfaces": bool(split_surfaces), "max_volume": number(max_volume, "max_volume"),
+        "time_limit": as_number(time_limit, "time_limit", positive=True),
+        "helper": os.fspath(helper), "gmsh_helper": os.fspath(gmsh_helper),
+        "size_of": {k: as_number(v, f"size_of[{k!r}]", positive=True) for k, v in (size_of or {}).items()},
+        "size_in": sizes_in, "split": [split] if isinstance(split, str) else list(split),
+        "outside": bool(outside)}
+    made = Tetrahedra(_core.fill_blocks(model._core, options, how(threads, progress)))
+    if made.violations:
+        raise Error("internal", "; ".join(v.first for v in made.violations), "tetrahedra")
+    return made

@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""The independent verifier."""
+
+from __future__ import annotations
+
+import os
+from typing import Any, List, NamedTuple, Optional, Sequence, Tuple
+
+from . import _core
+from ._arrangement import Arrangement, _inputs
+from ._arrays import as_number
+from ._mesh import Mesh
+from ._results import counted
+from ._run import how
+from ._surface import parts_of_surfaces
+
+
+class RuleViolation(NamedTuple):
+    """A rule that is broken, by which elements, and a sentence."""
+
+    rule: str
+    elements: Tuple[int, ...]
+    sentence: str
+
+
+class VerifiedFile(NamedTuple):
+    """An output file of a certificate: "doubles", "numbers", "float32", "hash only", or "missing: ..."."""
+
+    path: str
+    check: str
+    violations: List[RuleViolation]
+
+
+class Verdict(NamedTuple):
+    """What the verifier found. It is true if all is verified.
+
+    ``outputs`` are the files that a certificate names; ``deviation`` is the verifier's own bound of the distance of
+    the doubles from the exact result, unit of the input; ``digest`` is that of the arrangement.
+    """
+
+    violations: List[RuleViolation]
+    outputs: List[VerifiedFile]
+    deviation: Optional[float]
+    digest: str
+
+    @property
+    def verified(self) -> bool:
+        """Whether nothing is refuted, and each output file was compared with the mesh."""
+        return not self.violations and all(
+            not f.violations and f.check in ("doubles", "numbers", "float32") for f in self.outputs)
+
+    def __bool__(self) -> bool:
+        return self.verified
+
+    def __repr__(self) -> str:
+        if self.violations:
+            return f"<Verdict: refuted, {counted(len(self.violations), 'violation')}>"
+        word = "verified" if self.verified else "not verified"
+        return f"<Verdict: {word}, {counted(len(self.outputs), 'output file')}>"
+
+
+def verify(result: Any, inputs: Sequence[Any] = (), *, max_deviation: Optional[float] = None,
+           max_change: Optional[float] = None, threads: Optional[int] = None, progress: Any = None) -> Verdict:
+    """Verify a result by code that shares nothing with what made it, in rational numbers.
+
+    Parameters
+    ----------
+    result : path, Arrangement or Mesh
+        A certificate, which is judged with its files as ``terrane verify`` does; an arrangement, judged against its
+        input surfaces by rules R1 to R8; or a mesh, judged to be conforming.
+    inputs : list of paths, optional
+        The input files of a certificate, where they are not beside it.
+    max_deviation, max_change : float, optional
+        The largest that are accepted, unit of the input.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]], "top")
+    >>> wall = terrane.Surface([[1, 1, -1], [1, 1, 1], [1, 9, 0]], [[0, 1, 2]], "F1", "fault")
+    >>> bool(terrane.verify(terrane.arrange([flat, wall])))
+    True
+    """
+    run = how(threads, progress)
+    if isinstance(result, Arrangement):
+        found = _core.verify_arrangement(parts_of_surfaces(_inputs(result)), result._core, run)
+        return Verdict([RuleViolation(*v) for v in found], [], None, "")
+    mesh = result if isinstance(result, Mesh) else getattr(result, "mesh", None)
+    if isinstance(mesh, Mesh):
+        return Verdict([RuleViolation(*v) for v in _core.verify_mesh(mesh._core, run)], [], None, "")
+    if not isinstance(result, (str, os.PathLike)):
+        raise TypeError(f"that is a certificate, an arrangement or a mesh, not {type(result).__name__}")
+    bounds = [None if b is None else as_number(b, n, positive=True)
+              for b, n in ((max_deviation, "max_deviation"), (max_change, "max_change"))]
+    judged = _core.verify_file(os.fspath(result), [os.fspath(p) for p in inputs], bounds[0], bounds[1], run)
+    outputs = [VerifiedFile(path, check, [RuleViolation(*v) for v in violations])
+               for path, check, violations in judged["outputs"]]
+    return Verdict([RuleViolation(*v) for v in judged["violations"]], outputs, judged["deviation"],
+                   judged["digest"])

@@ -1,0 +1,325 @@
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Surfaces from arrays of all kinds, and what is refused."""
+
+import copy
+import gc
+import pickle
+
+import numpy as np
+import pytest
+
+import terrane
+from conftest import run_python
+
+V = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 1.0], [4.0, 4.0, 2.0]]
+T = [[0, 1, 2], [1, 3, 2]]
+
+
+def strided(array):
+    """Return an equal array that is not contiguous."""
+    wide = np.zeros((2 * array.shape[0], 2 * array.shape[1]), dtype=array.dtype)
+    wide[::2, ::2] = array
+    return wide[::2, ::2]
+
+
+@pytest.mark.parametrize("dtype", ["f8", "f4", "f2", "i8", "i4", "i2", "i1", "u8", "u4", "u2", "u1", ">f8", ">i4", "g"])
+def test_vertices_of_each_type(dtype):
+    s = terrane.Surface(np.array(V, dtype=dtype), T)
+    assert s.vertices.dtype == np.float64
+    assert s.vertices.tolist() == V
+
+
+@pytest.mark.parametrize("dtype", ["i8", "i4", "i2", "i1", "u8", "u4", "u2", "u1", ">i8", ">u4"])
+def test_triangles_of_each_type(dtype):
+    s = terrane.Surface(V, np.array(T, dtype=dtype))
+    assert s.triangles.dtype == np.uint32
+    assert s.triangles.tolist() == T
+
+
+@pytest.mark.parametrize("make", [list, tuple, np.array, np.asfortranarray, lambda a: strided(np.array(a)),
+                                  lambda a: np.array(a)[::-1][::-1], lambda a: np.matrix(a),
+                                  lambda a: [np.array(r) for r in a], lambda a: [[np.float64(x) for x in r] for r in a],
+                                  lambda a: np.ma.array(a)])
+def test_vertices_in_each_layout(make):
+    assert terrane.Surface(make(V), T).vertices.tolist() == V
+
+
+@pytest.mark.parametrize("make", [list, tuple, np.array, np.asfortranarray, lambda a: strided(np.array(a)),
+                                  lambda a: [[np.int64(x) for x in r] for r in a], lambda a: [tuple(r) for r in a]])
+def test_triangles_in_each_layout(make):
+    assert terrane.Surface(V, make(T)).triangles.tolist() == T
+
+
+@pytest.mark.parametrize("dtype", ["u4", "i4"])
+def test_arrays_of_the_library_s_types_are_not_copied(dtype):
+    v, t = np.array(V), np.array(T, dtype=dtype)
+    s = terrane.Surface(v, t)
+    assert np.shares_memory(s.vertices, v)
+    assert np.shares_memory(s.triangles, t)
+    assert v.flags.writeable and t.flags.writeable
+
+
+def test_other_arrays_are_copied_once():
+    v, t = np.array(V, dtype="f4"), np.array(T, dtype="i8")
+    s = terrane.Surface(v, t)
+    assert not np.shares_memory(s.vertices, v)
+    assert not np.shares_memory(s.triangles, t)
+
+
+def test_arrays_outlive_their_names():
+    s = terrane.Surface(np.array(V), np.array(T, dtype="u4"))
+    gc.collect()
+    assert s.vertices.tolist() == V
+
+
+@pytest.mark.parametrize("attribute", ["vertices", "triangles"])
+def test_arrays_are_read_only(attribute):
+    s = terrane.Surface(V, T)
+    with pytest.raises(ValueError):
+        getattr(s, attribute)[0] = 0
+    with pytest.raises(AttributeError):
+        setattr(s, attribute, V)
+
+
+@pytest.mark.parametrize("empty", [[], np.zeros((0, 3)), np.zeros(0), (), np.zeros((0, 3), dtype="f4")])
+def test_empty_arrays_are_a_surface_without_triangles(empty):
+    s = terrane.Surface(empty, [])
+    assert s.vertices.shape == (0, 3) and s.triangles.shape == (0, 3)
+
+
+def test_vertices_without_triangles():
+    assert len(terrane.Surface(V, []).triangles) == 0
+
+
+@pytest.mark.parametrize("vertices, code, words", [
+    ([[0, 0], [1, 0]], "bad_option", "shape (n, 3)"),
+    ([0, 0, 0], "bad_option", "shape (n, 3)"),
+    (np.zeros((2, 2, 3)), "bad_option", "shape (n, 3)"),
+    (np.zeros((3, 4)), "bad_option", "shape (n, 3)"),
+    (np.zeros((0, 2)), "bad_option", "shape (n, 3)"),
+    ([[0, 0, 0], [1, 0]], "bad_option", "3 numbers"),
+    ([["a", "b", "c"]], "bad_option", "numbers"),
+    (np.array([[1j, 0, 0]]), "bad_option", "complex128"),
+    (np.array([[None, 0, 0]]), "bad_option", "object"),
+    (5.0, "bad_option", "shape (n, 3)"),
+])
+def test_vertices_that_are_refused(vertices, code, words):
+    with pytest.raises(terrane.Error, match="vertices") as raised:
+        terrane.Surface(vertices, T)
+    assert raised.value.code == code
+    assert words in raised.value.sentence
+
+
+@pytest.mark.parametrize("triangles, code, words", [
+    ([[0, 1]], "bad_option", "shape (m, 3)"),
+    ([[0, 1, 2, 3]], "bad_option", "shape (m, 3)"),
+    ([0, 1, 2], "bad_option", "shape (m, 3)"),
+    ([[0.0, 1.0, 2.0]], "bad_option", "integers"),
+    ([[0, 1, 2.5]], "bad_option", "integers"),
+    ([[True, False, True]], "bad_option", "integers"),
+    ([[0, 1, 4]], "bad_index", "[0, 1, 4]"),
+    ([[0, 1, 2], [0, -1, 2]], "bad_index", "[0, -1, 2]"),
+    ([[0, 1, 2**32]], "bad_index", "4294967296"),
+    ([[0, 1, 2], [1, 2]], "bad_option", "3 indices"),
+])
+def test_triangles_that_are_refused(triangles, code, words):
+    with pytest.raises(terrane.Error, match="triangles") as raised:
+        terrane.Surface(V, triangles)
+    assert raised.value.code == code
+    assert words in raised.value.sentence
+
+
+def test_a_wrong_index_is_named_with_its_row():
+    with pytest.raises(terrane.Error) as raised:
+        terrane.Surface(V, [[0, 1, 2], [0, 1, 9]], "top")
+    assert raised.value.place == "top: triangles[1]"
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
+def test_stages_refuse_coordinates_that_are_not_finite(bad):
+    s = terrane.Surface([[0, 0, 0], [1, 0, 0], [0, 1, bad]], [[0, 1, 2]], "top")
+    with pytest.raises(terrane.Error) as raised:
+        terrane.arrange([s])
+    assert raised.value.code == "bad_number"
+
+
+def test_longdouble_that_does_not_fit_is_refused():
+    if np.finfo(np.longdouble).nmant <= 52:
+        pytest.skip("no longer than double")
+    v = np.array(V, dtype=np.longdouble)
+    v[3, 0] += np.longdouble(2) ** -60
+    with pytest.raises(terrane.Error, match="float64 does not"):
+        terrane.Surface(v, T)
+
+
+@pytest.mark.parametrize("role", terrane.ROLES)
+def test_roles(role):
+    assert terrane.Surface(V, T, role=role).role == role
+
+
+@pytest.mark.parametrize("role", ["Fault", "", "salt", None, 3])
+def test_unknown_roles_are_refused_with_the_known_ones(role):
+    with pytest.raises(terrane.Error, match="unknown, horizon, fault, boundary"):
+        terrane.Surface(V, T, role=role)
+
+
+@pytest.mark.parametrize("name", [None, 3, b"top"])
+def test_names_are_str(name):
+    with pytest.raises(TypeError):
+        terrane.Surface(V, T, name=name)
+
+
+@pytest.mark.parametrize("name", ["", "top", "Übergang 1", "a\nb", "x" * 1000, "F1/F2", "\udcff"])
+def test_any_name_goes_through_the_library(name):
+    s = terrane.Surface(V, T, name)
+    assert terrane.mesh([s]).surfaces[0].name == name
+    assert terrane.mesh([s]).split()[0].name == name
+
+
+def test_equality():
+    s = terrane.Surface(V, T, "top", "horizon")
+    assert s == terrane.Surface(np.array(V), np.array(T), "top", "horizon")
+    assert s != s.replace(name="base") and s != s.replace(role="fault")
+    assert s != s.replace(vertices=np.array(V) + 1) and s != s.replace(triangles=T[:1])
+    assert s != "top"
+    with pytest.raises(TypeError):
+        hash(s)
+
+
+def test_pickle_and_copy():
+    s = terrane.Surface(V, T, "top", "horizon", terrane.Frame("m", "m", "", 1, False))
+    for other in (pickle.loads(pickle.dumps(s)), copy.copy(s), copy.deepcopy(s)):
+        assert other == s and other.frame == s.frame
+        assert not other.vertices.flags.writeable
+    assert not np.shares_memory(copy.deepcopy(s).vertices, s.vertices)
+
+
+def test_repr_is_one_line():
+    text = repr(terrane.Surface(V, T, "top", "horizon"))
+    assert text == "<Surface 'top': horizon, 4 vertices, 2 triangles>"
+    assert "\n" not in repr(terrane.Surface(V, T, "a\nb"))
+
+
+def test_html_has_counts_and_a_picture():
+    text = terrane.Surface(V, T, "<top>")._repr_html_()
+    assert "<svg" in text and text.count("<polygon") == 2
+    assert "&lt;top&gt;" in text and "<top>" not in text
+    assert "triangles</td><td>2" in text
+
+
+def test_html_of_nothing_and_of_much():
+    assert "no triangles" in terrane.Surface([], [])._repr_html_()
+    from conftest import sheet
+    assert len(sheet(80, 80)._repr_html_()) < 400_000
+
+
+def test_html_leaves_out_what_is_not_finite():
+    text = terrane.Surface([[0, 0, 0], [1, 0, 0], [0, 1, np.nan]], [[0, 1, 2]])._repr_html_()
+    assert "nan" not in text
+
+
+def test_bounds():
+    assert terrane.Surface(V, T).bounds == ((0, 0, 0), (4, 4, 2))
+    with pytest.raises(terrane.Error, match="no bounds"):
+        terrane.Surface([], []).bounds
+
+
+def test_replace_refuses_what_a_surface_has_not():
+    with pytest.raises(TypeError, match="colour"):
+        terrane.Surface(V, T).replace(colour="red")
+
+
+# --- Surfaces of other packages
+
+
+class Plain:
+    """An object with these attributes."""
+
+    def __init__(self, **values):
+        self.__dict__.update(values)
+
+
+def as_vtk_cells(triangles):
+    return np.hstack([np.full((len(triangles), 1), 3), triangles]).ravel()
+
+
+class Cells:
+    """A block of meshio."""
+
+    def __init__(self, kind, data):
+        self.type, self.data = kind, data
+
+
+FOREIGN = {
+    "pyvista.PolyData": lambda: Plain(points=np.array(V, "f4"), faces=as_vtk_cells(np.array(T)), n_points=4),
+    "trimesh.Trimesh": lambda: Plain(vertices=np.array(V), faces=np.array(T), edges=np.zeros((6, 2), int),
+                                     triangles=np.zeros((2, 3, 3))),
+    "meshio.Mesh": lambda: Plain(points=np.array(V), cell_data={}, cells=[Cells("line", [[0, 1]]),
+                                                                        Cells("triangle", np.array(T))]),
+    "LoopStructural": lambda: Plain(vertices=np.array(V), triangles=np.array(T), normals=np.zeros((4, 3)), name="top"),
+    "GemPy": lambda: Plain(vertices=np.array(V), edges=np.array(T), name="top"),
+    "tuple": lambda: (np.array(V), np.array(T)),
+    "Surface": lambda: terrane.Surface(V, T),
+}
+
+
+@pytest.mark.parametrize("package", FOREIGN)
+def test_duck_typing(package):
+    s = terrane.as_surface(FOREIGN[package]())
+    assert s.vertices.tolist() == V and s.triangles.tolist() == T
+
+
+@pytest.mark.parametrize("package", FOREIGN)
+def test_stages_take_surfaces_of_other_packages(package):
+    assert len(terrane.arrange([FOREIGN[package]()]).triangles) == 2
+
+
+def test_names_of_other_packages_are_kept():
+    assert terrane.as_surface(FOREIGN["GemPy"]()).name == "top"
+    assert terrane.as_surface(FOREIGN["GemPy"](), name="other", role="fault").role == "fault"
+
+
+def test_polydata_of_quadrilaterals_is_refused_with_advice():
+    with pytest.raises(terrane.Error, match="triangulate"):
+        terrane.as_surface(Plain(points=np.array(V), faces=np.array([4, 0, 1, 3, 2])))
+
+
+def test_meshio_without_triangles():
+    with pytest.raises(terrane.Error, match="no triangles"):
+        terrane.as_surface(Plain(points=np.array(V), cell_data={}, cells=[Cells("tetra", [[0, 1, 2, 3]])]))
+
+
+def test_real_meshio():
+    meshio = pytest.importorskip("meshio")
+    s = terrane.as_surface(meshio.Mesh(np.array(V), [("triangle", np.array(T))]))
+    assert s.triangles.tolist() == T
+
+
+@pytest.mark.parametrize("value", [3, None, "top.ts", object(), [1, 2], np.zeros((3, 3))])
+def test_what_is_no_surface_is_refused(value):
+    with pytest.raises(TypeError):
+        terrane.arrange(value)
+
+
+def test_dicts_name_their_surfaces():
+    a = terrane.arrange({"top": (V, T), "base": (V, T)})
+    assert [s.name for s in a.surfaces] == ["top", "base"]
+
+
+def test_one_surface_and_generators():
+    assert len(terrane.arrange(terrane.Surface(V, T)).triangles) == 2
+    assert len(terrane.arrange(terrane.Surface(V, T) for _ in range(2)).surfaces) == 2
+
+
+def test_changed_memory_is_seen_by_the_next_stage():
+    """The array is the user's: nothing is cached."""
+    v = np.array(V)
+    s = terrane.Surface(v, T)
+    assert terrane.arrange([s]).vertices[0].tolist() == [0, 0, 0]
+    v[0, 0] = -1
+    assert terrane.arrange([s]).vertices[0].tolist() == [-1, 0, 0]
+
+
+def test_import_needs_no_other_package():
+    run_python("import sys, terrane; bad = {'pyvista', 'meshio', 'trimesh', 'matplotlib', 'scipy'} & set(sys.modules);"
+               "assert not bad, bad")

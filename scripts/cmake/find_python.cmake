@@ -1,0 +1,23 @@
+# SPDX-License-Identifier: LGPL-3.0-or-later
+# Finds what the Python package is built with, and sets TERRANE_PYTHON to OFF where something is missing. The
+# interpreter is Debian's, which has Debian's modules, even where another python3 stands first on PATH.
+if(NOT TERRANE_PYTHON)
+  return()
+endif()
+if(NOT DEFINED Python3_EXECUTABLE AND EXISTS /usr/bin/python3)
+  set(Python3_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "The interpreter that the Python package is built for")
+endif()
+find_package(Python3 3.9 QUIET COMPONENTS Interpreter Development.Module)
+find_package(pybind11 2.10 QUIET CONFIG)
+set(terrane_python_missing)
+if(NOT Python3_Development.Module_FOUND)
+  list(APPEND terrane_python_missing "Python's headers (python3-dev)")
+endif()
+if(NOT pybind11_FOUND)
+  list(APPEND terrane_python_missing "pybind11 (pybind11-dev)")
+endif()
+if(terrane_python_missing)
+  list(JOIN terrane_python_missing ", " terrane_python_missing)
+  message(STATUS "${terrane_python_missing} not found: no Python package")
+  set(TERRANE_PYTHON OFF)
+endif()
