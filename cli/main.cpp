@@ -7,6 +7,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 #include <terrane/algorithms/core/process_memory.hpp>
@@ -86,6 +87,9 @@ ExitStatus run_guarded(int argc, char** argv) {
     } catch (const std::system_error& refused) { // a thread that could not be started
         return fail({ErrorCode::out_of_memory, refused.what(), "out of resources"});
     } catch (const std::exception& broken) {
+        // TBB has no type of its own for a thread that could not be started.
+        if (std::string_view(broken.what()).find("pthread_create") != std::string_view::npos)
+            return fail({ErrorCode::out_of_memory, broken.what(), "out of resources"});
         return fail({ErrorCode::internal, broken.what(), "internal error"});
     }
 }

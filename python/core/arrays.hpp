@@ -92,8 +92,10 @@ py::tuple lists(const IndexLists<T>& all, py::handle owner) {
     return py::make_tuple(view(all.offsets, owner), view(all.values, owner));
 }
 inline IndexLists<std::uint32_t> copied_lists(const py::tuple& pair) {
-    return {copied<std::uint32_t>(pair[0].cast<py::array>()),
-            copied<std::uint32_t>(pair[1].cast<py::array>())};
+    IndexLists<std::uint32_t> lists;
+    lists.offsets = copied<std::uint32_t>(pair[0].cast<py::array>());
+    lists.values = copied<std::uint32_t>(pair[1].cast<py::array>());
+    return lists;
 }
 
 /// (x, y, z)
