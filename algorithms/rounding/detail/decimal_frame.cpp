@@ -55,12 +55,12 @@ double DecimalFrame::Axis::into(double x) const {
 
 double DecimalFrame::Axis::back(double x) const {
     if (factor == 1) return x;
-    const auto above =
+    const auto not_below =
         std::ranges::lower_bound(places, x, {}, [](const Place& p) { return p.in_frame; });
-    if (above != places.end() && above->in_frame == x) return above->given;
+    if (not_below != places.end() && not_below->in_frame == x) return not_below->given;
     double given = x / factor;
-    if (above != places.end()) given = std::min(given, above->given);
-    if (above != places.begin()) given = std::max(given, above[-1].given);
+    if (not_below != places.end()) given = std::min(given, not_below->given);
+    if (not_below != places.begin()) given = std::max(given, not_below[-1].given);
     return given;
 }
 

@@ -18,11 +18,11 @@ double SnapGrid::snap(double x, unsigned axis) const {
     const double s = step[axis];
     if (!(s > 0)) return x;
     const auto& planes = kept[axis];
-    const auto above = std::lower_bound(planes.begin(), planes.end(), x);
-    if (above != planes.end() && *above == x) return x;
+    const auto not_below = std::lower_bound(planes.begin(), planes.end(), x);
+    if (not_below != planes.end() && *not_below == x) return x;
     double node = std::nearbyint(x / s) * s;
-    if (above != planes.end()) node = std::min(node, *above);
-    if (above != planes.begin()) node = std::max(node, above[-1]);
+    if (not_below != planes.end()) node = std::min(node, *not_below);
+    if (not_below != planes.begin()) node = std::max(node, not_below[-1]);
     return node;
 }
 
