@@ -21,6 +21,8 @@ SOURCE = pathlib.Path(__file__).resolve().parents[2]
 DATA = SOURCE / "docs" / "data"
 PROGRAM = os.environ.get("TERRANE_PROGRAM", "")
 SANITIZED = bool(os.environ.get("TERRANE_SANITIZED"))
+if SANITIZED:  # it is for this interpreter alone: the program and the helpers have a sanitizer of their own
+    os.environ.pop("LD_PRELOAD", None)
 HAS_TETGEN = os.path.exists(os.environ.get("TERRANE_TETGEN", ""))
 
 

@@ -91,6 +91,12 @@ long living() {
 
 } // namespace failing
 
+/// What an exception interrupts in GMP loses some of GMP's memory; see errors.md.
+extern "C" const char* __lsan_default_suppressions();
+extern "C" const char* __lsan_default_suppressions() {
+    return "leak:gmp_allocate\nleak:gmp_reallocate\n";
+}
+
 // The other forms of new and delete call these.
 
 void* operator new(std::size_t size) {
