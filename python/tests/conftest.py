@@ -22,7 +22,9 @@ DATA = SOURCE / "docs" / "data"
 PROGRAM = os.environ.get("TERRANE_PROGRAM", "")
 SANITIZED = bool(os.environ.get("TERRANE_SANITIZED"))
 if SANITIZED:  # it is for this interpreter alone: the program and the helpers have a sanitizer of their own
-    os.environ.pop("LD_PRELOAD", None)
+    PRELOADED = {"LD_PRELOAD": os.environ.pop("LD_PRELOAD", "")}
+else:
+    PRELOADED = {}
 HAS_TETGEN = os.path.exists(os.environ.get("TERRANE_TETGEN", ""))
 
 
@@ -52,6 +54,7 @@ def run_program(*arguments):
 
 def run_python(code, *arguments, timeout=120, check=True, **options):
     """Run code in another interpreter like this one."""
+    options["env"] = {**os.environ, **options.get("env", {}), **PRELOADED}
     done = subprocess.run([sys.executable, "-c", code, *map(str, arguments)], capture_output=True,
                           text=True, timeout=timeout, **options)
     if check:

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import terrane
-from conftest import BOX, DATA, HAS_TETGEN, run_python, sheet, stack, wall
+from conftest import BOX, DATA, HAS_TETGEN, SANITIZED, run_python, sheet, stack, wall
 
 
 def holed():
@@ -128,6 +128,7 @@ def test_a_forged_mesh_is_not_trusted():
     assert raised.value.code == "improper_contact"
 
 
+@pytest.mark.skipif(SANITIZED, reason="the pool starts interpreters without the sanitizer")
 def test_multiprocessing_spawn():
     code = """
 import multiprocessing, sys
