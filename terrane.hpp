@@ -30,6 +30,7 @@
 #include <terrane/algorithms/model/seal_advice.hpp>
 #include <terrane/algorithms/model/seal_rules.hpp>
 #include <terrane/algorithms/model/small_blocks.hpp>
+#include <terrane/algorithms/optimisation/optimise.hpp>
 #include <terrane/algorithms/plausibility/plausibility.hpp>
 #include <terrane/algorithms/project/build.hpp>
 #include <terrane/algorithms/project/preprocess.hpp>

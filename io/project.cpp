@@ -288,6 +288,8 @@ private:
         if (const Json* v = in_.find(json, "size_in")) t.size_in = sizes(*v, path + ".size_in");
         if (const Json* v = in_.find(json, "split")) t.split = in_.texts(*v, path + ".split", 0);
         if (const Json* v = in_.find(json, "outside")) t.outside = in_.truth(*v, path + ".outside");
+        if (const Json* v = in_.find(json, "optimise"))
+            t.optimise = in_.truth(*v, path + ".optimise");
         if (const Json* v = in_.find(json, "time_limit"))
             t.time_limit = in_.positive(*v, path + ".time_limit");
         if (const Json* v = in_.find(json, "mesher"))

@@ -217,6 +217,7 @@ TetrahedraRequest request_of(const Project& project) {
     if (!t.quality && project.improve && !sized && t.mesher != Mesher::gmsh)
         r.options.radius_edge_ratio = improved_quality;
     r.options.split_surfaces = t.split_surfaces;
+    if (!t.optimise) r.options.optimise.reset();
     r.options.time_limit = t.time_limit;
     r.options.mesher = t.mesher;
     for (const auto& [name, length] : t.size_of)

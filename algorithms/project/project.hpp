@@ -94,6 +94,7 @@ struct ProjectTetrahedra {
                                          ///< else that of TetrahedraOptions
     bool split_surfaces = false;         ///< triangles of surfaces may be divided for `quality`
     std::optional<double> max_volume{};  ///< of a tetrahedron, cubic unit
+    bool optimise = true;                ///< whether their shapes are improved
     double time_limit = 600;             ///< seconds, > 0
     Mesher mesher = Mesher::automatic;   ///< who makes them
     std::vector<ProjectSize> size_of{};  ///< by surface
@@ -105,7 +106,7 @@ struct ProjectTetrahedra {
 
 /// Project files with `improve` ask for tetrahedra whose ratio of circumradius to shortest edge is
 /// at most this, unless they state another bound.
-inline constexpr double improved_quality = 1.4;
+inline constexpr double improved_quality = 1.3;
 
 /// The formats of the files in the folder of results.
 struct ProjectOutputs {

@@ -13,6 +13,7 @@
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
+#include <terrane/algorithms/tetgen/detail/shapes.hpp>
 #include <terrane/algorithms/tetrahedra/split_nodes.hpp>
 #include <terrane/algorithms/tetrahedra/without_outside.hpp>
 
@@ -125,6 +126,29 @@ Status finish(const TetrahedraRequest& request, std::span<const std::uint32_t> s
     return Done{};
 }
 
+/// Checks the tetrahedra. If they are sound, improves them and checks them again: nothing of them is
+/// trusted, and improving trusts that they are sound.
+Status check_and_improve(const Model& model, const TetrahedraRequest& request, const Run& run,
+                         StageTimer& timer, FilledBlocks& filled) {
+    const Volumes volumes = volumes_as_found(model);
+    if (run.progress) run.progress("check tetrahedra", 0);
+    filled.report = check_tetrahedra(filled.tetrahedra, model.mesh, volumes);
+    if (!filled.report.violations.empty()) return Done{};
+    auto options = options_of(model, unique_labels(model.mesh->surfaces), request);
+    if (!options) return options.error();
+    if (!options->optimise) return Done{};
+    options->optimise->outside = options->optimise->outside && request.outside;
+    timer.stop();
+    auto improved =
+        tetgen::detail::improve_shapes(filled.tetrahedra, *model.mesh, volumes, *options, run);
+    if (!improved) return improved.error();
+    filled.optimised = *improved;
+    timer.next("check");
+    if (run.progress) run.progress("check tetrahedra", 0);
+    filled.report = check_tetrahedra(filled.tetrahedra, model.mesh, volumes);
+    return Done{};
+}
+
 } // namespace
 
 Result<TetrahedralMesh> make_tetrahedra(const Model& model, const TetrahedraRequest& request,
@@ -133,8 +157,9 @@ Result<TetrahedralMesh> make_tetrahedra(const Model& model, const TetrahedraRequ
         const StageTimer timer(run, "tetrahedralize");
         if (run.progress) run.progress("tetrahedralize", 0);
         const SurfaceLabels labels = unique_labels(model.mesh->surfaces);
-        const auto options = options_of(model, labels, request);
+        auto options = options_of(model, labels, request);
         if (!options) return options.error();
+        options->optimise.reset(); // fill_blocks() does that
         // A name that does not exist is an error before the work, not after it.
         if (auto split = surfaces_to_split(model, labels, request.split); !split)
             return split.error();
@@ -152,8 +177,8 @@ Result<FilledBlocks> fill_blocks(const Model& model, const TetrahedraRequest& re
         filled.tetrahedra = std::move(made);
 
         StageTimer timer(run, "check");
-        if (run.progress) run.progress("check tetrahedra", 0);
-        filled.report = check_tetrahedra(filled.tetrahedra, model.mesh, volumes_as_found(model));
+        if (auto checked = check_and_improve(model, request, run, timer, filled); !checked)
+            return checked.error();
         const auto& violations = filled.report.violations;
         if (!violations.empty() && violations.front().defect == TetrahedraDefect::unusable_lists)
             return filled; // nothing can be said about them

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,25 +41,28 @@ struct TetrahedraRequest {
 
 /// The tetrahedra of a model.
 struct FilledBlocks {
-    TetrahedralMesh tetrahedra;           ///< regions by the numbers of the blocks
-    TetrahedraReport report;              ///< likewise; with the outside, before splitting
-    std::vector<std::string> block_names; ///< names of the blocks, by region
-    std::size_t added_nodes = 0;          ///< number of nodes that splitting added
+    TetrahedralMesh tetrahedra;                ///< regions by the numbers of the blocks
+    TetrahedraReport report;                   ///< likewise; with the outside, before splitting
+    std::vector<std::string> block_names;      ///< names of the blocks, by region
+    std::size_t added_nodes = 0;               ///< number of nodes that splitting added
+    std::optional<OptimiseReport> optimised{}; ///< what was improved; none: options said so, or the
+                                               ///< checks found violations before
 };
 
-/// Fills the blocks with tetrahedra, checks these against mesh and volumes, and splits nodes. If
-/// the checks find violations, nodes are not split. Errors: bad_option, with its place, for a name
+/// Fills the blocks with tetrahedra, improves these, checks them against mesh and volumes, and
+/// splits nodes. If the checks find violations, nodes are not split. Errors: bad_option, with its place, for a name
 /// that does not exist; nothing_to_do if there is no block and the outside is not wanted; those of
 /// tetrahedralize and split_nodes; interrupted.
 Result<FilledBlocks> fill_blocks(const Model& model, const TetrahedraRequest& request,
                                  const Run& run = {});
 
 /// Makes the tetrahedra alone, which is what takes time: with the outside, regions by the numbers
-/// of find_volumes(mesh), nothing split. Errors: bad_option, those of tetrahedralize.
+/// of find_volumes(mesh), nothing improved or split. Errors: bad_option, those of tetrahedralize.
 Result<TetrahedralMesh> make_tetrahedra(const Model& model, const TetrahedraRequest& request,
                                         const Run& run = {});
 
-/// Checks tetrahedra that make_tetrahedra made of the same model, now or earlier, and splits nodes.
+/// Checks and improves tetrahedra that make_tetrahedra made of the same model, now or earlier,
+/// checks what became of them, and splits nodes.
 /// Nothing of them is trusted. Errors: those of fill_blocks that are left.
 Result<FilledBlocks> fill_blocks(const Model& model, const TetrahedraRequest& request,
                                  TetrahedralMesh made, const Run& run = {});

@@ -6,6 +6,7 @@
 #include <system_error>
 #include <vector>
 
+#include <dlfcn.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -32,6 +33,19 @@ bool can_be_run(const fs::path& path) {
     return fs::is_regular_file(path, failed) && access(path.c_str(), X_OK) == 0;
 }
 
+/// Returns the folder of the shared library that contains this code; empty for a program, and where
+/// the system states no whole path: a helper must not depend on the current folder.
+fs::path library_folder() {
+    Dl_info found{};
+    if (dladdr(reinterpret_cast<const void*>(&can_be_run), &found) == 0 || !found.dli_fname)
+        return {};
+    const fs::path file = found.dli_fname;
+    std::error_code failed;
+    if (!file.is_absolute() || fs::equivalent(file, "/proc/self/exe", failed)) return {};
+    const fs::path whole = fs::canonical(file, failed);
+    return failed ? fs::path() : whole.parent_path();
+}
+
 /// Returns the places where a helper is looked for by default, in this order.
 std::vector<fs::path> usual_places(const Helper& helper) {
     std::vector<fs::path> places;
@@ -41,6 +55,12 @@ std::vector<fs::path> usual_places(const Helper& helper) {
         const fs::path folder = program.parent_path();
         places.push_back(folder / helper.file_name);
         places.push_back(folder.parent_path() / "libexec" / "terrane" / helper.file_name);
+    }
+    // The library is in lib/ or lib/ARCHITECTURE/, a module of Python in lib/python3/dist-packages/terrane/.
+    fs::path prefix = library_folder();
+    for (int up = 0; up < 4 && prefix.has_relative_path(); ++up) {
+        prefix = prefix.parent_path();
+        places.push_back(prefix / "libexec" / "terrane" / helper.file_name);
     }
     places.emplace_back(fs::path(TERRANE_HELPER_FOLDER) / helper.file_name);
     return places;

@@ -13,7 +13,9 @@ namespace terrane {
 /// Returns the path of the helper program. It is `given` unless that is empty; else what the
 /// environment variable TERRANE_TETGEN names, if it is set and not empty; else the first of these
 /// that exists: terrane-tetgen in the folder of the running program, in ../libexec/terrane/ from
-/// there, and in the folder where Terrane was to be installed when it was built.
+/// there, in ../libexec/terrane/ and ../../libexec/terrane/ from the folder of the shared library
+/// that contains Terrane, if one does, and in the folder where Terrane was to be installed when it
+/// was built.
 ///
 /// Errors: cannot_open, with the places that were looked at.
 Result<std::filesystem::path> find_tetgen_helper(const std::filesystem::path& given = {});

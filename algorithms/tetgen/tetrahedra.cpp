@@ -20,6 +20,7 @@
 #include <terrane/algorithms/tetgen/detail/constants.hpp>
 #include <terrane/algorithms/tetgen/detail/process.hpp>
 #include <terrane/algorithms/tetgen/detail/protocol.hpp>
+#include <terrane/algorithms/tetgen/detail/shapes.hpp>
 #include <terrane/algorithms/tetgen/detail/sizes.hpp>
 #include <terrane/algorithms/tetgen/tetgen_helper.hpp>
 #include <terrane/algorithms/tetrahedra/check_tetrahedra.hpp>
@@ -437,6 +438,9 @@ Result<TetrahedralMesh> fill(const ConformingMesh& mesh, const Volumes& volumes,
     Result<TetrahedralMesh> result =
         try_in_turn(mesh, volumes, domain.value(), options, input.value(), scale, run);
     if (!result) return result;
+    const Run quiet{.threads = run.threads, .stop = run.stop};
+    if (auto improved = improve_shapes(*result, *mesh, volumes, options, quiet); !improved)
+        return improved.error();
     if (Status go = proceed(run, 1); !go) return go.error();
     return result;
 }

@@ -15,6 +15,7 @@
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
+#include <terrane/algorithms/optimisation/optimise.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 
 namespace terrane {
@@ -61,6 +62,8 @@ struct TetrahedraOptions {
     std::optional<double> max_volume{};       ///< largest volume of a tetrahedron, cubic unit
     std::vector<BlockSize> block_sizes{};     ///< instead of edge_length and max_volume there
     std::vector<SurfaceSize> surface_sizes{}; ///< where they are less than any other size there
+    std::optional<OptimiseOptions> optimise = OptimiseOptions{}; ///< of their shapes; none: as
+                                                                 ///< the mesher made them
     double time_limit = 600;        ///< seconds, > 0, for each way of asking a mesher, which may
                                     ///< run forever
     std::filesystem::path helper{}; ///< TetGen's helper program; empty: see find_tetgen_helper

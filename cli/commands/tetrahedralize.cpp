@@ -238,6 +238,9 @@ void add_tetrahedra_options(CLI::App& app, TetrahedralizeCommand& command) {
         ->type_name("RATIO");
     app.add_flag("--split-surfaces", options.split_surfaces,
                  "Let triangles of surfaces be divided for --quality");
+    app.add_flag_callback(
+        "--no-optimise", [&options] { options.optimise.reset(); },
+        "Leave the shapes of tetrahedra as the mesher made them");
     app.add_option("--time-limit", options.time_limit,
                    "For each of the ways in which a mesher is tried (default: 600)")
         ->type_name("SECONDS");

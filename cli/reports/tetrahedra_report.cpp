@@ -137,6 +137,35 @@ std::vector<std::size_t> counts_of_regions(const TetrahedralMesh& mesh) {
     return counts;
 }
 
+std::string optimised_text(const OptimiseReport& report) {
+    return fmt::format("shapes improved in {}: dihedral angles were {:.3g} to {:.4g} degrees, and "
+                       "are {:.3g} to {:.4g}\n",
+                       report.passes == 1 ? std::string("a pass")
+                                          : fmt::format("{} passes", report.passes),
+                       report.before.least_angle, report.before.largest_angle,
+                       report.after.least_angle, report.after.largest_angle);
+}
+
+Json worst_json(const WorstShapes& worst) {
+    return {{"quality", number_or_null(worst.quality)},
+            {"least_angle", worst.least_angle},
+            {"largest_angle", worst.largest_angle}};
+}
+
+Json optimised_json(const OptimiseReport& report) {
+    return {{"passes", report.passes},
+            {"removed_edges", report.removed_edges},
+            {"removed_faces", report.removed_faces},
+            {"moved", report.moved},
+            {"contracted", report.contracted},
+            {"inserted", report.inserted},
+            {"remeshed", report.remeshed},
+            {"left", report.left},
+            {"untried", report.untried},
+            {"before", worst_json(report.before)},
+            {"after", worst_json(report.after)}};
+}
+
 } // namespace
 
 std::string report_text(const TetrahedraReport& report) {
@@ -185,6 +214,7 @@ std::string filled_text(const FilledBlocks& filled, const std::string& unit) {
     auto text = fmt::format(
         "{} tetrahedra, {}, {}{}\n", mesh.tetrahedra.size(), counted(mesh.faces.size(), "face"),
         counted(counts.size() - first, "region"), first == 0 ? " with the outside" : "");
+    if (filled.optimised && filled.optimised->passes > 0) text += optimised_text(*filled.optimised);
     if (!mesh.failure.empty()) text += fmt::format("made by {}: {}\n", mesh.mesher, mesh.failure);
     for (std::size_t r = first; r < std::min(counts.size(), most_regions); ++r)
         text += fmt::format("  region {:<3} {:>9} tetrahedra  volume {:<14} {}\n", r, counts[r],
@@ -216,8 +246,13 @@ void add_statistics(Json& json, const FilledBlocks& filled, const StageTimes& ti
                           {"tetrahedra_of_region", counts_of_regions(mesh)},
                           {"volume_of_region", volumes},
                           {"added_nodes", filled.added_nodes},
-                          {"twin_faces", mesh.twins.size()},
-                          {"check", report_json(filled.report)}};
+                          {"twin_faces", mesh.twins.size()}};
+    if (filled.optimised) {
+        add_constants(json, "optimise", optimise_constants());
+        json["seconds"]["optimise"] = times.latest("optimise");
+        json["tetrahedra"]["optimised"] = optimised_json(*filled.optimised);
+    }
+    json["tetrahedra"]["check"] = report_json(filled.report);
 }
 
 } // namespace terrane::cli

@@ -29,9 +29,9 @@ inline constexpr std::array<std::string_view, 6> rotated_level{"centre",  "corne
 inline constexpr std::array<std::string_view, 2> polygon_level{"corners", "between"};
 inline constexpr std::array<std::string_view, 5> improve_level{
     "edge_length", "max_deviation", "edge_length_of", "layers_in_gaps", "smallest"};
-inline constexpr std::array<std::string_view, 10> tetrahedra_level{
-    "edge_length", "max_volume", "quality", "split_surfaces", "size_of",
-    "size_in",     "split",      "outside", "time_limit",     "mesher"};
+inline constexpr std::array<std::string_view, 11> tetrahedra_level{
+    "edge_length", "max_volume", "quality",    "split_surfaces", "size_of", "size_in",
+    "split",       "outside",    "time_limit", "mesher",         "optimise"};
 inline constexpr std::array<std::string_view, 3> meshers{"auto", "tetgen", "gmsh"};
 inline constexpr std::array<std::string_view, 5> outputs_level{"surfaces", "tetrahedra", "blocks",
                                                                "certificate", "gocad"};

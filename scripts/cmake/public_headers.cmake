@@ -65,6 +65,7 @@ set(terrane_headers
     algorithms/tetrahedra/check_tetrahedra.hpp
     algorithms/tetrahedra/split_nodes.hpp
     algorithms/tetrahedra/tetrahedra_shape.hpp
+    algorithms/optimisation/optimise.hpp
     algorithms/tetgen/fill_blocks.hpp
     algorithms/tetgen/tetgen_helper.hpp
     algorithms/tetgen/tetrahedra.hpp

@@ -81,6 +81,11 @@ bool Sizes::any() const {
                        [](double length) { return length < no_bound; });
 }
 
+bool Sizes::bound_volumes() const {
+    return std::any_of(in_volumes.begin(), in_volumes.end(),
+                       [](const SizeInVolume& size) { return size.bounded(); });
+}
+
 bool Sizes::same_everywhere() const {
     return std::all_of(in_volumes.begin(), in_volumes.end(),
                        [&](const SizeInVolume& size) { return size == in_volumes[0]; });

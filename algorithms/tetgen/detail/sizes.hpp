@@ -40,6 +40,8 @@ struct Sizes {
     std::vector<double> on_triangles; ///< per triangle of the mesh: wanted edge length, or infinite
 
     [[nodiscard]] bool any() const;
+    /// Tells whether the volumes of tetrahedra are bounded anywhere.
+    [[nodiscard]] bool bound_volumes() const;
     /// Tells whether all blocks and the outside have the same bounds.
     [[nodiscard]] bool same_everywhere() const;
 };

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// The constants of optimise() that decide its result and are not options.
+#pragma once
+
+#include <cstddef>
+
+namespace terrane::optimisation::detail {
+
+/// Qualities are least sines of dihedral angles. None of these constants affects the guarantees.
+struct OptimiseConstants {
+    /// First step of a vertex, as a share of the distance to its nearest neighbour. Larger: places
+    /// farther away are found, more tries.
+    double first_step = 0.5;
+    /// How often steps are halved. Larger: places are found more exactly.
+    unsigned step_halvings = 6;
+    /// The sine of an obtuse angle counts this share, so that 166 degrees are as bad as 9.8 degrees.
+    /// Less: the greatest angles become better, the least ones worse.
+    double obtuse_share = 0.7;
+    /// A change must raise the least quality by this. Larger: fewer changes that hardly matter.
+    double least_gain = 5e-3;
+    /// Edges with more tetrahedra around them are not removed: the work grows with the cube.
+    std::size_t most_around_edge = 10;
+    /// All vertices around a tetrahedron move for its sake if its quality is below this share of
+    /// the wanted one. Larger: better, more work.
+    double relaxed = 0.5;
+    /// Sine of ten degrees: a vertex is not inserted if there are more tetrahedra below it then.
+    double bad = 0.17364817766693033;
+    /// Cavities of inserted vertices have no more tetrahedra. Larger: more is tried.
+    std::size_t most_in_cavity = 32;
+    /// Cells of which a copy is made to look for several changes at a time. Larger: more is found
+    /// for the worst cells, and it takes longer.
+    std::size_t most_in_remeshing = 100;
+    /// Passes over such a copy, at most.
+    unsigned remeshing_passes = 4;
+    /// Tetrahedra that are measured, about, to look at the edges and faces of a cell.
+    std::size_t effort_of_flips = 100;
+    /// Tetrahedra that may be measured for each cell of the mesh, and for each change that is made.
+    /// Larger: hopeless meshes take longer, and a little more is found.
+    std::size_t effort_per_cell = 500;
+    std::size_t effort_per_change = 2000;
+    /// Changes are proposed for so many cells or vertices at a time. Larger: more of them come too
+    /// late, since another one was made beside them; fewer: less for each thread.
+    std::size_t batch = 64;
+};
+inline constexpr OptimiseConstants constants{};
+
+} // namespace terrane::optimisation::detail

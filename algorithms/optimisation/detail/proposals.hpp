@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Which change is best for a tetrahedron, or for a vertex.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include <terrane/algorithms/optimisation/detail/cells.hpp>
+#include <terrane/algorithms/optimisation/detail/changes.hpp>
+
+namespace terrane::optimisation::detail {
+
+/// What may be proposed.
+struct Permission {
+    bool may_grow = true;  ///< whether a new cell may be larger than all that it replaces
+    double least_sine = 0; ///< of the mesh: no new cell may have a smaller one
+};
+
+/// Tells whether a cell that a change makes is larger than all that it replaces.
+bool grows(const Cells& cells, const Change& change);
+
+/// A change, and what it took to find it.
+struct Proposal {
+    std::optional<Change> change; ///< none was found
+    std::size_t effort = 0;       ///< number of tetrahedra that were measured, about
+};
+
+/// Proposes the best change that makes a cell, or one beside it, better: edges and faces go or
+/// vertices join; if none of these is a gain, a corner moves; if none of these is, a vertex is
+/// inserted. Only reads the cells.
+Proposal change_for_cell(const Cells& cells, std::uint32_t c, const Permission& permission);
+
+/// Proposes a better place for a vertex that is not fixed. Only reads the cells.
+Proposal change_for_vertex(const Cells& cells, std::uint32_t v, const Permission& permission);
+
+} // namespace terrane::optimisation::detail

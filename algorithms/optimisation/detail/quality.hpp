@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// How good a tetrahedron is: the least sine of its dihedral angles, where that of an obtuse angle
+// counts less.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include <terrane/algorithms/mesh/mesh.hpp>
+
+namespace terrane::optimisation::detail {
+
+/// A tetrahedron's quality in floating point.
+struct Quality {
+    double value = 0; ///< least sine of the six dihedral angles, that of an obtuse angle times
+                      ///< constants.obtuse_share; negative for one that is inverted
+    double sine = 0;  ///< the same where obtuse angles count as the others
+    bool is_trusted = false; ///< whether the errors of both are below a fifth of the least gain
+};
+
+/// Measures a tetrahedron. Needles with good angles count as good.
+/// Source: Freitag and Ollivier-Gooch 1997; Klingner and Shewchuk 2007, biased minimum sine.
+Quality quality_of(const Point3& a, const Point3& b, const Point3& c, const Point3& d);
+
+using FaceCorners = std::array<Point3, 3>;
+
+/// The faces around a point that is to be placed. They see it on their positive side.
+class FacesAround {
+public:
+    /// Adds a face.
+    void add(const Point3& a, const Point3& b, const Point3& c);
+
+    /// Returns the least quality of the tetrahedra between the faces and p if it is above `enough`,
+    /// which is not negative; none otherwise. A face that was too bad comes first the next time, as
+    /// it is likely to be so again.
+    [[nodiscard]] std::optional<double> above(const Point3& p, double enough);
+    /// Returns the least quality of the tetrahedra between the faces and p; 0 at least.
+    [[nodiscard]] double least(const Point3& p);
+    /// Returns how many of these are worse than that.
+    [[nodiscard]] std::size_t count_below(const Point3& p, double quality) const;
+    /// Returns six times the largest volume of these tetrahedra.
+    [[nodiscard]] double largest_volume(const Point3& p) const;
+    /// Returns the distance from p to the nearest corner elsewhere; infinite if there is none.
+    [[nodiscard]] double nearest(const Point3& p) const;
+
+    [[nodiscard]] std::size_t size() const { return faces_.size(); }
+    /// Returns how many tetrahedra were measured: the same for any number of threads.
+    [[nodiscard]] std::size_t effort() const { return effort_; }
+
+private:
+    /// A face, and what does not depend on the point.
+    struct Face {
+        Point3 a, b, c, ab, ac, normal; ///< of the length of twice its area
+        double square_ab = 0, square_ac = 0, square_bc = 0, square_area = 0;
+    };
+
+    [[nodiscard]] static double square_quality(const Face& face, const Point3& p);
+
+    std::vector<Face> faces_;
+    std::size_t effort_ = 0;
+};
+
+} // namespace terrane::optimisation::detail

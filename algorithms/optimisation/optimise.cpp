@@ -1,0 +1,375 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/optimisation/optimise.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include <terrane/algorithms/core/disjoint_sets.hpp>
+#include <terrane/algorithms/core/guarded.hpp>
+#include <terrane/algorithms/core/parallel.hpp>
+#include <terrane/algorithms/core/stage_timer.hpp>
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
+#include <terrane/algorithms/optimisation/detail/cells.hpp>
+#include <terrane/algorithms/optimisation/detail/changes.hpp>
+#include <terrane/algorithms/optimisation/detail/constants.hpp>
+#include <terrane/algorithms/optimisation/detail/proposals.hpp>
+#include <terrane/algorithms/optimisation/detail/remeshing.hpp>
+#include <terrane/algorithms/tetrahedra/tetrahedra_shape.hpp>
+
+namespace terrane {
+
+using namespace optimisation::detail;
+
+namespace {
+
+/// The cells or vertices that are still to be tried, in order.
+class Queue {
+public:
+    explicit Queue(std::vector<std::uint32_t> items) : items_(std::move(items)) {}
+
+    [[nodiscard]] bool is_empty() const { return first_ == items_.size() && kept_.empty(); }
+
+    /// Returns the next items of which `claim` says that they do not depend on those before; those
+    /// of which it does not come again first.
+    template <class Claim>
+    std::vector<std::uint32_t> next(const Claim& claim) {
+        std::vector<std::uint32_t> batch, later;
+        const auto take = [&](std::uint32_t item) {
+            (claim(item) ? batch : later).push_back(item);
+        };
+        std::size_t k = 0;
+        for (; k < kept_.size() && batch.size() < constants.batch; ++k) take(kept_[k]);
+        later.insert(later.end(), kept_.begin() + static_cast<std::ptrdiff_t>(k), kept_.end());
+        while (first_ < items_.size() && batch.size() < constants.batch &&
+               later.size() < constants.batch)
+            take(items_[first_++]);
+        kept_ = std::move(later);
+        return batch;
+    }
+
+    /// Adds what could not be changed since another change came first.
+    void again(std::uint32_t item) { kept_.push_back(item); }
+
+private:
+    std::vector<std::uint32_t> items_;
+    std::size_t first_ = 0;
+    std::vector<std::uint32_t> kept_;
+};
+
+/// Passes over the cells. Changes are proposed for many cells at a time, which are only read, and
+/// then made one after the other where what they replace is unchanged: so the result does not
+/// depend on the number of threads.
+class Optimiser {
+public:
+    Optimiser(Cells& cells, const OptimiseOptions& options, const Run& run) :
+        cells_(cells), options_(options), run_(run),
+        wanted_(std::sin(options.wanted_angle * std::numbers::pi / 180)) {}
+
+    Status run() {
+        report.before = worst();
+        floor_ = least_sine();
+        credit_ = static_cast<double>(constants.effort_per_cell * cells_.size());
+        for (unsigned pass = 0; pass < options_.max_passes; ++pass) {
+            const auto changed = improve_all();
+            if (!changed) return changed.error();
+            ++report.passes;
+            if (run_.progress)
+                run_.progress("optimise", static_cast<double>(pass + 1) / options_.max_passes);
+            if (*changed == 0 || credit_ <= 0) break;
+        }
+        for (unsigned pass = 0; pass < 2; ++pass)
+            if (const auto changed = remesh(); !changed) return changed.error();
+        report.after = worst();
+        for (const std::uint32_t c : cells_below(wanted_)) {
+            ++report.left;
+            if (c >= tried_.size() || is_news(c)) ++report.untried;
+        }
+        return Done{};
+    }
+
+    OptimiseReport report;
+
+private:
+    [[nodiscard]] bool is_improved(std::uint32_t c) const {
+        return cells_.is_alive(c) && (options_.outside || cells_.region(c) != 0);
+    }
+
+    [[nodiscard]] WorstShapes worst() const {
+        WorstShapes worst{HUGE_VAL, 180, 0};
+        for (std::uint32_t c = 0; c < cells_.size(); ++c) {
+            if (!is_improved(c)) continue;
+            worst.quality = std::min(worst.quality, cells_.quality(c));
+            std::array<Point3, 4> corners;
+            for (unsigned k = 0; k < 4; ++k) corners[k] = cells_.points()[cells_.corners(c)[k]];
+            for (const double angle : dihedral_angles(corners)) {
+                worst.least_angle = std::min(worst.least_angle, angle);
+                worst.largest_angle = std::max(worst.largest_angle, angle);
+            }
+        }
+        return worst;
+    }
+
+    /// Returns the least sine of those that can be trusted.
+    [[nodiscard]] double least_sine() const {
+        double least = HUGE_VAL;
+        for (std::uint32_t c = 0; c < cells_.size(); ++c) {
+            if (!is_improved(c)) continue;
+            const Quality quality = cells_.measure(cells_.corners(c));
+            if (quality.is_trusted) least = std::min(least, quality.sine);
+        }
+        return least;
+    }
+
+    /// Passes over all cells that are not good enough, the worst first, and then over the vertices
+    /// round those that are still far from it. Returns the number of changes.
+    Result<std::size_t> improve_all() {
+        const Permission permission{options_.may_grow, floor_};
+        const auto cells = improve_cells(permission);
+        if (!cells) return cells;
+        const auto vertices = move_vertices(permission);
+        if (!vertices) return vertices;
+        return *cells + *vertices;
+    }
+
+    /// Looks for several changes at a time for the cells that are still bad.
+    Result<std::size_t> remesh() {
+        const Permission permission{options_.may_grow, floor_};
+        const auto is_bad = [&](std::uint32_t c) {
+            return cells_.is_alive(c) && cells_.quality(c) < constants.bad;
+        };
+        const auto propose = [&](std::uint32_t c) {
+            return remeshing_at(cells_, c, permission, wanted_);
+        };
+        return in_batches(
+            Queue(cells_below(constants.bad)), is_bad,
+            [&](std::uint32_t c) { return claim_corners(c); }, propose,
+            [](std::uint32_t, std::uint32_t) {});
+    }
+
+    Result<std::size_t> improve_cells(const Permission& permission) {
+        std::vector<std::uint32_t> bad = cells_below(wanted_);
+        tried_.resize(cells_.size(), none);
+        bad.erase(
+            std::remove_if(bad.begin(), bad.end(), [&](std::uint32_t c) { return !is_news(c); }),
+            bad.end());
+        const auto claim = [&](std::uint32_t c) { return claim_corners(c); };
+        const auto is_wanted = [&](std::uint32_t c) {
+            return cells_.is_alive(c) && cells_.quality(c) < wanted_;
+        };
+        const auto propose = [&](std::uint32_t c) {
+            return change_for_cell(cells_, c, permission);
+        };
+        return in_batches(Queue(std::move(bad)), is_wanted, claim, propose,
+                          [&](std::uint32_t c, std::uint32_t time) {
+                              tried_.resize(cells_.size(), none);
+                              tried_[c] = time;
+                          });
+    }
+
+    Result<std::size_t> move_vertices(const Permission& permission) {
+        std::vector<std::uint32_t> around;
+        for (const std::uint32_t c : cells_below(constants.relaxed * wanted_))
+            for (const std::uint32_t v : cells_.corners(c))
+                for (const std::uint32_t d : cells_.star(v))
+                    for (const std::uint32_t w : cells_.corners(d))
+                        if (!cells_.is_fixed(w)) around.push_back(w);
+        sort_unique(around);
+        moved_.resize(cells_.points().size(), none);
+        around.erase(std::remove_if(around.begin(), around.end(),
+                                    [&](std::uint32_t v) {
+                                        return moved_[v] != none && moved_[v] >= cells_.touched(v);
+                                    }),
+                     around.end());
+        const auto claim = [&](std::uint32_t v) {
+            if (is_claimed(v)) return false;
+            for (const std::uint32_t c : cells_.star(v))
+                for (const std::uint32_t w : cells_.corners(c)) claimed_[w] = batch_;
+            return true;
+        };
+        const auto propose = [&](std::uint32_t v) {
+            return change_for_vertex(cells_, v, permission);
+        };
+        return in_batches(
+            Queue(std::move(around)), [](std::uint32_t) { return true; }, claim, propose,
+            [&](std::uint32_t v, std::uint32_t time) { moved_[v] = time; });
+    }
+
+    /// Proposes changes for many items at a time, and makes them in order. Tells `failed` of those
+    /// without one, with the time of the proposal. Returns the number of changes.
+    template <class Wanted, class Claim, class Propose, class Failed>
+    Result<std::size_t> in_batches(Queue queue, const Wanted& is_wanted, const Claim& claim,
+                                   const Propose& propose, const Failed& failed) {
+        std::size_t changes = 0;
+        while (true) {
+            if (run_.stop.stop_requested())
+                return Error{ErrorCode::interrupted, "stopped while improving tetrahedra", ""};
+            if (queue.is_empty() || credit_ <= 0) break;
+            ++batch_;
+            claimed_.resize(cells_.points().size(), 0);
+            const auto batch =
+                queue.next([&](std::uint32_t item) { return !is_wanted(item) || claim(item); });
+            const std::uint32_t time = cells_.time();
+            std::vector<Proposal> proposed(batch.size());
+            const auto one = [&](std::size_t first, std::size_t last) {
+                for (std::size_t i = first; i < last; ++i)
+                    if (is_wanted(batch[i])) proposed[i] = propose(batch[i]);
+            };
+            for_ranges(batch.size(), run_, one, 8, 1);
+            for (std::size_t i = 0; i < batch.size(); ++i) {
+                credit_ -= static_cast<double>(proposed[i].effort);
+                if (!is_wanted(batch[i])) continue;
+                auto& change = proposed[i].change;
+                if (!change) {
+                    failed(batch[i], time);
+                } else if (!is_unchanged(*change, time)) {
+                    queue.again(batch[i]);
+                } else if (make_and_count(*change)) {
+                    ++changes;
+                    credit_ += static_cast<double>(constants.effort_per_change);
+                } else {
+                    failed(batch[i], time);
+                }
+            }
+        }
+        return changes;
+    }
+
+    /// Returns the cells that are worse than that, the worst first.
+    [[nodiscard]] std::vector<std::uint32_t> cells_below(double quality) const {
+        std::vector<std::pair<double, std::uint32_t>> bad;
+        for (std::uint32_t c = 0; c < cells_.size(); ++c)
+            if (is_improved(c) && cells_.quality(c) < quality)
+                bad.emplace_back(cells_.quality(c), c);
+        std::sort(bad.begin(), bad.end());
+        std::vector<std::uint32_t> numbers;
+        for (const auto& [at, c] : bad) numbers.push_back(c);
+        return numbers;
+    }
+
+    /// Tells whether anything at a cell has changed since no change was found for it.
+    [[nodiscard]] bool is_news(std::uint32_t c) const {
+        return tried_[c] == none || cells_.is_touched(c, tried_[c]);
+    }
+
+    [[nodiscard]] bool is_claimed(std::uint32_t v) const { return claimed_[v] == batch_; }
+
+    /// Claims the corners of a cell for the batch, unless one of them is claimed.
+    bool claim_corners(std::uint32_t c) {
+        const Corners& corners = cells_.corners(c);
+        if (std::any_of(corners.begin(), corners.end(),
+                        [&](std::uint32_t v) { return is_claimed(v); }))
+            return false;
+        for (const std::uint32_t v : corners) claimed_[v] = batch_;
+        return true;
+    }
+
+    /// Tells whether what a change replaces is what it was.
+    [[nodiscard]] bool is_unchanged(const Change& change, std::uint32_t since) const {
+        return std::all_of(change.old.begin(), change.old.end(),
+                           [&](std::uint32_t c) { return cells_.changed(c) <= since; });
+    }
+
+    bool make_and_count(Change& change) {
+        if (!make(cells_, change, {cells_.least_quality(change.old), floor_})) return false;
+        count(change.kind);
+        return true;
+    }
+
+    void count(Change::Kind kind) {
+        switch (kind) {
+        case Change::Kind::edge:
+            ++report.removed_edges;
+            break;
+        case Change::Kind::face:
+            ++report.removed_faces;
+            break;
+        case Change::Kind::move:
+            ++report.moved;
+            break;
+        case Change::Kind::contraction:
+            ++report.contracted;
+            break;
+        case Change::Kind::insertion:
+            ++report.inserted;
+            break;
+        case Change::Kind::remeshing:
+            ++report.remeshed;
+            break;
+        }
+    }
+
+    Cells& cells_;
+    const OptimiseOptions& options_;
+    const Run& run_;
+    double wanted_;
+    double credit_ = 0;                  ///< tetrahedra that may still be measured
+    double floor_ = 0;                   ///< least sine of all cells before
+    std::vector<std::uint32_t> tried_;   ///< per cell: when no change was found for it; or none
+    std::vector<std::uint32_t> moved_;   ///< per vertex: when no better place was found; or none
+    std::vector<std::uint32_t> claimed_; ///< per vertex: the last batch with a cell at it
+    std::uint32_t batch_ = 0;
+};
+
+/// Refuses lists that do not belong together.
+Status check_lists(const TetrahedralMesh& mesh) {
+    const std::size_t count = mesh.vertices.size();
+    const auto are_vertices = [&](const auto& corners) {
+        return std::all_of(corners.begin(), corners.end(),
+                           [&](std::uint32_t v) { return v < count; });
+    };
+    if (mesh.region_of.size() == mesh.tetrahedra.size() &&
+        std::all_of(mesh.tetrahedra.begin(), mesh.tetrahedra.end(), are_vertices) &&
+        std::all_of(mesh.faces.begin(), mesh.faces.end(), are_vertices))
+        return Done{};
+    return Error{ErrorCode::bad_index, "the lists of the tetrahedra do not fit each other", ""};
+}
+
+Result<OptimiseReport> optimise_valid(TetrahedralMesh& mesh, const OptimiseOptions& options,
+                                      const Run& run) {
+    if (!(options.wanted_angle > 0 && options.wanted_angle < 60))
+        return Error{ErrorCode::bad_option, "the wanted angle is between 0 and 60 degrees", ""};
+    if (!mesh.twins.empty())
+        return Error{ErrorCode::bad_option, "tetrahedra with split nodes can't be improved", ""};
+    if (Status sound = check_lists(mesh); !sound) return sound.error();
+    Cells cells(mesh);
+    Optimiser optimiser(cells, options, run);
+    Status done = Done{};
+    with_threads(run, [&] { done = optimiser.run(); });
+    if (!done) return done.error();
+    cells.write(mesh);
+    return optimiser.report;
+}
+
+} // namespace
+
+Result<OptimiseReport> optimise(TetrahedralMesh& mesh, const OptimiseOptions& options,
+                                const Run& run) {
+    const StandardArithmetic guard;
+    const StageTimer timer(run, "optimise");
+    return guarded("for the shapes of tetrahedra", "optimise",
+                   [&] { return optimise_valid(mesh, options, timer.inside()); });
+}
+
+std::vector<NamedConstant> optimise_constants() {
+    return {{"first_step", constants.first_step},
+            {"step_halvings", static_cast<double>(constants.step_halvings)},
+            {"least_gain", constants.least_gain},
+            {"most_around_edge", static_cast<double>(constants.most_around_edge)},
+            {"obtuse_share", constants.obtuse_share},
+            {"relaxed", constants.relaxed},
+            {"bad", constants.bad},
+            {"most_in_cavity", static_cast<double>(constants.most_in_cavity)},
+            {"most_in_remeshing", static_cast<double>(constants.most_in_remeshing)},
+            {"remeshing_passes", static_cast<double>(constants.remeshing_passes)},
+            {"effort_of_flips", static_cast<double>(constants.effort_of_flips)},
+            {"effort_per_cell", static_cast<double>(constants.effort_per_cell)},
+            {"effort_per_change", static_cast<double>(constants.effort_per_change)},
+            {"batch", static_cast<double>(constants.batch)}};
+}
+
+} // namespace terrane
