@@ -86,7 +86,7 @@ def main():
         add(f"{info}/METADATA", metadata.encode())
         add(f"{info}/WHEEL", WHEEL.format(tag=tag()).encode())
         records.append(f"{info}/RECORD,,")
-        wheel.writestr(f"{info}/RECORD", "\n".join(records) + "\n")
+        add(f"{info}/RECORD", ("\n".join(records) + "\n").encode())
     os.replace(path + ".part", path)
     print(path)
 

@@ -14,6 +14,7 @@ packages=(
     python3-dev pybind11-dev python3-numpy                # the Python package
     python3-pytest python3-hypothesis mypy python3-pip python3-setuptools python3-wheel # its tests
     python3-vtk9 python3-meshio gmsh # these read the written files back, in tests only
+    python3-yaml                     # reads recipes of packages, in tests only
     gappa                            # checks the proofs of error bounds, in tests only
 )
 

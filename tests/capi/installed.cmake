@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-# cmake -DBUILD=... -DEXAMPLE=docs/examples/c -DDATA=docs/data -DWORK=... -DCOMPILER=... -P installed.cmake
+# cmake -DBUILD=... -DEXAMPLE=docs/examples/c -DDATA=docs/data -DWORK=... -DCOMPILER=... [-DTESTS=capi_tests] -P installed.cmake
 # Installs the build tree into WORK/prefix, builds the example against it by CMake and by pkg-config, both in C alone,
-# and runs it: from the prefix, and after that was moved.
+# and runs it: from the prefix, and after that was moved. TESTS then makes tetrahedra with the moved library, which finds the
+# helper program beside it.
 function(run out)
   execute_process(COMMAND ${ARGN} WORKING_DIRECTORY ${DATA} RESULT_VARIABLE failed OUTPUT_VARIABLE printed
                   OUTPUT_STRIP_TRAILING_WHITESPACE)
@@ -51,4 +52,10 @@ set(ENV{PKG_CONFIG_PATH} ${lib}/pkgconfig)
 run(flags pkg-config --cflags terrane_c)
 if(NOT flags MATCHES "/moved/")
   message(FATAL_ERROR "pkg-config does not find what was moved: ${flags}")
+endif()
+if(TESTS)
+  unset(ENV{TERRANE_TETGEN})
+  set(ENV{LD_LIBRARY_PATH} ${lib})
+  run(none /usr/bin/python3 -B ${CMAKE_CURRENT_LIST_DIR}/run.py --program ${WORK}/moved/bin/terrane --tests ${TESTS}
+      --data ${DATA} --work ${WORK}/work --tetrahedra project)
 endif()
