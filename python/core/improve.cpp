@@ -8,6 +8,7 @@
 #include <terrane/algorithms/quality/improve_measured.hpp>
 
 #include "handles.hpp"
+#include "improve_options.hpp"
 #include "surfaces.hpp"
 
 namespace terrane::python {
@@ -16,7 +17,34 @@ using namespace py::literals;
 
 namespace {
 
-ImproveOptions to_options(const py::dict& given) {
+py::dict to_dict(const ImproveReport& r) {
+    return py::dict("corners"_a = r.corners, "curves"_a = r.curves, "sheets"_a = r.sheets,
+                    "splits"_a = r.splits, "collapses"_a = r.collapses, "swaps"_a = r.swaps,
+                    "moves"_a = r.moves, "refused_contact"_a = r.refused_contact,
+                    "refused_deviation"_a = r.refused_deviation,
+                    "refused_shape"_a = r.refused_shape, "least_quality"_a = r.least_quality,
+                    "attempts"_a = r.attempts, "held_blocks"_a = r.held_blocks,
+                    "passes"_a = r.passes, "sides_kept"_a = r.sides_kept,
+                    "worst_cause"_a = to_text(name_of(r.worst_cause)));
+}
+
+py::tuple improve_mesh(const MeshPointer& mesh, const py::dict& options, const HowToRun& how) {
+    if (!mesh->conforming) throw std::logic_error("a mesh without proof is improved");
+    const auto made = run_stage(how, [mesh, o = to_improve_options(options)](const Run& run) {
+        return improve_and_measure(*mesh->conforming, o, run);
+    });
+    const Improved& improved = made.improved;
+    std::vector<std::array<double, 2>> deviations;
+    for (const Deviation& d : made.deviations) deviations.push_back({d.out, d.back});
+    return py::make_tuple(handle_of(improved.mesh, improved.conforming),
+                          std::make_shared<Volumes>(improved.volumes), owned(improved.near_of),
+                          owned(improved.report.bound_of), owned(made.bounds_back),
+                          owned(std::move(deviations)), to_dict(improved.report));
+}
+
+} // namespace
+
+ImproveOptions to_improve_options(const py::dict& given) {
     ImproveOptions o;
     const auto set = [&](const char* name, auto& value) {
         if (given.contains(name)) value = given[name].cast<std::remove_cvref_t<decltype(value)>>();
@@ -38,33 +66,6 @@ ImproveOptions to_options(const py::dict& given) {
     set("max_triangles", o.max_triangles);
     return o;
 }
-
-py::dict to_dict(const ImproveReport& r) {
-    return py::dict("corners"_a = r.corners, "curves"_a = r.curves, "sheets"_a = r.sheets,
-                    "splits"_a = r.splits, "collapses"_a = r.collapses, "swaps"_a = r.swaps,
-                    "moves"_a = r.moves, "refused_contact"_a = r.refused_contact,
-                    "refused_deviation"_a = r.refused_deviation,
-                    "refused_shape"_a = r.refused_shape, "least_quality"_a = r.least_quality,
-                    "attempts"_a = r.attempts, "held_blocks"_a = r.held_blocks,
-                    "passes"_a = r.passes, "sides_kept"_a = r.sides_kept,
-                    "worst_cause"_a = to_text(name_of(r.worst_cause)));
-}
-
-py::tuple improve_mesh(const MeshPointer& mesh, const py::dict& options, const HowToRun& how) {
-    if (!mesh->conforming) throw std::logic_error("a mesh without proof is improved");
-    const auto made = run_stage(how, [mesh, o = to_options(options)](const Run& run) {
-        return improve_and_measure(*mesh->conforming, o, run);
-    });
-    const Improved& improved = made.improved;
-    std::vector<std::array<double, 2>> deviations;
-    for (const Deviation& d : made.deviations) deviations.push_back({d.out, d.back});
-    return py::make_tuple(handle_of(improved.mesh, improved.conforming),
-                          std::make_shared<Volumes>(improved.volumes), owned(improved.near_of),
-                          owned(improved.report.bound_of), owned(made.bounds_back),
-                          owned(std::move(deviations)), to_dict(improved.report));
-}
-
-} // namespace
 
 void bind_improve(py::module_& module) {
     module.def("improve", &improve_mesh, "mesh"_a, "options"_a, "how"_a);

@@ -5,11 +5,13 @@
 
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/model/seal_rules.hpp>
+#include <terrane/algorithms/quality/improve_measured.hpp>
 #include <terrane/algorithms/structure/relations.hpp>
 #include <terrane/algorithms/structure/structure_meshes.hpp>
 #include <terrane/io/model_folder.hpp>
 
 #include "handles.hpp"
+#include "improve_options.hpp"
 #include "model_handle.hpp"
 #include "structure.hpp"
 #include "surfaces.hpp"
@@ -72,7 +74,29 @@ Result<std::shared_ptr<ModelHandle>> made(std::vector<Surface> surfaces,
     handle->merged = std::move(arranged->merged);
     handle->choice = std::move(arranged->choice);
     handle->rounding = report;
+    handle->rounded = arranged->rounded.conforming;
+    handle->exact = std::make_shared<const Arrangement>(std::move(arranged->exact));
+    handle->column = options.column;
     return handle;
+}
+
+/// Makes the same model with better triangles. Blocks keep their numbers, and what is known about gaps stays.
+ModelPointer improved(const ModelPointer& old, const py::dict& options, const HowToRun& how) {
+    if (!old->exact)
+        throw Failure{{ErrorCode::unsupported,
+                       "a project improves its model itself, by its key improve", ""}};
+    auto made = run_stage(
+        how, [old, o = to_improve_options(options)](const Run& run) -> Result<ModelHandle> {
+            const auto better = improve_and_measure(*old->rounded, o, run);
+            if (!better) return better.error();
+            auto model = make_model(*old->exact, *old->rounded, better->improved, run,
+                                    {.column = old->column});
+            if (!model) return model.error();
+            ModelHandle handle = *old;
+            handle.model = std::move(*model);
+            return handle;
+        });
+    return std::make_shared<ModelHandle>(std::move(made));
 }
 
 /// seal: None, a number, "auto", or a dict of these by None, name or pair.
@@ -202,6 +226,7 @@ void bind_model(py::module_& module) {
         .def("save", &save, "folder"_a, "format"_a, "how"_a);
     add_array<M>(
         bound, "exact_volumes", [](const M& m) -> auto& { return m.model.exact_volumes; });
+    module.def("improve_model", &improved, "model"_a, "options"_a, "how"_a);
     module.def("model", &make, "surfaces"_a, "boundary"_a, "options"_a, "how"_a);
 }
 

@@ -24,7 +24,10 @@ struct ModelHandle {
     std::optional<VolumeReport> cut{};  ///< with a volume of interest
     std::optional<BlockMerge> merged{}; ///< where small blocks were merged
     std::optional<SealChoice> choice{}; ///< where the distance of sealing was chosen
-    std::optional<RoundingReport> rounding{}; ///< how the mesh became doubles
+    std::optional<RoundingReport> rounding{};   ///< how the mesh became doubles
+    std::shared_ptr<const Arrangement> exact{}; ///< what was rounded; nullptr: not kept
+    std::optional<ConformingMesh> rounded{};    ///< its mesh, before any improvement; with `exact`
+    StratigraphicColumn column{};               ///< by which blocks are named
 };
 using ModelPointer = std::shared_ptr<ModelHandle>;
 

@@ -16,9 +16,7 @@ stages take ``threads=`` and ``progress=``, run without the GIL, and stop at a K
 import os as _os
 
 from . import _core
-from ._arrangement import (Arrangement, OpenBorder, RoundedMesh, RoundingReport, SurfaceCut,
-                           VolumeOfInterest, arrange, box, check, closed, extend, polygon, regions,
-                           rotated_box, round, volume_of_interest)
+from ._arrangement import Arrangement, RoundedMesh, RoundingReport, arrange, check, regions, round
 from ._arrays import IndexLists, SurfaceInfo
 from ._blocks import (NO_INDEX, BlockParts, Corner, InterfaceParts, Line, Patch, Structure, Volumes,
                       structure, volumes)
@@ -27,7 +25,8 @@ from ._files import read, save
 from ._holes import BorderLoop, Filled, FilledHole, FillReport, fill, holes
 from ._layers import Layered, LayerReport, OutOfOrder, layers
 from ._mesh import CheckReport, Contact, Mesh, Region, Regions, mesh
-from ._model import Block, Blocks, Interface, Juxtaposition, Leak, Model, Relation, model
+from ._model import Juxtaposition, Leak, Model, Relation, model
+from ._parts import Block, Blocks, Interface
 from ._project import Built, build
 from ._quality import Improved, distance, improve
 from ._sealing import (ClosedGap, OpenGap, SealAdvice, SealChange, Sealed, SealTrial, seal,
@@ -35,6 +34,8 @@ from ._sealing import (ClosedGap, OpenGap, SealAdvice, SealChange, Sealed, SealT
 from ._surface import ROLES, Frame, Surface, as_surface, as_surfaces
 from ._tetrahedra import RegionVolume, Tetrahedra, Violation, tetrahedralize
 from ._verification import RuleViolation, Verdict, VerifiedFile, verify
+from ._volume_of_interest import (OpenBorder, SurfaceCut, VolumeOfInterest, box, closed, extend, polygon,
+                                  rotated_box, volume_of_interest)
 
 # Programs that make tetrahedra and came with the package; the environment goes first.
 for _name in ("tetgen", "gmsh"):

@@ -4,20 +4,25 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Dict, Iterator, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
+from typing import TYPE_CHECKING, Any, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arrangement import RoundingReport, as_boundary, rounding_report
-from ._arrays import Point, SurfaceInfo, UInt32Array, as_count, as_number
+from ._arrangement import RoundingReport, rounding_report
+from ._arrays import Point, as_count, as_number
 from ._blocks import Structure, Volumes
 from ._errors import Error, bad_option
 from ._mesh import Mesh, Path
+from ._parts import Block, Blocks, Interface
 from ._results import Result, counted
 from ._run import how
 from ._surface import as_surfaces, parts_of_surfaces
+from ._volume_of_interest import as_boundary
+
+if TYPE_CHECKING:
+    from ._tetrahedra import Tetrahedra
 
 
 class Leak(NamedTuple):
@@ -55,198 +60,6 @@ class Juxtaposition(NamedTuple):
     surface: str
     blocks: Tuple[str, str]
     area: float
-
-
-class Block:
-    """A block of a model.
-
-    Attributes
-    ----------
-    number : int
-        From 1; the outside is 0.
-    name : str
-        Different for all blocks.
-    key : str
-        ``"above/below|beside"`` by the names of the surfaces around it, without the model's boundary.
-    unit : str
-        Of the stratigraphic column, or empty.
-    volume : float
-        Exact volume, rounded once; cubic unit of the input.
-    area : float
-        Of its boundary, squared unit.
-    above, below, beside : tuple of str
-        Names of the surfaces there.
-    neighbours : tuple of str
-        Names of the blocks next to it, with "outside".
-    """
-
-    __slots__ = ("_model", "number")
-
-    def __init__(self, model: "Model", number: int) -> None:
-        self._model = model
-        self.number = number
-
-    @property
-    def name(self) -> str:
-        """The name."""
-        return self._model.structure.blocks[self.number].name
-
-    @property
-    def key(self) -> str:
-        """The surfaces above, below and beside: ``"top/base|F1"``."""
-        def names(numbers: Tuple[int, ...]) -> str:
-            surfaces = self._model.mesh.surfaces
-            return "+".join(self._model.labels[s] for s in numbers if surfaces[s].role != "boundary")
-        b = self._model.structure.blocks[self.number]
-        beside = names(b.beside)
-        return f"{names(b.above)}/{names(b.below)}" + (f"|{beside}" if beside else "")
-
-    @property
-    def unit(self) -> str:
-        """The unit of the stratigraphic column."""
-        return self._model.structure.blocks[self.number].unit
-
-    @property
-    def age(self) -> Optional[float]:
-        """The age of the base of the unit."""
-        return self._model.structure.blocks[self.number].age
-
-    @property
-    def volume(self) -> float:
-        """The exact volume, rounded once; cubic unit of the input."""
-        volumes = self._model._core.exact_volumes
-        return float(volumes[self.number]) if self.number < len(volumes) else float("nan")
-
-    @property
-    def area(self) -> float:
-        """The area of the boundary, squared unit."""
-        return self._model.structure.blocks[self.number].area
-
-    @property
-    def above(self) -> Tuple[str, ...]:
-        """Names of the surfaces above."""
-        return self._names(self._model.structure.blocks[self.number].above)
-
-    @property
-    def below(self) -> Tuple[str, ...]:
-        """Names of the surfaces below."""
-        return self._names(self._model.structure.blocks[self.number].below)
-
-    @property
-    def beside(self) -> Tuple[str, ...]:
-        """Names of the surfaces beside."""
-        return self._names(self._model.structure.blocks[self.number].beside)
-
-    @property
-    def neighbours(self) -> Tuple[str, ...]:
-        """Names of the blocks next to it."""
-        blocks = self._model.structure.blocks
-        return tuple(blocks[b].name for b in blocks[self.number].neighbours)
-
-    @property
-    def mesh(self) -> Mesh:
-        """The closed boundary of the block, wound outward. Neighbours share vertices to the last bit."""
-        return Mesh(self._model._core.part(True, self.number)[0])
-
-    def _names(self, numbers: Tuple[int, ...]) -> Tuple[str, ...]:
-        return tuple(self._model.labels[s] for s in numbers)
-
-    def __repr__(self) -> str:
-        return f"<Block {self.number} {self.name!r}: volume {self.volume:.6g}>"
-
-    def _repr_html_(self) -> str:
-        from ._picture import card
-        mesh = self.mesh
-        return card(self.name, {"number": self.number, "volume": f"{self.volume:.6g}",
-                                "area": f"{self.area:.6g}", "neighbours": ", ".join(self.neighbours)},
-                    mesh.vertices, mesh.triangles, mesh.surfaces_of.first)
-
-
-class Blocks(Mapping[str, Block]):
-    """The blocks of a model by name; also by number, and by ``"above/below|beside"`` where that is one block."""
-
-    __slots__ = ("_model", "_by_name")
-
-    def __init__(self, model: "Model") -> None:
-        self._model = model
-        self._by_name = {b.name: Block(model, i)
-                         for i, b in enumerate(model.structure.blocks) if i > 0}
-
-    def __getitem__(self, key: Any) -> Block:
-        if isinstance(key, str):
-            if key in self._by_name:
-                return self._by_name[key]
-            found = [b for b in self._by_name.values() if b.key == key]
-            if len(found) == 1:
-                return found[0]
-            names = ", ".join(repr(b.name) for b in (found or self._by_name.values()))
-            raise KeyError(f"{key!r} is {'several blocks' if found else 'no block'}: {names}")
-        number = as_count(key, "number of a block")
-        if not 1 <= number <= len(self):
-            raise KeyError(f"there is no block {number}; they are 1 to {len(self)}")
-        return Block(self._model, number)
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._by_name)
-
-    def __len__(self) -> int:
-        return len(self._by_name)
-
-    def __repr__(self) -> str:
-        return f"<Blocks: {', '.join(self._by_name)}>"
-
-
-class Interface:
-    """The triangles between the same two blocks that belong to the same surfaces.
-
-    Attributes
-    ----------
-    number : int
-    surfaces : tuple of str
-    blocks : tuple of two str
-        Equal where the surface ends inside a block.
-    area : float
-        Squared unit of the input.
-    triangles : ndarray, uint32
-        Of the mesh of the model.
-    """
-
-    __slots__ = ("_model", "number")
-
-    def __init__(self, model: "Model", number: int) -> None:
-        self._model = model
-        self.number = number
-
-    @property
-    def surfaces(self) -> Tuple[str, ...]:
-        """Names of the surfaces."""
-        return tuple(self._model.labels[s]
-                     for s in self._model.structure.interfaces[self.number].surfaces)
-
-    @property
-    def blocks(self) -> Tuple[str, str]:
-        """Names of the blocks on its sides."""
-        low, high = self._model.structure.interfaces[self.number].volumes
-        blocks = self._model.structure.blocks
-        return blocks[low].name, blocks[high].name
-
-    @property
-    def area(self) -> float:
-        """Squared unit of the input."""
-        return self._model.structure.interfaces[self.number].area
-
-    @property
-    def triangles(self) -> UInt32Array:
-        """Triangles of the mesh of the model."""
-        return self._model.structure.interfaces[self.number].triangles
-
-    @property
-    def mesh(self) -> Mesh:
-        """The interface as a mesh of its own."""
-        return Mesh(self._model._core.part(False, self.number)[0])
-
-    def __repr__(self) -> str:
-        return f"<Interface {self.number} of {' and '.join(self.surfaces)}: {self.blocks[0]} | {self.blocks[1]}>"
 
 
 class Model(Result):
@@ -378,10 +191,53 @@ class Model(Result):
         blocks = self.structure.blocks
         return [blocks[n].name for n in self.block_of(points, threads=threads)]
 
-    def tetrahedra(self, edge_length: Optional[float] = None, **options: Any) -> Any:
-        """Fill the blocks with tetrahedra; see `terrane.tetrahedralize` for the options."""
+    def improved(self, edge_length: float = 0, *, threads: Optional[int] = None, progress: Any = None,
+                 **options: Any) -> "Model":
+        """Return the same model with better triangles; see `terrane.improve` for the options.
+
+        Blocks keep their numbers and names. Volumes are those of the improved mesh.
+
+        Examples
+        --------
+        >>> import terrane
+        >>> model = terrane.model(terrane.box((0, 0, 0), (1, 1, 1)))
+        >>> len(model.improved(0.25).mesh.triangles) > 100
+        True
+        """
+        from ._quality import improve_options
+        values = improve_options(self.mesh, edge_length, options)
+        core = _core.improve_model(self._core, values, how(threads, progress))
+        return Model(core, ("improved", self._made_by, values))
+
+    @property
+    def is_improved(self) -> bool:
+        """Whether `improved` made this model."""
+        return bool(self._made_by[0] == "improved")
+
+    def tetrahedra(self, edge_length: Optional[float] = None, *, improve: Optional[bool] = None,
+                   **options: Any) -> "Tetrahedra":
+        """Fill the blocks with tetrahedra; see `terrane.tetrahedralize` for the other options.
+
+        Parameters
+        ----------
+        edge_length : float, optional
+            Wanted length, unit of the input; as few tetrahedra as possible unless given.
+        improve : bool, optional
+            Whether the triangles are improved to that length first, as thin ones spoil tetrahedra; by default where
+            `edge_length` is given and the model is not improved yet.
+
+        Examples
+        --------
+        >>> import terrane
+        >>> cells = terrane.model(terrane.box((0, 0, 0), (1, 1, 1))).tetrahedra(edge_length=0.5)
+        >>> cells.violations, round(cells.volumes[1].tetrahedra, 12)
+        ([], 1.0)
+        """
         from ._tetrahedra import tetrahedralize
-        return tetrahedralize(self, edge_length=edge_length, **options)
+        wanted = edge_length is not None and not self.is_improved if improve is None else improve
+        run = {name: options[name] for name in ("threads", "progress") if name in options}
+        base = self.improved(edge_length or 0, **run) if wanted else self
+        return tetrahedralize(base, edge_length=edge_length, **options)
 
     def save(self, folder: Path, format: str = "vtp", *, threads: Optional[int] = None) -> None:
         """Write the model into a new folder, as ``terrane volume -o`` does.
@@ -418,6 +274,9 @@ class Model(Result):
         if state[0] == "build":
             from ._project import build
             return build(*state[1:]).model
+        if state[0] == "improved":
+            old = cls._from_state(*state[1])
+            return cls(_core.improve_model(old._core, state[2], how(None, None)), tuple(state))
         surfaces, boundary, options = state[1:]
         return _made(surfaces, boundary, options, None, None)
 
@@ -542,11 +401,6 @@ def model(surfaces: Any, box: Any = None, seal: Union[None, float, str, Mapping[
                "seal_automatic": automatic, "seal_of": of, "extend": as_number(extend, "extend", least=0),
                "min_volume": least, "min_volume_automatic": small, "column": column_of(column)}
     return _made(as_surfaces(surfaces), as_boundary(box), options, threads, progress)
-
-
-def surface_infos(model_of: Model) -> List[SurfaceInfo]:
-    """Return names and roles of the surfaces of a model."""
-    return model_of.mesh.surfaces
 
 
 def number_of(model_of: Model, block: Any) -> int:

@@ -3,12 +3,12 @@
 
 from __future__ import annotations
 
-from typing import Any, Dict, List, Mapping, Optional, Tuple
+from typing import Any, Dict, Mapping, Optional, Tuple
 
 import numpy as np
 
 from . import _core
-from ._arrays import Float64Array, UInt32Array, as_number
+from ._arrays import Float64Array, UInt32Array, as_count, as_number
 from ._errors import bad_option
 from ._blocks import Volumes
 from ._mesh import Mesh, Path, mesh_of, proven
@@ -87,6 +87,28 @@ class Improved(Result):
         return self.mesh.vertices, self.mesh.triangles
 
 
+def improve_options(mesh: Mesh, edge_length: float, options: Mapping[str, Any]) -> Dict[str, Any]:
+    """Return the options of `improve`, checked."""
+    values: Dict[str, Any] = {"passes": as_count(options.get("passes", 6), "passes", 1, 100)}
+    for name, value in {"edge_length": edge_length, **options}.items():
+        if name in ("passes", "edge_length_of"):
+            continue
+        if name not in _OPTIONS:
+            raise TypeError(f"improve() has no option {name}; it has {', '.join(_OPTIONS)}")
+        values[name] = as_number(value, name, least=0)
+    if options.get("edge_length_of"):
+        names = [s.name for s in mesh.surfaces]
+        lengths = [0.0] * len(names)
+        for name, length in options["edge_length_of"].items():
+            if name not in names:
+                raise bad_option(f"no surface is called {name}; there are {', '.join(names)}", "edge_length_of")
+            for i, own in enumerate(names):
+                if own == name:
+                    lengths[i] = as_number(length, f"edge_length_of[{name!r}]", least=0)
+        values["edge_length_of"] = lengths
+    return values
+
+
 def improve(mesh: Any, edge_length: float = 0, *, max_deviation: float = 0,
             edge_length_of: Optional[Mapping[str, float]] = None, passes: int = 6,
             threads: Optional[int] = None, progress: Any = None, **options: float) -> Improved:
@@ -115,23 +137,9 @@ def improve(mesh: Any, edge_length: float = 0, *, max_deviation: float = 0,
     >>> len(better.mesh.triangles) > 100, better.report["sides_kept"]
     (True, True)
     """
-    from ._arrays import as_count
     whole = proven(mesh_of(mesh), threads, progress)
-    values: Dict[str, Any] = {"passes": as_count(passes, "passes", 1, 100)}
-    for name, value in {"edge_length": edge_length, "max_deviation": max_deviation, **options}.items():
-        if name not in _OPTIONS:
-            raise TypeError(f"improve() has no option {name}; it has {', '.join(_OPTIONS)}")
-        values[name] = as_number(value, name, least=0)
-    if edge_length_of:
-        names = [s.name for s in whole.surfaces]
-        lengths = [0.0] * len(names)
-        for name, length in edge_length_of.items():
-            if name not in names:
-                raise bad_option(f"no surface is called {name}; there are {', '.join(names)}", "edge_length_of")
-            for i, own in enumerate(names):
-                if own == name:
-                    lengths[i] = as_number(length, f"edge_length_of[{name!r}]", least=0)
-        values["edge_length_of"] = lengths
+    values = improve_options(whole, edge_length, {"max_deviation": max_deviation, "passes": passes,
+                                                  "edge_length_of": edge_length_of, **options})
     core, volumes, near_of, bounds, _, deviations, report = _core.improve(whole._core, values, how(threads, progress))
     made = Mesh(core)
     return Improved(made, Volumes(volumes, made), near_of, bounds, deviations, report)
@@ -149,8 +157,3 @@ def distance(from_surface: Any, to_surface: Any, *, threads: Optional[int] = Non
     """
     return _core.distance(parts_of_surfaces([as_surface(from_surface)]),
                           parts_of_surfaces([as_surface(to_surface)]), how(threads, progress))
-
-
-def infinite_or(values: List[float]) -> float:
-    """Return the largest of the values; infinite without any."""
-    return max(values, default=float("inf"))

@@ -6,11 +6,12 @@ from __future__ import annotations
 from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Tuple
 
 from . import _core
-from ._arrangement import Arrangement, as_boundary
+from ._arrangement import Arrangement
 from ._arrays import Point, as_number
 from ._results import Result, counted
 from ._run import how
 from ._surface import Surface, as_surfaces, parts_of_surfaces, surface_of_parts
+from ._volume_of_interest import as_boundary
 
 
 class SealChange(NamedTuple):

@@ -52,6 +52,11 @@ def run_program(*arguments):
     return done.returncode, done.stdout, done.stderr
 
 
+def environment_of_python():
+    """Return the environment for another interpreter like this one."""
+    return {**os.environ, **PRELOADED}
+
+
 def run_python(code, *arguments, timeout=120, check=True, **options):
     """Run code in another interpreter like this one."""
     options["env"] = {**os.environ, **options.get("env", {}), **PRELOADED}

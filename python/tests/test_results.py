@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import terrane
-from conftest import BOX, DATA, HAS_TETGEN, SANITIZED, run_python, sheet, stack, wall
+from conftest import BOX, HAS_TETGEN, SANITIZED, environment_of_python, sheet, stack, wall
 
 
 def holed():
@@ -146,7 +146,7 @@ if __name__ == "__main__":
         file.write(code)
     import subprocess
     done = subprocess.run([sys.executable, "spawned.py", str(pathlib.Path(__file__).parent)], capture_output=True,
-                          text=True, timeout=120)
+                          text=True, timeout=120, env=environment_of_python())
     assert done.stdout == "equal\n", done.stderr
 
 

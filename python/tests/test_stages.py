@@ -207,11 +207,11 @@ def test_tetrahedra_are_those_of_the_program(options, arguments):
     model = terrane.model(terrane.read(files), box=BOX)
     if status == 1:  # what the checks refuse is refused here, too, in the same words
         with pytest.raises(terrane.Error) as raised:
-            model.tetrahedra(**options)
+            model.tetrahedra(improve=False, **options)
         assert raised.value.sentence.split("; ")[0] in text
         return
     assert status == 0, text
-    cells = model.tetrahedra(**options)
+    cells = model.tetrahedra(improve=False, **options)
     cells.save("python.vtu")
     cells.save("python.msh")
     assert same_bytes("program.vtu", "python.vtu") and same_bytes("program.msh", "python.msh")
@@ -375,3 +375,27 @@ def test_verify_judges_an_arrangement_of_changed_inputs():
 def test_verify_refuses(value):
     with pytest.raises(TypeError):
         terrane.verify(value)
+
+
+@pytest.mark.tetgen
+def test_edge_lengths_improve_the_model_first(model):
+    better = model.improved(0.8)
+    assert better.is_improved and not model.is_improved
+    assert list(better.blocks) == list(model.blocks)
+    for name in model.blocks:
+        assert better.blocks[name].volume == pytest.approx(model.blocks[name].volume, rel=0.05)
+    cells = model.tetrahedra(edge_length=0.8)
+    assert cells == better.tetrahedra(edge_length=0.8)
+    assert cells.shape()["dihedral"][0] > model.tetrahedra().shape()["dihedral"][0]
+
+
+def test_improved_models_are_pickled(model):
+    import pickle
+    better = model.improved(0.8)
+    assert pickle.loads(pickle.dumps(better)) == better != model
+
+
+def test_a_model_of_a_project_is_improved_by_the_project():
+    with pytest.raises(terrane.Error) as raised:
+        terrane.build(project()).model.improved(0.8)
+    assert raised.value.code == "unsupported"
