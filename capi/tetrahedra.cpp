@@ -56,9 +56,28 @@ TetrahedraOptions meshing_of(const terrane_tetrahedra_options& o) {
     options.radius_edge_ratio = wish(o.radius_edge_ratio);
     options.max_volume = wish(o.max_volume);
     options.time_limit = o.time_limit;
+    if (o.keep_shapes != 0) options.optimise.reset();
     if (o.helper) options.helper = o.helper;
     if (o.gmsh_helper) options.gmsh_helper = o.gmsh_helper;
     return options;
+}
+
+terrane_shape_report report_of(const OptimiseReport& r) noexcept {
+    return {r.before.quality,
+            r.after.quality,
+            r.before.least_angle,
+            r.after.least_angle,
+            r.before.largest_angle,
+            r.after.largest_angle,
+            r.passes,
+            r.removed_edges,
+            r.removed_faces,
+            r.moved,
+            r.contracted,
+            r.inserted,
+            r.remeshed,
+            r.left,
+            r.untried};
 }
 
 TetrahedraRequest request_of(const terrane_tetrahedra_options* given) {
@@ -184,6 +203,13 @@ const terrane_region_volume* terrane_tetrahedra_volumes(const terrane_tetrahedra
                                                         size_t* region_count) {
     return known(tetrahedra) ? array_of<terrane_region_volume>(tetrahedra->volumes, region_count)
                              : no_array<terrane_region_volume>(region_count);
+}
+
+terrane_code terrane_tetrahedra_shape_report(const terrane_tetrahedra* tetrahedra,
+                                             terrane_shape_report* report, size_t struct_size) {
+    if (!known(tetrahedra)) return TERRANE_BAD_ARGUMENT;
+    const auto& found = tetrahedra->filled.optimised;
+    return give_report(found ? report_of(*found) : terrane_shape_report{}, report, struct_size);
 }
 
 const char* terrane_tetrahedra_mesher(const terrane_tetrahedra* tetrahedra) {

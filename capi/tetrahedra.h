@@ -56,7 +56,29 @@ typedef struct terrane_tetrahedra_options {
     size_t split_count;                ///< number of them
     const char* helper;                ///< TetGen's helper program; NULL: it is looked for
     const char* gmsh_helper;           ///< Gmsh's helper program; NULL: it is looked for
+    int32_t keep_shapes;               ///< not 0: the shapes that the mesher made are not improved
+    int32_t reserved;                  ///< 0
 } terrane_tetrahedra_options;
+
+/// What was done to make the shapes better that the mesher made. The quality of a tetrahedron is
+/// the least sine of its dihedral angles, 0.7 times that of an obtuse one; angles are in degrees.
+typedef struct terrane_shape_report {
+    double quality_before;       ///< the least one
+    double quality_after;        ///< likewise
+    double least_angle_before;   ///< dihedral
+    double least_angle_after;    ///< likewise
+    double largest_angle_before; ///< dihedral
+    double largest_angle_after;  ///< likewise
+    uint64_t passes;             ///< over all tetrahedra that were worse than wanted
+    uint64_t removed_edges;      ///< with 3 and more tetrahedra around them
+    uint64_t removed_faces;      ///< number of faces removed
+    uint64_t moved;              ///< moves of vertices
+    uint64_t contracted;         ///< vertices that joined a neighbour
+    uint64_t inserted;           ///< vertices that were added
+    uint64_t remeshed;           ///< neighbourhoods where several of these were made at a time
+    uint64_t left;               ///< tetrahedra that are still worse than wanted
+    uint64_t untried;            ///< of these: not tried again after the last change beside them
+} terrane_shape_report;
 
 /// The volume of a block and that of its tetrahedra, in cubic units.
 typedef struct terrane_region_volume {
@@ -124,6 +146,11 @@ TERRANE_API const terrane_region_volume*
 terrane_tetrahedra_volumes(const terrane_tetrahedra* tetrahedra, size_t* region_count);
 /// Returns the program that made the tetrahedra, "TetGen" or "Gmsh".
 TERRANE_API const char* terrane_tetrahedra_mesher(const terrane_tetrahedra* tetrahedra);
+/// Copies what was done to make shapes better; all is 0 where nothing was. `struct_size` is
+/// sizeof(terrane_shape_report). Errors: BAD_ARGUMENT.
+TERRANE_API terrane_code terrane_tetrahedra_shape_report(const terrane_tetrahedra* tetrahedra,
+                                                         terrane_shape_report* report,
+                                                         size_t struct_size);
 /// Writes the tetrahedra as .vtu, .msh, .inp or .mesh, with the names of blocks. Errors: those of
 /// writing; BAD_OPTION where the check found violations.
 TERRANE_API terrane_code terrane_tetrahedra_write(const terrane_tetrahedra* tetrahedra,

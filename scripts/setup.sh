@@ -13,6 +13,7 @@ packages=(
     libtet1.5-dev libgmsh-dev catch2 libbenchmark-dev
     python3-dev pybind11-dev python3-numpy                # the Python package
     python3-pytest python3-hypothesis mypy python3-pip python3-setuptools python3-wheel # its tests
+    python3-matplotlib               # draws the figures of the examples
     python3-vtk9 python3-meshio gmsh # these read the written files back, in tests only
     python3-yaml                     # reads recipes of packages, in tests only
     gappa                            # checks the proofs of error bounds, in tests only

@@ -36,8 +36,9 @@ ArrangementPointer arrange_all(const py::sequence& surfaces, const std::string& 
         run_stage(how, [given, options](const Run& run) { return arrange(*given, options, run); }));
 }
 
-py::tuple rounded(const ArrangementPointer& arrangement, unsigned max_rounds, const HowToRun& how) {
-    const RoundingOptions options{.max_rounds = max_rounds};
+py::tuple rounded(const ArrangementPointer& arrangement, unsigned max_rounds,
+                  std::optional<double> max_move, const HowToRun& how) {
+    const RoundingOptions options{.max_rounds = max_rounds, .max_move = max_move};
     const auto made = run_stage(how, [arrangement, options](const Run& run) {
         return round_to_doubles(*arrangement, options, run);
     });
@@ -149,7 +150,9 @@ py::dict to_dict(const RoundingReport& r) {
         lost.append(py::make_tuple(std::uint32_t(l.surface), l.exact, l.rounded));
     return py::dict(
         "clean"_a = r.clean, "rounds"_a = r.rounds, "naive_contacts"_a = r.naive_contacts,
-        "contacts"_a = to_list(r.contacts), "max_move"_a = r.max_move, "deviation"_a = r.deviation,
+        "contacts"_a = to_list(r.contacts), "surface_deviation"_a = r.surface_deviation,
+        "max_allowed"_a = r.max_allowed, "lost_length"_a = r.lost_length, "max_move"_a = r.max_move,
+        "arranged_again"_a = r.arranged_again, "deviation"_a = r.deviation,
         "moved_input_vertices"_a = r.moved_input_vertices, "merged_vertices"_a = r.merged_vertices,
         "collapsed_triangles"_a = r.collapsed_triangles, "lost_regions"_a = lost,
         "vanished"_a = owned(r.vanished));
@@ -184,7 +187,7 @@ void bind_arrangement(py::module_& module) {
     add_lists<A>(
         bound, "surfaces_of", [](const A& a) -> auto& { return a.surfaces_of; });
     module.def("arrange", &arrange_all, "surfaces"_a, "search"_a, "how"_a);
-    module.def("round", &rounded, "arrangement"_a, "max_rounds"_a, "how"_a);
+    module.def("round", &rounded, "arrangement"_a, "max_rounds"_a, "max_move"_a, "how"_a);
     module.def("digest", &digest, "surfaces"_a, "arrangement"_a, "how"_a);
     module.def("cut", &cut, "arrangement"_a, "boundary"_a, "how"_a);
     module.def("extend", &extend, "surfaces"_a, "boundary"_a, "limit"_a, "how"_a);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -23,11 +24,11 @@ py::list to_list(const std::vector<LayerReport>& reports) {
 
 py::tuple stack(const py::sequence& surfaces,
                 const std::vector<std::pair<std::uint32_t, double>>& order, double min_thickness,
-                const HowToRun& how) {
+                std::optional<double> max_move, const HowToRun& how) {
     auto given = std::make_shared<const std::vector<Surface>>(to_surfaces(surfaces));
     std::vector<Layer> layers;
     for (const auto& [surface, hardness] : order) layers.push_back({SurfaceId(surface), hardness});
-    const LayerOptions options{.min_thickness = min_thickness};
+    const LayerOptions options{.min_thickness = min_thickness, .max_move = max_move};
     const auto made = run_stage(how, [given, layers, options](const Run& run) {
         return stack_layers(*given, layers, options, run);
     });
@@ -46,7 +47,7 @@ py::tuple stack(const py::sequence& surfaces,
 } // namespace
 
 void bind_layers(py::module_& module) {
-    module.def("layers", &stack, "surfaces"_a, "order"_a, "min_thickness"_a, "how"_a);
+    module.def("layers", &stack, "surfaces"_a, "order"_a, "min_thickness"_a, "max_move"_a, "how"_a);
 }
 
 } // namespace terrane::python

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -103,6 +104,7 @@ ModelPointer improved(const ModelPointer& old, const py::dict& options, const Ho
 ModelOptions to_options(const py::dict& given) {
     ModelOptions options;
     options.within.rounding.max_rounds = given["max_rounds"].cast<unsigned>();
+    options.within.rounding.max_move = given["max_move"].cast<std::optional<double>>();
     options.within.seal = given["seal"].cast<double>();
     options.within.seal_automatic = given["seal_automatic"].cast<bool>();
     options.within.extend = given["extend"].cast<double>();

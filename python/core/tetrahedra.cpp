@@ -54,6 +54,7 @@ TetrahedraRequest to_request(const py::dict& given) {
     r.options.split_surfaces = given["split_surfaces"].cast<bool>();
     r.options.max_volume = number(given, "max_volume");
     r.options.time_limit = given["time_limit"].cast<double>();
+    if (!given["optimise"].cast<bool>()) r.options.optimise.reset();
     r.options.helper = from_text(given["helper"]);
     r.options.gmsh_helper = from_text(given["gmsh_helper"]);
     r.size_of = sizes(given, "size_of");
@@ -122,6 +123,22 @@ py::list region_volumes(const FilledBlocks& f) {
     return all;
 }
 
+py::dict to_dict(const WorstShapes& s) {
+    return py::dict("quality"_a = s.quality, "least_angle"_a = s.least_angle,
+                    "largest_angle"_a = s.largest_angle);
+}
+
+/// What became of the shapes; None: they were left as the mesher made them.
+py::object optimised(const FilledBlocks& f) {
+    if (!f.optimised) return py::none();
+    const OptimiseReport& r = *f.optimised;
+    return py::dict("before"_a = to_dict(r.before), "after"_a = to_dict(r.after),
+                    "passes"_a = r.passes, "removed_edges"_a = r.removed_edges,
+                    "removed_faces"_a = r.removed_faces, "moved"_a = r.moved,
+                    "contracted"_a = r.contracted, "inserted"_a = r.inserted,
+                    "remeshed"_a = r.remeshed, "left"_a = r.left, "untried"_a = r.untried);
+}
+
 py::dict shape(const FilledBlocks& f) {
     const TetrahedraShape s = shape_of(f.tetrahedra);
     const auto spread = [](const ShapeSpread& v) {
@@ -145,6 +162,8 @@ void bind_tetrahedra(py::module_& module) {
         .def_property_readonly("added_nodes", [](const F& f) { return f.added_nodes; })
         .def_property_readonly("violations", &violations)
         .def_property_readonly("region_volumes", &region_volumes)
+        .def_property_readonly("is_checked", [](const F& f) { return !f.report.volumes.empty(); })
+        .def_property_readonly("optimised", &optimised)
         .def("shape", &shape);
     add_array<F>(
         bound, "vertices", [](const F& f) -> auto& { return f.tetrahedra.vertices; });

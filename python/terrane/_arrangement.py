@@ -192,13 +192,34 @@ def _sealed_again(surfaces: List[Surface], distance: float, distance_of: Dict[st
 
 
 class RoundingReport(NamedTuple):
-    """The moves, contacts and losses of rounding; distances in the unit of the input."""
+    """The moves, contacts and losses of rounding; distances in the unit of the input.
+
+    Attributes
+    ----------
+    clean : bool
+        Whether the doubles are a conforming mesh, by exact check.
+    surface_deviation : float
+        No point of the mesh is farther from the triangles of the input that it is part of, and no point of these is
+        farther from their parts, except for what vanished; at most `max_allowed`.
+    lost_length : float
+        Points of slivers that became narrower than doubles, and vanished, are at most so much farther from the rest.
+    max_move : float
+        No vertex is farther from its exact point.
+    arranged_again : bool
+        Whether exact points are those in which surfaces cross after they were moved, by at most `surface_deviation`.
+    deviation : float
+        What a certificate states of all points, vanished slivers included.
+    """
 
     clean: bool
     rounds: int
     naive_contacts: int
     contacts: List[Contact]
+    surface_deviation: float
+    max_allowed: float
+    lost_length: float
     max_move: float
+    arranged_again: bool
     deviation: float
     moved_input_vertices: int
     merged_vertices: int
@@ -312,8 +333,8 @@ def arrange(surfaces: Any, *, search: str = "auto", threads: Optional[int] = Non
     return _arranged(as_surfaces(surfaces), search, threads, progress)
 
 
-def round(arrangement: Any, *, max_rounds: int = 8, threads: Optional[int] = None,
-          progress: Any = None) -> RoundedMesh:
+def round(arrangement: Any, *, max_rounds: int = 8, max_move: Optional[float] = None,
+          threads: Optional[int] = None, progress: Any = None) -> RoundedMesh:
     """Round an arrangement to a mesh of doubles, and check it exactly.
 
     Parameters
@@ -321,6 +342,9 @@ def round(arrangement: Any, *, max_rounds: int = 8, threads: Optional[int] = Non
     arrangement : Arrangement, or a result that has one
     max_rounds : int, optional
         Limit on the rounds of snapping; 0: nearest doubles only.
+    max_move : float, optional
+        The farthest that a surface may move, unit of the input: a result beyond is not clean. By default 1024 times the
+        spacing of doubles at the largest coordinate.
     threads, progress : optional
         As in `arrange`.
 
@@ -339,8 +363,13 @@ def round(arrangement: Any, *, max_rounds: int = 8, threads: Optional[int] = Non
     """
     a = arrangement_of(arrangement)
     rounds = as_count(max_rounds, "max_rounds", 0, 8)
-    mesh, regions, report = _core.round(a._core, rounds, how(threads, progress))
+    mesh, regions, report = _core.round(a._core, rounds, as_move(max_move), how(threads, progress))
     return RoundedMesh(Mesh(mesh), [Region(*r) for r in regions], rounding_report(report))
+
+
+def as_move(max_move: Optional[float]) -> Optional[float]:
+    """Return how far surfaces may move; None: as far as the library chooses."""
+    return None if max_move is None else as_number(max_move, "max_move", positive=True)
 
 
 def arrangement_of(value: Any) -> Arrangement:

@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
 
 from . import _core
-from ._arrangement import RoundingReport, rounding_report
+from ._arrangement import RoundingReport, as_move, rounding_report
 from ._arrays import Point, as_number
 from ._errors import Error, bad_option
 from ._mesh import Mesh, Path
@@ -105,7 +105,7 @@ class Layered(Result):
 
 
 def layers(surfaces: Any, order: Union[Mapping[str, float], Sequence[Tuple[str, float]]], *,
-           min_thickness: float = 0, threads: Optional[int] = None, progress: Any = None) -> Layered:
+           min_thickness: float = 0, max_move: Optional[float] = None, threads: Optional[int] = None, progress: Any = None) -> Layered:
     """Make soft horizons give way to harder ones, so that layers never cross.
 
     Parameters
@@ -115,6 +115,8 @@ def layers(surfaces: Any, order: Union[Mapping[str, float], Sequence[Tuple[str, 
         Names of horizons from the top down, and their hardness; others are ignored.
     min_thickness : float, optional
         Along z, unit of the input.
+    max_move : float, optional
+        As in `round`.
 
     Examples
     --------
@@ -135,5 +137,6 @@ def layers(surfaces: Any, order: Union[Mapping[str, float], Sequence[Tuple[str, 
             raise bad_option(f"{len(found)} surfaces are called {name}; there are {names}", "order")
         numbers.append((found[0], as_number(hardness, f"order[{name!r}]")))
     core, report = _core.layers(parts_of_surfaces(given), numbers,
-                                as_number(min_thickness, "min_thickness", least=0), how(threads, progress))
+                                as_number(min_thickness, "min_thickness", least=0), as_move(max_move),
+                                how(threads, progress))
     return Layered(Mesh(core), report)

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arrangement import RoundingReport, rounding_report
+from ._arrangement import RoundingReport, as_move, rounding_report
 from ._arrays import Point, as_count, as_number
 from ._blocks import Structure, Volumes
 from ._errors import Error, bad_option
@@ -353,8 +353,8 @@ def _made(surfaces: List[Any], boundary: List[Any], options: Dict[str, Any], thr
 
 def model(surfaces: Any, box: Any = None, seal: Union[None, float, str, Mapping[Any, float]] = None, *,
           extend: float = 0, min_volume: Union[None, float, str] = None,
-          column: Optional[Sequence[Any]] = None, max_rounds: int = 8, threads: Optional[int] = None,
-          progress: Any = None) -> Model:
+          column: Optional[Sequence[Any]] = None, max_rounds: int = 8, max_move: Optional[float] = None,
+          threads: Optional[int] = None, progress: Any = None) -> Model:
     """Make blocks of surfaces in one call: extend, seal, arrange, cut, round, and find the blocks.
 
     Parameters
@@ -373,7 +373,7 @@ def model(surfaces: Any, box: Any = None, seal: Union[None, float, str, Mapping[
     column : list, optional
         Stratigraphic column from the top down: entries (unit, surface at its base, age, "conformable" or
         "erosive"), or dicts with these keys. The lowest needs no surface.
-    max_rounds, threads, progress : optional
+    max_rounds, max_move, threads, progress : optional
         As in `round` and `arrange`.
 
     Returns
@@ -397,7 +397,7 @@ def model(surfaces: Any, box: Any = None, seal: Union[None, float, str, Mapping[
     """
     distance, automatic, of = _seal_options(seal)
     least, small = _length(min_volume, "min_volume")
-    options = {"max_rounds": as_count(max_rounds, "max_rounds", 0, 8), "seal": distance,
+    options = {"max_rounds": as_count(max_rounds, "max_rounds", 0, 8), "max_move": as_move(max_move), "seal": distance,
                "seal_automatic": automatic, "seal_of": of, "extend": as_number(extend, "extend", least=0),
                "min_volume": least, "min_volume_automatic": small, "column": column_of(column)}
     return _made(as_surfaces(surfaces), as_boundary(box), options, threads, progress)

@@ -114,14 +114,42 @@ class Tetrahedra(Result):
         return self._core.mesher
 
     @property
+    def is_checked(self) -> bool:
+        """Whether they are checked exactly; a check is not pickled."""
+        return self._core.is_checked
+
+    def _need_check(self, place: str) -> None:
+        if not self.is_checked:
+            raise Error("unsupported", "tetrahedra from a pickle are not checked", place)
+
+    @property
     def violations(self) -> List[Violation]:
-        """What the exact check found wrong; empty: the tetrahedra are what they should be."""
+        """What the exact check found wrong; empty: the tetrahedra are what they should be.
+
+        Raises
+        ------
+        terrane.Error
+            ``unsupported`` if they are not `is_checked`.
+        """
+        self._need_check("violations")
         return [Violation(*v) for v in self._core.violations]
 
     @property
     def volumes(self) -> List[RegionVolume]:
-        """Volumes of blocks and of their tetrahedra, by number."""
+        """Volumes of blocks and of their tetrahedra, by number; raises as `violations`."""
+        self._need_check("volumes")
         return [RegionVolume(*v) for v in self._core.region_volumes]
+
+    @property
+    def optimised(self) -> Optional[Dict[str, Any]]:
+        """What `tetrahedralize` did to make the mesher's shapes better; None: nothing.
+
+        Its ``before`` and ``after`` have the least ``quality`` (sine of a dihedral angle, 0.7 times that of an obtuse one),
+        ``least_angle`` and ``largest_angle`` (degrees). The other keys count what was done, and what is ``left`` worse
+        than wanted.
+        """
+        report: Optional[Dict[str, Any]] = self._core.optimised
+        return report
 
     def shape(self) -> Dict[str, Tuple[float, float, float]]:
         """Return least, mean and largest of: dihedral angles (degrees), radius-edge ratio, SICN, mean ratio."""
@@ -180,7 +208,7 @@ def tetrahedralize(model: Model, *, edge_length: Optional[float] = None,
                    size_of: Optional[Mapping[str, float]] = None,
                    size_in: Optional[Mapping[Any, float]] = None, quality: Optional[float] = None,
                    max_volume: Optional[float] = None, split: Sequence[str] = (),
-                   split_surfaces: bool = False, outside: bool = False, around: Any = None,
+                   split_surfaces: bool = False, optimise: bool = True, outside: bool = False, around: Any = None,
                    margin: float = 0.1, mesher: str = "auto", time_limit: float = 600,
                    helper: Path = "", gmsh_helper: Path = "", threads: Optional[int] = None,
                    progress: Any = None) -> Tetrahedra:
@@ -203,6 +231,8 @@ def tetrahedralize(model: Model, *, edge_length: Optional[float] = None,
         Surfaces whose sides get nodes of their own; "fault": all with that role.
     split_surfaces : bool, optional
         Triangles may be divided for `quality`.
+    optimise : bool, optional
+        Improve the shapes that the mesher made; `optimised` of the result says what that did.
     outside : bool, optional
         Fill the space between the model and a box around it as well, as region 0.
     around, margin : optional
@@ -247,7 +277,7 @@ def tetrahedralize(model: Model, *, edge_length: Optional[float] = None,
         "helper": os.fspath(helper), "gmsh_helper": os.fspath(gmsh_helper),
         "size_of": {k: as_number(v, f"size_of[{k!r}]", positive=True) for k, v in (size_of or {}).items()},
         "size_in": sizes_in, "split": [split] if isinstance(split, str) else list(split),
-        "outside": bool(outside)}
+        "outside": bool(outside), "optimise": bool(optimise)}
     made = Tetrahedra(_core.fill_blocks(model._core, options, how(threads, progress)))
     if made.violations:
         raise Error("internal", "; ".join(v.first for v in made.violations), "tetrahedra")

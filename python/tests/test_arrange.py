@@ -172,6 +172,27 @@ def test_max_rounds():
             terrane.round(terrane.arrange(stack()), max_rounds=bad)
 
 
+def test_surfaces_move_no_farther_than_allowed():
+    arrangement = terrane.arrange(terrane.read([DATA / name for name in SOURCES[0]]))
+    free = terrane.round(arrangement).report
+    assert 0 < free.surface_deviation <= free.deviation <= free.max_allowed
+    bound = terrane.round(arrangement, max_move=1e-6).report
+    assert bound.clean and bound.max_allowed == 1e-6 >= bound.surface_deviation
+    with pytest.raises(terrane.Error) as raised:
+        terrane.round(arrangement, max_move=1e-300)
+    assert raised.value.code == "bad_option"
+
+
+@pytest.mark.parametrize("move", [0, -1, np.nan, np.inf, "far", True])
+@pytest.mark.parametrize("stage", [
+    lambda move: terrane.round(terrane.arrange(stack()), max_move=move),
+    lambda move: terrane.model(stack(), max_move=move),
+    lambda move: terrane.layers(stack(), {"top": 1, "base": 2}, max_move=move)], ids=["round", "model", "layers"])
+def test_moves_that_are_refused(stage, move):
+    with pytest.raises((terrane.Error, TypeError), match="max_move"):
+        stage(move)
+
+
 def test_what_has_no_arrangement_is_refused():
     with pytest.raises(TypeError, match="arrangement"):
         terrane.round(stack())

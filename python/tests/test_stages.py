@@ -196,7 +196,7 @@ def test_overturned_layers_are_refused():
     ({}, []), ({"edge_length": 1.5}, ["--edge-length", "1.5"]), ({"split": ["F1"]}, ["--split", "F1"]),
     ({"size_in": {"above top, east of F1": 1.0}}, ["--size-in", "above top, east of F1=1"]),
     ({"size_of": {"F1": 1.0}}, ["--size-of", "F1=1"]), ({"quality": 2.0}, ["--quality", "2"]),
-    ({"mesher": "gmsh"}, ["--mesher", "gmsh"])])
+    ({"mesher": "gmsh"}, ["--mesher", "gmsh"]), ({"optimise": False}, ["--no-optimise"])])
 def test_tetrahedra_are_those_of_the_program(options, arguments):
     files = [s.name + ".ts" for s in stack()]
     for s in stack():
@@ -233,6 +233,31 @@ def test_tetrahedra(model):
     thick = volumes > 1e-9  # the middle of a sliver, rounded, may be outside of it
     assert thick.sum() > 500
     assert np.array_equal(model.block_of(v.mean(axis=1)[thick]), cells.region_of[thick])
+
+
+@pytest.mark.tetgen
+def test_shapes_are_improved():
+    model = terrane.model(terrane.box((0, 0, 0), (1, 2, 3))).improved(0.5)
+    before, after = model.tetrahedra(optimise=False), model.tetrahedra()
+    assert before.optimised is None
+    report = after.optimised
+    assert report["passes"] > 0 and report["after"]["quality"] > report["before"]["quality"]
+    assert report["before"]["least_angle"] == pytest.approx(before.shape()["dihedral"][0])
+    assert report["after"]["least_angle"] == pytest.approx(after.shape()["dihedral"][0])
+    assert report["after"]["largest_angle"] == pytest.approx(after.shape()["dihedral"][2])
+
+
+@pytest.mark.tetgen
+def test_a_check_of_tetrahedra_is_not_pickled(model):
+    import copy
+    import pickle
+    cells = model.tetrahedra()
+    assert cells.is_checked and copy.copy(cells).is_checked
+    restored = pickle.loads(pickle.dumps(cells))
+    assert restored == cells and not restored.is_checked
+    for what in ("violations", "volumes"):
+        with pytest.raises(terrane.Error, match="not checked"):
+            getattr(restored, what)
 
 
 @pytest.mark.tetgen

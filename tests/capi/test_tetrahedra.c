@@ -91,7 +91,21 @@ void test_tetrahedra(void) {
     WORKS(terrane_tetrahedra_write(t, path_in(work_folder, "model.vtu"), NULL, &error));
     FAILS(TERRANE_UNSUPPORTED,
           terrane_tetrahedra_write(t, path_in(work_folder, "model.obj"), NULL, &error));
+    terrane_shape_report shapes;
+    CHECK(terrane_tetrahedra_shape_report(t, &shapes, sizeof shapes) == TERRANE_OK);
+    CHECK(shapes.passes > 0 && shapes.quality_after > shapes.quality_before &&
+          shapes.quality_before > 0 && shapes.quality_after < 1);
+    CHECK(shapes.least_angle_after > 0 && shapes.largest_angle_after < 180);
+    CHECK(terrane_tetrahedra_shape_report(NULL, &shapes, sizeof shapes) == TERRANE_BAD_ARGUMENT);
+    CHECK(terrane_tetrahedra_shape_report(t, NULL, sizeof shapes) == TERRANE_BAD_ARGUMENT);
+    CHECK(terrane_tetrahedra_shape_report(t, &shapes, 1000) == TERRANE_BAD_ARGUMENT);
     terrane_tetrahedra_free(t);
+    options.keep_shapes = 1;
+    WORKS(terrane_tetrahedralize(model, &options, NULL, &t, &error));
+    CHECK(terrane_tetrahedra_shape_report(t, &shapes, sizeof shapes) == TERRANE_OK);
+    CHECK(shapes.passes == 0 && shapes.quality_before == 0 && shapes.left == 0);
+    terrane_tetrahedra_free(t);
+    options.keep_shapes = 0;
 
     const terrane_named_size finer[] = {{"F1", 1.5}};
     const char* const split[] = {"fault"};
