@@ -112,14 +112,16 @@ json.dump(statistics, open(sys.argv[1], "w"), indent=1)
 END
 }
 
-# Each program runs all cases with one thread and with two; as many runs as there are processors go on at a time.
-runs=()
+# The first program runs all cases with one thread and with two, the others with two; as many runs as there are
+# processors go on at a time, and the slow builds are last in the list, so they start first.
+runs=(0-1 0-2)
 for i in "${!programs[@]}"; do
-    for threads in 1 2; do
-        runs+=("$i-$threads")
-        while [[ $(jobs -rp | wc -l) -ge $(nproc) ]]; do wait -n || true; done
-        run_cases "$work/$i-$threads" "${programs[$i]}" "$threads" &
-    done
+    [[ $i -eq 0 ]] || runs+=("$i-2")
+done
+for ((r = ${#runs[@]} - 1; r >= 0; --r)); do
+    i=${runs[r]%-*}
+    while [[ $(jobs -rp | wc -l) -ge $(nproc) ]]; do wait -n || true; done
+    run_cases "$work/${runs[r]}" "${programs[$i]}" "${runs[r]#*-}" &
 done
 wait
 for run in "${runs[@]}"; do
