@@ -22,6 +22,7 @@
 #include <terrane/algorithms/verify/detail/digest.hpp>
 
 #include "support/certificate_cases.hpp"
+#include "support/effort.hpp"
 
 namespace forged {
 
@@ -137,11 +138,12 @@ struct Forgery {
 };
 
 /// Checks that the certificate is valid, and that each forgery, once its digest and hashes are computed
-/// anew by `make_consistent`, is refuted by its rule.
+/// anew by `make_consistent`, is refuted by its rule. Under sanitizers, which judge no verdicts, each third one.
 inline void check_forgeries(const Subject& right, const std::vector<Forgery>& forgeries,
                             const std::function<void(Subject&)>& make_consistent = seal) {
     REQUIRE(judged(right) == "");
-    for (const Forgery& forgery : forgeries) {
+    for (std::size_t i = 0; i < forgeries.size(); i += test_support::effort_divisor == 1 ? 1 : 3) {
+        const Forgery& forgery = forgeries[i];
         INFO(forgery.name);
         Subject wrong = right;
         forgery.change(wrong.certificate);

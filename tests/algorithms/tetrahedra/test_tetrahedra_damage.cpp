@@ -24,7 +24,8 @@ void check_accepted(const Filled& f) {
 
 void check_refused(const Filled& sound, const std::vector<Damage>& damage) {
     const bool whole = sound.tetrahedra.surfaces.size() > sound.mesh.surfaces.size();
-    for (const Damage& kind : damage) {
+    for (std::size_t i = 0; i < damage.size(); i += effort_divisor == 1 ? 1 : 3) {
+        const Damage& kind = damage[i];
         if (kind.needs_outside && !whole) continue;
         INFO(kind.name);
         Filled f = sound;
@@ -37,7 +38,7 @@ void check_refused(const Filled& sound, const std::vector<Damage>& damage) {
     }
 }
 
-/// With the outside and without it; under sanitizers only without.
+/// With the outside and without it; under sanitizers, which judge no verdicts, only without, and each third kind.
 void check_model(const Filled& f) {
     check_accepted(f);
     const auto forms =
