@@ -2,11 +2,14 @@
 #include <terrane/algorithms/arrangement/retriangulation.hpp>
 
 #include <algorithm>
+#include <iterator>
+#include <string_view>
 #include <unordered_map>
 #include <utility>
 
 #include <terrane/algorithms/arrangement/detail/pool_covers.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
+#include <terrane/algorithms/core/progress.hpp>
 #include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/triangulation/triangulation.hpp>
 #include <terrane/kernel/predicates.hpp>
@@ -154,19 +157,27 @@ PartBlock divide_faces(const TriangleSoup& soup, const Contacts& contacts, const
         statistics.divided += contacts.pools.faces[k].size() - 1;
     const std::span pieces(contacts.pieces);
     const std::span crossings(contacts.crossings);
-    const auto blocks = for_blocks<PartBlock>(
-        faces.size(), 64, run, [&](UpwardWitness upward, std::size_t first, std::size_t last) {
-            PartBlock block;
-            const PredicateCounts before = predicate_counts();
-            Divider retriangulate(upward, soup, contacts, order, run);
-            for (std::size_t i = first; i < last; ++i) {
-                const Range& r = faces[i];
-                retriangulate(pieces.subspan(r.piece, r.piece_end - r.piece), r.piece,
-                              crossings.subspan(r.crossing, r.crossing_end - r.crossing), block);
-            }
-            block.predicates = predicate_counts() - before;
-            return block;
-        });
+    const auto divide = [&](UpwardWitness upward, std::span<const Range> some) {
+        PartBlock block;
+        const PredicateCounts before = predicate_counts();
+        Divider retriangulate(upward, soup, contacts, order, run);
+        for (const Range& r : some)
+            retriangulate(pieces.subspan(r.piece, r.piece_end - r.piece), r.piece,
+                          crossings.subspan(r.crossing, r.crossing_end - r.crossing), block);
+        block.predicates = predicate_counts() - before;
+        return block;
+    };
+    constexpr std::size_t wave = 16384; // faces between two reports of the progress
+    std::vector<PartBlock> blocks;
+    for (std::size_t start = 0; start < faces.size(); start += wave) {
+        const auto some = std::span(faces).subspan(start, std::min(wave, faces.size() - start));
+        auto found = for_blocks<PartBlock>(
+            some.size(), 64, run, [&](UpwardWitness upward, std::size_t first, std::size_t last) {
+                return divide(upward, some.subspan(first, last - first));
+            });
+        std::ranges::move(found, std::back_inserter(blocks));
+        report_part(run, "triangulate", 0, 1, start + some.size(), faces.size());
+    }
     PartBlock all;
     for (const PartBlock& b : blocks) {
         const auto start = all.parts.size();
@@ -367,7 +378,9 @@ Retriangulation retriangulate(std::vector<Point3> points, std::span<const Triang
     StageTimer step(run, "intersect");
     Retriangulation out;
     const TriangleSoup soup{points, triangles}; // moving the vector does not move the points
-    Contacts contacts = find_contacts(soup, std::move(points), candidates, run);
+    constexpr std::string_view stage = "retriangulate";
+    Contacts contacts =
+        find_contacts(soup, std::move(points), candidates, part_of_stage(run, stage, 0, 0.4));
     if (run.stop.stop_requested()) return out;
     merge_segments(soup, contacts, run);
     if (run.stop.stop_requested()) return out; // the pieces may be unfinished
@@ -378,7 +391,8 @@ Retriangulation retriangulate(std::vector<Point3> points, std::span<const Triang
     out.statistics.predicates += contacts.predicates;
 
     step.next("triangulate");
-    const auto parts = divide_faces(soup, contacts, order, run, out.statistics);
+    const auto parts =
+        divide_faces(soup, contacts, order, part_of_stage(run, stage, 0.6, 0.9), out.statistics);
     if (run.stop.stop_requested()) return out;
 
     step.next("stitch");

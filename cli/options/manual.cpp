@@ -55,13 +55,15 @@ std::vector<std::string_view> lines_of(std::string_view text) {
 std::string prose(std::string_view text) {
     constexpr std::string_view exit_status = "Exit status: ";
     std::string page;
-    bool literal = false, paragraph = false; // paragraph: one is to begin
+    bool literal = false, after_heading = false;
+    bool paragraph = false; // whether one is to begin
     for (std::string_view line : lines_of(text)) {
         const bool indented = line.starts_with("  ");
         if (literal && !indented) page += ".EE\n.RE\n";
-        if (indented && !literal) page += ".PP\n.RS 2\n.EX\n";
+        if (indented && !literal) page += after_heading ? ".RS 2\n.EX\n" : ".PP\n.RS 2\n.EX\n";
         if (literal && !indented) paragraph = true;
         literal = indented;
+        after_heading = false;
         if (line.empty()) {
             paragraph = true;
             continue;
@@ -69,6 +71,7 @@ std::string prose(std::string_view text) {
         if (!indented && line.ends_with(':') && line.find(' ') == std::string_view::npos) {
             page += ".SH " + upper(line.substr(0, line.size() - 1)) + "\n";
             paragraph = false;
+            after_heading = true;
             continue;
         }
         if (line.starts_with(exit_status)) {
