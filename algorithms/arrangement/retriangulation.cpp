@@ -133,15 +133,16 @@ private:
     FaceTriangulation triangulate_;
 };
 
-PartBlock divide_faces(const TriangleSoup& soup, const Contacts& contacts, const PointOrder& order,
-                       const Run& run, RetriangulationStatistics& statistics) {
-    struct Range {
-        std::uint32_t piece, piece_end, crossing, crossing_end;
-    };
-    std::vector<Range> faces;
+/// The pieces and crossings of one face.
+struct FaceRange {
+    std::uint32_t piece, piece_end, crossing, crossing_end;
+};
+
+std::vector<FaceRange> faces_with_contacts(const Contacts& contacts) {
+    std::vector<FaceRange> faces;
     const auto count = [](const auto& v) { return static_cast<std::uint32_t>(v.size()); };
     for (std::uint32_t p = 0, c = 0; p < count(contacts.pieces);) {
-        Range r{p, p, c, c};
+        FaceRange r{p, p, c, c};
         const std::uint32_t f = contacts.pieces[p].face;
         while (r.piece_end < count(contacts.pieces) && contacts.pieces[r.piece_end].face == f)
             ++r.piece_end;
@@ -152,16 +153,22 @@ PartBlock divide_faces(const TriangleSoup& soup, const Contacts& contacts, const
         p = r.piece_end;
         c = r.crossing_end;
     }
+    return faces;
+}
+
+PartBlock divide_faces(const TriangleSoup& soup, const Contacts& contacts, const PointOrder& order,
+                       const Run& run, RetriangulationStatistics& statistics) {
+    const std::vector<FaceRange> faces = faces_with_contacts(contacts);
     statistics.divided = faces.size();
     for (std::size_t k = 0; k < contacts.pools.faces.size(); ++k)
         statistics.divided += contacts.pools.faces[k].size() - 1;
     const std::span pieces(contacts.pieces);
     const std::span crossings(contacts.crossings);
-    const auto divide = [&](UpwardWitness upward, std::span<const Range> some) {
+    const auto divide = [&](UpwardWitness upward, std::span<const FaceRange> some) {
         PartBlock block;
         const PredicateCounts before = predicate_counts();
         Divider retriangulate(upward, soup, contacts, order, run);
-        for (const Range& r : some)
+        for (const FaceRange& r : some)
             retriangulate(pieces.subspan(r.piece, r.piece_end - r.piece), r.piece,
                           crossings.subspan(r.crossing, r.crossing_end - r.crossing), block);
         block.predicates = predicate_counts() - before;
