@@ -79,6 +79,11 @@ std::string with_headings(std::string_view help) {
     return result;
 }
 
+bool is_plain(std::string_view text) {
+    return std::ranges::all_of(
+        text, [](unsigned char c) { return (c >= 0x20 && c < 0x7F) || c == '\n' || c == '\t'; });
+}
+
 std::string rendered(std::string_view text, bool coloured) {
     std::string result;
     result.reserve(text.size());

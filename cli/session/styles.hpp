@@ -27,6 +27,10 @@ std::string with_headings(std::string_view help);
 /// them are among those.
 std::string rendered(std::string_view text, bool coloured);
 
+/// Tells whether a text is ASCII without marks and controls, so that it is rendered as it is. Texts may
+/// be long: all findings of a check, as JSON.
+bool is_plain(std::string_view text);
+
 /// Returns a text without marks, for files.
 std::string without_marks(std::string_view text);
 

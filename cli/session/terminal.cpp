@@ -114,7 +114,10 @@ void clear_progress() {
 void write_text(std::FILE* stream, std::string_view text) {
     const std::unique_lock lock(terminal().mutex, longest_wait);
     if (lock) erase_line();
-    write_raw(stream, rendered(text, has_colours(stream)));
+    if (is_plain(text)) // which also needs no memory
+        write_raw(stream, text);
+    else
+        write_raw(stream, rendered(text, has_colours(stream)));
     if (shows_progress()) std::fflush(stream); // before the next progress line
 }
 

@@ -120,6 +120,9 @@ TEST_CASE("styles: no text has other control characters than ours") {
     CHECK(rendered("砂é\u200f\xf0\x9f\x8c\x8b", true) == "砂é\u200f\xf0\x9f\x8c\x8b");
     CHECK(rendered(bad("a\x05\x01z"), true) == "\033[31ma  z\033[0m");
     CHECK(rendered("a\x02z\nb", true) == "a\033[31mz\033[0m\nb"); // ends with its line
+    CHECK(is_plain("a ~\tz\n"));
+    for (const std::string_view text : {"\x1b", "\x01", "\x7f", "\r", "é"})
+        CHECK_FALSE(is_plain(text));
     CHECK(rendered("\x02z", true) == "\033[31mz\033[0m");
     CHECK(rendered("\xe7\x9b", false) == "\xe7 "); // a sequence cut short
 }
