@@ -5,6 +5,9 @@
 #include "support/points.hpp"
 #include "support/shapes.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include <catch2/catch.hpp>
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 
