@@ -94,7 +94,7 @@ std::string rendered(std::string_view text, bool coloured) {
         const std::string_view bytes = text.substr(at, length);
         at += length;
         if (c >= good_mark && c <= end_mark) {
-            if (coloured) result += sequences[static_cast<std::size_t>(c)];
+            if (coloured) result += sequences[static_cast<unsigned char>(c)];
             open = coloured && c != end_mark;
         } else if (c != '\n' && c != '\t' && is_control(bytes)) {
             result += ' ';

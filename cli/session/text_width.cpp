@@ -2,9 +2,8 @@
 #include <terrane/cli/session/text_width.hpp>
 
 #include <algorithm>
+#include <clocale>
 #include <cwchar>
-
-#include <locale.h> // newlocale
 
 namespace terrane::cli {
 namespace {
